@@ -1,0 +1,27 @@
+// What can go wrong, in two kinds: InputError is the user's to mend (exit status 1) and always worded
+// `file:line:column: error: what (why) what to do`; everything else that is thrown is our fault (exit status 3).
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace dresslife::pipeline {
+
+/// A place in an input file. Line and column count from 1; 0 = not known.
+struct Where {
+  std::string file;
+  int line = 0;
+  int column = 0;
+
+  std::string text() const;  ///< "file:line:column", as much of it as is known
+};
+
+class InputError : public std::runtime_error {
+ public:
+  /// what: the problem; remedy: what to do about it. Reads "WHERE: error: WHAT; REMEDY".
+  InputError(const Where& where, const std::string& what, const std::string& remedy);
+};
+
+}  // namespace dresslife::pipeline

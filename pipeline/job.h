@@ -1,0 +1,194 @@
+// What a user describes: robot, motion, dresspack, routing and the settings of each stage.
+//
+// Every struct below has one describe() in job.cpp that lists its keys once: name with unit, range, default and
+// meaning. That list reads, checks, echoes and documents the key (see fields.h). All values here are SI; the unit
+// in a YAML key is the unit of the file. Robot, motion, dresspack and material are catalogue entries: a job
+// names a file of config/ or holds the entry itself, and `from: NAME` starts from a catalogue entry.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/errors.h"
+
+namespace dresslife::pipeline {
+
+using Eigen::Vector3d;
+
+// ---- robot ------------------------------------------------------------------------------------------------
+
+struct Joint {
+  std::string name;
+  Vector3d origin = Vector3d::Zero();        ///< in the frame of the link before [m]
+  Vector3d orientation = Vector3d::Zero();   ///< roll, pitch, yaw of the joint frame, fixed axes x, y, z [rad]
+  Vector3d axis = Vector3d::UnitZ();         ///< in the joint frame
+  double lower = 0, upper = 0;               ///< [rad]
+  double speed = 0;                          ///< largest [rad/s]
+  double acceleration = 0;                   ///< largest [rad/s2]
+};
+
+struct Capsule {
+  Vector3d from = Vector3d::Zero(), to = Vector3d::Zero();  ///< ends of its axis, in the link's frame [m]
+  double radius = 0;                                        ///< [m]
+};
+
+struct Link {
+  std::string name;  ///< link k > 0 is moved by joint k - 1 (counted from 0); link 0 is the base
+  std::vector<Capsule> capsules;
+};
+
+struct Robot {
+  std::string name, source;
+  Vector3d base_position = Vector3d::Zero();     ///< of link 0 in the world [m]
+  Vector3d base_orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
+  std::vector<Joint> joints;                     ///< serial, from the base
+  std::vector<Link> links;                       ///< joints + 1
+};
+
+// ---- motion -----------------------------------------------------------------------------------------------
+
+/// One line of a robot program: a move, a dwell, or a block repeated `repeat` times.
+struct MotionStep {
+  std::vector<double> joints;           ///< target of a joint move [rad]; empty: not a move
+  std::optional<double> speed_percent;  ///< of each axis' largest speed [%]
+  std::optional<double> speed;          ///< of the fastest axis [rad/s]
+  std::optional<double> zone;           ///< blending begins this far from the target, largest axis [rad]; 0 = stop
+  double dwell = 0;                     ///< [s]
+  int repeat = 0;                       ///< 0: not a block
+  std::vector<MotionStep> steps;        ///< of a block
+  std::string text;                     ///< what the step is, for reports
+  Where where;
+};
+
+struct Motion {
+  std::string name, source;
+  double speed_percent = 100;      ///< default of the moves [%]
+  double acceleration_percent = 100;
+  double zone = 0;                 ///< default of the moves [rad]
+  std::vector<MotionStep> steps;   ///< the first is a move: the robot starts there, at rest
+  std::filesystem::path clamp_poses;  ///< CSV with both clamps' poses instead of steps; empty: none
+  Where where;
+};
+
+// ---- dresspack --------------------------------------------------------------------------------------------
+
+struct Material {
+  std::string name, source;
+  double youngs_modulus = 0;              ///< E [Pa]
+  double poisson_ratio = 0;
+  double fatigue_strength = 0;            ///< sigma_f' [Pa]
+  double fatigue_strength_exponent = 0;   ///< b
+  double fatigue_ductility = 0;           ///< epsilon_f'
+  double fatigue_ductility_exponent = 0;  ///< c
+  std::optional<double> cyclic_strength;  ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
+  std::optional<double> cyclic_hardening_exponent;  ///< n'; absent: b / c
+};
+
+enum class Hand { right, left };
+
+/// K equal parts on one helix, each of which may hold further layers of parts (physics.md 1).
+struct Component {
+  std::string name;             ///< "signal cable"; parts are numbered "signal cable 1", ...
+  std::string layer;            ///< set where several layers of parts share a name: "layer 1"; else empty
+  int count = 1;                ///< K
+  double radius = 0;            ///< of the part [m]
+  double helix_radius = 0;      ///< R, from the parent's axis to the part's [m]
+  double lay_angle = 0;         ///< alpha >= 0 [rad]
+  Hand hand = Hand::right;
+  double phase = 0;             ///< theta_layer: angle of part 1 at the base clamp [rad]
+  std::string material;         ///< of a wire; a key of Dresspack::materials; empty for a part with parts
+  std::vector<Component> components;
+  Where where;
+};
+
+struct Dresspack {
+  std::string name, source;
+  double diameter = 0;              ///< outer, of the hose [m]
+  double mass_per_length = 0;       ///< of the filled hose [kg/m]
+  double bending_stiffness = 0;     ///< EI [N m2]
+  double torsional_stiffness = 0;   ///< GJ [N m2]
+  double axial_stiffness = 0;       ///< EA [N]
+  double damping_time = 0;          ///< Kelvin-Voigt tau of bending and twist [s]
+  std::string damping_source;       ///< where the damping was measured or why it is guessed
+  double friction = 0;              ///< Coulomb, hose against robot
+  std::vector<Component> components;
+  std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
+};
+
+// ---- routing ----------------------------------------------------------------------------------------------
+
+struct Clamp {
+  std::string link;                           ///< of the robot
+  Vector3d position = Vector3d::Zero();       ///< in the link's frame [m]
+  Vector3d direction = Vector3d::UnitZ();     ///< of the dresspack there, base to tool, in the link's frame
+  std::optional<double> roll;                 ///< about the direction [rad]; tool clamp only, absent: twist-free
+  Where where;
+};
+
+struct Routing {
+  double free_length = 0;               ///< of dresspack between the clamps, unstretched [m]
+  std::optional<Clamp> base_clamp, tool_clamp;  ///< absent with clamp_poses only
+  std::vector<double> mounting_pose;    ///< joints when the dresspack was clamped free of twist [rad]; empty: start
+  Where where;
+};
+
+// ---- settings of the stages -------------------------------------------------------------------------------
+
+struct Simulation {
+  int segments = 50;
+  double time_step = 0.005;             ///< [s]
+  double sample_rate = 25;              ///< of motion.h5 [Hz]; 1/rate is a multiple of the step
+  Vector3d gravity{0, 0, -9.81};        ///< [m/s2]
+  bool contact = true;                  ///< with the robot's links
+  bool floor = true;                    ///< contact with the plane z = 0 too
+};
+
+enum class DeformationMeasure { rotation_vector, thesis };
+enum class Kinematics { exact, thesis };
+enum class Slip { free, stick };
+
+struct Probe {
+  int segment_from_tool = 1;
+  std::string component;                ///< path of a wire
+};
+
+struct Strain {
+  DeformationMeasure deformation = DeformationMeasure::rotation_vector;
+  Kinematics kinematics = Kinematics::exact;
+  std::vector<Slip> slip;               ///< one for every level, or one per level, outermost first
+  int surface_fibres = 1;               ///< per wire; 0: the wire's axis
+  double gate = 1e-4;                   ///< turning points of a smaller strain range are dropped
+  std::vector<Probe> probes;
+};
+
+enum class Stress { cyclic, elastic };
+enum class MeanStress { none, morrow, swt };
+enum class Counting { repeating, half_cycles };
+
+struct Fatigue {
+  Stress stress = Stress::cyclic;
+  MeanStress mean_stress = MeanStress::swt;
+  Counting counting = Counting::repeating;
+  double endurance_strain = 0;          ///< amplitudes up to this do no damage
+  std::string material;                 ///< of every wire instead of its own; empty: its own
+  int listed_sites = 20;                ///< worst sites whose cycles are written
+  double operating_hours_per_week = 80; ///< turns hours into months
+};
+
+struct Job {
+  Robot robot;                          ///< no joints with clamp_poses
+  Motion motion;
+  Dresspack dresspack;
+  Routing routing;
+  Simulation simulation;
+  Strain strain;
+  Fatigue fatigue;
+};
+
+/// The material of a wire under these settings. Precondition: the job was read by read_job().
+const Material& material_of(const Job& job, const std::string& name);
+
+}  // namespace dresslife::pipeline
