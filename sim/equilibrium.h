@@ -1,0 +1,61 @@
+// Static equilibrium of the chain: where a simulation starts.
+//
+// The potential energy (stretch, bending, twist, gravity) is minimised by Newton's method with the exact
+// tangent stiffness, shifted by a multiple of the mass matrix until it is positive definite and the energy
+// falls (Levenberg-Marquardt). The result is therefore a stable equilibrium. (S11), (S12) in sim/README.md.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "sim/rod.h"
+#include "sim/world.h"
+
+namespace dresslife::sim {
+
+enum class EquilibriumStatus {
+  converged,
+  not_converged,  ///< residual above the tolerance after the allowed iterations
+  too_short,      ///< the clamps are further apart than the free length allows (longest_elongation)
+};
+
+struct Equilibrium {
+  EquilibriumStatus status = EquilibriumStatus::not_converged;
+  int iterations = 0;
+  double residual = 0;  ///< largest unbalanced force or torque / segment length, over the largest link force
+  int negative_pivots = 0;  ///< of the tangent stiffness at the end: 0 = stable
+  RodState state;           ///< at rest
+};
+
+struct EquilibriumSettings {
+  int iterations = 2000;
+  /// On Equilibrium::residual. Rounding of EA g (g of 1e-16 m at EA 1e6 N) leaves 1e-10 N; 1e-8 N against
+  /// forces of 1..100 N moves nothing that is plotted or counted.
+  double tolerance = 1e-8;
+};
+
+/// From both clamps alone: starts from a smooth curve of the right length with parallel-transported frames,
+/// so that the tool clamp's roll is met by the shortest uniform twist (|net twist| <= pi).
+Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps,
+                             const EquilibriumSettings& settings = {});
+
+/// From a given state, for a clamp or load that has moved a little: stays on the same branch and keeps whole
+/// turns.
+Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const RodState& start,
+                             std::span<const Load> loads = {}, const EquilibriumSettings& settings = {});
+
+/// As an installer clamps it: the roll [rad] of the tool frame about its own tangent, to be added to that of
+/// clamps.tool, with which the equilibrium carries no torsion; and that equilibrium.
+struct TwistFreeClamp {
+  double roll = 0;
+  Equilibrium equilibrium;  ///< its state.clamps.tool is the rolled frame
+};
+TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
+                               const EquilibriumSettings& settings = {});
+
+/// Lets the chain come to rest in the world, among its obstacles, by steps whose velocities are taken away as
+/// soon as the kinetic energy falls. Clamps and links stay. iterations counts steps; residual is the largest
+/// speed left [m/s].
+Equilibrium settle(World& world, std::span<const Frame> links = {}, int steps = 20000, double speed = 1e-4);
+
+}  // namespace dresslife::sim
