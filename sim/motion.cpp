@@ -1,0 +1,333 @@
+#include "sim/motion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <span>
+
+#include "sim/robot.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double ramp = 0.25;            // r: share of a velocity change in which acceleration builds up
+constexpr double peak = 1 / (1 - ramp);  // largest sigma'
+
+double slope(double u) { return peak * std::min({u / ramp, 1.0, (1 - u) / ramp}); }
+
+double rise(double u) {
+  if (u < ramp) return peak * u * u / (2 * ramp);
+  if (u > 1 - ramp) return 1 - rise(1 - u);
+  return peak * (u - ramp / 2);
+}
+
+/// S(u), the integral of sigma from 0. Above the middle by the symmetry sigma(u) = 1 - sigma(1 - u).
+double integrated_rise(double u) {
+  if (u < ramp) return peak * u * u * u / (6 * ramp);
+  if (u > 1 - ramp) return u - 0.5 + integrated_rise(1 - u);
+  return peak * ((u - ramp) * u / 2 + ramp * ramp / 6);
+}
+
+/// A_i (M2) of every axis [rad/s2].
+VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  VectorXd accelerations(static_cast<long>(robot.joints.size()));
+  for (long i = 0; i < accelerations.size(); ++i)
+    accelerations[i] = (1 - ramp) * robot.joints[i].acceleration * motion.acceleration_percent / 100;
+  return accelerations;
+}
+
+/// A straight leg in joint space, or (length 0) a dwell.
+struct Leg {
+  VectorXd from, direction;  // D: largest component +-1
+  double length = 0;         // of the largest axis [rad]
+  double cruise = 0;         // c [rad/s]
+  double acceleration = 0;   // A along the leg [rad/s2]
+  double zone = 0;           // at its end [rad]
+  double dwell = 0;          // [s]
+  int step = 0;
+};
+
+/// How leg k goes over into leg k + 1.
+struct Corner {
+  double limit = 0;                                    // w [rad/s]
+  double in = 0, out = 0;                              // speeds v, v' [rad/s]
+  double duration = 0;                                 // tau [s]
+  double before() const { return in * duration / 2; }  // where the blend begins and ends, from the waypoint
+  double after() const { return out * duration / 2; }
+};
+
+// ---- program lines into legs
+// -------------------------------------------------------------------------------
+
+class Expansion {
+ public:
+  Expansion(const pipeline::Motion& motion, const pipeline::Robot& robot, const VectorXd& accelerations)
+      : motion_(motion), robot_(robot), accelerations_(accelerations) {
+    if (motion.steps.empty() || motion.steps.front().joints.empty())
+      throw pipeline::InputError(motion.steps.empty() ? motion.where : motion.steps.front().where,
+                                 fmt::format("motion '{}' does not begin with a move", motion.name),
+                                 "begin with the joints_deg at which the robot starts");
+    number(motion.steps, "");
+    int first = 0;
+    expand(motion.steps, first);
+    if (!legs.empty()) legs.back().zone = 0;
+  }
+
+  std::vector<Leg> legs;
+  std::vector<std::string> texts;
+  VectorXd place;  // where the robot is after the legs so far
+
+ private:
+  /// Names every line once, depth first, and checks its waypoint.
+  void number(const std::vector<pipeline::MotionStep>& steps, const std::string& block) {
+    for (const pipeline::MotionStep& step : steps) {
+      if (step.repeat > 0) {
+        number(step.steps, step.text.empty() ? block : block + step.text + ": ");
+        continue;
+      }
+      const char* kind = step.joints.empty() ? "dwell" : "move";
+      texts.push_back(block + (step.text.empty() ? fmt::format("{} {}", kind, texts.size() + 1) : step.text));
+      if (!step.joints.empty())
+        check_joint_limits(robot_, step.joints, fmt::format("waypoint '{}'", texts.back()), step.where);
+    }
+  }
+
+  void expand(const std::vector<pipeline::MotionStep>& steps, int& line) {
+    for (const pipeline::MotionStep& step : steps) {
+      if (step.repeat > 0) {
+        const int first = line;
+        for (int k = 0; k < step.repeat; ++k) expand(step.steps, line = first);
+        continue;
+      }
+      if (!step.joints.empty()) add_move(step, line);
+      if (step.dwell > 0) add_dwell(step.dwell, line);
+      ++line;
+    }
+  }
+
+  void add_move(const pipeline::MotionStep& step, int line) {
+    const VectorXd target =
+        Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size()));
+    const double zone = step.zone.value_or(motion_.zone);
+    if (place.size() == 0) place = target;  // the robot starts here
+    const VectorXd way = target - place;
+    const double length = way.lpNorm<Eigen::Infinity>();
+    if (length == 0) {  // a move to where the robot is: at most a stop
+      if (zone == 0 && !legs.empty()) legs.back().zone = 0;
+      return;
+    }
+    Leg leg{place, way / length, length, INFINITY, INFINITY, zone, 0, line};
+    for (long i = 0; i < way.size(); ++i) {
+      const double share = std::abs(leg.direction[i]);
+      if (share == 0) continue;
+      leg.cruise = std::min(leg.cruise, robot_.joints[i].speed / share);
+      leg.acceleration = std::min(leg.acceleration, accelerations_[i] / share);
+    }
+    leg.cruise = step.speed ? std::min(*step.speed, leg.cruise)
+                            : leg.cruise * step.speed_percent.value_or(motion_.speed_percent) / 100;
+    legs.push_back(leg);
+    place = target;
+  }
+
+  void add_dwell(double duration, int line) {
+    if (!legs.empty()) legs.back().zone = 0;
+    Leg leg;
+    leg.from = place;
+    leg.direction = VectorXd::Zero(place.size());
+    leg.dwell = duration;
+    leg.step = line;
+    legs.push_back(leg);
+  }
+
+  const pipeline::Motion& motion_;
+  const pipeline::Robot& robot_;
+  const VectorXd& accelerations_;  // A_i
+};
+
+// ---- speeds at the corners (M4), (M5)
+// ----------------------------------------------------------------------
+
+class CornerSpeeds {
+ public:
+  CornerSpeeds(const std::vector<Leg>& legs, const VectorXd& accelerations)
+      : legs_(legs), accelerations_(accelerations), corners_(legs.size()) {
+    for (size_t k = 0; k + 1 < legs.size(); ++k) {
+      if (legs[k].dwell > 0 || legs[k + 1].dwell > 0 || legs[k].zone == 0) continue;
+      const double top = std::max(legs[k].cruise, legs[k + 1].cruise);
+      corners_[k] = slowed(k, top, [&](const Corner& corner) { return fits(k, corner); });
+    }
+    while (sweep()) {
+    }
+  }
+
+  /// Corner at the end of leg k; standing still before the first leg (k = -1) and after the last.
+  const Corner& at_end(int k) const { return k < 0 ? still_ : corners_[k]; }
+
+ private:
+  Corner corner(size_t k, double limit) const {
+    Corner c{limit, std::min(limit, legs_[k].cruise), std::min(limit, legs_[k + 1].cruise), 0};
+    const VectorXd change = c.out * legs_[k + 1].direction - c.in * legs_[k].direction;
+    c.duration = change.cwiseAbs().cwiseQuotient(accelerations_).maxCoeff();
+    return c;
+  }
+
+  bool fits(size_t k, const Corner& c) const {  // (M4)
+    const double zone = legs_[k].zone;
+    return c.before() <= std::min(zone, legs_[k].length / 2) &&
+           c.after() <= std::min(zone, legs_[k + 1].length / 2);
+  }
+
+  /// The fastest corner up to `limit` that is good, by bisection; a stop when none is found.
+  template <class Good>
+  Corner slowed(size_t k, double limit, const Good& good) const {
+    if (const Corner fastest = corner(k, limit); good(fastest)) return fastest;
+    Corner best;
+    double low = 0, high = limit;
+    for (int i = 0; i < 50; ++i) {  // 2^-50 of the speed
+      const Corner middle = corner(k, (low + high) / 2);
+      (good(middle) ? low : high) = middle.limit;
+      if (good(middle)) best = middle;
+    }
+    return best;
+  }
+
+  bool long_enough(size_t k, double v0, double before, double v1, double after) const {
+    const Leg& leg = legs_[k];
+    return std::abs(v1 * v1 - v0 * v0) <= 2 * leg.acceleration * (leg.length - before - after);
+  }
+
+  /// Slows the faster end of every leg that is too short to change speed. False when all are long enough.
+  bool sweep() {
+    bool changed = false;
+    const int count = static_cast<int>(legs_.size());
+    for (int pass = 0; pass < 2; ++pass)  // forward: leaving too fast; backward: entering too fast
+      for (int i = 0; i < count; ++i) changed |= mend(pass == 0 ? i : count - 1 - i);
+    return changed;
+  }
+
+  bool mend(int k) {
+    if (legs_[k].dwell > 0) return false;
+    const Corner entry = at_end(k - 1), exit = at_end(k);
+    if (long_enough(k, entry.out, entry.after(), exit.in, exit.before())) return false;
+    // Slower by a thousandth at least, so that the sweeps end.
+    if (exit.in > entry.out) {
+      corners_[k] = slowed(k, 0.999 * exit.limit, [&](const Corner& c) {
+        return fits(k, c) &&
+               (c.in <= entry.out || long_enough(k, entry.out, entry.after(), c.in, c.before()));
+      });
+    } else {
+      corners_[k - 1] = slowed(k - 1, 0.999 * entry.limit, [&](const Corner& c) {
+        return fits(k - 1, c) &&
+               (c.out <= exit.in || long_enough(k, c.out, c.after(), exit.in, exit.before()));
+      });
+    }
+    return true;
+  }
+
+  const std::vector<Leg>& legs_;
+  const VectorXd& accelerations_;  // A_i
+  std::vector<Corner> corners_;
+  Corner still_;
+};
+
+// ---- legs into pieces
+// --------------------------------------------------------------------------------------
+
+class Pieces {
+ public:
+  std::vector<MotionPiece> pieces;
+  double time = 0;
+
+  void add(const VectorXd& position, const VectorXd& before, const VectorXd& after, double duration, int step,
+           int step_after) {
+    if (duration <= 0) return;
+    pieces.push_back({time, duration, position, before, after - before, step, step_after});
+    time += duration;
+  }
+
+  /// The part of a leg between its blends: up to the top speed, along, and down (M3).
+  void add_leg(const Leg& leg, const Corner& entry, const Corner& exit) {
+    const double v0 = entry.out, v1 = exit.in, twice = 2 * leg.acceleration;
+    const double length = leg.length - entry.after() - exit.before();
+    const double reached = std::sqrt((twice * length + v0 * v0 + v1 * v1) / 2);
+    const double top = std::max({std::min(leg.cruise, reached), v0, v1});
+    const double up = (top * top - v0 * v0) / twice, down = (top * top - v1 * v1) / twice;
+    const double along = std::max(0.0, length - up - down);
+    const auto at = [&](double s) { return VectorXd(leg.from + (entry.after() + s) * leg.direction); };
+    const auto speed = [&](double v) { return VectorXd(v * leg.direction); };
+    add(at(0), speed(v0), speed(top), (top - v0) / leg.acceleration, leg.step, leg.step);
+    add(at(up), speed(top), speed(top), along / top, leg.step, leg.step);
+    add(at(up + along), speed(top), speed(v1), (top - v1) / leg.acceleration, leg.step, leg.step);
+  }
+
+  void add_blend(const Leg& leg, const Leg& next, const Corner& corner) {
+    add(next.from - corner.before() * leg.direction, corner.in * leg.direction, corner.out * next.direction,
+        corner.duration, leg.step, next.step);
+  }
+};
+
+}  // namespace
+
+JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  const VectorXd accelerations = mean_accelerations(motion, robot);
+  Expansion program(motion, robot, accelerations);
+  const CornerSpeeds corners(program.legs, accelerations);
+  Pieces laid;
+  const VectorXd rest = VectorXd::Zero(program.place.size());
+  for (int k = 0; k < static_cast<int>(program.legs.size()); ++k) {
+    const Leg& leg = program.legs[k];
+    if (leg.dwell > 0) {
+      laid.add(leg.from, rest, rest, leg.dwell, leg.step, leg.step);
+      continue;
+    }
+    laid.add_leg(leg, corners.at_end(k - 1), corners.at_end(k));
+    if (corners.at_end(k).limit > 0) laid.add_blend(leg, program.legs[k + 1], corners.at_end(k));
+  }
+  duration_ = laid.time;
+  // The stand at the end (its duration does not matter); also the whole of a program that goes nowhere.
+  const int last = static_cast<int>(program.texts.size()) - 1;
+  laid.pieces.push_back({duration_, 1, program.place, rest, rest, last, last});
+  pieces_ = std::move(laid.pieces);
+  step_texts_ = std::move(program.texts);
+}
+
+const MotionPiece& JointMotion::piece_at(double time) const {
+  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), time,
+                                      [](double t, const MotionPiece& piece) { return t < piece.start; });
+  return after == pieces_.begin() ? *after : *(after - 1);
+}
+
+namespace {
+
+/// u of (M1).
+double fraction(const MotionPiece& piece, double time) {
+  return std::clamp((time - piece.start) / piece.duration, 0.0, 1.0);
+}
+
+}  // namespace
+
+VectorXd JointMotion::position(double time) const {
+  const MotionPiece& piece = piece_at(time);
+  const double u = fraction(piece, time);
+  return piece.position +
+         piece.duration * (u * piece.velocity_before + integrated_rise(u) * piece.velocity_change);
+}
+
+VectorXd JointMotion::velocity(double time) const {
+  const MotionPiece& piece = piece_at(time);
+  return piece.velocity_before + rise(fraction(piece, time)) * piece.velocity_change;
+}
+
+VectorXd JointMotion::acceleration(double time) const {
+  const MotionPiece& piece = piece_at(time);
+  return slope(fraction(piece, time)) / piece.duration * piece.velocity_change;
+}
+
+int JointMotion::step(double time) const {
+  const MotionPiece& piece = piece_at(time);
+  return fraction(piece, time) < 0.5 ? piece.step : piece.step_after;
+}
+
+}  // namespace dresslife::sim
