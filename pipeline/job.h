@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/errors.h"
+#include "pipeline/document.h"
 
 namespace dresslife::pipeline {
 
@@ -158,7 +158,7 @@ struct Probe {
 struct Strain {
   DeformationMeasure deformation = DeformationMeasure::rotation_vector;
   Kinematics kinematics = Kinematics::exact;
-  std::vector<Slip> slip;               ///< one for every level, or one per level, outermost first
+  std::vector<Slip> slip{Slip::free};   ///< one for every level, or one per level, outermost first
   int surface_fibres = 1;               ///< per wire; 0: the wire's axis
   double gate = 1e-4;                   ///< turning points of a smaller strain range are dropped
   std::vector<Probe> probes;
@@ -188,7 +188,32 @@ struct Job {
   Fatigue fatigue;
 };
 
-/// The material of a wire under these settings. Precondition: the job was read by read_job().
+/// Reads a job, looks up the catalogue entries that it names, applies `--set key.path=value` in their order, checks
+/// everything that can be checked without running. Errors: InputError.
+Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
+
+/// The same for a job that is a tree already: a study's, or the `job` attribute of a file.
+Job job_from(Node document, const std::vector<std::string>& sets = {});
+
+/// The resolved job as YAML: catalogue entries written out, defaults filled in. Reads back to the same job.
+std::string job_text(const Job& job);
+
+/// What of the job each stage's result depends on; equal text, equal result.
+enum class Part { sim, strain, fatigue };
+std::string part_text(const Job& job, Part part);
+
+/// The material that a wire of material `name` has under these settings. Precondition: the job was read above.
 const Material& material_of(const Job& job, const std::string& name);
+
+/// Folders of the catalogue: "robots", "programs", "dresspacks", "materials". A name is looked up beside the file
+/// that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml), then in the catalogue that comes
+/// with dresslife (the environment variable DRESSLIFE_CONFIG names another). Errors: InputError with the near names.
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at);
+
+/// Sets the value at `key.path=value` in a job's tree; list items count from 1. Errors: InputError.
+void apply_set(Node& job, const std::string& set);
+
+/// Every key of a job, as Markdown tables.
+std::string job_manual();
 
 }  // namespace dresslife::pipeline

@@ -1,0 +1,182 @@
+// Catalogue entries by name, `from: NAME`, and --set: everything that turns a written job into one whole tree.
+#include <algorithm>
+#include <cstdlib>
+
+#include "pipeline/fields.h"
+#include "pipeline/job.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Shelf {
+  const char* key;     ///< of the job
+  const char* folder;  ///< of the catalogue
+};
+constexpr Shelf shelves[] = {{"robot", "robots"}, {"motion", "programs"}, {"dresspack", "dresspacks"}};
+
+fs::path shipped_catalogue() {
+  if (const char* folder = std::getenv("DRESSLIFE_CONFIG")) return folder;
+  return DRESSLIFE_CONFIG_DIR;
+}
+
+std::vector<fs::path> search_folders(const std::string& folder, const Where& named_at) {
+  std::vector<fs::path> folders;
+  std::error_code failure;
+  fs::path here = fs::absolute(named_at.file, failure).lexically_normal().parent_path();
+  for (; !here.empty(); here = here.parent_path()) {
+    for (const fs::path& candidate : {here / folder, here / "config" / folder})
+      if (fs::is_directory(candidate, failure)) folders.push_back(candidate);
+    if (here == here.root_path()) break;
+  }
+  folders.push_back(shipped_catalogue() / folder);
+  return folders;
+}
+
+void merge(Node& base, const Node& over) {
+  if (!base.is_map() || !over.is_map()) {
+    base = over;
+    return;
+  }
+  base.where = over.where;
+  for (const Entry& entry : over.entries) {
+    if (Node* found = base.find(entry.key))
+      merge(*found, entry.value);
+    else
+      base.entries.push_back(entry);
+  }
+}
+
+void resolve(Node& entry, const std::string& folder, int depth = 0) {
+  if (depth > 16) throw InputError(entry.where, "'from' goes in a circle", "let one entry stand alone");
+  if (entry.is_scalar()) {
+    entry = catalogue_entry(folder, entry.text, entry.where);
+    resolve(entry, folder, depth + 1);
+    return;
+  }
+  const Node* from = entry.is_map() ? entry.find("from") : nullptr;
+  if (!from) return;
+  Node base = catalogue_entry(folder, from->text, from->where);
+  resolve(base, folder, depth + 1);
+  Node over = entry;
+  std::erase_if(over.entries, [](const Entry& e) { return e.key == "from"; });
+  merge(base, over);
+  entry = std::move(base);
+}
+
+const char* folder_of(std::string_view key) {
+  for (const Shelf& shelf : shelves)
+    if (key == shelf.key) return shelf.folder;
+  return nullptr;
+}
+
+void collect_materials(const Node& components, std::vector<const Node*>& names) {
+  for (const Node& component : components.items) {
+    if (const Node* name = component.find("material")) names.push_back(name);
+    if (const Node* inner = component.find("components")) collect_materials(*inner, names);
+  }
+}
+
+void add_materials(Node& job) {
+  Node* dresspack = job.find("dresspack");
+  if (!dresspack || !dresspack->is_map()) return;
+  std::vector<const Node*> names;
+  if (const Node* components = dresspack->find("components")) collect_materials(*components, names);
+  if (const Node* fatigue = job.find("fatigue"))
+    if (const Node* material = fatigue->find("material")) names.push_back(material);
+  std::vector<Node> wanted;
+  for (const Node* name : names) wanted.push_back(*name);  // the tree changes below
+
+  Node& materials = (*dresspack)["materials"];
+  if (materials.kind == Node::Kind::null) materials.kind = Node::Kind::list;
+  for (const Node& name : wanted) {
+    const bool there = std::any_of(materials.items.begin(), materials.items.end(), [&](const Node& material) {
+      const Node* known = material.find("name");
+      return known && known->text == name.text;
+    });
+    if (there || !name.is_scalar()) continue;
+    Node material = catalogue_entry("materials", name.text, name.where);
+    resolve(material, "materials");
+    const Node* own_name = material.find("name");
+    if (!own_name || own_name->text != name.text)
+      throw InputError(material.where, fmt::format("the material is not named '{}' as its file is", name.text),
+                       fmt::format("write 'name: {}'", name.text));
+    materials.items.push_back(std::move(material));
+  }
+  if (materials.items.empty()) std::erase_if(dresspack->entries, [](const Entry& e) { return e.key == "materials"; });
+}
+
+Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
+  if (node.is_list()) {
+    char* end = nullptr;
+    const long number = std::strtol(word.c_str(), &end, 10);
+    if (*end != '\0' || number < 1 || number > static_cast<long>(node.items.size()))
+      throw InputError(where, fmt::format("'{}' of {} is not an item of the list", word, path),
+                       fmt::format("items count from 1 to {}", node.items.size()));
+    return &node.items[number - 1];
+  }
+  if (node.is_scalar())
+    throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path), "shorten the path");
+  Node& found = node[word];
+  if (found.kind == Node::Kind::null) found.where = where;
+  return &found;
+}
+
+}  // namespace
+
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at) {
+  if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
+    return read_yaml((fs::path(named_at.file).parent_path() / name).lexically_normal());
+  std::vector<std::string> names;
+  for (const fs::path& place : search_folders(folder, named_at)) {
+    std::error_code failure;
+    if (const fs::path file = place / (name + ".yaml"); fs::is_regular_file(file, failure))
+      return read_yaml(file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file));
+    for (const auto& item : fs::directory_iterator(place, failure))
+      if (item.path().extension() == ".yaml") names.push_back(item.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  throw InputError(named_at, fmt::format("'{}' is not in the catalogue (config/{})", name, folder),
+                   names.empty() ? "write the entry itself or a path to a .yaml file"
+                                 : fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
+void apply_set(Node& job, const std::string& set) {
+  const Where where{"--set " + set};
+  const std::size_t equals = set.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(where, "is not key.path=value", "write for example --set simulation.segments=80");
+  const std::string path = set.substr(0, equals);
+  Node* node = &job;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', begin), path.size());
+    const std::string word = path.substr(begin, dot - begin);
+    if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
+    if (begin > 0 && node->is_scalar() && path.find('.') == begin - 1)
+      if (const char* folder = folder_of(path.substr(0, begin - 1))) resolve(*node, folder);
+    node = step_into(*node, word, where, path);
+    begin = dot + 1;
+  }
+  Node value = parse_yaml(set.substr(equals + 1), where.file);
+  struct Place {
+    const Where& where;
+    void operator()(Node& at) const {
+      at.where = where;
+      for (Node& item : at.items) (*this)(item);
+      for (Entry& entry : at.entries) (*this)(entry.value);
+    }
+  };
+  Place{where}(value);
+  *node = std::move(value);
+}
+
+/// Looks up all that the job names; afterwards the tree stands for itself.
+void resolve_job(Node& job) {
+  for (const Shelf& shelf : shelves)
+    if (Node* entry = job.find(shelf.key)) resolve(*entry, shelf.folder);
+  add_materials(job);
+}
+
+}  // namespace dresslife::pipeline

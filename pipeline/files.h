@@ -1,0 +1,127 @@
+// The HDF5 files that pass between the stages. Each format is one table, from which the writer creates, the reader
+// checks and the manual is printed. The HDF5 library stays behind this header.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/errors.h"
+
+namespace dresslife::pipeline {
+
+enum class Type { f64, f32, i32, u32, u64, text };
+
+/// One dataset of a format. Its shape names axes ("sample", "segment", "site") or gives a number ("3"); the first
+/// axis grows by append(). Datasets that name an axis agree on its length; "+1" after a name adds one.
+struct Dataset {
+  std::string path;
+  Type type = Type::f64;
+  std::vector<std::string> shape;
+  std::string unit;
+  std::string meaning;
+  bool may_be_infinite = false;
+  bool may_be_absent = false;
+  bool deflate = false;  ///< repetitive tables; histories are left plain for speed
+};
+
+struct AttributeInfo {
+  std::string name, meaning;
+  bool is_text = false;
+  bool may_be_absent = false;
+};
+
+struct Format {
+  std::string name;     ///< value of the root attribute `format`
+  int version = 1;
+  std::string made_by;  ///< program, for remedies
+  std::string purpose;
+  std::vector<Dataset> datasets;
+  std::vector<AttributeInfo> attributes;  ///< beyond those of every file
+  const Dataset& find(std::string_view path) const;
+};
+
+const Format& motion_format();
+const Format& strain_format();
+const Format& life_format();
+
+/// All three formats as Markdown.
+std::string file_manual();
+
+/// Writes FILE.part and, on commit(), makes it FILE; without commit() nothing stays behind.
+/// Errors: InputError when the file cannot be created or the disk is full.
+class FileWriter {
+ public:
+  FileWriter(std::filesystem::path file, const Format& format);
+  ~FileWriter();
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+
+  /// Length of an axis; needed before the first append() of a dataset whose trailing axes name it.
+  void set_axis(const std::string& axis, std::size_t length);
+  /// Longest text of a dataset that is appended to in several calls; otherwise the first call's longest.
+  void set_text_width(const std::string& dataset, std::size_t bytes);
+  /// Appends whole rows (all axes but the first). Values convert to the dataset's type.
+  void append(const std::string& dataset, std::span<const double> rows);
+  void append(const std::string& dataset, std::span<const float> rows);
+  void append(const std::string& dataset, std::span<const std::int32_t> rows);
+  void append(const std::string& dataset, std::span<const std::uint32_t> rows);
+  void append(const std::string& dataset, std::span<const std::uint64_t> rows);
+  void append(const std::string& dataset, std::span<const std::string> rows);
+
+  void attribute(const std::string& name, const std::string& value);
+  void attribute(const std::string& name, double value);
+  /// An attribute of a dataset that has been appended to (for example `links` of /robot/link_pose).
+  void dataset_attribute(const std::string& dataset, const std::string& name, const std::string& value);
+
+  void commit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Opens a file and checks it against its format: name, version, datasets, ranks, lengths and units. Reads check for
+/// non-finite values. Errors: InputError, one line.
+class FileReader {
+ public:
+  FileReader(const std::filesystem::path& file, const Format& format);
+  ~FileReader();
+  FileReader(const FileReader&) = delete;
+  FileReader& operator=(const FileReader&) = delete;
+
+  bool has(const std::string& dataset) const;
+  std::size_t length(const std::string& axis) const;          ///< of a named axis; 0 when no dataset has it
+  std::size_t rows(const std::string& dataset) const;
+  std::size_t row_size(const std::string& dataset) const;     ///< values per row
+
+  template <class T>
+  std::vector<T> read(const std::string& dataset) const {
+    std::vector<T> values;
+    read_rows(dataset, 0, rows(dataset), values);
+    return values;
+  }
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<double>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<float>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::int32_t>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::uint32_t>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::uint64_t>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::string>& out) const;
+
+  std::string text_attribute(const std::string& name) const;
+  double number_attribute(const std::string& name) const;
+  std::string dataset_attribute(const std::string& dataset, const std::string& name) const;
+
+  Where where() const;  ///< the file, for messages
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,139 @@
+// The three file formats, dataset by dataset: the public contract between the stages.
+#include <algorithm>
+#include <stdexcept>
+
+#include "pipeline/files.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// A set of sites with their turning points; strain.h5 holds three: the job's own under "" and the two bounds.
+void add_site_set(std::vector<Dataset>& datasets, const std::string& group, const std::string& of) {
+  const std::string site = of + "site", reversal = of + "reversal";
+  datasets.push_back({group + "/site/segment", Type::i32, {site}, "1", "segment of the site, counted from the base, 0 first"});
+  datasets.push_back({group + "/site/component", Type::text, {site}, "1", "path of the wire, outermost part first"});
+  datasets.push_back({group + "/site/helix", Type::f64, {site, "level", "3"}, "m, rad, rad",
+                      "helix radius, lay angle (negative: left hand), phase at the segment's centre; outermost level first"});
+  datasets.push_back({group + "/site/fibre", Type::f64, {site, "2"}, "m, rad",
+                      "radius and angle of the fibre on the wire, from the inward normal; 0 0: the wire's axis"});
+  datasets.push_back({group + "/site/material", Type::text, {site}, "1", "material of the wire"});
+  for (auto table = datasets.end() - 5; table != datasets.end(); ++table) table->deflate = true;
+  datasets.push_back({group + "/reversal/offset", Type::u64, {site + "+1"}, "1",
+                      "turning points of site k are [offset k, offset k+1)"});
+  datasets.push_back({group + "/reversal/strain", Type::f32, {reversal}, "1", "strain at the turning point"});
+  datasets.push_back({group + "/reversal/sample", Type::u32, {reversal}, "1", "sample of the turning point"});
+}
+
+Format make_motion_format() {
+  Format format{"dresslife-motion", 1, "dresslife-sim", "how the dresspack moves", {}, {}};
+  format.datasets = {
+      {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
+      {"/segment/position", Type::f64, {"sample", "segment", "3"}, "m", "segment centres in the world"},
+      {"/segment/orientation", Type::f64, {"sample", "segment", "4"}, "1", "unit quaternion w x y z, body to world; body z is the tangent toward the tool"},
+      {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
+      {"/clamp/position", Type::f64, {"sample", "clamp", "3"}, "m", "clamps in the world: base side first, tool side last"},
+      {"/clamp/orientation", Type::f64, {"sample", "clamp", "4"}, "1", "unit quaternion w x y z of the clamps"},
+      {"/robot/joint_position", Type::f64, {"sample", "joint"}, "rad", "joint angles", false, true},
+      {"/robot/link_pose", Type::f64, {"sample", "link", "7"}, "m, 1", "position and quaternion w x y z of each link; attribute `links` names them", false, true},
+      {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
+      {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
+      {"/contact/count", Type::i32, {"sample"}, "1", "contacts of the dresspack"},
+      {"/contact/max_depth", Type::f64, {"sample"}, "m", "deepest penetration; 0 without contact"},
+      {"/energy", Type::f64, {"sample", "3"}, "J", "kinetic, elastic, gravitational"},
+      {"/tension", Type::f64, {"sample", "segment"}, "N", "axial force in each segment"},
+  };
+  return format;
+}
+
+Format make_strain_format() {
+  Format format{"dresslife-strain", 1, "dresslife-strain", "what every wire feels", {}, {}};
+  format.datasets = {
+      {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
+      {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
+      {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
+      {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
+      {"/deformation/curvature", Type::f64, {"sample", "segment", "2"}, "1/m", "about d1 and d2 of the segment"},
+      {"/deformation/twist", Type::f64, {"sample", "segment"}, "rad/m", "about the tangent"},
+      {"/deformation/elongation", Type::f64, {"sample", "segment"}, "1", "relative change of length"},
+  };
+  add_site_set(format.datasets, "", "");
+  add_site_set(format.datasets, "/bound_stick", "stick_");
+  add_site_set(format.datasets, "/bound_free", "free_");
+  format.datasets.push_back({"/probe/site", Type::u32, {"probe"}, "1", "site of each probe"});
+  format.datasets.push_back({"/probe/strain", Type::f64, {"probe", "sample"}, "1", "whole strain history of each probe"});
+  return format;
+}
+
+Format make_life_format() {
+  Format format{"dresslife-life", 1, "dresslife-fatigue", "how long every wire lives", {}, {}};
+  const std::string site = "site";
+  format.datasets = {
+      {"/site/segment", Type::i32, {site}, "1", "segment of the site, counted from the base, 0 first"},
+      {"/site/component", Type::text, {site}, "1", "path of the wire, outermost part first"},
+      {"/site/helix", Type::f64, {site, "level", "3"}, "m, rad, rad", "helix radius, lay angle (negative: left hand), phase at the segment's centre; outermost level first"},
+      {"/site/fibre", Type::f64, {site, "2"}, "m, rad", "radius and angle of the fibre on the wire"},
+      {"/site/material", Type::text, {site}, "1", "material of the wire"},
+      {"/damage", Type::f64, {site}, "1", "damage per repeat of the motion"},
+      {"/life", Type::f64, {site}, "1", "repeats to failure; inf without damage", true},
+  };
+  return format;
+}
+
+std::string shape_text(const Dataset& dataset) {
+  std::string text;
+  for (const std::string& axis : dataset.shape) text += (text.empty() ? "" : ", ") + axis;
+  return text;
+}
+
+const char* type_text(Type type) {
+  switch (type) {
+    case Type::f64: return "float64";
+    case Type::f32: return "float32";
+    case Type::i32: return "int32";
+    case Type::u32: return "uint32";
+    case Type::u64: return "uint64";
+    case Type::text: return "text";
+  }
+  return "";
+}
+
+}  // namespace
+
+const Dataset& Format::find(std::string_view path) const {
+  const auto found = std::find_if(datasets.begin(), datasets.end(), [&](const Dataset& d) { return d.path == path; });
+  if (found == datasets.end()) throw std::logic_error(fmt::format("{} has no dataset {}", name, path));
+  return *found;
+}
+
+const Format& motion_format() {
+  static const Format format = make_motion_format();
+  return format;
+}
+const Format& strain_format() {
+  static const Format format = make_strain_format();
+  return format;
+}
+const Format& life_format() {
+  static const Format format = make_life_format();
+  return format;
+}
+
+std::string file_manual() {
+  std::string text;
+  for (const Format* format : {&motion_format(), &strain_format(), &life_format()}) {
+    text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version, format->purpose, format->made_by);
+    text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
+    for (const Dataset& dataset : format->datasets)
+      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", dataset.path, type_text(dataset.type), shape_text(dataset),
+                          dataset.unit, dataset.meaning, dataset.may_be_absent ? " (may be absent)" : "");
+    if (!format->attributes.empty()) {
+      text += "\n| root attribute | meaning |\n|---|---|\n";
+      for (const AttributeInfo& attribute : format->attributes)
+        text += fmt::format("| `{}` | {} |\n", attribute.name, attribute.meaning);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,357 @@
+#include "pipeline/job.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/digest.h"
+#include "pipeline/fields.h"
+
+namespace dresslife::pipeline {
+
+void resolve_job(Node& job);  // catalogue.cpp
+
+// ---- one describe() per struct ----------------------------------------------------------------------------
+
+void describe(Fields& f, Joint& joint) {
+  f.text("name", joint.name, Need::required, "name of the joint");
+  f.vector("origin_m", joint.origin, Need::required, "origin of the joint frame in the frame of the link before");
+  f.vector("rpy_deg", joint.orientation, Need::optional, "roll, pitch, yaw of the joint frame, fixed axes x, y, z");
+  f.vector("axis", joint.axis, Need::required, "axis of rotation in the joint frame");
+  f.number("lower_deg", joint.lower, Need::required, any_number(), "lowest angle");
+  f.number("upper_deg", joint.upper, Need::required, any_number(), "highest angle");
+  f.number("speed_deg_per_s", joint.speed, Need::required, above(0), "highest speed");
+  f.number("acceleration_deg_per_s2", joint.acceleration, Need::required, above(0), "highest acceleration");
+}
+
+void describe(Fields& f, Capsule& capsule) {
+  f.vector("from_m", capsule.from, Need::required, "one end of the capsule's axis, in the link's frame");
+  f.vector("to_m", capsule.to, Need::required, "the other end");
+  f.number("radius_mm", capsule.radius, Need::required, above(0), "radius of the capsule");
+}
+
+void describe(Fields& f, Link& link) {
+  f.text("name", link.name, Need::required, "name of the link, by which clamps refer to it");
+  f.list("capsules", link.capsules, Need::optional, "shape of the link for contact with the dresspack");
+}
+
+void describe(Fields& f, Robot& robot) {
+  f.text("name", robot.name, Need::required, "type designation");
+  f.text("source", robot.source, Need::required, "where the numbers come from");
+  f.vector("base_position_m", robot.base_position, Need::optional, "of the base link in the world");
+  f.vector("base_rpy_deg", robot.base_orientation, Need::optional, "roll, pitch, yaw of the base link in the world");
+  f.list("joints", robot.joints, Need::required, "the axes, from the base to the flange");
+  f.list("links", robot.links, Need::required, "base link first, then the link that each joint moves");
+}
+
+void describe(Fields& f, MotionStep& step) {
+  f.place(step.where);
+  f.text("text", step.text, Need::optional, "what the step is, for reports");
+  f.numbers("joints_deg", step.joints, Need::optional, "target of a joint move, one angle per axis");
+  f.maybe_number("speed_percent", step.speed_percent, between(0.1, 100), "speed of the move, of each axis' highest");
+  f.maybe_number("speed_deg_per_s", step.speed, above(0), "speed of the axis that moves farthest, instead of a percentage");
+  f.maybe_number("zone_deg", step.zone, at_least(0), "the next move begins when every axis is this near; 0: stop");
+  f.number("dwell_s", step.dwell, Need::optional, at_least(0), "standstill instead of a move");
+  f.integer("repeat", step.repeat, Need::optional, at_least(0), "how often the block of `steps` runs; 0: not a block");
+  f.list("steps", step.steps, Need::optional, "the block");
+}
+
+void describe(Fields& f, Motion& motion) {
+  f.place(motion.where);
+  f.text("name", motion.name, Need::optional, "name of the program");
+  f.text("source", motion.source, Need::optional, "who wrote it");
+  f.number("speed_percent", motion.speed_percent, Need::optional, between(0.1, 100), "speed of moves that name none");
+  f.number("acceleration_percent", motion.acceleration_percent, Need::optional, between(1, 100),
+           "of each axis' highest acceleration, for all moves");
+  f.number("zone_deg", motion.zone, Need::optional, at_least(0), "zone of moves that name none; 0: stop at each target");
+  f.list("steps", motion.steps, Need::optional, "the program; it starts at rest at the target of the first step");
+  f.path("clamp_poses", motion.clamp_poses, Need::optional,
+         "CSV with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and tool clamp (s, m)");
+}
+
+void describe(Fields& f, Material& material) {
+  f.text("name", material.name, Need::required, "name, as the wires call it");
+  f.text("source", material.source, Need::required, "where the constants come from");
+  f.number("youngs_modulus_GPa", material.youngs_modulus, Need::required, above(0), "E");
+  f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "nu");
+  f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0), "sigma_f' of (8)");
+  f.number("fatigue_strength_exponent", material.fatigue_strength_exponent, Need::required, between(-1, -1e-3), "b of (8)");
+  f.number("fatigue_ductility", material.fatigue_ductility, Need::required, above(0), "epsilon_f' of (8)");
+  f.number("fatigue_ductility_exponent", material.fatigue_ductility_exponent, Need::required, between(-2, -1e-2), "c of (8)");
+  f.maybe_number("cyclic_strength_MPa", material.cyclic_strength, above(0), "K'; without it sigma_f'/epsilon_f'^n'");
+  f.maybe_number("cyclic_hardening_exponent", material.cyclic_hardening_exponent, between(0.01, 1), "n'; without it b/c");
+}
+
+void describe(Fields& f, Component& component) {
+  f.place(component.where);
+  f.text("name", component.name, Need::required, "what the part is; equal parts are numbered from 1");
+  f.text("layer", component.layer, Need::optional, "name of the layer, where layers of equal parts lie over each other");
+  f.integer("count", component.count, Need::optional, between(1, 1000), "equal parts in the layer (K)");
+  f.number("radius_mm", component.radius, Need::required, above(0), "of the part");
+  f.number("helix_radius_mm", component.helix_radius, Need::required, at_least(0), "from the parent's axis to the part's (R)");
+  f.number("lay_angle_deg", component.lay_angle, Need::optional, between(0, 60), "angle to the parent's axis (alpha)");
+  f.choice("hand", component.hand, {"right", "left"}, "of the helix: right (Z) or left (S)");
+  f.number("phase_deg", component.phase, Need::optional, between(-360, 360), "angle of part 1 at the base clamp");
+  f.text("material", component.material, Need::optional, "of a wire: a name of config/materials; a part with parts has none");
+  f.list("components", component.components, Need::optional, "the layers of parts inside");
+}
+
+void describe(Fields& f, Dresspack& dresspack) {
+  f.text("name", dresspack.name, Need::required, "name of the dresspack");
+  f.text("source", dresspack.source, Need::required, "where the numbers come from");
+  f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
+  f.number("mass_kg_per_m", dresspack.mass_per_length, Need::required, above(0), "of the filled hose");
+  f.number("bending_stiffness_Nm2", dresspack.bending_stiffness, Need::required, above(0), "EI of the filled hose");
+  f.number("torsional_stiffness_Nm2", dresspack.torsional_stiffness, Need::required, above(0), "GJ of the filled hose");
+  f.number("axial_stiffness_N", dresspack.axial_stiffness, Need::required, above(0), "EA of the filled hose");
+  f.number("damping_time_ms", dresspack.damping_time, Need::required, at_least(0),
+           "Kelvin-Voigt time of bending and twist, from a decay test");
+  f.text("damping_source", dresspack.damping_source, Need::required, "where the damping comes from: life depends on it");
+  f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2), "Coulomb, hose against robot");
+  f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only");
+  f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
+}
+
+void describe(Fields& f, Clamp& clamp) {
+  f.place(clamp.where);
+  f.text("link", clamp.link, Need::required, "link of the robot that carries the clamp");
+  f.vector("position_m", clamp.position, Need::required, "of the clamp in the link's frame");
+  f.vector("direction", clamp.direction, Need::required, "of the dresspack there, from base to tool, in the link's frame");
+  f.maybe_number("roll_deg", clamp.roll, between(-360, 360),
+                 "about the direction; without it 0 at the base clamp and free of twist at the tool clamp");
+}
+
+void describe(Fields& f, Routing& routing) {
+  f.place(routing.where);
+  f.number("free_length_m", routing.free_length, Need::required, above(0), "free length of dresspack between the clamps");
+  f.maybe_group("base_clamp", routing.base_clamp, "the clamp nearer to the robot's base");
+  f.maybe_group("tool_clamp", routing.tool_clamp, "the clamp nearer to the tool");
+  f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
+            "joint angles at which the dresspack was clamped free of twist; without it the first target");
+}
+
+void describe(Fields& f, Simulation& simulation) {
+  f.integer("segments", simulation.segments, Need::optional, between(4, 2000), "rigid segments of the chain");
+  f.number("time_step_ms", simulation.time_step, Need::optional, between(0.01, 20), "fixed integration step");
+  f.number("sample_rate_Hz", simulation.sample_rate, Need::optional, between(0.1, 10000),
+           "of motion.h5; a whole number of steps lies between samples");
+  f.vector("gravity_m_per_s2", simulation.gravity, Need::optional, "acceleration of free fall in the world");
+  f.boolean("contact", simulation.contact, Need::optional, "whether the dresspack touches the robot's links");
+  f.boolean("floor", simulation.floor, Need::optional, "whether the plane z = 0 is a floor");
+}
+
+void describe(Fields& f, Probe& probe) {
+  f.integer("segment_from_tool", probe.segment_from_tool, Need::required, at_least(1), "segment, counted from the tool");
+  f.text("component", probe.component, Need::required, "path of a wire, as in /site/component");
+}
+
+void describe(Fields& f, Strain& strain) {
+  f.choice("deformation", strain.deformation, {"rotation_vector", "thesis"}, "how curvature and twist are measured");
+  f.choice("kinematics", strain.kinematics, {"exact", "thesis"}, "nested helices: the geometry itself, or (12)..(23)");
+  f.choices("slip", strain.slip, {"free", "stick"}, "between a part and its parent; one word, or one per level, outermost first");
+  f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
+            "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
+  f.number("gate", strain.gate, Need::optional, between(0, 0.1), "turning points of smaller strain ranges are dropped");
+  f.list("probes", strain.probes, Need::optional, "wires whose whole strain history is kept");
+}
+
+void describe(Fields& f, Fatigue& fatigue) {
+  f.choice("stress", fatigue.stress, {"cyclic", "elastic"}, "Ramberg-Osgood with Masing memory, or E times strain");
+  f.choice("mean_stress", fatigue.mean_stress, {"none", "morrow", "swt"}, "correction of the strain-life curve");
+  f.choice("counting", fatigue.counting, {"repeating", "half_cycles"}, "rainflow of an endlessly repeated motion, or of one run");
+  f.number("endurance_strain", fatigue.endurance_strain, Need::optional, between(0, 0.1), "amplitudes up to this do no damage");
+  f.text("material", fatigue.material, Need::optional, "of every wire, instead of its own");
+  f.integer("listed_sites", fatigue.listed_sites, Need::optional, between(1, 10000), "worst sites whose cycles are written");
+  f.number("operating_hours_per_week", fatigue.operating_hours_per_week, Need::optional, between(0.1, 168),
+           "turns hours of motion into months");
+}
+
+void describe(Fields& f, Job& job) {
+  // The motion first: whether it brings its own clamp poses decides whether a robot is needed.
+  f.group("motion", job.motion, Need::required, "a name of config/programs, a file, or the entry itself");
+  f.group("robot", job.robot, job.motion.clamp_poses.empty() ? Need::required : Need::optional,
+          "a name of config/robots, a file, or the entry itself", !job.robot.joints.empty());
+  f.group("dresspack", job.dresspack, Need::required, "a name of config/dresspacks, a file, or the entry itself");
+  f.group("routing", job.routing, Need::required, "clamps and free length");
+  f.group("simulation", job.simulation, Need::optional, "settings of dresslife-sim");
+  f.group("strain", job.strain, Need::optional, "settings of dresslife-strain");
+  f.group("fatigue", job.fatigue, Need::optional, "settings of dresslife-fatigue");
+}
+
+namespace {
+
+// ---- checks across keys -----------------------------------------------------------------------------------
+
+void check_robot(const Robot& robot, const Where& where) {
+  if (robot.links.size() != robot.joints.size() + 1)
+    throw InputError(where, fmt::format("robot has {} joints and {} links (must be one link more)", robot.joints.size(),
+                                        robot.links.size()),
+                     "list the base link and one link per joint");
+  for (const Joint& joint : robot.joints) {
+    if (!(joint.axis.norm() > 1e-9))
+      throw InputError(where, fmt::format("axis of {} is zero", joint.name), "give its direction");
+    if (!(joint.lower < joint.upper))
+      throw InputError(where, fmt::format("limits of {} are empty (lower >= upper)", joint.name), "mend them");
+  }
+}
+
+void check_step(const MotionStep& step, const Robot& robot) {
+  const bool move = !step.joints.empty(), dwell = step.dwell > 0, block = step.repeat > 0 || !step.steps.empty();
+  if (move + dwell + block != 1)
+    throw InputError(step.where, "a step must be one of: joints_deg (a move), dwell_s, repeat with steps",
+                     "split it into steps");
+  if (block && (step.repeat < 1 || step.steps.empty()))
+    throw InputError(step.where, "a block needs both repeat (at least 1) and steps", "give both");
+  if (move && step.joints.size() != robot.joints.size())
+    throw InputError(step.where, fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(),
+                                             robot.joints.size()),
+                     "give one angle per axis");
+  if (step.speed && step.speed_percent)
+    throw InputError(step.where, "both speed_percent and speed_deg_per_s are given", "keep one of the two");
+  if (!move && (step.speed || step.speed_percent || step.zone))
+    throw InputError(step.where, "speed and zone belong to a move", "take them out of this step");
+  for (const MotionStep& inner : step.steps) check_step(inner, robot);
+}
+
+void check_motion(const Motion& motion, const Robot& robot) {
+  if (motion.clamp_poses.empty() == motion.steps.empty())
+    throw InputError(motion.where, "motion must have either steps or clamp_poses", "give one of the two");
+  for (const MotionStep& step : motion.steps) check_step(step, robot);
+  if (!motion.steps.empty() && motion.steps.front().joints.empty())
+    throw InputError(motion.steps.front().where, "the program must begin with a move (where the robot starts)",
+                     "begin with joints_deg");
+}
+
+void check_clamp(const std::optional<Clamp>& clamp, const char* name, const Routing& routing, const Robot& robot) {
+  if (!clamp)
+    throw InputError(routing.where, fmt::format("routing.{} is missing", name),
+                     "give link, position_m and direction of the clamp");
+  if (!(clamp->direction.norm() > 1e-9))
+    throw InputError(clamp->where, fmt::format("routing.{}.direction is zero", name), "give where the dresspack points");
+  std::vector<std::string> names;
+  for (const Link& link : robot.links) names.push_back(link.name);
+  if (std::find(names.begin(), names.end(), clamp->link) == names.end())
+    throw InputError(clamp->where, fmt::format("routing.{}.link '{}' is not a link of the robot", name, clamp->link),
+                     fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
+void check_routing(const Job& job) {
+  const Routing& routing = job.routing;
+  if (job.motion.clamp_poses.empty()) {
+    check_clamp(routing.base_clamp, "base_clamp", routing, job.robot);
+    check_clamp(routing.tool_clamp, "tool_clamp", routing, job.robot);
+  } else if (routing.base_clamp || routing.tool_clamp) {
+    throw InputError(routing.where, "clamps are given although motion.clamp_poses brings their poses", "keep one of the two");
+  }
+  if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != job.robot.joints.size())
+    throw InputError(routing.where, fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)",
+                                                routing.mounting_pose.size(), job.robot.joints.size()),
+                     "give one angle per axis");
+}
+
+int check_component(const Component& component, const Component* parent) {
+  const Where& where = component.where;
+  if (component.components.empty() == component.material.empty())
+    throw InputError(where, fmt::format("'{}' must have either a material (a wire) or components", component.name),
+                     "give one of the two");
+  if (component.count > 1 && component.helix_radius == 0)
+    throw InputError(where, fmt::format("{} parts '{}' lie on the axis (helix_radius_mm is 0)", component.count, component.name),
+                     "give their distance from the axis");
+  if (component.helix_radius == 0 && component.lay_angle != 0)
+    throw InputError(where, fmt::format("'{}' on the axis has a lay angle", component.name), "set lay_angle_deg to 0");
+  if (component.name.find('/') != std::string::npos || component.layer.find('/') != std::string::npos)
+    throw InputError(where, fmt::format("name '{}' holds a '/'", component.name), "choose another name");
+  if (parent && component.helix_radius + component.radius > parent->radius * 1.02)
+    throw InputError(where, fmt::format("'{}' reaches {:.4g} mm from the axis of '{}', whose radius is {:.4g} mm", component.name,
+                                        1e3 * (component.helix_radius + component.radius), parent->name, 1e3 * parent->radius),
+                     "check helix_radius_mm and radius_mm");
+  int depth = 0;
+  for (const Component& inner : component.components) depth = std::max(depth, check_component(inner, &component));
+  return depth + 1;
+}
+
+void check_dresspack(const Job& job, const Where& where) {
+  Component hose;
+  hose.name = "hose";
+  hose.radius = job.dresspack.diameter / 2;
+  int depth = 0;
+  for (const Component& component : job.dresspack.components) depth = std::max(depth, check_component(component, &hose));
+  if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
+    throw InputError(where, fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
+                     "give one word, or one per level, outermost first");
+}
+
+void check_simulation(const Simulation& simulation, const Where& where) {
+  const double steps = 1 / (simulation.sample_rate * simulation.time_step);
+  if (steps < 0.999 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
+    throw InputError(where, fmt::format("simulation.sample_rate_Hz {} leaves {:.6g} steps of {} ms between samples",
+                                        simulation.sample_rate, steps, 1e3 * simulation.time_step),
+                     "choose both so that it is a whole number");
+}
+
+void check(const Job& job, const Node& document) {
+  auto where = [&](const char* key) { return document.find(key) ? document.find(key)->where : document.where; };
+  if (job.motion.clamp_poses.empty()) check_robot(job.robot, where("robot"));
+  check_motion(job.motion, job.robot);
+  check_routing(job);
+  check_dresspack(job, where("strain"));
+  check_simulation(job.simulation, where("simulation"));
+}
+
+}  // namespace
+
+// ---- reading and writing jobs -----------------------------------------------------------------------------
+
+Job job_from(Node document, const std::vector<std::string>& sets) {
+  if (!document.is_map()) throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
+  for (const std::string& set : sets) apply_set(document, set);
+  resolve_job(document);
+  Job job;
+  read_fields(document, job);
+  check(job, document);
+  return job;
+}
+
+Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return job_from(read_yaml(file), sets);
+}
+
+std::string job_text(const Job& job) { return to_yaml(echo_fields(job)); }
+
+std::string part_text(const Job& job, Part part) {
+  Job copy = job;
+  FieldEcho echo;
+  switch (part) {
+    case Part::sim:
+      copy.dresspack.components.clear();
+      copy.dresspack.materials.clear();
+      echo.group("motion", copy.motion, Need::required, "");
+      echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
+      echo.group("dresspack", copy.dresspack, Need::required, "");
+      echo.group("routing", copy.routing, Need::required, "");
+      echo.group("simulation", copy.simulation, Need::optional, "");
+      break;
+    case Part::strain:
+      echo.list("components", copy.dresspack.components, Need::optional, "");
+      echo.group("strain", copy.strain, Need::optional, "");
+      break;
+    case Part::fatigue:
+      echo.list("materials", copy.dresspack.materials, Need::optional, "");
+      echo.group("fatigue", copy.fatigue, Need::optional, "");
+      break;
+  }
+  std::string text = to_yaml(echo.finish());
+  if (part == Part::sim && !job.motion.clamp_poses.empty())
+    text += "# sha256 of clamp_poses: " + sha256_of_file(job.motion.clamp_poses) + "\n";
+  return text;
+}
+
+std::string job_manual() { return field_manual<Job>("job"); }
+
+const Material& material_of(const Job& job, const std::string& name) {
+  const std::string& wanted = job.fatigue.material.empty() ? name : job.fatigue.material;
+  for (const Material& material : job.dresspack.materials)
+    if (material.name == wanted) return material;
+  throw std::logic_error("material '" + wanted + "' was not resolved");
+}
+
+}  // namespace dresslife::pipeline

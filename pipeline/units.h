@@ -1,0 +1,27 @@
+// The unit of a YAML key is the end of its name: `radius_mm`, `speed_deg_per_s`. Inside, everything is SI.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace dresslife::pipeline {
+
+struct Unit {
+  std::string_view suffix;  ///< of the key, without the underscore
+  std::string_view name;    ///< as people write it
+  double to_si;             ///< factor from this unit to SI; percent stays percent
+};
+
+/// The unit of a key; {"", "", 1} for a key without one. The longest suffix counts.
+const Unit& unit_of_key(std::string_view key);
+
+/// The key without its unit: `radius_mm` -> `radius`.
+std::string_view stem_of_key(std::string_view key);
+
+/// Shortest decimal text that, read back and multiplied by the unit's factor, gives exactly `si`.
+std::string text_in_unit(double si, const Unit& unit);
+
+/// Shortest decimal text that reads back to exactly `value`.
+std::string shortest_text(double value);
+
+}  // namespace dresslife::pipeline
