@@ -1,0 +1,46 @@
+// What every stage's program shares: the command line, exit statuses, where its settings come from and the stamp on
+// its output. A stage's main is a StageInfo and one call of run_stage().
+//
+// Exit status: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 our fault.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/files.h"
+#include "pipeline/job.h"
+#include "pipeline/progress.h"
+
+namespace dresslife::pipeline {
+
+struct StageInfo {
+  std::string program;  ///< "dresslife-sim"
+  std::string purpose;  ///< one sentence for --help
+  std::string input;    ///< what the positional argument is: "JOB.yaml", "motion.h5"
+  std::string output;   ///< what -o names: "motion.h5"
+  std::string example;  ///< a command that can be typed
+  bool input_is_job = false;  ///< the input is the job itself; other stages take --job
+};
+
+struct StageCall {
+  StageInfo info;
+  std::filesystem::path input, output;
+  std::filesystem::path job_file;  ///< of --job; empty: the job in the input file
+  std::vector<std::string> sets;
+  bool quiet = false;
+};
+
+/// Parses the command line, runs `body`, words what it throws. Returns the exit status.
+int run_stage(const StageInfo& info, int argc, char** argv, const std::function<void(const StageCall&, Progress&)>& body);
+
+/// The settings of a stage whose input is a file: of --job, else of the file's `job` attribute; then --set.
+/// Errors: InputError also when the job differs from the file's in a part of an earlier stage (`before`), because the
+/// file then does not hold what the job asks for.
+Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before);
+
+/// Writes the root attributes `job`, `history` and `input_sha256`. earlier: history of the input file, "" for none.
+void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier);
+
+}  // namespace dresslife::pipeline
