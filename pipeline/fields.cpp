@@ -193,7 +193,8 @@ void FieldReader::path(Key key, std::filesystem::path& value, Need need, std::st
   text(key, written, need, meaning);
   if (written.empty()) return;
   const Node* node = levels_.back().map->find(key);
-  value = (std::filesystem::path(node->where.file).parent_path() / written).lexically_normal();
+  // Absolute, because the echo of a job may be read from another folder.
+  value = std::filesystem::absolute(std::filesystem::path(node->where.file).parent_path() / written).lexically_normal();
 }
 
 void FieldReader::place(Where& where) { where = levels_.back().map->where; }

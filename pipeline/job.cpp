@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/digest.h"
 #include "pipeline/fields.h"
 
 namespace dresslife::pipeline {
@@ -339,10 +338,12 @@ std::string part_text(const Job& job, Part part) {
       echo.group("fatigue", copy.fatigue, Need::optional, "");
       break;
   }
-  std::string text = to_yaml(echo.finish());
-  if (part == Part::sim && !job.motion.clamp_poses.empty())
-    text += "# sha256 of clamp_poses: " + sha256_of_file(job.motion.clamp_poses) + "\n";
-  return text;
+  return to_yaml(echo.finish());
+}
+
+std::vector<std::filesystem::path> files_beside(const Job& job) {
+  if (job.motion.clamp_poses.empty()) return {};
+  return {job.motion.clamp_poses};
 }
 
 std::string job_manual() { return field_manual<Job>("job"); }

@@ -198,9 +198,12 @@ Job job_from(Node document, const std::vector<std::string>& sets = {});
 /// The resolved job as YAML: catalogue entries written out, defaults filled in. Reads back to the same job.
 std::string job_text(const Job& job);
 
-/// What of the job each stage's result depends on; equal text, equal result.
+/// What of the job each stage's result depends on; equal text (and equal files beside it), equal result.
 enum class Part { sim, strain, fatigue };
 std::string part_text(const Job& job, Part part);
+
+/// Files beyond the job and the catalogue that dresslife-sim reads.
+std::vector<std::filesystem::path> files_beside(const Job& job);
 
 /// The material that a wire of material `name` has under these settings. Precondition: the job was read above.
 const Material& material_of(const Job& job, const std::string& name);
