@@ -75,6 +75,38 @@ Format make_life_format() {
       {"/site/material", Type::text, {site}, "1", "material of the wire"},
       {"/damage", Type::f64, {site}, "1", "damage per repeat of the motion"},
       {"/life", Type::f64, {site}, "1", "repeats to failure; inf without damage", true},
+      {"/cycles/site", Type::u32, {"cycle"}, "1", "site of the cycle; the worst sites only, worst first"},
+      {"/cycles/range", Type::f64, {"cycle"}, "1", "strain range"},
+      {"/cycles/mean", Type::f64, {"cycle"}, "1", "mean strain"},
+      {"/cycles/count", Type::f64, {"cycle"}, "1", "1 or 0.5"},
+      {"/cycles/begin", Type::u32, {"cycle"}, "1", "sample at which the cycle opens"},
+      {"/cycles/end", Type::u32, {"cycle"}, "1", "sample at which its range is reached"},
+      {"/cycles/damage", Type::f64, {"cycle"}, "1", "its share of the damage per repeat"},
+      {"/damage_rate", Type::f64, {"segment", "sample"}, "1", "damage of each segment's worst site, on the sample at which its cycles close"},
+      {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
+      {"/segment/worst_site", Type::u32, {"segment"}, "1", "site with the largest damage in each segment"},
+      {"/segment/damage", Type::f64, {"segment"}, "1", "its damage per repeat"},
+      {"/worst/strain", Type::f64, {"sample"}, "1", "strain history of the worst site, or of its segment's probe nearest to it"},
+      {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
+      {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
+      {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
+      {"/program/damage", Type::f64, {"line"}, "1", "damage of the worst site by the program line that closes the cycles"},
+  };
+  format.datasets[1].deflate = format.datasets[2].deflate = format.datasets[4].deflate = true;
+  format.attributes = {
+      {"life_repeats", "repeats of the motion until the worst wire breaks"},
+      {"life_hours", "the same in hours of motion"},
+      {"life_months", "the same at the job's operating hours per week"},
+      {"damage_per_repeat", "of the worst site"},
+      {"repeat_seconds", "duration of one repeat"},
+      {"life_repeats_all_stick", "bound: every part glued to its parent"},
+      {"life_repeats_all_free", "bound: every part slipping freely"},
+      {"worst_site", "index of the worst site"},
+      {"worst_segment_from_tool", "its segment, counted from the tool, 1 first"},
+      {"worst_position_from_tool", "its distance from the tool clamp along the dresspack, m"},
+      {"worst_component", "path of its wire", true},
+      {"worst_time", "time at which its most damaging cycle closes, s"},
+      {"worst_step", "program line being executed then", true},
   };
   return format;
 }
