@@ -1,0 +1,96 @@
+// Where both clamps (and the robot's links) are at any time of a motion: from a robot and its routing, or
+// from a file of recorded clamp poses.
+//
+// (R2) clamp = F_link (p, R_clamp):  p [m] and the direction d lie in the link's frame, z of R_clamp is d,
+// (R3) x of R_clamp at roll 0 is e - (e d) d, normalised, with e the link's z axis, or its x axis where d
+// lies
+//      within 8 deg of z; roll turns about d.
+// (R4) A recorded pose between its rows: a C2 cubic spline (spline.h) through the positions and one through
+// the
+//      quaternions' four components, normalised: q = s/|s|. The rows' quaternions get the signs that make
+//      neighbours closest. Through rows h apart the error is of order h^4, as is 1 - |s|.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/job.h"
+#include "sim/motion.h"
+#include "sim/robot.h"
+#include "sim/rod.h"
+#include "sim/spline.h"
+
+namespace dresslife::sim {
+
+/// What a motion prescribes at one time.
+struct Pose {
+  ClampFrames clamps;
+  std::vector<Frame> links;  ///< of the robot; empty without one
+  Eigen::VectorXd joints;    ///< of the robot [rad]; empty without one
+};
+
+class ClampPath {
+ public:
+  virtual ~ClampPath() = default;
+  virtual double duration() const = 0;  ///< [s], from time 0
+  virtual Pose at(double time) const = 0;
+  virtual int step(double time) const = 0;  ///< program line, index into step_texts()
+  virtual const std::vector<std::string>& step_texts() const = 0;
+};
+
+/// The clamps carried by a robot that runs a joint program.
+class RobotPath final : public ClampPath {
+ public:
+  /// Throws InputError: joint limits, wrong links. Precondition: the job has both clamps.
+  explicit RobotPath(const pipeline::Job& job);
+
+  double duration() const override { return motion_.duration(); }
+  Pose at(double time) const override { return pose(motion_.position(time)); }
+  int step(double time) const override { return motion_.step(time); }
+  const std::vector<std::string>& step_texts() const override { return motion_.step_texts(); }
+
+  const JointMotion& motion() const { return motion_; }
+  Pose pose(const Eigen::VectorXd& joints) const;
+  int base_link() const { return base_link_; }
+  int tool_link() const { return tool_link_; }
+  /// Joint angles at which the dresspack was clamped [rad].
+  const Eigen::VectorXd& mounting_pose() const { return mounting_pose_; }
+  /// Turns the tool clamp about its direction by roll [rad], for good.
+  void turn_tool_clamp(double roll);
+
+ private:
+  RobotKinematics kinematics_;
+  JointMotion motion_;
+  int base_link_, tool_link_;
+  Frame base_clamp_, tool_clamp_;  // in their links' frames (R2)
+  Eigen::VectorXd mounting_pose_;
+};
+
+/// Clamp poses recorded by another program, columns t [s], x y z [m], qw qx qy qz of the base clamp, then of
+/// the tool clamp (z axis of a clamp = direction from base to tool).
+class RecordedPath final : public ClampPath {
+ public:
+  /// Reads a CSV file; a header line, blank lines and lines that begin with # are allowed. Throws InputError
+  /// at line and column (of the character) of a bad cell: not a finite number, too few or too many cells,
+  /// times that do not start at 0 and increase, a quaternion whose length is off by more than 1e-3, a turn of
+  /// more than 120 deg from one row to the next (which way it goes cannot be told).
+  explicit RecordedPath(const std::filesystem::path& file);
+
+  double duration() const override { return duration_; }
+  Pose at(double time) const override;
+  int step(double) const override { return 0; }
+  const std::vector<std::string>& step_texts() const override { return step_texts_; }
+
+ private:
+  double duration_ = 0;
+  std::vector<std::string> step_texts_;
+  std::unique_ptr<CubicSpline> poses_;
+};
+
+/// Frame of a clamp in the frame of its link (R2), (R3); roll [rad] is added to the clamp's own (absent = 0).
+Frame clamp_frame(const pipeline::Clamp& clamp);
+
+}  // namespace dresslife::sim
