@@ -15,16 +15,16 @@
 
 namespace dresslife::sim {
 
+inline constexpr int no_link = -2;
+
 struct WorldSettings {
   double time_step = 0.005;  ///< [s]
   double friction = 0.3;     ///< Coulomb, hose against obstacles
   bool floor = false;        ///< plane z = 0
   /// Link to which each end is clamped: contacts of the hose's first or last piece, one diameter long beyond
   /// the clamp, with that link do not push (the clamp holds it there). no_link: none.
-  int base_link = -2, tool_link = -2;
+  int base_link = no_link, tool_link = no_link;
 };
-
-inline constexpr int no_link = -2;
 
 /// A capsule of a robot link, in the link's frame.
 struct CapsuleShape {

@@ -1,0 +1,90 @@
+// LDL^T of a symmetric block tridiagonal matrix with 6x6 blocks, one block at a time.
+//
+//     | D0   U0          |     Block i is factored once its diagonal is complete; eliminating it changes only
+//     the | U0^T D1   U1     |     diagonal and right-hand side of block i + 1, so the caller may assemble
+//     block i + 1 |      U1^T D2 ... |     just before, and the matrix passes through the cache once.
+//
+// Of a diagonal block only the upper triangle is used. Plain loops of fixed length on row-major arrays: the
+// compiler unrolls and vectorises them.
+#pragma once
+
+namespace dresslife::sim {
+
+struct TridiagonalBlock {
+  double diagonal[36];  ///< D; once factored: L^T above the diagonal, 1/pivot on it
+  double upper[36];     ///< U, coupling to the next block; once eliminated: L^-1 U
+  double value[6];      ///< right-hand side; once eliminated: pivot^-1 L^-1 of it
+};
+
+/// D = L diag(pivot) L^T in place. Returns how many pivots are not positive (negative eigenvalues, by
+/// Sylvester).
+inline int factor_diagonal(double* d) {
+  int not_positive = 0;
+  for (int c = 0; c < 6; ++c) {
+    double* row = d + 6 * c;
+    if (!(row[c] > 0)) ++not_positive;
+    const double inverse = 1 / row[c];
+    for (int r = c + 1; r < 6; ++r) {
+      const double factor = row[r] * inverse;
+      for (int k = r; k < 6; ++k) d[6 * r + k] -= factor * row[k];
+    }
+    for (int r = c + 1; r < 6; ++r) row[r] *= inverse;
+    row[c] = inverse;
+  }
+  return not_positive;
+}
+
+/// x := L^-1 x
+inline void solve_lower(const double* d, double* x) {
+  for (int c = 0; c < 5; ++c)
+    for (int r = c + 1; r < 6; ++r) x[r] -= d[6 * c + r] * x[c];
+}
+
+/// x := L^-T x
+inline void solve_lower_transposed(const double* d, double* x) {
+  for (int r = 4; r >= 0; --r)
+    for (int k = r + 1; k < 6; ++k) x[r] -= d[6 * r + k] * x[k];
+}
+
+/// x := pivot^-1 x
+inline void scale_by_pivots(const double* d, double* x) {
+  for (int r = 0; r < 6; ++r) x[r] *= d[7 * r];
+}
+
+/// Takes L^-T-free value y of one block out of the next: next -= (L^-1 U)^T y.
+inline void carry_down(const double* upper, const double* y, double* next) {
+  for (int k = 0; k < 6; ++k)
+    for (int r = 0; r < 6; ++r) next[r] -= upper[6 * k + r] * y[k];
+}
+
+/// Takes the solved next block out of this one: value -= pivot^-1 (L^-1 U) next.
+inline void carry_up(const double* d, const double* upper, const double* next, double* value) {
+  for (int r = 0; r < 6; ++r) {
+    double sum = 0;
+    for (int k = 0; k < 6; ++k) sum += upper[6 * r + k] * next[k];
+    value[r] -= d[7 * r] * sum;
+  }
+}
+
+/// Factors `block` and eliminates it from `next` (null for the last one). Returns as factor_diagonal().
+inline int eliminate(TridiagonalBlock& block, TridiagonalBlock* next) {
+  const int not_positive = factor_diagonal(block.diagonal);
+  const double* d = block.diagonal;
+  solve_lower(d, block.value);
+  scale_by_pivots(d, block.value);
+  if (next == nullptr) return not_positive;
+  double* u = block.upper;
+  for (int c = 0; c < 5; ++c)
+    for (int r = c + 1; r < 6; ++r)
+      for (int k = 0; k < 6; ++k) u[6 * r + k] -= d[6 * c + r] * u[6 * c + k];
+  for (int c = 0; c < 6; ++c) {
+    double scaled[6];
+    for (int k = 0; k < 6; ++k) scaled[k] = u[6 * c + k] * d[7 * c];
+    for (int r = 0; r < 6; ++r)
+      for (int k = r & ~1; k < 6; ++k) next->diagonal[6 * r + k] -= u[6 * c + r] * scaled[k];
+  }
+  carry_down(u, block.value, next->value);
+  return not_positive;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,72 @@
+// Geometry of one elastic link: its two ends and its rotation vector. Shared by the step and the statics.
+#pragma once
+
+#include "sim/rod.h"
+
+namespace dresslife::sim {
+
+/// phi = log(R_a^T R_b) and the map G with dphi/dt = G^T (w_b - w_a), G = R_mid S,
+/// S = s 1 + (1 - s) u u^T, s = (theta/2) / sin(theta/2), u = phi/theta. A moment conjugate to phi, m = K
+/// phi, acts in the world as G m.
+struct LinkTurn {
+  Vector3 phi;         ///< [rad]
+  Matrix3 map;         ///< G
+  Vector3 axis;        ///< u sin(theta/2) in the world
+  double stretch;      ///< s
+  double axis_excess;  ///< (1 - s^2) / sin^2(theta/2): G G^T = s^2 1 + axis_excess axis axis^T
+};
+
+inline LinkTurn link_turn(const Quaternion& a, const Quaternion& b) {
+  const Quaternion relative = a.conjugate() * b;
+  const double sign = relative.w() < 0 ? -1 : 1, cosine = sign * relative.w();
+  const Vector3 half = sign * relative.vec();  // u sin(theta/2)
+  const double x = half.squaredNorm();
+  // s = asin(y)/y with y^2 = x; below 0.0225 (theta < 0.3) its series to x^6 is exact to rounding.
+  double s;
+  if (x < 0.0225) {
+    s = 1 + x * (1. / 6 + x * (3. / 40 + x * (15. / 336 + x * (105. / 3456 +
+                                                               x * (945. / 42240 + x * (10395. / 599040))))));
+  } else {
+    const double sine = std::sqrt(x);
+    s = std::atan2(sine, cosine) / sine;
+  }
+  // (1 - s)/x -> -1/6 where x vanishes.
+  const double axial = x < 1e-10 ? -1. / 6 : (1 - s) / x;
+  // Half way: the sum of the two quaternions, of squared norm 2 (1 + cosine).
+  const Eigen::Vector4d mid = a.coeffs() + sign * b.coeffs();
+  const double scale = 1 / (1 + cosine), px = mid[0], py = mid[1], pz = mid[2], pw = mid[3];
+  Matrix3 r;
+  r << 1 - scale * (py * py + pz * pz), scale * (px * py - pw * pz), scale * (px * pz + pw * py),
+      scale * (px * py + pw * pz), 1 - scale * (px * px + pz * pz), scale * (py * pz - pw * px),
+      scale * (px * pz - pw * py), scale * (py * pz + pw * px), 1 - scale * (px * px + py * py);
+  LinkTurn turn;
+  turn.phi = (2 * s) * half;
+  turn.axis = r * half;
+  turn.map = s * r + (axial * turn.axis) * half.transpose();
+  turn.stretch = s;
+  turn.axis_excess = axial * (1 + s);
+  return turn;
+}
+
+/// What a link joins: segment or clamp before (a) and after (b), with the arms from their centres to the
+/// link.
+struct LinkEnds {
+  const Vector3 *position_a, *position_b;
+  const Quaternion *orientation_a, *orientation_b;
+  Vector3 arm_a, arm_b;  ///< world [m]; the ends are x_a + arm_a and x_b - arm_b
+};
+
+inline LinkEnds link_ends(const Rod& rod, const RodState& state, int link) {
+  const bool has_a = link > 0, has_b = link < rod.segments();
+  LinkEnds ends;
+  ends.position_a = has_a ? &state.position[link - 1] : &state.clamps.base.position;
+  ends.orientation_a = has_a ? &state.orientation[link - 1] : &state.clamps.base.orientation;
+  ends.position_b = has_b ? &state.position[link] : &state.clamps.tool.position;
+  ends.orientation_b = has_b ? &state.orientation[link] : &state.clamps.tool.orientation;
+  const double a = rod.segment_length() / 2;
+  ends.arm_a = has_a ? Vector3(a * tangent(*ends.orientation_a)) : Vector3(Vector3::Zero());
+  ends.arm_b = has_b ? Vector3(a * tangent(*ends.orientation_b)) : Vector3(Vector3::Zero());
+  return ends;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,335 @@
+#include "sim/world.h"
+
+#include <ode/ode.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <mutex>
+
+namespace dresslife::sim {
+namespace {
+
+// Contacts are sought this many steps of the fastest relative motion ahead, and at least least_margin.
+constexpr double margin_steps = 1.5, least_margin = 1e-3;  // [1], [m]
+constexpr int most_points = 4;                             // of one pair of shapes
+
+// ODE keeps data per process and per thread; both calls may be repeated.
+void prepare_ode() {
+  static std::once_flag once;
+  std::call_once(once, [] { dInitODE2(0); });
+  dAllocateODEDataForThread(dAllocateMaskAll);
+}
+
+void place(dGeomID geom, const Frame& frame) {
+  const Quaternion& q = frame.orientation;
+  const dQuaternion quaternion = {q.w(), q.x(), q.y(), q.z()};
+  dGeomSetPosition(geom, frame.position.x(), frame.position.y(), frame.position.z());
+  dGeomSetQuaternion(geom, quaternion);
+}
+
+Frame along(const Vector3& from, const Vector3& to) {
+  return {(from + to) / 2, Quaternion::FromTwoVectors(Vector3::UnitZ(), to - from)};
+}
+
+void* tag(int number) { return reinterpret_cast<void*>(static_cast<std::intptr_t>(number)); }
+int tag_of(dGeomID geom) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom))); }
+
+struct Shape {
+  dGeomID geom;
+  int link;
+  Frame local;  // in the link's frame
+};
+
+}  // namespace
+
+struct World::Parts {
+  Parts(const Rod& chain, const WorldSettings& given, const RodState& start, std::span<const Frame> frames)
+      : rod(chain), settings(given), solver(rod), state(start), links(frames.begin(), frames.end()) {}
+
+  const Rod rod;
+  const WorldSettings settings;
+  RodSolver solver;
+  ContactSolver contact_solver;
+  RodState state;
+  std::vector<Frame> links;  // now
+  std::vector<Contact> contacts;
+  std::vector<std::pair<int, Contact>> found;  // with the shape's number
+
+  dWorldID world = nullptr;
+  dThreadingImplementationID threading = nullptr;
+  std::vector<dBodyID> bodies;
+  dSpaceID hose = nullptr, obstacles = nullptr;
+  std::vector<dGeomID> capsules;  // of the segments, `margin` larger than the hose
+  dGeomID end_sphere = nullptr;
+  std::vector<Shape> shapes;
+  double margin = 0;
+
+  void build();
+  void build_hose();
+  void add_shape(dGeomID geom, int link, const Frame& local);
+  void push_state();
+  void pull_state();
+  void choose_margin(const ClampFrames& clamps, std::span<const Frame> next);
+  void find_contacts(std::span<const Frame> next);
+  void collide(dGeomID a, dGeomID b);
+  void add_contact(int segment, int shape, const dContactGeom& geometry);
+  bool held_by_clamp(int segment, int link) const;
+  Vector3 obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const;
+  void push_bodies();
+};
+
+// ---- building ---------------------------------------------------------------------------------------------
+
+World::World(const Rod& rod, const WorldSettings& settings, const RodState& start,
+             std::span<const Frame> links)
+    : parts_(std::make_unique<Parts>(rod, settings, start, links)) {
+  prepare_ode();
+  parts_->build();
+}
+
+World::~World() {
+  Parts& p = *parts_;
+  if (p.hose != nullptr) {
+    dSpaceDestroy(p.hose);
+    dSpaceDestroy(p.obstacles);
+    dGeomDestroy(p.end_sphere);
+  }
+  dWorldDestroy(p.world);
+  dThreadingFreeImplementation(p.threading);
+}
+
+// Worlds share one threading implementation that is not safe between threads unless each is given its own.
+void World::Parts::build() {
+  world = dWorldCreate();
+  threading = dThreadingAllocateSelfThreadedImplementation();
+  dWorldSetStepThreadingImplementation(world, dThreadingImplementationGetFunctions(threading), threading);
+  dWorldSetStepIslandsProcessingMaxThreadCount(world, 1);
+  dWorldSetAutoDisableFlag(world, 0);
+  dMass mass;
+  const double transverse = rod.transverse_inertia();
+  dMassSetParameters(&mass, rod.segment_mass(), 0, 0, 0, transverse, transverse, rod.axial_inertia(), 0, 0,
+                     0);
+  for (int i = 0; i < rod.segments(); ++i) {
+    const dBodyID body = dBodyCreate(world);
+    dBodySetMass(body, &mass);
+    dBodySetFiniteRotationMode(body, 1);
+    dBodySetGyroscopicMode(body, 0);  // ours, in (S3)
+    bodies.push_back(body);
+  }
+  push_state();
+  if (settings.floor) add_shape(dCreatePlane(nullptr, 0, 0, 1, 0), floor_obstacle, Frame{});
+}
+
+void World::Parts::build_hose() {
+  hose = dSimpleSpaceCreate(nullptr);
+  obstacles = dSimpleSpaceCreate(nullptr);
+  margin = least_margin;
+  const double radius = rod.properties().diameter / 2 + margin;
+  for (int i = 0; i < rod.segments(); ++i) {
+    const dGeomID capsule = dCreateCapsule(hose, radius, rod.segment_length());
+    dGeomSetBody(capsule, bodies[i]);
+    dGeomSetData(capsule, tag(i));
+    capsules.push_back(capsule);
+  }
+  end_sphere = dCreateSphere(nullptr, radius);
+}
+
+void World::Parts::add_shape(dGeomID geom, int link, const Frame& local) {
+  assert(link == floor_obstacle || (link >= 0 && link < static_cast<int>(links.size())));
+  if (hose == nullptr) build_hose();
+  dGeomSetData(geom, tag(static_cast<int>(shapes.size())));
+  dSpaceAdd(obstacles, geom);
+  if (link != floor_obstacle) place(geom, links[link] * local);
+  shapes.push_back({geom, link, local});
+}
+
+void World::add(int link, const CapsuleShape& shape) {
+  const double length = (shape.to - shape.from).norm();
+  if (length < 1e-9)
+    parts_->add_shape(dCreateSphere(nullptr, shape.radius), link, {shape.from, Quaternion::Identity()});
+  else
+    parts_->add_shape(dCreateCapsule(nullptr, shape.radius, length), link, along(shape.from, shape.to));
+}
+
+void World::add(int link, const BoxShape& shape) {
+  parts_->add_shape(dCreateBox(nullptr, shape.sides.x(), shape.sides.y(), shape.sides.z()), link,
+                    shape.frame);
+}
+
+// ---- collision --------------------------------------------------------------------------------------------
+
+// What moves v relative to an obstacle can reach it from v h away.
+void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Frame> next) {
+  double speed2 = 0;
+  for (const Vector3& v : state.velocity) speed2 = std::max(speed2, v.squaredNorm());
+  const double h = settings.time_step;
+  speed2 = std::max(speed2, (clamps.tool.position - state.clamps.tool.position).squaredNorm() / (h * h));
+  double obstacle = 0;
+  for (const Shape& shape : shapes) {
+    if (shape.link == floor_obstacle) continue;
+    const Frame then = next[shape.link] * shape.local, now = links[shape.link] * shape.local;
+    obstacle = std::max(obstacle, (then.position - now.position).norm());
+  }
+  const double wanted = std::max(least_margin, margin_steps * (std::sqrt(speed2) * h + obstacle));
+  if (wanted <= margin && wanted > 0.4 * margin) return;
+  margin = 1.5 * wanted;
+  const double radius = rod.properties().diameter / 2 + margin;
+  for (const dGeomID capsule : capsules) dGeomCapsuleSetParams(capsule, radius, rod.segment_length());
+  dGeomSphereSetRadius(end_sphere, radius);
+}
+
+bool World::Parts::held_by_clamp(int segment, int link) const {
+  if (link == floor_obstacle) return false;
+  const double l = rod.segment_length(), diameter = rod.properties().diameter;
+  return (link == settings.base_link && segment * l < diameter) ||
+         (link == settings.tool_link && (rod.segments() - 1 - segment) * l < diameter);
+}
+
+Vector3 World::Parts::obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const {
+  if (link == floor_obstacle) return Vector3::Zero();
+  const Vector3 local = links[link].orientation.conjugate() * (point - links[link].position);
+  return (next[link].point(local) - point) / settings.time_step;
+}
+
+void World::Parts::add_contact(int segment, int shape, const dContactGeom& geometry) {
+  const double depth = geometry.depth - margin, l = rod.segment_length();
+  const Vector3 t = tangent(state.orientation[segment]), centre = state.position[segment];
+  const Vector3 where(geometry.pos[0], geometry.pos[1], geometry.pos[2]);
+  Contact contact;
+  contact.segment = segment;
+  contact.obstacle = shapes[shape].link;
+  contact.normal = Vector3(geometry.normal[0], geometry.normal[1], geometry.normal[2]);
+  contact.depth = depth;
+  // On the hose's own surface, whatever the margin: from the nearest point of its axis against the normal.
+  const double s = std::clamp((where - centre).dot(t), -l / 2, l / 2);
+  contact.point = centre + s * t - (rod.properties().diameter / 2) * contact.normal;
+  for (const auto& [other, known] : found)  // the same place through another shape of the segment
+    if (other == shape && known.segment == segment && (known.point - contact.point).norm() < l / 8) return;
+  found.emplace_back(shape, contact);
+}
+
+void World::Parts::collide(dGeomID a, dGeomID b) {
+  if (dGeomGetBody(a) == nullptr) std::swap(a, b);
+  const int segment = tag_of(a), shape = tag_of(b);
+  if (held_by_clamp(segment, shapes[shape].link)) return;
+  dContactGeom points[most_points];
+  const int count = dCollide(a, b, most_points, points, sizeof(dContactGeom));
+  if (count == 0) return;
+  for (int k = 0; k < count; ++k) add_contact(segment, shape, points[k]);
+  if (dGeomGetClass(b) != dBoxClass) return;
+  // A capsule on a box gets one point and rocks about it: its two end spheres give it a base.
+  const Vector3 arm = (rod.segment_length() / 2) * tangent(state.orientation[segment]);
+  for (const double side : {-1.0, 1.0}) {
+    const Vector3 end = state.position[segment] + side * arm;
+    dGeomSetPosition(end_sphere, end.x(), end.y(), end.z());
+    const int more = dCollide(end_sphere, b, 1, points, sizeof(dContactGeom));
+    for (int k = 0; k < more; ++k) add_contact(segment, shape, points[k]);
+  }
+}
+
+void World::Parts::find_contacts(std::span<const Frame> next) {
+  found.clear();
+  contacts.clear();
+  const auto near = [](void* parts, dGeomID a, dGeomID b) { static_cast<Parts*>(parts)->collide(a, b); };
+  dSpaceCollide2(reinterpret_cast<dGeomID>(hose), reinterpret_cast<dGeomID>(obstacles), this, near);
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.second.segment, a.first) < std::pair(b.second.segment, b.first);
+  });
+  const std::span<const Twist6> change = solver.velocity_change();
+  for (auto& [shape, contact] : found) {
+    const int i = contact.segment;
+    contact.obstacle_velocity = obstacle_velocity(contact.obstacle, contact.point, next);
+    const Vector3 spin = state.angular_velocity[i] + change[i].angular();
+    const Vector3 velocity = state.velocity[i] + change[i].linear() +
+                             spin.cross(contact.point - state.position[i]) - contact.obstacle_velocity;
+    // Those that cannot close within the step would only add idle rows to the contact problem.
+    const double reach = least_margin + 2 * settings.time_step * std::abs(velocity.dot(contact.normal));
+    if (-contact.depth < reach) contacts.push_back(contact);
+  }
+}
+
+// ---- stepping ---------------------------------------------------------------------------------------------
+
+void World::Parts::push_state() {
+  for (int i = 0; i < rod.segments(); ++i) {
+    const Vector3 &x = state.position[i], &v = state.velocity[i], &w = state.angular_velocity[i];
+    const Quaternion& q = state.orientation[i];
+    const dQuaternion quaternion = {q.w(), q.x(), q.y(), q.z()};
+    dBodySetPosition(bodies[i], x.x(), x.y(), x.z());
+    dBodySetQuaternion(bodies[i], quaternion);
+    dBodySetLinearVel(bodies[i], v.x(), v.y(), v.z());
+    dBodySetAngularVel(bodies[i], w.x(), w.y(), w.z());
+  }
+}
+
+void World::Parts::pull_state() {
+  for (int i = 0; i < rod.segments(); ++i) {
+    const dReal *x = dBodyGetPosition(bodies[i]), *q = dBodyGetQuaternion(bodies[i]);
+    const dReal *v = dBodyGetLinearVel(bodies[i]), *w = dBodyGetAngularVel(bodies[i]);
+    state.position[i] = {x[0], x[1], x[2]};
+    state.orientation[i] = Quaternion(q[0], q[1], q[2], q[3]);
+    state.velocity[i] = {v[0], v[1], v[2]};
+    state.angular_velocity[i] = {w[0], w[1], w[2]};
+  }
+}
+
+// The velocity changes as the force m dv/h and torque I dv/h that make ODE's own step bring them about.
+void World::Parts::push_bodies() {
+  const double h = settings.time_step, mass = rod.segment_mass() / h;
+  const double transverse = rod.transverse_inertia() / h, excess = rod.axial_inertia() / h - transverse;
+  const std::span<const Twist6> change = solver.velocity_change();
+  for (int i = 0; i < rod.segments(); ++i) {
+    const Vector3 t = tangent(state.orientation[i]), dw = change[i].angular();
+    const Vector3 force = mass * change[i].linear(), torque = transverse * dw + (excess * t.dot(dw)) * t;
+    dBodyAddForce(bodies[i], force.x(), force.y(), force.z());
+    dBodyAddTorque(bodies[i], torque.x(), torque.y(), torque.z());
+  }
+  dWorldStep(world, h);
+}
+
+StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> links) {
+  return advance(clamps, links, {});
+}
+
+StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> links,
+                          std::span<const Load> loads) {
+  Parts& p = *parts_;
+  const std::vector<Frame> still(links.empty() ? p.links : std::vector<Frame>());
+  const std::span<const Frame> next = links.empty() ? std::span<const Frame>(still) : links;
+  assert(next.size() == p.links.size());
+  prepare_ode();
+  StepReport report;
+  const double h = p.settings.time_step;
+  report.finite = p.solver.solve(p.state, clamps, h, loads);
+  if (!report.finite) return report;
+  p.contacts.clear();
+  if (p.hose != nullptr) {
+    p.choose_margin(clamps, next);
+    p.find_contacts(next);
+    p.contact_solver.solve(p.state, p.settings.friction, h, p.solver, p.contacts);
+  }
+  p.push_bodies();
+  p.pull_state();
+  p.solver.finish(p.state);
+  for (size_t k = 0; k < p.links.size(); ++k) p.links[k] = next[k];
+  for (const Shape& shape : p.shapes)
+    if (shape.link != floor_obstacle) place(shape.geom, p.links[shape.link] * shape.local);
+  for (const Contact& contact : p.contacts) {
+    report.max_depth = std::max(report.max_depth, contact.depth);
+    if (contact.depth > 0 || contact.normal_force > 0) ++report.touching;
+  }
+  report.finite = p.rod.finite(p.state);
+  return report;
+}
+
+const RodState& World::state() const { return parts_->state; }
+void World::set_state(const RodState& state) {
+  parts_->state = state;
+  parts_->push_state();
+}
+const std::vector<Contact>& World::contacts() const { return parts_->contacts; }
+const Rod& World::rod() const { return parts_->rod; }
+double World::time_step() const { return parts_->settings.time_step; }
+
+}  // namespace dresslife::sim
