@@ -1,0 +1,148 @@
+#include "strain/deformation.h"
+
+#include <Eigen/Geometry>
+#include <cassert>
+#include <cmath>
+
+namespace dresslife::strain {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+Vector3d position_at(std::span<const double> positions, std::size_t i) {
+  return {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
+}
+
+Quaterniond orientation_at(std::span<const double> orientations, std::size_t i) {
+  return {orientations[4 * i], orientations[4 * i + 1], orientations[4 * i + 2], orientations[4 * i + 3]};
+}
+
+/// The rotation vector of a quaternion, the shorter way round. Scale of the quaternion does not matter.
+Vector3d logarithm(const Quaterniond& q) {
+  const double side = q.w() < 0 ? -1 : 1, sine = q.vec().norm();
+  // angle/sine of the half angle tends to 2/w; below 1e-9 the difference is lost in rounding
+  if (sine < 1e-9 * std::abs(q.w())) return 2 / q.w() * q.vec();
+  return side * 2 * std::atan2(sine, side * q.w()) / sine * q.vec();
+}
+
+/// The part of a rotation about body z, in (-pi, pi].
+double angle_about_tangent(const Quaterniond& q) {
+  const double side = q.w() < 0 ? -1 : 1;
+  return 2 * std::atan2(side * q.z(), side * q.w());
+}
+
+/// Value at `at` on the line through (from, a) and (to, b).
+Vector3d on_line(double at, double from, const Vector3d& a, double to, const Vector3d& b) {
+  return a + (at - from) / (to - from) * (b - a);
+}
+
+void set(Deformation& deformation, const Vector3d& rate) {
+  deformation.curvature1 = rate[0];
+  deformation.curvature2 = rate[1];
+  deformation.twist = rate[2];
+}
+
+/// Curvature vector of the circle through b and its neighbours a and c, in the frame of b: t x (direction to
+/// the centre)/r. 4 K / (A B C) with K the triangle's area (24).
+Vector3d circle_curvature(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Quaterniond& frame) {
+  const Vector3d before = b - a, after = c - b, across = c - a;
+  const Vector3d normal = before.cross(after);  // twice the area, about the axis of the bend
+  return frame.conjugate() * (2 * normal / (before.norm() * after.norm() * across.norm()));
+}
+
+}  // namespace
+
+DeformationGauge::DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure)
+    : lengths_(std::move(lengths)), measure_(measure), links_(lengths_.size() + 1) {
+  assert(!lengths_.empty());
+  link_lengths_.push_back(lengths_.front() / 2);
+  for (std::size_t i = 1; i < lengths_.size(); ++i)
+    link_lengths_.push_back((lengths_[i - 1] + lengths_[i]) / 2);
+  link_lengths_.push_back(lengths_.back() / 2);
+}
+
+void DeformationGauge::measure(const ChainPose& pose, std::span<Deformation> out) {
+  assert(out.size() == lengths_.size() && pose.segment_position.size() == 3 * lengths_.size());
+  measure_links(pose);
+  if (measure_ == pipeline::DeformationMeasure::thesis && lengths_.size() >= 3)
+    circles(pose, out);
+  else
+    rotation_vectors(out);
+  elongations(out);
+}
+
+void DeformationGauge::measure_links(const ChainPose& pose) {
+  const std::size_t segments = lengths_.size(), last_clamp = pose.clamp_position.size() / 3 - 1;
+  Quaterniond frame = orientation_at(pose.clamp_orientation, 0);
+  Vector3d end = position_at(pose.clamp_position, 0);  // of what lies on the base side of the link
+  for (std::size_t i = 0; i <= segments; ++i) {
+    const bool at_tool = i == segments;
+    const Quaterniond next = at_tool ? orientation_at(pose.clamp_orientation, last_clamp)
+                                     : orientation_at(pose.segment_orientation, i);
+    const Vector3d tangent = next * Vector3d::UnitZ();
+    const Vector3d centre =
+        position_at(at_tool ? pose.clamp_position : pose.segment_position, at_tool ? last_clamp : i);
+    const Vector3d half = at_tool ? Vector3d::Zero() : Vector3d(lengths_[i] / 2 * tangent);
+    const Quaterniond turn = frame.conjugate() * next;
+    const Vector3d mean_tangent = (frame * Vector3d::UnitZ() + tangent).normalized();
+    links_[i] = {logarithm(turn), angle_about_tangent(turn), (centre - half - end).dot(mean_tangent)};
+    frame = next;
+    end = centre + half;
+  }
+}
+
+void DeformationGauge::rotation_vectors(std::span<Deformation> out) const {
+  const std::size_t segments = lengths_.size();
+  if (segments < 4) {  // too few links for a line beside the merged end links: plain means
+    for (std::size_t i = 0; i < segments; ++i)
+      set(out[i], (links_[i].rotation + links_[i + 1].rotation) / (link_lengths_[i] + link_lengths_[i + 1]));
+    return;
+  }
+  std::vector<Vector3d> rate(segments + 1);
+  std::vector<double> at(segments + 1);  // arc length from the base clamp [m]
+  double arc = 0;
+  for (std::size_t i = 0; i <= segments; ++i) {
+    rate[i] = links_[i].rotation / link_lengths_[i];
+    at[i] = arc;
+    if (i < segments) arc += lengths_[i];
+  }
+  const double total = arc, first_span = link_lengths_[0] + link_lengths_[1];
+  const double last_span = link_lengths_[segments - 1] + link_lengths_[segments];
+  rate[1] = (links_[0].rotation + links_[1].rotation) / first_span;
+  at[1] = first_span / 2;
+  rate[segments - 1] = (links_[segments - 1].rotation + links_[segments].rotation) / last_span;
+  at[segments - 1] = total - last_span / 2;
+  double start = 0;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const std::size_t a = std::min(std::max<std::size_t>(i, 1), segments - 2);
+    set(out[i], on_line(start + lengths_[i] / 2, at[a], rate[a], at[a + 1], rate[a + 1]));
+    start += lengths_[i];
+  }
+}
+
+void DeformationGauge::circles(const ChainPose& pose, std::span<Deformation> out) const {
+  const std::size_t segments = lengths_.size();
+  for (std::size_t i = 1; i + 1 < segments; ++i) {
+    const Vector3d curvature = circle_curvature(
+        position_at(pose.segment_position, i - 1), position_at(pose.segment_position, i),
+        position_at(pose.segment_position, i + 1), orientation_at(pose.segment_orientation, i));
+    const double before = links_[i].tangent_angle / link_lengths_[i];
+    const double after = links_[i + 1].tangent_angle / link_lengths_[i + 1];
+    set(out[i], {curvature[0], curvature[1], (before + after) / 2});
+  }
+  auto end_segment = [&](std::size_t i, std::size_t neighbour) {
+    const double twist =
+        (links_[i].tangent_angle + links_[i + 1].tangent_angle) / (link_lengths_[i] + link_lengths_[i + 1]);
+    set(out[i], {out[neighbour].curvature1, out[neighbour].curvature2, twist});
+  };
+  end_segment(0, 1);
+  end_segment(segments - 1, segments - 2);
+}
+
+void DeformationGauge::elongations(std::span<Deformation> out) const {
+  for (std::size_t i = 0; i < lengths_.size(); ++i)
+    out[i].elongation = (links_[i].gap / link_lengths_[i] + links_[i + 1].gap / link_lengths_[i + 1]) / 2;
+}
+
+}  // namespace dresslife::strain

@@ -1,0 +1,145 @@
+// Truncated power series in a length l: f(l) = f0 + f1 l + f2 l^2 + ..., the derivatives along a component
+// that the nested helices need (W6). Every level of nesting uses up one order: the child's rotation rate
+// needs the slope of its lay angle, which needs the slope of its parent's rotation rate.
+//
+// T is double or a Pack (pack.h) of samples. Orders are run-time numbers below `capacity`.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace dresslife::strain {
+
+inline double square_root(double x) { return std::sqrt(x); }
+
+template <class T>
+struct Series {
+  static constexpr int capacity = 8;  ///< orders 0 .. capacity - 1
+
+  int order = 0;               ///< highest power kept
+  std::array<T, capacity> at;  ///< coefficients; those above `order` hold nothing
+
+  static Series constant(const T& value, int order) {
+    assert(order < capacity);
+    Series series;
+    series.order = order;
+    series.at[0] = value;
+    for (int k = 1; k <= order; ++k) series.at[k] = value * 0.0;
+    return series;
+  }
+};
+
+template <class A, class B>
+auto operator+(const Series<A>& a, const Series<B>& b) {
+  Series<decltype(a.at[0] + b.at[0])> sum;
+  sum.order = a.order < b.order ? a.order : b.order;
+  for (int k = 0; k <= sum.order; ++k) sum.at[k] = a.at[k] + b.at[k];
+  return sum;
+}
+
+template <class A, class B>
+auto operator-(const Series<A>& a, const Series<B>& b) {
+  Series<decltype(a.at[0] - b.at[0])> difference;
+  difference.order = a.order < b.order ? a.order : b.order;
+  for (int k = 0; k <= difference.order; ++k) difference.at[k] = a.at[k] - b.at[k];
+  return difference;
+}
+
+template <class A, class B>
+auto operator*(const Series<A>& a, const Series<B>& b) {
+  Series<decltype(a.at[0] * b.at[0])> product;
+  product.order = a.order < b.order ? a.order : b.order;
+  for (int k = 0; k <= product.order; ++k) {
+    product.at[k] = a.at[0] * b.at[k];
+    for (int m = 1; m <= k; ++m) product.at[k] += a.at[m] * b.at[k - m];
+  }
+  return product;
+}
+
+template <class T>
+Series<T> operator*(double factor, Series<T> series) {
+  for (int k = 0; k <= series.order; ++k) series.at[k] = factor * series.at[k];
+  return series;
+}
+
+/// The same series with a number added.
+template <class T>
+Series<T> operator+(double value, Series<T> series) {
+  series.at[0] = value + series.at[0];
+  return series;
+}
+
+template <class T>
+Series<T> operator/(const Series<T>& numerator, const Series<T>& denominator) {
+  Series<T> quotient;
+  quotient.order = numerator.order < denominator.order ? numerator.order : denominator.order;
+  const T inverse = 1.0 / denominator.at[0];
+  for (int k = 0; k <= quotient.order; ++k) {
+    T rest = numerator.at[k];
+    for (int m = 1; m <= k; ++m) rest -= denominator.at[m] * quotient.at[k - m];
+    quotient.at[k] = rest * inverse;
+  }
+  return quotient;
+}
+
+/// Square root of a series whose value is positive.
+template <class T>
+Series<T> square_root(const Series<T>& square) {
+  Series<T> root;
+  root.order = square.order;
+  root.at[0] = square_root(square.at[0]);
+  if (root.order == 0) return root;
+  const T half_inverse = 0.5 / root.at[0];
+  for (int k = 1; k <= root.order; ++k) {
+    T rest = square.at[k];
+    for (int m = 1; m < k; ++m) rest -= root.at[m] * root.at[k - m];
+    root.at[k] = rest * half_inverse;
+  }
+  return root;
+}
+
+/// The slope df/dl, one order less.
+template <class T>
+Series<T> slope(const Series<T>& series) {
+  assert(series.order > 0);
+  Series<T> result;
+  result.order = series.order - 1;
+  for (int k = 0; k <= result.order; ++k) result.at[k] = (k + 1.0) * series.at[k + 1];
+  return result;
+}
+
+/// The same function of a length m with l = scale m.
+template <class T>
+Series<T> stretched(Series<T> series, double scale) {
+  double power = 1;
+  for (int k = 0; k <= series.order; ++k, power *= scale) series.at[k] = power * series.at[k];
+  return series;
+}
+
+/// sin(angle + rate l) and, with angle advanced by a quarter turn, the cosine.
+inline Series<double> sine_series(double angle, double rate, int order) {
+  assert(order < Series<double>::capacity);
+  const double pattern[4] = {std::sin(angle), std::cos(angle), -std::sin(angle), -std::cos(angle)};
+  Series<double> series;
+  series.order = order;
+  double factor = 1;
+  for (int k = 0; k <= order; ++k) {
+    series.at[k] = factor * pattern[k % 4];
+    factor *= rate / (k + 1);
+  }
+  return series;
+}
+
+inline Series<double> cosine_series(double angle, double rate, int order) {
+  const double pattern[4] = {std::cos(angle), -std::sin(angle), -std::cos(angle), std::sin(angle)};
+  Series<double> series = sine_series(angle, rate, order);
+  double factor = 1;
+  for (int k = 0; k <= order; ++k) {
+    series.at[k] = factor * pattern[k % 4];
+    factor *= rate / (k + 1);
+  }
+  return series;
+}
+
+}  // namespace dresslife::strain

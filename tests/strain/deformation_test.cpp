@@ -1,0 +1,186 @@
+#include "strain/deformation.h"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <functional>
+#include <numbers>
+
+using namespace dresslife::strain;
+using dresslife::pipeline::DeformationMeasure;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double rounding =
+    1e-9;  // poses of order one differenced over links of order 1e-2, machine epsilon 2e-16
+
+/// Poses of a chain and what holds the numbers that a ChainPose points to.
+struct Chain {
+  std::vector<double> position, orientation, clamp_position, clamp_orientation, lengths;
+
+  ChainPose pose() const { return {position, orientation, clamp_position, clamp_orientation}; }
+  std::vector<Deformation> measure(DeformationMeasure measure) const {
+    DeformationGauge gauge(lengths, measure);
+    std::vector<Deformation> out(lengths.size());
+    gauge.measure(pose(), out);
+    return out;
+  }
+};
+
+void append(std::vector<double>& to, const Vector3d& v) { to.insert(to.end(), {v.x(), v.y(), v.z()}); }
+void append(std::vector<double>& to, const Quaterniond& q) {
+  to.insert(to.end(), {q.w(), q.x(), q.y(), q.z()});
+}
+
+using Rate = std::function<Vector3d(double s)>;  // rotation rate in the body frame [1/m]
+
+/// Samples at the segment centres and clamps of the curve with frame rate `rate` and stretch `stretch`,
+/// integrated in steps so small that their error is far below that of the measures.
+Chain chain_on_curve(double length, int segments, const Rate& rate, double stretch = 1) {
+  const int steps = 2 * 500;  // per segment; even, so that centres fall on steps
+  const double h = length / segments / steps;
+  Chain chain;
+  Quaterniond q = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+  Vector3d x(0.1, 0.2, 0.3);
+  auto put_clamp = [&] {
+    append(chain.clamp_position, x);
+    append(chain.clamp_orientation, q);
+  };
+  put_clamp();
+  for (int i = 0; i < segments; ++i) {
+    for (int k = 0; k < steps; ++k) {
+      if (k == steps / 2) {
+        append(chain.position, x);
+        append(chain.orientation, q);
+      }
+      const Vector3d turn = rate((i * steps + k + 0.5) * h) * h;
+      auto turned = [&](double share) {
+        const double angle = turn.norm();
+        return angle == 0 ? q : q * Quaterniond(Eigen::AngleAxisd(share * angle, turn / angle));
+      };
+      x += stretch * h * (turned(0.5) * Vector3d::UnitZ());
+      q = turned(1).normalized();
+    }
+    chain.lengths.push_back(length / segments);
+  }
+  put_clamp();
+  return chain;
+}
+
+/// Worst difference of the measured rotation rate from the curve's at the segment centres.
+double worst_error(const Chain& chain, const Rate& rate, DeformationMeasure measure, bool ends = true) {
+  double worst = 0, start = 0;
+  const auto measured = chain.measure(measure);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const Vector3d expected = rate(start + chain.lengths[i] / 2);
+    start += chain.lengths[i];
+    if (!ends && (i == 0 || i + 1 == measured.size())) continue;
+    const Vector3d got(measured[i].curvature1, measured[i].curvature2, measured[i].twist);
+    worst = std::max(worst, (got - expected).norm());
+  }
+  return worst;
+}
+
+/// A chain of the simulator's kind: rigid segments whose ends meet, turned at the links by `rotation`.
+Chain jointed_chain(double segment_length, const std::vector<Vector3d>& rotation) {
+  Chain chain;
+  Quaterniond q = Quaterniond::Identity();
+  Vector3d x = Vector3d::Zero();
+  append(chain.clamp_position, x);
+  append(chain.clamp_orientation, q);
+  auto turn = [&](const Vector3d& phi) {
+    if (phi.norm() > 0) q = q * Quaterniond(Eigen::AngleAxisd(phi.norm(), phi.normalized()));
+  };
+  for (std::size_t i = 0; i + 1 < rotation.size(); ++i) {
+    turn(rotation[i]);
+    const Vector3d half = segment_length / 2 * (q * Vector3d::UnitZ());
+    append(chain.position, Vector3d(x + half));
+    append(chain.orientation, q);
+    x += 2 * half;
+    chain.lengths.push_back(segment_length);
+  }
+  turn(rotation.back());
+  append(chain.clamp_position, x);
+  append(chain.clamp_orientation, q);
+  return chain;
+}
+
+}  // namespace
+
+TEST_CASE("a circle has the curvature of its radius, about the axis it bends around") {
+  const double radius = 0.25;
+  const Rate rate = [&](double) { return Vector3d(0.6 / radius, -0.8 / radius, 0); };
+  const Chain chain = chain_on_curve(1.0, 20, rate);
+  CHECK(worst_error(chain, rate, DeformationMeasure::rotation_vector) < rounding);
+  // the integration's own error in the positions; the circle through three points of a circle is that circle
+  constexpr double integration = 1e-6;
+  CHECK(worst_error(chain, rate, DeformationMeasure::thesis) < integration);
+}
+
+TEST_CASE("a uniform twist of many turns is found at every segment") {
+  const double turns = 5, length = 2;
+  const Rate rate = [&](double) { return Vector3d(0, 0, turns * 2 * pi / length); };
+  const Chain chain = chain_on_curve(length, 40, rate);
+  CHECK(worst_error(chain, rate, DeformationMeasure::rotation_vector) < rounding);
+  CHECK(worst_error(chain, rate, DeformationMeasure::thesis) < rounding);
+}
+
+TEST_CASE("a bent and twisted dresspack of uniform state is a helix and measured exactly") {
+  const Rate rate = [](double) { return Vector3d(3, -2, 4); };
+  const Chain chain = chain_on_curve(1.5, 30, rate);
+  CHECK(worst_error(chain, rate, DeformationMeasure::rotation_vector) < rounding);
+}
+
+TEST_CASE("the rotation vector's error falls with the square of the segment length, ends included") {
+  const auto cantilever = [](double s) { return Vector3d(4 * (1 - s) * (1 - s), 0, 0); };
+  const auto winding = [](double s) { return Vector3d(3 * std::cos(4 * s), 2 * std::sin(3 * s), 5 * s * s); };
+  for (const Rate& rate : {Rate(cantilever), Rate(winding)}) {
+    const double coarse = worst_error(chain_on_curve(1, 20, rate), rate, DeformationMeasure::rotation_vector);
+    const double fine = worst_error(chain_on_curve(1, 40, rate), rate, DeformationMeasure::rotation_vector);
+    CAPTURE(coarse, fine);
+    CHECK(std::log2(coarse / fine) > 1.9);
+    CHECK(fine < 0.01);  // about (second derivative 50 1/m3) (segment 25 mm)^2 / 4
+  }
+}
+
+TEST_CASE("the thesis' measure converges at second order inside the chain") {
+  const Rate rate = [](double s) { return Vector3d(3 * std::cos(4 * s), 2 * std::sin(3 * s), 0); };
+  const double coarse = worst_error(chain_on_curve(1, 20, rate), rate, DeformationMeasure::thesis, false);
+  const double fine = worst_error(chain_on_curve(1, 40, rate), rate, DeformationMeasure::thesis, false);
+  CAPTURE(coarse, fine);
+  CHECK(std::log2(coarse / fine) > 1.9);
+}
+
+TEST_CASE("a uniformly bent chain with corrected clamp links is uniform in every segment") {
+  const double l = 0.04, curvature = 2;
+  std::vector<Vector3d> rotation(21, Vector3d(curvature * l, 0, 0.5 * l));
+  for (const std::size_t end : {std::size_t{0}, rotation.size() - 1}) rotation[end] *= 5.0 / 12;
+  for (const std::size_t next : {std::size_t{1}, rotation.size() - 2}) rotation[next] *= 13.0 / 12;
+  const Chain chain = jointed_chain(l, rotation);
+  CHECK(worst_error(
+            chain, [&](double) { return Vector3d(curvature, 0, 0.5); }, DeformationMeasure::rotation_vector) <
+        rounding);
+  for (const Deformation& d : chain.measure(DeformationMeasure::rotation_vector))
+    CHECK(std::abs(d.elongation) < rounding);
+}
+
+TEST_CASE("a stretched dresspack shows its elongation in both measures") {
+  const double stretch = 1.003;
+  const Chain chain = chain_on_curve(
+      1, 20, [](double) { return Vector3d::Zero().eval(); }, stretch);
+  for (const auto measure : {DeformationMeasure::rotation_vector, DeformationMeasure::thesis})
+    for (const Deformation& d : chain.measure(measure))
+      CHECK(d.elongation == Approx(stretch - 1).epsilon(1e-9));
+}
+
+TEST_CASE("a quaternion and its negative are the same pose") {
+  const Rate rate = [](double s) { return Vector3d(2 + s, -1, 3); };
+  Chain chain = chain_on_curve(1, 12, rate);
+  const auto before = chain.measure(DeformationMeasure::rotation_vector);
+  for (std::size_t i = 4; i < 8; ++i) chain.orientation[i] = -chain.orientation[i];
+  const auto after = chain.measure(DeformationMeasure::rotation_vector);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    CHECK(after[i].twist == Approx(before[i].twist).margin(rounding));
+}
