@@ -1,0 +1,325 @@
+#include "sim/equilibrium.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "sim/block_tridiagonal.h"
+#include "sim/link.h"
+#include "sim/start_curve.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double largest_turn = 0.5;       // of a segment in one iteration [rad]
+constexpr double shift_factor = 4;         // by which the shift grows and shrinks
+constexpr double smallest_step = 1e-13;    // of the length: rounding of positions
+constexpr double energy_rounding = 1e-13;  // of the energies summed
+
+/// The tangent stiffness and the unbalanced forces of one state, and the Newton step from it.
+class Statics {
+ public:
+  Statics(const Rod& rod, std::span<const Load> loads)
+      : rod_(rod),
+        loads_(loads),
+        block_(rod.segments()),
+        step_(rod.segments()),
+        pull_(rod.links(), Vector3::Zero()) {}
+
+  /// Unbalanced force and torque of every segment; returns EquilibriumSettings::residual.
+  double unbalance(const RodState& state);
+  /// Solves (K + shift M) step = unbalanced. Returns the pivots of K + shift M that are not positive.
+  int solve(const RodState& state, double shift);
+  /// What (S11) changes by between two states, the second being the first moved by `step` times `part`.
+  double energy_change(const RodState& from, const RodState& to, double part) const;
+
+  std::span<const Twist6> step() const { return step_; }
+  /// Work of the unbalanced forces over the step: twice the energy it is expected to free [J].
+  double expected_work() const;
+  /// The link forces that the step leads to, to first order: those to take for the geometric stiffness.
+  void predict_pull(const RodState& state, double part);
+  void start_pull(const RodState& state);
+
+ private:
+  void add_link(const RodState& state, int j);
+
+  const Rod& rod_;
+  std::span<const Load> loads_;
+  std::vector<TridiagonalBlock> block_;
+  std::vector<Twist6> step_, unbalanced_;
+  std::vector<Vector3> pull_;
+};
+
+void add_block(double* m, const Matrix3& x) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) m[6 * r + c] += x(r, c);
+}
+
+double Statics::unbalance(const RodState& state) {
+  const int n = rod_.segments();
+  unbalanced_.assign(n, Twist6{});
+  const auto push = [&](int i, const Vector3& force, const Vector3& torque) {
+    for (int k = 0; k < 3; ++k) unbalanced_[i].value[k] += force[k], unbalanced_[i].value[3 + k] += torque[k];
+  };
+  double scale = rod_.segment_mass() * rod_.properties().gravity.norm();
+  for (int i = 0; i < n; ++i) {
+    push(i, rod_.segment_mass() * rod_.properties().gravity, Vector3::Zero());
+    if (!loads_.empty()) push(i, loads_[i].force, loads_[i].torque);
+  }
+  for (int j = 0; j <= n; ++j) {
+    if (rod_.gap_stiffness(j) == 0) continue;
+    const LinkEnds ends = link_ends(rod_, state, j);
+    const LinkState link = rod_.link_state(state, j);
+    const Vector3 force = rod_.gap_stiffness(j) * link.gap;
+    const Vector3 moment = link_turn(*ends.orientation_a, *ends.orientation_b).map * link.moment;
+    scale = std::max({scale, force.norm(), moment.norm() / rod_.properties().length});
+    if (j > 0) push(j - 1, force, ends.arm_a.cross(force) + moment);
+    if (j < n) push(j, -force, ends.arm_b.cross(force) - moment);
+  }
+  double largest = 0;
+  for (const Twist6& u : unbalanced_)
+    largest = std::max({largest, u.linear().norm(), u.angular().norm() / rod_.segment_length()});
+  return largest / std::max(scale, 1e-12);
+}
+
+// (S12), derived in sim/README.md. With arms a, b, link force f, world moment m and turns da, db of the
+// segments: gap: k B^T B and (f.a) 1 - sym(f a^T) on each segment's own turning; turn: H = G K G^T + (sym(m
+// phi^T) - (m.phi) 1)/6 on da - db, and the antisymmetric half of m in the coupling.
+void Statics::add_link(const RodState& state, int j) {
+  if (rod_.gap_stiffness(j) == 0) return;
+  const LinkEnds ends = link_ends(rod_, state, j);
+  const LinkTurn turn = link_turn(*ends.orientation_a, *ends.orientation_b);
+  const Vector3& stiffness = rod_.turn_stiffness(j);
+  const Vector3 moment = turn.map * stiffness.cwiseProduct(turn.phi - rod_.rest_turn(j));
+  const Vector3 phi = 2 * turn.stretch * turn.axis, f = pull_[j];
+  Matrix3 h = turn.map * stiffness.asDiagonal() * turn.map.transpose();
+  h += (0.5 * (moment * phi.transpose() + phi * moment.transpose()) - moment.dot(phi) * Matrix3::Identity()) /
+       6;
+  const double k = rod_.gap_stiffness(j);
+  const auto own = [&](int i, const Vector3& arm, double side) {
+    const Matrix3 s = skew(arm);
+    double* d = block_[i].diagonal;
+    add_block(d, k * Matrix3::Identity());
+    add_block(d + 3, -side * k * s);
+    add_block(d + 21, h - k * s * s + f.dot(arm) * Matrix3::Identity() -
+                          0.5 * (f * arm.transpose() + arm * f.transpose()));
+  };
+  if (j > 0) own(j - 1, ends.arm_a, 1);
+  if (j < rod_.segments()) own(j, ends.arm_b, -1);
+  if (j == 0 || j == rod_.segments()) return;
+  const Matrix3 sa = skew(ends.arm_a), sb = skew(ends.arm_b);
+  double* u = block_[j - 1].upper;
+  std::fill(u, u + 36, 0.0);
+  add_block(u, -k * Matrix3::Identity());
+  add_block(u + 3, -k * sb);
+  add_block(u + 18, -k * sa);
+  add_block(u + 21, -k * sa * sb - h + 0.5 * skew(moment));
+}
+
+int Statics::solve(const RodState& state, double shift) {
+  const int n = rod_.segments();
+  for (int i = 0; i < n; ++i) {
+    const Vector3 t = tangent(state.orientation[i]);
+    const double transverse = rod_.transverse_inertia(), excess = rod_.axial_inertia() - transverse;
+    std::fill(block_[i].diagonal, block_[i].diagonal + 36, 0.0);
+    add_block(block_[i].diagonal, shift * rod_.segment_mass() * Matrix3::Identity());
+    add_block(block_[i].diagonal + 21,
+              shift * (transverse * Matrix3::Identity() + excess * t * t.transpose()));
+    std::copy_n(unbalanced_[i].value, 6, block_[i].value);
+  }
+  for (int j = 0; j <= n; ++j) add_link(state, j);
+  int not_positive = 0;
+  for (int i = 0; i < n; ++i) not_positive += eliminate(block_[i], i + 1 < n ? &block_[i + 1] : nullptr);
+  for (int i = n - 1; i >= 0; --i) {
+    double* x = step_[i].value;
+    std::copy_n(block_[i].value, 6, x);
+    if (i + 1 < n) carry_up(block_[i].diagonal, block_[i].upper, step_[i + 1].value, x);
+    solve_lower_transposed(block_[i].diagonal, x);
+  }
+  return not_positive;
+}
+
+double Statics::expected_work() const {
+  double work = 0;
+  for (size_t i = 0; i < step_.size(); ++i)
+    for (int k = 0; k < 6; ++k) work += step_[i].value[k] * unbalanced_[i].value[k];
+  return work;
+}
+
+double Statics::energy_change(const RodState& from, const RodState& to, double part) const {
+  const Energy before = rod_.energy(from), after = rod_.energy(to);
+  double change = (after.elastic - before.elastic) + (after.gravitational - before.gravitational);
+  for (size_t i = 0; i < loads_.size(); ++i)
+    change -= part * (loads_[i].force.dot(step_[i].linear()) + loads_[i].torque.dot(step_[i].angular()));
+  return change;
+}
+
+void Statics::start_pull(const RodState& state) {
+  for (int j = 0; j < rod_.links(); ++j) pull_[j] = rod_.gap_stiffness(j) * rod_.link_state(state, j).gap;
+}
+
+void Statics::predict_pull(const RodState& state, double part) {
+  const int n = rod_.segments();
+  for (int j = 0; j <= n; ++j) {
+    const LinkEnds ends = link_ends(rod_, state, j);
+    Vector3 change = Vector3::Zero();
+    if (j < n) change += step_[j].linear() - step_[j].angular().cross(ends.arm_b);
+    if (j > 0) change -= step_[j - 1].linear() + step_[j - 1].angular().cross(ends.arm_a);
+    pull_[j] = rod_.gap_stiffness(j) * (rod_.link_state(state, j).gap + part * change);
+  }
+}
+
+RodState moved(const RodState& state, std::span<const Twist6> step, double part) {
+  RodState next = state;
+  for (size_t i = 0; i < step.size(); ++i) {
+    next.position[i] += part * step[i].linear();
+    next.orientation[i] = (rotation(part * step[i].angular()) * state.orientation[i]).normalized();
+  }
+  return next;
+}
+
+// By how much of the step the furthest turned segment turns largest_turn; at most 1.
+double allowed_part(std::span<const Twist6> step) {
+  double turn = 0;
+  for (const Twist6& s : step) turn = std::max(turn, s.angular().norm());
+  return turn > largest_turn ? largest_turn / turn : 1;
+}
+
+double furthest(std::span<const Twist6> step) {
+  double far = 0;
+  for (const Twist6& s : step) far = std::max(far, s.linear().norm());
+  return far;
+}
+
+void take_to_rest(const Rod& rod, RodState& state) {
+  for (int i = 0; i < rod.segments(); ++i) state.velocity[i].setZero(), state.angular_velocity[i].setZero();
+  state.clamp_velocity.fill(Vector3::Zero());
+  state.clamp_angular_velocity.fill(Vector3::Zero());
+  for (int j = 0; j < rod.links(); ++j)
+    state.link_force[j] = rod.gap_stiffness(j) * rod.link_state(state, j).gap;
+}
+
+}  // namespace
+
+// Levenberg-Marquardt on (S11). Two things let it take large turns although stretch is far stiffer than
+// bending: the geometric stiffness uses the link forces that the last step predicted, not k g, which the
+// turns of that step have spoilt by their second order (as with Lagrange multipliers); and the shift is by
+// the mass matrix, so that the steps are those of an implicit motion through a viscous medium.
+Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const RodState& start,
+                             std::span<const Load> loads, const EquilibriumSettings& settings) {
+  assert(loads.empty() || static_cast<int>(loads.size()) == rod.segments());
+  const RodProperties& p = rod.properties();
+  Equilibrium result;
+  result.state = start;
+  result.state.clamps = clamps;
+  RodState& state = result.state;
+  Statics statics(rod, loads);
+  statics.start_pull(state);
+  // The slowest bending motion of a clamped hose has frequency^2 of 500 of these.
+  const double unit = p.bending_stiffness / (p.mass_per_length * std::pow(p.length, 4));
+  const double least_shift = 0.1 * unit;
+  double shift = 0;
+  result.residual = statics.unbalance(state);
+  while (result.iterations < settings.iterations) {
+    ++result.iterations;
+    const int not_positive = statics.solve(state, shift);
+    if (not_positive > 0) {
+      shift = std::max(shift_factor * shift, least_shift);
+      continue;
+    }
+    const double part = allowed_part(statics.step()), far = furthest(statics.step());
+    if (shift == 0 && (result.residual < settings.tolerance || far < smallest_step * p.length)) {
+      result.status = EquilibriumStatus::converged;
+      break;
+    }
+    RodState next = moved(state, statics.step(), part);
+    const Energy energy = rod.energy(state);
+    const double rounding = energy_rounding * (energy.elastic + std::abs(energy.gravitational));
+    const double work = part * statics.expected_work();
+    if (statics.energy_change(state, next, part) > -1e-4 * work + rounding) {
+      shift = std::max(shift_factor * shift, least_shift);
+      statics.start_pull(state);
+      continue;
+    }
+    statics.predict_pull(state, part);
+    state = std::move(next);
+    result.residual = statics.unbalance(state);
+    shift = shift < 2 * least_shift ? 0 : shift / shift_factor;
+  }
+  take_to_rest(rod, state);
+  statics.start_pull(state);
+  statics.unbalance(state);
+  result.negative_pivots = statics.solve(state, 0);
+  if (missing_length(rod, clamps) > longest_elongation * p.length ||
+      rod.mean_elongation(state) > longest_elongation)
+    result.status = EquilibriumStatus::too_short;
+  return result;
+}
+
+Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const EquilibriumSettings& settings) {
+  return find_equilibrium(rod, clamps, start_curve(rod, clamps).state, {}, settings);
+}
+
+// A swivel at the tool end carries no torsion; its hose settles at some roll, to which the clamp is then
+// turned. The link's rotation vector mixes bending and a large roll, so this is repeated until nothing turns.
+TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
+                               const EquilibriumSettings& settings) {
+  constexpr int repeats = 20;
+  constexpr double no_roll = 1e-10;  // [rad]
+  RodProperties properties = rod.properties();
+  properties.tool_end = End::swivel;
+  const Rod swivel(properties);
+  StartCurve start = start_curve(rod, clamps);
+  TwistFreeClamp result;
+  result.roll = -start.roll_to_tool;
+  ClampFrames turned{clamps.base, rolled(clamps.tool, result.roll)};
+  RodState state = start_curve(rod, turned).state;
+  int iterations = 0;
+  for (int k = 0; k < repeats; ++k) {
+    result.equilibrium = find_equilibrium(swivel, turned, state, {}, settings);
+    state = result.equilibrium.state;
+    iterations += result.equilibrium.iterations;
+    const double roll = swivel.link_state(state, swivel.segments()).turn.z();
+    if (std::abs(roll) < no_roll || result.equilibrium.status != EquilibriumStatus::converged) break;
+    result.roll -= roll;
+    turned.tool = rolled(clamps.tool, result.roll);
+  }
+  result.roll = std::remainder(result.roll, 2 * M_PI);
+  turned.tool = rolled(clamps.tool, result.roll);
+  if (result.equilibrium.status == EquilibriumStatus::converged) {
+    result.equilibrium = find_equilibrium(rod, turned, state, {}, settings);
+    iterations += result.equilibrium.iterations;
+  }
+  result.equilibrium.iterations = iterations;
+  return result;
+}
+
+Equilibrium settle(World& world, std::span<const Frame> links, int steps, double speed) {
+  const Rod& rod = world.rod();
+  const ClampFrames clamps = world.state().clamps;
+  Equilibrium result;
+  double energy_before = 0, speed_before = 0;
+  for (result.iterations = 1; result.iterations <= steps; ++result.iterations) {
+    if (!world.advance(clamps, links).finite) return result;
+    double fastest = 0;
+    for (const Vector3& v : world.state().velocity) fastest = std::max(fastest, v.norm());
+    const double kinetic = rod.energy(world.state()).kinetic;
+    if (kinetic >= energy_before) {
+      energy_before = kinetic, speed_before = fastest;
+      if (result.iterations > 1 || fastest > speed) continue;
+    }
+    // A peak of kinetic energy: the hose passes through balance.
+    result.residual = std::max(speed_before, fastest);
+    if (result.residual < speed) result.status = EquilibriumStatus::converged;
+    RodState state = world.state();
+    for (int i = 0; i < rod.segments(); ++i) state.velocity[i].setZero(), state.angular_velocity[i].setZero();
+    world.set_state(state);
+    energy_before = speed_before = 0;
+    if (result.status == EquilibriumStatus::converged) break;
+  }
+  result.state = world.state();
+  if (rod.mean_elongation(result.state) > longest_elongation) result.status = EquilibriumStatus::too_short;
+  return result;
+}
+
+}  // namespace dresslife::sim
