@@ -1,0 +1,327 @@
+#include "fatigue/damage.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "fatigue/log_table.h"
+#include "fatigue/stress_path.h"
+
+namespace dresslife::fatigue {
+namespace {
+
+using pipeline::Counting;
+using pipeline::MeanStress;
+using pipeline::Stress;
+
+constexpr double weeks_per_month = 365.2425 / 12 / 7;  // mean Gregorian month
+
+/// Stress at each reversal of a path that starts from rest.
+std::vector<double> stresses_along(std::span<const Reversal> path, const pipeline::Material& material,
+                                   Stress stress) {
+  std::vector<double> stresses;
+  stresses.reserve(path.size());
+  if (stress == Stress::elastic) {
+    for (const Reversal& r : path) stresses.push_back(material.youngs_modulus * r.strain);
+    return stresses;
+  }
+  const CyclicCurve curve(material);
+  MemoryPath memory([&](double strain) { return curve.stress(strain); });
+  for (const Reversal& r : path) stresses.push_back(memory.go_to(r.strain));
+  return stresses;
+}
+
+/// Replaces samples by positions, so that cycles counted from the result lead back to `path`.
+std::vector<Reversal> numbered(std::span<const Reversal> path) {
+  std::vector<Reversal> result(path.begin(), path.end());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i].sample = static_cast<std::int64_t>(i);
+  return result;
+}
+
+}  // namespace
+
+std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
+                                           const pipeline::Material& material,
+                                           const pipeline::Fatigue& settings) {
+  if (reversals.empty()) return {};
+  const bool repeating = settings.counting == Counting::repeating;
+  const std::vector<Reversal> path =
+      repeating ? rotate_to_largest(reversals) : std::vector<Reversal>(reversals.begin(), reversals.end());
+  const std::vector<double> stress = stresses_along(path, material, settings.stress);
+  const std::vector<Reversal> positions = numbered(path);
+  const StrainLife life(material, settings.mean_stress, settings.endurance_strain);
+
+  std::vector<DamagingCycle> result;
+  for (const Cycle& cycle : repeating ? count_repeating(positions) : count_half_cycles(positions)) {
+    const double at_begin = stress[cycle.begin.sample], at_end = stress[cycle.end.sample];
+    DamagingCycle& out = result.emplace_back();
+    out.cycle = {path[cycle.begin.sample], path[cycle.end.sample], cycle.count};
+    out.stress_max = std::max(at_begin, at_end);
+    out.stress_mean = at_begin / 2 + at_end / 2;
+    out.damage = cycle.count * life.damage({cycle.range() / 2, out.stress_max, out.stress_mean});
+  }
+  return result;
+}
+
+double sum_of_damage(std::span<const DamagingCycle> cycles) {
+  double sum = 0;
+  for (const DamagingCycle& c : cycles) sum += c.damage;
+  return sum;
+}
+
+std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std::size_t samples) {
+  std::vector<double> damage(samples, 0.0);
+  for (const DamagingCycle& c : cycles) damage.at(c.cycle.end.sample) += c.damage;
+  return damage;
+}
+
+std::vector<double> damage_by_step(std::span<const double> damage, std::span<const std::int32_t> step,
+                                   std::size_t steps) {
+  assert(damage.size() == step.size());
+  std::vector<double> sums(steps, 0.0);
+  for (std::size_t t = 0; t < damage.size(); ++t) sums.at(step[t]) += damage[t];
+  return sums;
+}
+
+// ---- tables -----------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Stress range of a Masing branch of the cyclic curve (F3).
+class BranchTable {
+ public:
+  explicit BranchTable(const CyclicCurve& curve)
+      : curve_(curve),
+        table_(
+            elastic_limit(curve), largest_range, [&](double range) { return curve.stress_range(range); },
+            [&](double range) { return slope(curve, curve.stress(range / 2)); }),
+        elastic_(curve.stress_range(table_.low()) / table_.low()) {}
+
+  double operator()(double range) const {
+    if (range < table_.low()) return elastic_ * range;
+    return range <= table_.high() ? table_(range) : curve_.stress_range(range);
+  }
+  double curve(double strain) const { return curve_.stress(strain); }
+
+ private:
+  static constexpr double largest_range = 8;         // strain; beyond it the exact curve
+  static constexpr double plastic_share = 1e-9;      // of the strain below which a branch counts as straight
+  static constexpr double smallest_range = 0x1p-40;  // bounds the table where even tiny strains are plastic
+
+  /// d stress / d strain at this stress.
+  static double slope(const CyclicCurve& curve, double stress) {
+    const double elastic = stress / curve.youngs_modulus(), plastic = curve.strain(stress) - elastic;
+    return stress / (elastic + std::max(plastic, 0.0) / curve.hardening_exponent());
+  }
+  /// Range at which the plastic strain is `plastic_share` of the elastic: (s/K')^(1/n') = share s/E.
+  static double elastic_limit(const CyclicCurve& curve) {
+    const double n = curve.hardening_exponent();
+    if (n == 1) return largest_range / 2;
+    const double ratio = plastic_share * curve.strength() / curve.youngs_modulus();
+    const double stress = curve.strength() * std::pow(ratio, n / (1 - n));
+    return std::clamp(2 * stress / curve.youngs_modulus(), smallest_range, largest_range / 2);
+  }
+
+  CyclicCurve curve_;
+  LogTable table_;
+  double elastic_;
+};
+
+/// Damage 2/(2N) where the falling curve y(2N) has this value.
+class CurveTable {
+ public:
+  CurveTable(const PowerSum& curve, double fewest, double most)
+      : low_(curve(most)),
+        high_(curve(fewest)),
+        at_high_(2 / fewest),
+        table_(
+            low_, high_, [&](double y) { return 2 / curve.inverse(y); },
+            [&](double y) {
+              const double x = curve.inverse(y);
+              return -2 / (x * x * curve.slope(x));
+            }) {}
+  double operator()(double y) const { return y < low_ ? 0 : y >= high_ ? at_high_ : table_(y); }
+
+ private:
+  double low_, high_, at_high_;
+  LogTable table_;
+};
+
+}  // namespace
+
+/// What the loop of DamageCounter reads.
+struct DamageCounter::Tables {
+  // Morrow's axis is stretched by u^(1/(c-b)); these ends leave room for mean stresses of -2 sf to 0.999 sf.
+  static constexpr double morrow_room = 1e7;
+
+  Tables(const pipeline::Material& m, const pipeline::Fatigue& f)
+      : material(m),
+        settings(f),
+        life(m, f.mean_stress, f.endurance_strain),
+        branch(CyclicCurve(m)),
+        strain_damage(life.coffin_manson(), fewest_reversals / room(f), most_reversals * room(f)),
+        swt_damage(life.swt(), fewest_reversals, most_reversals) {}
+  static double room(const pipeline::Fatigue& f) {
+    return f.mean_stress == MeanStress::morrow ? morrow_room : 1;
+  }
+
+  double morrow_damage(double amplitude, double stress_mean) const;
+
+  pipeline::Material material;
+  pipeline::Fatigue settings;
+  StrainLife life;
+  BranchTable branch;
+  CurveTable strain_damage, swt_damage;
+};
+
+double DamageCounter::Tables::morrow_damage(double amplitude, double stress_mean) const {
+  if (stress_mean >= life.fatigue_strength()) return 2 / fewest_reversals;
+  const StrainLife::MorrowScale scale = life.morrow_scale(stress_mean);  // (F8)
+  const double damage = strain_damage(amplitude / scale.strain) / scale.life;
+  return damage < 2 / most_reversals ? 0 : std::min(damage, 2 / fewest_reversals);
+}
+
+namespace {
+
+/// One period of a repeated history: starts and ends with the largest |strain|, alternating (as
+/// rotate_to_largest()).
+void rotate(std::span<const float> strains, std::vector<double>& period) {
+  std::size_t largest = 0;
+  for (std::size_t i = 1; i < strains.size(); ++i) {
+    if (std::fabs(strains[i]) > std::fabs(strains[largest])) largest = i;
+  }
+  period.resize(strains.size() + 1);
+  double* const out = period.data();
+  std::size_t n = 0;
+  const auto append = [&](double strain) {
+    if (strain == out[n]) return;
+    const bool continues = n > 0 && (out[n] > out[n - 1]) == (strain > out[n]);
+    n += continues ? 0 : 1;
+    out[n] = strain;
+  };
+  out[0] = strains[largest];
+  for (std::size_t i = largest + 1; i < strains.size(); ++i) append(strains[i]);
+  for (std::size_t i = 0; i <= largest; ++i) append(strains[i]);
+  period.resize(n + 1);
+}
+
+/// Sum of damage(eps_a, s_max, s_m) over the cycles of a period from rotate().
+///
+/// open[1..top] are the reversals of the loops still open, open[1] the largest |strain| L. open[0] is beyond
+/// any strain, so that nothing closes below L. Steps away from L and back to it alternate, so the loop knows
+/// whether it rises or falls, and only a step back can reach L itself; then everything is closed and the path
+/// stands at L again.
+template <bool away_falls, class Range, class Damage>
+double sum_period(const std::vector<double>& period, double first_stress, const Range& stress_range,
+                  const Damage& damage, double* open, double* stress) {
+  double sum = 0;
+  std::size_t top = 1;
+  open[0] = away_falls ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  open[1] = period[0];
+  stress[1] = first_stress;
+  const auto close = [&] {
+    const double amplitude = std::fabs(open[top] - open[top - 1]) / 2;
+    sum += damage(amplitude, std::max(stress[top], stress[top - 1]), stress[top] / 2 + stress[top - 1] / 2);
+    top -= 2;
+  };
+  const auto reach = [&](double strain, double branch) {
+    stress[top + 1] = stress[top] + branch;
+    open[++top] = strain;
+  };
+  for (std::size_t i = 1; i + 1 < period.size(); i += 2) {
+    const double out = period[i], back = period[i + 1];
+    while (away_falls ? out <= open[top - 1] : out >= open[top - 1]) close();
+    const double down = stress_range(std::fabs(out - open[top]));
+    reach(out, away_falls ? -down : down);
+    while (away_falls ? back >= open[top - 1] : back <= open[top - 1]) {
+      close();
+      if (top == 0) break;
+    }
+    if (top == 0) {
+      top = 1;
+      continue;
+    }
+    const double up = stress_range(std::fabs(back - open[top]));
+    reach(back, away_falls ? up : -up);
+  }
+  return sum;
+}
+
+template <class Range, class Damage>
+double sum_repeating(std::span<const float> strains, const Range& stress_range, const Damage& damage,
+                     DamageCounter::Workspace& w) {
+  rotate(strains, w.period);
+  w.strain.resize(w.period.size() + 2);
+  w.stress.resize(w.period.size() + 2);
+  const double largest = w.period[0];
+  const double first_stress = std::copysign(stress_range(2 * std::fabs(largest)) / 2, largest);
+  const auto sum = largest > 0 ? sum_period<true, Range, Damage> : sum_period<false, Range, Damage>;
+  return sum(w.period, first_stress, stress_range, damage, w.strain.data(), w.stress.data());
+}
+
+/// The same for a history that happens once; for occasional use, not tuned.
+template <class Range, class Damage>
+double sum_half_cycles(std::span<const float> strains, const Range& stress_range, const Damage& damage,
+                       DamageCounter::Workspace& w) {
+  MemoryPath memory([&](double strain) { return stress_range(2 * strain) / 2; });
+  std::vector<Reversal> positions;
+  w.stress.clear();
+  for (const double strain : strains) {
+    positions.push_back({strain, static_cast<std::int64_t>(positions.size())});
+    w.stress.push_back(memory.go_to(strain));
+  }
+  double sum = 0;
+  for (const Cycle& c : count_half_cycles(positions)) {
+    const double a = w.stress[c.begin.sample], b = w.stress[c.end.sample];
+    sum += c.count * damage(c.range() / 2, std::max(a, b), a / 2 + b / 2);
+  }
+  return sum;
+}
+
+}  // namespace
+
+DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings)
+    : tables_(std::make_unique<Tables>(material, settings)) {}
+DamageCounter::~DamageCounter() = default;
+DamageCounter::DamageCounter(DamageCounter&&) noexcept = default;
+
+double DamageCounter::operator()(std::span<const float> strains, Workspace& workspace) const {
+  if (strains.size() < 2) return 0;
+  const Tables& t = *tables_;
+  const double endurance = t.settings.endurance_strain;
+  const auto sum = [&](const auto& stress_range, const auto& damage) {
+    const auto lasting = [&](double amplitude, double stress_max, double stress_mean) {
+      return amplitude <= endurance ? 0.0 : damage(amplitude, stress_max, stress_mean);
+    };
+    return t.settings.counting == Counting::repeating
+               ? sum_repeating(strains, stress_range, lasting, workspace)
+               : sum_half_cycles(strains, stress_range, lasting, workspace);
+  };
+  const auto with_damage = [&](const auto& stress_range) {
+    switch (t.settings.mean_stress) {
+      case MeanStress::none:
+        return sum(stress_range, [&](double a, double, double) { return t.strain_damage(a); });
+      case MeanStress::swt:
+        return sum(stress_range, [&](double a, double max, double) { return t.swt_damage(max * a); });
+      case MeanStress::morrow:
+        return sum(stress_range, [&](double a, double, double mean) { return t.morrow_damage(a, mean); });
+    }
+    assert(false);
+    return 0.0;
+  };
+  if (t.settings.stress == Stress::cyclic) return with_damage([&](double range) { return t.branch(range); });
+  return with_damage([modulus = t.material.youngs_modulus](double range) { return modulus * range; });
+}
+
+double life_in_repeats(double damage) {
+  return damage > 0 ? 1 / damage : std::numeric_limits<double>::infinity();
+}
+
+double hours(double repeats, double motion_duration) { return repeats * motion_duration / 3600; }
+
+double months(double hours, double operating_hours_per_week) {
+  return hours / operating_hours_per_week / weeks_per_month;
+}
+
+}  // namespace dresslife::fatigue

@@ -1,0 +1,71 @@
+// Damage of a strain history (Miner 1945), (10): D = sum over cycles of count / N, life = 1 / D repeats.
+//
+// Two evaluations of the same model: evaluate_cycles() lists every cycle with its stress and damage, exact;
+// DamageCounter sums a history's damage from tables, for the millions of histories of a dresspack.
+// Assumptions: damage adds up linearly, in any order; the repeated history starts from the largest |strain|
+// on the cyclic curve (README.md, F4), so that each repeat is like the one before.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fatigue/rainflow.h"
+#include "fatigue/strain_life.h"
+#include "pipeline/job.h"
+
+namespace dresslife::fatigue {
+
+/// A counted cycle with its stress and what it does.
+struct DamagingCycle {
+  Cycle cycle;
+  double stress_max = 0, stress_mean = 0;  ///< [Pa]
+  double damage = 0;                       ///< count / N
+};
+
+/// Every cycle of a history under `settings.counting`, in the order in which they close; exact stress and
+/// life.
+std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
+                                           const pipeline::Material& material,
+                                           const pipeline::Fatigue& settings);
+
+/// (10) over listed cycles.
+double sum_of_damage(std::span<const DamagingCycle> cycles);
+
+/// Damage placed in time, (sample): each cycle's at its end, the reversal at which its whole range has been
+/// run through. (The loop itself closes when the strain next comes back to the cycle's begin.)
+std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std::size_t samples);
+
+/// Damage by program step, (step): sum of `damage` (sample) over the samples of each step.
+/// Precondition: step (sample) lies in [0, steps).
+std::vector<double> damage_by_step(std::span<const double> damage, std::span<const std::int32_t> step,
+                                   std::size_t steps);
+
+/// Damage of histories that are made of one material; built once, const in use.
+class DamageCounter {
+ public:
+  DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings);
+  ~DamageCounter();
+  DamageCounter(DamageCounter&&) noexcept;
+
+  /// Memory that one thread reuses between histories.
+  struct Workspace {
+    std::vector<double> period, strain, stress;
+  };
+  /// Damage per repeat of the history with these reversal strains. Relative difference from the sum over
+  /// evaluate_cycles(): below `table_error` for b <= -0.05.
+  double operator()(std::span<const float> strains, Workspace& workspace) const;
+  static constexpr double table_error = 1e-5;
+
+ private:
+  struct Tables;
+  std::unique_ptr<const Tables> tables_;
+};
+
+/// Repeats to failure; infinity where the damage is 0.
+double life_in_repeats(double damage);
+double hours(double repeats, double motion_duration);  ///< duration of one repeat [s]
+double months(double hours, double operating_hours_per_week);
+
+}  // namespace dresslife::fatigue

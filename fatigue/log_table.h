@@ -1,0 +1,50 @@
+// A smooth positive function of one positive argument, tabulated for the innermost loop.
+//
+// Nodes split every octave [2^e, 2^(e+1)) into equal cells, so the cell of x is the leading bits of its
+// floating-point number and its place in the cell the trailing ones: no logarithm, no search. In a cell the
+// function is the cubic that has its values and slopes at both ends (Hermite). For y = x^p the relative error
+// is at most
+//     |p (p-1) (p-2) (p-3)| / 384 h^4,  h = 1 / cells per octave  (F9)
+// With the 128 cells used here that is 1e-9 at p = 5, 5e-8 at p = 10 and 1.1e-6 at p = 20.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace dresslife::fatigue {
+
+class LogTable {
+ public:
+  static constexpr int cells_per_octave_log2 = 7;
+
+  /// Tabulates y and its slope over at least [low, high]. The function must be smooth on
+  /// all of it: kinks and limits belong to the caller. Precondition: 0 < low < high, both normal numbers.
+  LogTable(double low, double high, const std::function<double(double)>& y,
+           const std::function<double(double)>& slope);
+
+  double low() const { return low_; }
+  double high() const { return high_; }
+
+  /// Precondition: low() <= x <= high().
+  double operator()(double x) const {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const Cell& c = cells_[(bits >> shift) - first_];
+    const double t = std::bit_cast<double>(((bits << cells_per_octave_log2) & mantissa) | one) - 1;
+    return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+  }
+
+ private:
+  using Cell = std::array<double, 4>;
+  static constexpr int shift = 52 - cells_per_octave_log2;
+  static constexpr std::uint64_t mantissa = (std::uint64_t{1} << 52) - 1;
+  static constexpr std::uint64_t one = std::uint64_t{0x3ff} << 52;
+
+  double low_, high_;
+  std::uint64_t first_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace dresslife::fatigue

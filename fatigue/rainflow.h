@@ -1,0 +1,92 @@
+// Cycle counting: reversals of a strain history and the closed hysteresis loops (cycles) among them.
+//
+// Two countings of ASTM E1049-85, 5.4.4: half cycles (the history happens once) and the repeating history
+// (5.4.5; the history happens again and again, so every reversal belongs to a closed cycle). Conventions,
+// fatigue/README.md (F1):
+//   - reversals: the first and the last sample and every turn between; a plateau stands at its first sample;
+//   - a range closes a cycle when it is at least as large as the one before it: ties close;
+//   - only strains are compared, never differences or products of differences, so that no rounding or
+//   underflow
+//     decides: with below < top > next the range from top to next closes the one from below to top if next <=
+//     below;
+//   - a number that is not finite is refused, not skipped.
+// Any quantity may be counted; the stage counts strain [1].
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace dresslife::fatigue {
+
+/// A turn of the history.
+struct Reversal {
+  double strain = 0;        ///< [1]
+  std::int64_t sample = 0;  ///< where in the history
+
+  bool operator==(const Reversal&) const = default;
+};
+
+/// A counted range: its two extremes in the order in which the history visits them.
+struct Cycle {
+  Reversal begin, end;
+  double count = 1;  ///< 1, or 0.5 for a half cycle
+
+  double range() const {
+    return begin.strain < end.strain ? end.strain - begin.strain : begin.strain - end.strain;
+  }
+  double mean() const { return begin.strain / 2 + end.strain / 2; }
+};
+
+/// Finds the reversals of a history that arrives sample by sample.
+class ReversalFinder {
+ public:
+  /// The reversal that this sample makes certain, if it does.
+  /// @throws pipeline::InputError when the sample is not finite.
+  std::optional<Reversal> push(double strain);
+  /// The last one; nothing for an empty or constant history, whose only reversal is its first sample.
+  std::optional<Reversal> finish() const;
+
+ private:
+  std::int64_t sample_ = 0;
+  Reversal candidate_;
+  int direction_ = 0;  // +1 rising to the candidate, -1 falling, 0 nothing but one level so far
+};
+
+/// All reversals of a history, (sample).
+std::vector<Reversal> find_reversals(std::span<const double> history);
+
+/// Four-point counting of reversals that arrive one by one: of four in a row the middle pair closes when it
+/// lies within the outer pair. Gives the full cycles of half-cycle counting and leaves the residue; state
+/// does not depend on how the history is cut into pieces.
+class FourPointCounter {
+ public:
+  /// Appends the cycles that this reversal closes. One that continues in the direction of the last replaces
+  /// it.
+  void push(const Reversal& reversal, std::vector<Cycle>& closed);
+  const std::vector<Reversal>& residue() const { return residue_; }
+
+ private:
+  std::vector<Reversal> residue_;
+};
+
+/// The cycles that a residue closes when it happens once more, in the order in which they close.
+std::vector<Cycle> repeat_residue(std::span<const Reversal> residue);
+
+/// ASTM E1049-85, 5.4.4: full and half cycles of a history that happens once, in the order in which they are
+/// counted.
+std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals);
+
+/// The reversals of one period of a repeated history, starting and ending with its largest |strain| (the
+/// first such): begin of the next period joined to the end of this one, continued directions merged, so that
+/// rises and falls alternate strictly. A constant history gives one reversal. Precondition: not empty.
+std::vector<Reversal> rotate_to_largest(std::span<const Reversal> reversals);
+
+/// Cycles of the repeated history, all of them full: one three-point pass over rotate_to_largest(), which
+/// leaves no residue. A cycle that begins late in the repeat and ends early in the next has end.sample <
+/// begin.sample.
+std::vector<Cycle> count_repeating(std::span<const Reversal> reversals);
+
+}  // namespace dresslife::fatigue

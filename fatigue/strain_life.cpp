@@ -1,0 +1,97 @@
+#include "fatigue/strain_life.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace dresslife::fatigue {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double bounded(double reversals) {
+  return reversals > most_reversals ? infinity : std::max(reversals, fewest_reversals);
+}
+
+}  // namespace
+
+PowerSum::PowerSum(double a, double p, double c, double q) : a_(a), p_(p), c_(c), q_(q) {
+  assert(a > 0 && c > 0 && p < 0 && q < 0);
+}
+
+double PowerSum::operator()(double x) const { return a_ * std::pow(x, p_) + c_ * std::pow(x, q_); }
+
+double PowerSum::slope(double x) const { return (a_ * p_ * std::pow(x, p_) + c_ * q_ * std::pow(x, q_)) / x; }
+
+// In l = ln x the logarithm of the sum is convex (log-sum-exp) and falls. Where the larger term alone equals
+// y the sum is at or above y, left of the root, and from there Newton's steps go right to it without
+// overshooting. The root lies within ln(2)/min(-p, -q) of the start, so the answer is bracketed too.
+double PowerSum::inverse(double y) const {
+  assert(y > 0);
+  const double target = std::log(y), log_a = std::log(a_), log_c = std::log(c_);
+  double l = std::max((target - log_a) / p_, (target - log_c) / q_);
+  for (;;) {
+    const double first = log_a + p_ * l, second = log_c + q_ * l;
+    const double ratio = std::exp(-std::fabs(first - second));
+    const double share = (first > second ? 1 : ratio) / (1 + ratio);  // of the first term in the sum
+    const double excess = std::max(first, second) + std::log1p(ratio) - target;
+    const double next = l - excess / (share * p_ + (1 - share) * q_);
+    if (!(next > l)) break;
+    l = next;
+  }
+  return std::exp(l);
+}
+
+StrainLife::StrainLife(const pipeline::Material& m, pipeline::MeanStress mean_stress, double endurance_strain)
+    : material_(m),
+      mean_stress_(mean_stress),
+      endurance_strain_(endurance_strain),
+      coffin_manson_(m.fatigue_strength / m.youngs_modulus, m.fatigue_strength_exponent, m.fatigue_ductility,
+                     m.fatigue_ductility_exponent),
+      swt_(m.fatigue_strength * m.fatigue_strength / m.youngs_modulus, 2 * m.fatigue_strength_exponent,
+           m.fatigue_strength * m.fatigue_ductility,
+           m.fatigue_strength_exponent + m.fatigue_ductility_exponent) {}
+
+double StrainLife::reversals(const Load& load) const {
+  if (load.strain_amplitude <= endurance_strain_ || load.strain_amplitude == 0) return infinity;
+  switch (mean_stress_) {
+    case pipeline::MeanStress::none:
+      return bounded(coffin_manson_.inverse(load.strain_amplitude));
+    case pipeline::MeanStress::swt: {
+      const double parameter = load.stress_max * load.strain_amplitude;
+      return parameter > 0 ? bounded(swt_.inverse(parameter)) : infinity;
+    }
+    case pipeline::MeanStress::morrow: {
+      if (load.stress_mean >= material_.fatigue_strength) return fewest_reversals;
+      const MorrowScale scale = morrow_scale(load.stress_mean);
+      return bounded(scale.life * coffin_manson_.inverse(load.strain_amplitude / scale.strain));
+    }
+  }
+  assert(false);
+  return infinity;
+}
+
+double StrainLife::damage(const Load& load) const { return 2 / reversals(load); }
+
+StrainLife::MorrowScale StrainLife::morrow_scale(double stress_mean) const {
+  assert(stress_mean < material_.fatigue_strength);
+  const double b = material_.fatigue_strength_exponent, c = material_.fatigue_ductility_exponent;
+  const double log_u = std::log1p(-stress_mean / material_.fatigue_strength);
+  return {std::exp(c / (c - b) * log_u), std::exp(log_u / (c - b))};
+}
+
+double StrainLife::modified_morrow_reversals(double strain_amplitude, double stress_mean) const {
+  if (stress_mean >= material_.fatigue_strength) return fewest_reversals;
+  const double u = 1 - stress_mean / material_.fatigue_strength;
+  const double stretch = std::pow(u, -1 / material_.fatigue_strength_exponent);
+  return bounded(stretch * coffin_manson_.inverse(strain_amplitude));
+}
+
+double StrainLife::transition_reversals() const {
+  const pipeline::Material& m = material_;
+  return std::pow(m.fatigue_ductility * m.youngs_modulus / m.fatigue_strength,
+                  1 / (m.fatigue_strength_exponent - m.fatigue_ductility_exponent));
+}
+
+}  // namespace dresslife::fatigue

@@ -1,0 +1,80 @@
+// Life of a wire under one closed cycle: strain-life curves with the influence of mean stress.
+//
+// With N cycles, 2N reversals, strain amplitude eps_a, largest and mean stress of the cycle s_max and s_m:
+//   Coffin-Manson (8):  eps_a = sf/E (2N)^b + ef (2N)^c
+//   SWT (9):            s_max eps_a = sf^2/E (2N)^(2b) + sf ef (2N)^(b+c);  s_max <= 0: no damage
+//   Morrow (F7):        eps_a = (sf - s_m)/E (2N)^b + ef (2N)^c
+// (numbers as in the thesis by S. Backman, 2018; Morrow 1968; Smith, Watson and Topper 1970). Damage of a
+// cycle: 1/N.
+//
+// Lives are solved over 1 <= 2N <= 1e15. A load beyond the curve at 2N = 1 breaks the wire on its first
+// reversal: 2N = 1 and a damage of 2 per cycle, whatever the excess; the curve says nothing there. A life
+// beyond 1e15 reversals does no damage.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/job.h"
+
+namespace dresslife::fatigue {
+
+constexpr double fewest_reversals = 1;
+constexpr double most_reversals = 1e15;
+
+/// y(x) = A x^p + C x^q, A, C > 0, p, q < 0: falls from infinity to 0, so that each y > 0 has one x.
+class PowerSum {
+ public:
+  PowerSum(double a, double p, double c, double q);
+  double operator()(double x) const;
+  double slope(double x) const;    ///< dy/dx < 0
+  double inverse(double y) const;  ///< y > 0; x to rounding
+
+ private:
+  double a_, p_, c_, q_;
+};
+
+/// What one cycle does to the metal.
+struct Load {
+  double strain_amplitude = 0;  ///< eps_a [1]
+  double stress_max = 0;        ///< [Pa]
+  double stress_mean = 0;       ///< [Pa]
+};
+
+/// Lives by (8), (9) or (F7), exact to rounding; DamageCounter in damage.h is the fast counterpart.
+class StrainLife {
+ public:
+  /// Amplitudes up to `endurance_strain` do no damage.
+  StrainLife(const pipeline::Material& material, pipeline::MeanStress mean_stress,
+             double endurance_strain = 0);
+
+  double reversals(const Load& load) const;  ///< 2N; infinity where the load does no damage
+  double damage(const Load& load) const;     ///< 1/N of one full cycle; 0 to 2
+
+  const PowerSum& coffin_manson() const { return coffin_manson_; }  ///< (8): eps_a of 2N
+  const PowerSum& swt() const { return swt_; }                      ///< (9): s_max eps_a [Pa] of 2N
+  pipeline::MeanStress mean_stress() const { return mean_stress_; }
+  double endurance_strain() const { return endurance_strain_; }
+
+  /// Morrow's curve is (8) on a stretched life axis, so one curve serves every mean stress (F8). With u = 1 -
+  /// s_m/sf and 2N = k x, k = u^(1/(c-b)): u sf/E (k x)^b + ef (k x)^c = k^c (sf/E x^b + ef x^c), since u k^b
+  /// = k^c.
+  struct MorrowScale {
+    double strain;  ///< k^c: eps_a / strain is read on (8)
+    double life;    ///< k: times x gives 2N
+  };
+  MorrowScale morrow_scale(double stress_mean) const;  ///< precondition: s_m < sf
+
+  /// Modified Morrow (Manson and Halford 1981), u^(c/b) on the plastic term too: 2N = u^(-1/b) times (8)'s.
+  double modified_morrow_reversals(double strain_amplitude, double stress_mean) const;
+  /// 2N at which elastic and plastic amplitude are equal.
+  double transition_reversals() const;
+  double fatigue_strength() const { return material_.fatigue_strength; }
+
+ private:
+  pipeline::Material material_;
+  pipeline::MeanStress mean_stress_;
+  double endurance_strain_;
+  PowerSum coffin_manson_, swt_;
+};
+
+}  // namespace dresslife::fatigue

@@ -1,0 +1,71 @@
+// Stress that belongs to a strain path: elastic, or of a metal that has reached its stable cyclic curve.
+//
+// Cyclic curve (Ramberg and Osgood 1943), (F2):        eps = s / E + (s / K')^(1 / n')
+// Branches (Masing 1926), (F3):                        d_eps / 2 = curve(d_s / 2), from the last open
+// reversal Material memory (Clormann and Seeger 1985), (F4):    a strain beyond the largest |strain| so far
+// lies on the cyclic curve itself; a branch that comes back to the reversal below its origin closes that
+// loop, and the branch that the loop interrupted goes on as if the loop had not been. Assumptions: one axis,
+// stable metal (no softening, no relaxation of mean stress), equal in tension and compression.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/job.h"
+
+namespace dresslife::fatigue {
+
+/// (F2) for strain and stress of either sign.
+class CyclicCurve {
+ public:
+  /// Precondition: E > 0, K' > 0, 0 < n' <= 1.
+  CyclicCurve(double youngs_modulus, double strength, double hardening_exponent);
+  /// K' and n' of the material; what it leaves out follows by compatibility with (8), (F5):
+  /// n' = b / c, K' = sigma_f' / epsilon_f'^n'.
+  explicit CyclicCurve(const pipeline::Material& material);
+
+  double strain(double stress) const;  ///< [1]
+  double stress(double strain) const;  ///< exact to rounding [Pa]
+  double stress_range(double strain_range) const {
+    return 2 * stress(strain_range / 2);
+  }  ///< of a branch (F3) [Pa]
+
+  double youngs_modulus() const { return modulus_; }                 ///< E [Pa]
+  double strength() const { return strength_; }                      ///< K' [Pa]
+  double hardening_exponent() const { return hardening_exponent_; }  ///< n'
+
+ private:
+  double modulus_, strength_, hardening_exponent_;
+};
+
+/// What to tell the user when the material's own K' or n' differs by more than a tenth from (F5): then
+/// elastic and plastic strain of the cyclic curve are not those of the life curve, and cyclic stress and life
+/// contradict each other. Empty when they agree or are not given.
+std::string compatibility_warning(const pipeline::Material& material);
+
+/// Masing branches with material memory (F3, F4) over a curve given for values >= 0. Starts at rest in the
+/// origin. With stress(strain) as curve it gives stress along a strain path; with a notch rule's curves (F6)
+/// the local stress or strain along a path of nominal stress.
+class MemoryPath {
+ public:
+  explicit MemoryPath(std::function<double(double)> curve) : curve_(std::move(curve)) {}
+  /// Goes straight from where the path is to `input`; returns the response there.
+  double go_to(double input);
+
+ private:
+  struct Point {
+    double input, response;
+  };
+  double on_curve(double input) const;
+  std::function<double(double)> curve_;
+  double largest_ = 0;               // |input| so far
+  std::vector<Point> open_{{0, 0}};  // reversals whose loops are not closed, and where the path is
+};
+
+/// Local stress [Pa] of a notch with elastic concentration factor K_t under nominal stress S >= 0 [Pa] by
+/// Neuber's rule (F6): stress x curve strain = (K_t S)^2 / E. No part of the pipeline has notches; crimps and
+/// kinks of a wire are such.
+double neuber_stress(const CyclicCurve& curve, double concentration, double nominal_stress);
+
+}  // namespace dresslife::fatigue
