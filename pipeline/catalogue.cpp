@@ -143,33 +143,27 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
                                  : fmt::format("one of: {}", fmt::join(names, ", ")));
 }
 
-void apply_set(Node& job, const std::string& set) {
-  const Where where{"--set " + set};
-  const std::size_t equals = set.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw InputError(where, "is not key.path=value", "write for example --set simulation.segments=80");
-  const std::string path = set.substr(0, equals);
+void set_value(Node& job, const std::string& path, Node value, const Where& where) {
   Node* node = &job;
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t dot = std::min(path.find('.', begin), path.size());
     const std::string word = path.substr(begin, dot - begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
+    // A catalogue entry is looked up as soon as a path leads into it.
     if (begin > 0 && node->is_scalar() && path.find('.') == begin - 1)
       if (const char* folder = folder_of(path.substr(0, begin - 1))) resolve(*node, folder);
     node = step_into(*node, word, where, path);
     begin = dot + 1;
   }
-  Node value = parse_yaml(set.substr(equals + 1), where.file);
-  struct Place {
-    const Where& where;
-    void operator()(Node& at) const {
-      at.where = where;
-      for (Node& item : at.items) (*this)(item);
-      for (Entry& entry : at.entries) (*this)(entry.value);
-    }
-  };
-  Place{where}(value);
   *node = std::move(value);
+}
+
+void apply_set(Node& job, const std::string& set) {
+  const Where where{"--set " + set};
+  const std::size_t equals = set.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(where, "is not key.path=value", "write for example --set simulation.segments=80");
+  set_value(job, set.substr(0, equals), parse_yaml(set.substr(equals + 1), where.file), where);
 }
 
 /// Looks up all that the job names; afterwards the tree stands for itself.

@@ -213,6 +213,9 @@ const Material& material_of(const Job& job, const std::string& name);
 /// with dresslife (the environment variable DRESSLIFE_CONFIG names another). Errors: InputError with the near names.
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at);
 
+/// Sets the value at a key path (`simulation.segments`, `dresspack.components.1.count`); where: who asks for it.
+void set_value(Node& job, const std::string& path, Node value, const Where& where);
+
 /// Sets the value at `key.path=value` in a job's tree; list items count from 1. Errors: InputError.
 void apply_set(Node& job, const std::string& set);
 

@@ -53,26 +53,28 @@ int run_stage(const StageInfo& info, int argc, char** argv, const std::function<
   call.output = output;
   call.job_file = job_file;
 
-  Progress progress(info.program, call.quiet);
-  try {
+  return guarded(info.program, [&] {
+    Progress progress(info.program, call.quiet);
     check_output(call);
     body(call, progress);
     return 0;
+  });
+}
+
+int guarded(const std::string& program, const std::function<int()>& body) {
+  try {
+    return body();
   } catch (const InputError& problem) {
-    progress.clear();
     fmt::print(stderr, "{}\n", problem.what());
     return 1;
   } catch (const std::filesystem::filesystem_error& problem) {
-    progress.clear();
     fmt::print(stderr, "{}: error: {}; check the folder and its permissions\n", problem.path1().string(), problem.code().message());
     return 1;
   } catch (const std::bad_alloc&) {
-    progress.clear();
-    fmt::print(stderr, "{}: error: out of memory; run fewer jobs at a time or ask for fewer segments or samples\n", call.input.string());
+    fmt::print(stderr, "{}: error: out of memory; run fewer jobs at a time or ask for fewer segments or samples\n", program);
     return 3;
   } catch (const std::exception& problem) {
-    progress.clear();
-    fmt::print(stderr, "{}: error: internal fault ({}); please report it with the job\n", info.program, problem.what());
+    fmt::print(stderr, "{}: error: internal fault ({}); please report it with the job\n", program, problem.what());
     return 3;
   }
 }

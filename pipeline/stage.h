@@ -35,6 +35,9 @@ struct StageCall {
 /// Parses the command line, runs `body`, words what it throws. Returns the exit status.
 int run_stage(const StageInfo& info, int argc, char** argv, const std::function<void(const StageCall&, Progress&)>& body);
 
+/// Runs `body` and words what it throws on standard error. Returns its value, or the exit status of the failure.
+int guarded(const std::string& program, const std::function<int()>& body);
+
 /// The settings of a stage whose input is a file: of --job, else of the file's `job` attribute; then --set.
 /// Errors: InputError also when the job differs from the file's in a part of an earlier stage (`before`), because the
 /// file then does not hold what the job asks for.

@@ -1,0 +1,181 @@
+// dresslife: runs studies, tells how they stand, reports their results and prints the manual.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <thread>
+
+#include "pipeline/build_graph.h"
+#include "pipeline/progress.h"
+#include "pipeline/ranking.h"
+#include "pipeline/report.h"
+#include "pipeline/stage.h"
+#include "pipeline/study.h"
+
+using namespace dresslife::pipeline;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Options {
+  std::string study, out = "runs", what;
+  std::vector<std::string> sets;
+  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  bool quiet = false;
+};
+
+/// One run at a time in a study's folder; released when the program ends, however it ends.
+class Lock {
+ public:
+  explicit Lock(const fs::path& folder) {
+    fs::create_directories(folder);
+    const fs::path file = folder / ".lock";
+    descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
+      throw InputError({folder.string()}, "is in use by another run, or cannot be written", "wait for it, or choose another folder with -o");
+  }
+  ~Lock() { ::close(descriptor_); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+StudyPlaces places_of(const Study& study, const Options& options) {
+  return {fs::path(options.out) / study.name, fs::read_symlink("/proc/self/exe").parent_path()};
+}
+
+std::vector<JobResult> results_of(const Study& study, const StudyPlaces& places, const std::map<std::string, std::string>& failures) {
+  std::vector<JobResult> results;
+  for (const StudyJob& job : study.jobs) {
+    JobResult result{job.name, places.life(job.name), job.failure};
+    if (const auto failed = failures.find(job.name); failed != failures.end()) result.failure = failed->second;
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+/// Writes ranking.csv and report.html and prints the table. Returns the number of failed jobs.
+int publish(const Study& study, const StudyPlaces& places, const std::map<std::string, std::string>& failures) {
+  const std::vector<JobResult> results = results_of(study, places, failures);
+  const std::vector<RankingRow> rows = read_ranking(results);
+  write_text_if_changed(places.folder / "ranking.csv", ranking_csv(rows));
+  write_report(places.folder / "report.html", study.name, rows);
+  fmt::print("{}", ranking_table(rows));
+  fmt::print("\nReport: {}\n", (places.folder / "report.html").string());
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); }));
+}
+
+int run(const Options& options) {
+  const Study study = read_study(options.study, options.sets);
+  const StudyPlaces places = places_of(study, options);
+  const Lock lock(places.folder);
+  write_build_graph(study, places);
+  Progress progress(study.name, options.quiet);
+  const BuildResult built = run_build_graph(places, options.jobs, false, [&](const BuildEvent& event) {
+    progress.show(fmt::format("{}/{}  {}", event.finished, event.total, event.what));
+  });
+  progress.clear();
+  join_logs(study, places);
+  progress.note(built.executed ? fmt::format("{}: {} stages ran", study.name, built.executed) : fmt::format("{}: nothing to do", study.name));
+  const int failed = publish(study, places, built.failures);
+  if (failed == 0) return 0;
+  fmt::print(stderr, "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n", options.study, failed,
+             study.jobs.size());
+  return 1;
+}
+
+int status(const Options& options) {
+  const Study study = read_study(options.study, options.sets);
+  const StudyPlaces places = places_of(study, options);
+  std::map<std::string, std::string> state;
+  if (fs::is_directory(places.folder)) {
+    const Lock lock(places.folder);
+    write_build_graph(study, places);
+    for (const std::string& job : run_build_graph(places, 1, true, {}).pending) state[job] = "pending";
+  }
+  int unfinished = 0;
+  for (const StudyJob& job : study.jobs) {
+    std::string word = "done";
+    if (!job.failure.empty())
+      word = "failed   " + job.failure;
+    else if (!fs::is_directory(places.folder) || !fs::exists(places.job(job.name)))
+      word = "to do";
+    else if (state.count(job.name))
+      word = pending_state(job, places);
+    unfinished += word != "done";
+    fmt::print("{:<40} {}\n", job.name, word);
+  }
+  fmt::print("{} of {} jobs done\n", study.jobs.size() - unfinished, study.jobs.size());
+  return 0;
+}
+
+int report(const Options& options) {
+  const Study study = read_study(options.study, options.sets);
+  const StudyPlaces places = places_of(study, options);
+  if (!fs::is_directory(places.folder))
+    throw InputError({places.folder.string()}, "is not there (the study has not run)", "run it: dresslife run " + options.study);
+  return publish(study, places, {}) ? 1 : 0;
+}
+
+int manual(const Options& options) {
+  fmt::print("{}", options.what == "files" ? file_manual() : study_manual() + "\n" + job_manual());
+  return 0;
+}
+
+int show(const Options& options) {
+  fmt::print("{}", job_text(read_job(options.study, options.sets)));
+  return 0;
+}
+
+void add_common(CLI::App* command, Options& options) {
+  command->add_option("-o,--output", options.out, "folder of the results")->type_name("DIR")->capture_default_str();
+  command->add_option("--set", options.sets, "override a key in every job; may be repeated")->type_name("KEY.PATH=VALUE")->allow_extra_args(false);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "How long does a robot's dresspack live under its programs, which wire breaks, where, and which motion does it?\n\n"
+      "Example: dresslife run config/studies/two_robots.yaml",
+      "dresslife");
+  app.set_version_flag("--version", std::string("dresslife ") + DRESSLIFE_VERSION);
+  app.require_subcommand(1);
+
+  CLI::App* run_command = app.add_subcommand("run", "run what is not up to date in a study, then rank and report");
+  run_command->add_option("study", options.study, "STUDY.yaml")->required()->type_name("");
+  run_command->add_option("-j,--jobs", options.jobs, "stages at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  run_command->add_flag("--quiet", options.quiet, "no progress, no notes");
+  add_common(run_command, options);
+  CLI::App* status_command = app.add_subcommand("status", "tell which jobs of a study are done, stale, failed or to do");
+  status_command->add_option("study", options.study, "STUDY.yaml")->required()->type_name("");
+  add_common(status_command, options);
+  CLI::App* report_command = app.add_subcommand("report", "rank and report what has been computed, without running anything");
+  report_command->add_option("study", options.study, "STUDY.yaml")->required()->type_name("");
+  add_common(report_command, options);
+  CLI::App* show_command = app.add_subcommand("show", "print a job with its catalogue entries and defaults written out");
+  show_command->add_option("job", options.study, "JOB.yaml")->required()->type_name("");
+  show_command->add_option("--set", options.sets, "override a key; may be repeated")->type_name("KEY.PATH=VALUE")->allow_extra_args(false);
+  CLI::App* manual_command = app.add_subcommand("manual", "print the reference of all keys or of all files, as Markdown");
+  manual_command->add_option("what", options.what, "keys or files")->required()->check(CLI::IsMember({"keys", "files"}))->type_name("");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : 2;
+  }
+  return guarded("dresslife", [&] {
+    if (run_command->parsed()) return run(options);
+    if (status_command->parsed()) return status(options);
+    if (report_command->parsed()) return report(options);
+    if (show_command->parsed()) return show(options);
+    return manual(options);
+  });
+}
