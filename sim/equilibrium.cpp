@@ -275,13 +275,17 @@ TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
   ClampFrames turned{clamps.base, rolled(clamps.tool, result.roll)};
   RodState state = start_curve(rod, turned).state;
   int iterations = 0;
+  double gain = 1, roll_before = 0;
   for (int k = 0; k < repeats; ++k) {
     result.equilibrium = find_equilibrium(swivel, turned, state, {}, settings);
     state = result.equilibrium.state;
     iterations += result.equilibrium.iterations;
     const double roll = swivel.link_state(state, swivel.segments()).turn.z();
     if (std::abs(roll) < no_roll || result.equilibrium.status != EquilibriumStatus::converged) break;
-    result.roll -= roll;
+    const double fall = roll_before - roll;
+    if (k > 0 && std::abs(fall) > 1e-3 * std::abs(roll)) gain *= roll_before / fall;
+    roll_before = roll;
+    result.roll -= gain * roll;
     turned.tool = rolled(clamps.tool, result.roll);
   }
   result.roll = std::remainder(result.roll, 2 * M_PI);
