@@ -1,0 +1,27 @@
+// Samples of a run into motion.h5 (the format's table is in pipeline/formats.cpp).
+#pragma once
+
+#include <vector>
+
+#include "pipeline/files.h"
+#include "sim/simulate.h"
+
+namespace dresslife::sim {
+
+class MotionFile {
+ public:
+  /// Writes what holds for all samples. The file must outlive this and be committed by the caller.
+  MotionFile(pipeline::FileWriter& file, const RunDescription& description);
+
+  void add(const Sample& sample);
+
+ private:
+  void add_robot(const Pose& pose);
+
+  pipeline::FileWriter& file_;
+  const RunDescription description_;
+  bool links_named_ = false;
+  std::vector<double> positions_, orientations_, poses_;
+};
+
+}  // namespace dresslife::sim
