@@ -1,0 +1,127 @@
+// Studies: what runs, what does not run again, what a failed job does to the others.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+const char* study_text = R"(base: job.yaml
+vary:
+  dresspack.bending_stiffness_Nm2: [2, 3]
+)";
+
+std::string stages_ran(const Outcome& outcome) {
+  const std::size_t end = outcome.err.find(" stages ran");
+  if (end == std::string::npos) return outcome.err.find("nothing to do") == std::string::npos ? "?" : "0";
+  return outcome.err.substr(outcome.err.rfind(' ', end - 1) + 1, end - outcome.err.rfind(' ', end - 1) - 1);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("a study runs every job, and again only what changed") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  auto run_study = [&](const std::string& more = "") { return run(scratch, "dresslife", "run study.yaml " + more); };
+
+  const Outcome first = run_study();
+  INFO(first.err << first.out);
+  REQUIRE(first.status == 0);
+  CHECK(stages_ran(first) == "6");
+  for (const std::string job : {"bending_stiffness_Nm2=2", "bending_stiffness_Nm2=3"})
+    for (const std::string file : {"job.yaml", "motion.h5", "strain.h5", "life.h5", "log"})
+      CHECK(fs::exists(scratch / ("runs/study/" + job + "/" + file)));
+  for (const std::string file : {"ranking.csv", "report.html", "build.ninja"}) CHECK(fs::exists(scratch / ("runs/study/" + file)));
+  CHECK(content(scratch / "runs/study/ranking.csv").rfind("job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat", 0) == 0);
+  CHECK(first.out.find("runs/study/report.html") != std::string::npos);
+
+  CHECK(stages_ran(run_study()) == "0");
+  const std::string ranking = content(scratch / "runs/study/ranking.csv");
+
+  // Settings of the last stage: only that stage.
+  const std::string job = content(scratch / "job.yaml");
+  scratch.write("job.yaml", job + "fatigue: {stress: elastic}\n");
+  CHECK(stages_ran(run_study()) == "2");
+  CHECK(content(scratch / "runs/study/ranking.csv") != ranking);
+  // Settings of the middle stage: that and the last.
+  scratch.write("job.yaml", job + "strain: {slip: stick}\n");
+  CHECK(stages_ran(run_study()) == "4");
+  // The poses beside the job: everything. Words alone: nothing.
+  scratch.write("job.yaml", "# a remark\n" + job);
+  CHECK(stages_ran(run_study()) == "4");
+  CHECK(content(scratch / "runs/study/ranking.csv") == ranking);
+  scratch.write("job.yaml", job);
+  CHECK(stages_ran(run_study()) == "0");
+  scratch.write("poses.csv", replaced(content(scratch / "poses.csv"), "0.8,", "0.801,"));
+  CHECK(stages_ran(run_study()) == "6");
+}
+
+TEST_CASE("a lost result is made again, the others stay") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  fs::remove(scratch / "runs/study/bending_stiffness_Nm2=3/strain.h5");
+  // The strain comes out the same, so the life after it need not be computed again.
+  CHECK(stages_ran(run(scratch, "dresslife", "run study.yaml")) == "1");
+}
+
+TEST_CASE("a failed job stops no other and is told with its reason") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", R"(base: job.yaml
+jobs:
+  good: {}
+  too_short: {routing.free_length_m: 0.7}
+  misspelt: {routing.free_lenght_m: 0.7}
+)");
+  const Outcome outcome = run(scratch, "dresslife", "run study.yaml");
+  CHECK(outcome.status == 1);
+  CHECK(fs::exists(scratch / "runs/study/good/life.h5"));
+  CHECK(outcome.out.find("too short") != std::string::npos);
+  CHECK(outcome.out.find("did you mean 'free_length_m'?") != std::string::npos);
+  CHECK(outcome.err.find("2 of 3 jobs failed") != std::string::npos);
+
+  const Outcome status = run(scratch, "dresslife", "status study.yaml");
+  CHECK(status.status == 0);
+  CHECK(status.out.find("1 of 3 jobs done") != std::string::npos);
+  CHECK(status.out.find("too short") != std::string::npos);
+}
+
+TEST_CASE("status tells to do, done and stale") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  CHECK(run(scratch, "dresslife", "status study.yaml").out.find("0 of 2 jobs done") != std::string::npos);
+  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  CHECK(run(scratch, "dresslife", "status study.yaml").out.find("2 of 2 jobs done") != std::string::npos);
+  scratch.write("job.yaml", content(scratch / "job.yaml") + "fatigue: {stress: elastic}\n");
+  const Outcome stale = run(scratch, "dresslife", "status study.yaml");
+  CHECK(stale.out.find("stale") != std::string::npos);
+  CHECK(stale.out.find("0 of 2 jobs done") != std::string::npos);
+}
+
+TEST_CASE("a study that cannot be read is refused with its place") {
+  Scratch scratch;
+  write_small_job(scratch);
+  auto refused = [&](const std::string& text, const std::string& words) {
+    scratch.write("study.yaml", text);
+    const Outcome outcome = run(scratch, "dresslife", "run study.yaml");
+    INFO(outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find(words) == 0);
+  };
+  refused("vary: {motion: [a]}\n", "study.yaml:1:1: error: base is missing");
+  refused("base: job.yaml\nvery: {}\n", "study.yaml:2:1: error: unknown key 'very' of a study; did you mean 'vary'?");
+  refused("base: job.yaml\nvary: {simulation.segments: 8}\n", "study.yaml:2:29: error: vary.simulation.segments must be a list of values");
+  refused("base: none.yaml\n", "none.yaml: error: cannot be read");
+}
