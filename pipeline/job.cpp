@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/fields.h"
 
@@ -193,6 +194,15 @@ void check_robot(const Robot& robot, const Where& where) {
   }
 }
 
+void check_limit(const MotionStep& step, const Joint& joint, double angle) {
+  constexpr double slack = 1e-9;  // rounding of degrees to radians
+  constexpr double degrees = 180 / std::numbers::pi;
+  if (angle >= joint.lower - slack && angle <= joint.upper + slack) return;
+  throw InputError(step.where, fmt::format("target of {} is {:.6g} deg (limits {:.6g} .. {:.6g} deg)", joint.name, angle * degrees,
+                                           joint.lower * degrees, joint.upper * degrees),
+                   "choose a target within the limits");
+}
+
 void check_step(const MotionStep& step, const Robot& robot) {
   const bool move = !step.joints.empty(), dwell = step.dwell > 0, block = step.repeat > 0 || !step.steps.empty();
   if (move + dwell + block != 1)
@@ -204,6 +214,7 @@ void check_step(const MotionStep& step, const Robot& robot) {
     throw InputError(step.where, fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(),
                                              robot.joints.size()),
                      "give one angle per axis");
+  for (std::size_t axis = 0; axis < step.joints.size(); ++axis) check_limit(step, robot.joints[axis], step.joints[axis]);
   if (step.speed && step.speed_percent)
     throw InputError(step.where, "both speed_percent and speed_deg_per_s are given", "keep one of the two");
   if (!move && (step.speed || step.speed_percent || step.zone))
