@@ -223,7 +223,7 @@ Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const Ro
   while (result.iterations < settings.iterations) {
     ++result.iterations;
     const int not_positive = statics.solve(state, shift);
-    if (not_positive > 0) {
+    if (not_positive > 0 && !settings.also_unstable) {
       shift = std::max(shift_factor * shift, least_shift);
       continue;
     }
@@ -236,7 +236,7 @@ Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const Ro
     const Energy energy = rod.energy(state);
     const double rounding = energy_rounding * (energy.elastic + std::abs(energy.gravitational));
     const double work = part * statics.expected_work();
-    if (statics.energy_change(state, next, part) > -1e-4 * work + rounding) {
+    if (!settings.also_unstable && statics.energy_change(state, next, part) > -1e-4 * work + rounding) {
       shift = std::max(shift_factor * shift, least_shift);
       statics.start_pull(state);
       continue;

@@ -32,6 +32,8 @@ struct EquilibriumSettings {
   /// On Equilibrium::residual. Rounding of EA g (g of 1e-16 m at EA 1e6 N) leaves 1e-10 N; 1e-8 N against
   /// forces of 1..100 N moves nothing that is plotted or counted.
   double tolerance = 1e-8;
+  /// Plain Newton instead, which follows a branch whether it is stable or not; the start must be near.
+  bool also_unstable = false;
 };
 
 /// From both clamps alone: starts from a smooth curve of the right length with parallel-transported frames,
