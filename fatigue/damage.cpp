@@ -17,21 +17,6 @@ using pipeline::Stress;
 
 constexpr double weeks_per_month = 365.2425 / 12 / 7;  // mean Gregorian month
 
-/// Stress at each reversal of a path that starts from rest.
-std::vector<double> stresses_along(std::span<const Reversal> path, const pipeline::Material& material,
-                                   Stress stress) {
-  std::vector<double> stresses;
-  stresses.reserve(path.size());
-  if (stress == Stress::elastic) {
-    for (const Reversal& r : path) stresses.push_back(material.youngs_modulus * r.strain);
-    return stresses;
-  }
-  const CyclicCurve curve(material);
-  MemoryPath memory([&](double strain) { return curve.stress(strain); });
-  for (const Reversal& r : path) stresses.push_back(memory.go_to(r.strain));
-  return stresses;
-}
-
 /// Replaces samples by positions, so that cycles counted from the result lead back to `path`.
 std::vector<Reversal> numbered(std::span<const Reversal> path) {
   std::vector<Reversal> result(path.begin(), path.end());
@@ -39,18 +24,18 @@ std::vector<Reversal> numbered(std::span<const Reversal> path) {
   return result;
 }
 
-}  // namespace
-
-std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
-                                           const pipeline::Material& material,
-                                           const pipeline::Fatigue& settings) {
+/// Cycles with the stress from curve(strain >= 0) under Masing's rule and damage(eps_a, s_max, s_m).
+template <class Curve, class Damage>
+std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Counting counting,
+                                       const Curve& curve, const Damage& damage) {
   if (reversals.empty()) return {};
-  const bool repeating = settings.counting == Counting::repeating;
+  const bool repeating = counting == Counting::repeating;
   const std::vector<Reversal> path =
       repeating ? rotate_to_largest(reversals) : std::vector<Reversal>(reversals.begin(), reversals.end());
-  const std::vector<double> stress = stresses_along(path, material, settings.stress);
+  MemoryPath memory(curve);
+  std::vector<double> stress;
+  for (const Reversal& r : path) stress.push_back(memory.go_to(r.strain));
   const std::vector<Reversal> positions = numbered(path);
-  const StrainLife life(material, settings.mean_stress, settings.endurance_strain);
 
   std::vector<DamagingCycle> result;
   for (const Cycle& cycle : repeating ? count_repeating(positions) : count_half_cycles(positions)) {
@@ -59,9 +44,25 @@ std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
     out.cycle = {path[cycle.begin.sample], path[cycle.end.sample], cycle.count};
     out.stress_max = std::max(at_begin, at_end);
     out.stress_mean = at_begin / 2 + at_end / 2;
-    out.damage = cycle.count * life.damage({cycle.range() / 2, out.stress_max, out.stress_mean});
+    out.damage = cycle.count * damage(cycle.range() / 2, out.stress_max, out.stress_mean);
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
+                                           const pipeline::Material& material,
+                                           const pipeline::Fatigue& settings) {
+  const CyclicCurve cyclic(material);
+  const StrainLife life(material, settings.mean_stress, settings.endurance_strain);
+  const auto curve = [&](double strain) {
+    return settings.stress == Stress::cyclic ? cyclic.stress(strain) : material.youngs_modulus * strain;
+  };
+  return list_cycles(reversals, settings.counting, curve,
+                     [&](double amplitude, double stress_max, double stress_mean) {
+                       return life.damage({amplitude, stress_max, stress_mean});
+                     });
 }
 
 double sum_of_damage(std::span<const DamagingCycle> cycles) {
@@ -102,7 +103,6 @@ class BranchTable {
     if (range < table_.low()) return elastic_ * range;
     return range <= table_.high() ? table_(range) : curve_.stress_range(range);
   }
-  double curve(double strain) const { return curve_.stress(strain); }
 
  private:
   static constexpr double largest_range = 8;         // strain; beyond it the exact curve
@@ -167,6 +167,8 @@ struct DamageCounter::Tables {
   }
 
   double morrow_damage(double amplitude, double stress_mean) const;
+  template <class Use>
+  auto with_functions(const Use& use) const;
 
   pipeline::Material material;
   pipeline::Fatigue settings;
@@ -260,25 +262,6 @@ double sum_repeating(std::span<const float> strains, const Range& stress_range, 
   return sum(w.period, first_stress, stress_range, damage, w.strain.data(), w.stress.data());
 }
 
-/// The same for a history that happens once; for occasional use, not tuned.
-template <class Range, class Damage>
-double sum_half_cycles(std::span<const float> strains, const Range& stress_range, const Damage& damage,
-                       DamageCounter::Workspace& w) {
-  MemoryPath memory([&](double strain) { return stress_range(2 * strain) / 2; });
-  std::vector<Reversal> positions;
-  w.stress.clear();
-  for (const double strain : strains) {
-    positions.push_back({strain, static_cast<std::int64_t>(positions.size())});
-    w.stress.push_back(memory.go_to(strain));
-  }
-  double sum = 0;
-  for (const Cycle& c : count_half_cycles(positions)) {
-    const double a = w.stress[c.begin.sample], b = w.stress[c.end.sample];
-    sum += c.count * damage(c.range() / 2, std::max(a, b), a / 2 + b / 2);
-  }
-  return sum;
-}
-
 }  // namespace
 
 DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings)
@@ -286,32 +269,48 @@ DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline:
 DamageCounter::~DamageCounter() = default;
 DamageCounter::DamageCounter(DamageCounter&&) noexcept = default;
 
+/// Calls use(stress_range, damage) with the functions that the settings ask for.
+template <class Use>
+auto DamageCounter::Tables::with_functions(const Use& use) const {
+  const auto with_damage = [&](const auto& stress_range) {
+    const auto lasting = [&](const auto& damage) {
+      return use(stress_range,
+                 [&, endurance = settings.endurance_strain](double amplitude, double max, double mean) {
+                   return amplitude <= endurance ? 0.0 : damage(amplitude, max, mean);
+                 });
+    };
+    switch (settings.mean_stress) {
+      case MeanStress::none:
+        return lasting([&](double amplitude, double, double) { return strain_damage(amplitude); });
+      case MeanStress::morrow:
+        return lasting([&](double amplitude, double, double mean) { return morrow_damage(amplitude, mean); });
+      case MeanStress::swt:
+        break;
+    }
+    return lasting([&](double amplitude, double max, double) { return swt_damage(max * amplitude); });
+  };
+  if (settings.stress == Stress::cyclic) return with_damage([&](double range) { return branch(range); });
+  return with_damage([modulus = material.youngs_modulus](double range) { return modulus * range; });
+}
+
 double DamageCounter::operator()(std::span<const float> strains, Workspace& workspace) const {
   if (strains.size() < 2) return 0;
-  const Tables& t = *tables_;
-  const double endurance = t.settings.endurance_strain;
-  const auto sum = [&](const auto& stress_range, const auto& damage) {
-    const auto lasting = [&](double amplitude, double stress_max, double stress_mean) {
-      return amplitude <= endurance ? 0.0 : damage(amplitude, stress_max, stress_mean);
-    };
-    return t.settings.counting == Counting::repeating
-               ? sum_repeating(strains, stress_range, lasting, workspace)
-               : sum_half_cycles(strains, stress_range, lasting, workspace);
-  };
-  const auto with_damage = [&](const auto& stress_range) {
-    switch (t.settings.mean_stress) {
-      case MeanStress::none:
-        return sum(stress_range, [&](double a, double, double) { return t.strain_damage(a); });
-      case MeanStress::swt:
-        return sum(stress_range, [&](double a, double max, double) { return t.swt_damage(max * a); });
-      case MeanStress::morrow:
-        return sum(stress_range, [&](double a, double, double mean) { return t.morrow_damage(a, mean); });
-    }
-    assert(false);
-    return 0.0;
-  };
-  if (t.settings.stress == Stress::cyclic) return with_damage([&](double range) { return t.branch(range); });
-  return with_damage([modulus = t.material.youngs_modulus](double range) { return modulus * range; });
+  if (tables_->settings.counting == Counting::half_cycles) {  // for occasional use, not tuned
+    std::vector<Reversal> reversals;
+    for (const float strain : strains)
+      reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});
+    return sum_of_damage(cycles(reversals));
+  }
+  return tables_->with_functions([&](const auto& stress_range, const auto& damage) {
+    return sum_repeating(strains, stress_range, damage, workspace);
+  });
+}
+
+std::vector<DamagingCycle> DamageCounter::cycles(std::span<const Reversal> reversals) const {
+  return tables_->with_functions([&](const auto& stress_range, const auto& damage) {
+    const auto curve = [&](double strain) { return stress_range(2 * strain) / 2; };
+    return list_cycles(reversals, tables_->settings.counting, curve, damage);
+  });
 }
 
 double life_in_repeats(double damage) {

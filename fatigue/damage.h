@@ -58,6 +58,10 @@ class DamageCounter {
   double operator()(std::span<const float> strains, Workspace& workspace) const;
   static constexpr double table_error = 1e-5;
 
+  /// The history's cycles with stress and damage by the same tables, in the order in which they close. Their
+  /// sum is what operator() gives, to rounding.
+  std::vector<DamagingCycle> cycles(std::span<const Reversal> reversals) const;
+
  private:
   struct Tables;
   std::unique_ptr<const Tables> tables_;

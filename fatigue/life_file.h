@@ -1,0 +1,25 @@
+// strain.h5 in, life.h5 out: reads, evaluates and writes what pipeline/formats.cpp lists for dresslife-life.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/files.h"
+#include "pipeline/job.h"
+
+namespace dresslife::fatigue {
+
+/// What the stage tells on a terminal.
+struct Notes {
+  std::vector<std::string> warnings;
+  std::string summary;  ///< one line: life, place, wire
+};
+
+/// Writes all of life.h5 but the stamp. Memory: the damage of every site, the reversals of a block of sites,
+/// and one row of samples; it does not grow with the length of the motion otherwise.
+/// @throws pipeline::InputError when the strain file contradicts itself.
+Notes write_life(const pipeline::FileReader& strain, const pipeline::Job& job, pipeline::FileWriter& life,
+                 const std::function<void(double)>& progress);
+
+}  // namespace dresslife::fatigue

@@ -1,0 +1,26 @@
+// dresslife-fatigue: strain.h5 in, life.h5 out.
+#include "fatigue/life_file.h"
+#include "pipeline/stage.h"
+
+int main(int argc, char** argv) {
+  using namespace dresslife;
+  const pipeline::StageInfo info{
+      .program = "dresslife-fatigue",
+      .purpose = "Tells how long every wire of a dresspack lives, and which breaks first.",
+      .input = "strain.h5",
+      .output = "life.h5",
+      .example = "dresslife-fatigue strain.h5 -o life.h5 --set fatigue.stress=elastic"};
+  return pipeline::run_stage(
+      info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
+        const pipeline::FileReader strain(call.input, pipeline::strain_format());
+        const pipeline::Job job =
+            pipeline::job_of(call, strain, {pipeline::Part::sim, pipeline::Part::strain});
+        pipeline::FileWriter life(call.output, pipeline::life_format());
+        const fatigue::Notes notes =
+            fatigue::write_life(strain, job, life, [&](double share) { progress.show(share); });
+        for (const std::string& warning : notes.warnings) progress.note(warning);
+        pipeline::stamp(life, call, job, strain.text_attribute("history"));
+        life.commit();
+        progress.note(notes.summary);
+      });
+}

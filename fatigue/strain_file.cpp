@@ -1,0 +1,104 @@
+#include "fatigue/strain_file.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace dresslife::fatigue {
+namespace {
+
+constexpr std::size_t block_rows = 1 << 15;  // of site tables: a few megabytes of text
+
+}  // namespace
+
+void in_blocks(std::size_t rows, const std::function<void(std::size_t, std::size_t)>& copy) {
+  for (std::size_t first = 0; first < rows; first += block_rows)
+    copy(first, std::min(block_rows, rows - first));
+}
+
+std::vector<std::string> TextColumn::rows(std::size_t first, std::size_t count) const {
+  std::vector<std::string> texts;
+  for (std::size_t row = first; row < first + count; ++row) texts.push_back((*this)[row]);
+  return texts;
+}
+
+std::size_t TextColumn::longest() const {
+  std::size_t bytes = 0;
+  for (const std::string& value : values) bytes = std::max(bytes, value.size());
+  return bytes;
+}
+
+TextColumn read_column(const pipeline::FileReader& file, const std::string& dataset) {
+  TextColumn column;
+  std::unordered_map<std::string, int> known;
+  std::vector<std::string> texts;
+  in_blocks(file.rows(dataset), [&](std::size_t first, std::size_t count) {
+    file.read_rows(dataset, first, count, texts);
+    for (const std::string& text : texts) {
+      const auto [entry, fresh] = known.emplace(text, static_cast<int>(column.values.size()));
+      if (fresh) column.values.push_back(text);
+      column.index.push_back(entry->second);
+    }
+  });
+  return column;
+}
+
+SiteSet::SiteSet(const pipeline::FileReader& file, std::string group)
+    : file_(file),
+      group_(std::move(group)),
+      segment_(file.read<std::int32_t>(group_ + "/site/segment")),
+      offset_(file.read<std::uint64_t>(group_ + "/reversal/offset")),
+      material_(read_column(file, group_ + "/site/material")) {
+  check(file.length("segment"));
+}
+
+void SiteSet::check(std::size_t segments) const {
+  const std::string remedy = "make the file anew with dresslife-strain";
+  const auto outside = [&](std::int32_t s) { return s < 0 || static_cast<std::size_t>(s) >= segments; };
+  if (const auto bad = std::find_if(segment_.begin(), segment_.end(), outside); bad != segment_.end()) {
+    throw pipeline::InputError(
+        file_.where(), fmt::format("{}/site/segment names segment {} (there are {})", group_, *bad, segments),
+        remedy);
+  }
+  if (offset_.empty() || offset_.front() != 0 || !std::is_sorted(offset_.begin(), offset_.end()) ||
+      offset_.back() != file_.rows(group_ + "/reversal/strain")) {
+    throw pipeline::InputError(
+        file_.where(),
+        fmt::format("{}/reversal/offset does not divide the turning points among the sites", group_), remedy);
+  }
+}
+
+void SiteSet::for_each(const std::function<void(std::size_t, std::span<const float>)>& visit) const {
+  std::vector<float> strains;
+  for (std::size_t site = 0; site < size();) {
+    const std::uint64_t begin = offset_[site];
+    const auto after = std::upper_bound(offset_.begin() + site + 1, offset_.end(), begin + block_reversals);
+    const std::size_t end = std::max<std::size_t>(after - offset_.begin() - 1, site + 1);
+    file_.read_rows(group_ + "/reversal/strain", begin, offset_[end] - begin, strains);
+    for (; site < end; ++site) {
+      visit(site, std::span(strains).subspan(offset_[site] - begin, offset_[site + 1] - offset_[site]));
+    }
+  }
+}
+
+std::vector<Reversal> SiteSet::reversals_of(std::size_t site) const {
+  std::vector<float> strains;
+  std::vector<std::uint32_t> samples;
+  const std::size_t count = offset_[site + 1] - offset_[site];
+  file_.read_rows(group_ + "/reversal/strain", offset_[site], count, strains);
+  file_.read_rows(group_ + "/reversal/sample", offset_[site], count, samples);
+  std::vector<Reversal> reversals;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (samples[i] >= file_.length("sample") || (i > 0 && samples[i] <= samples[i - 1])) {
+      throw pipeline::InputError(
+          file_.where(),
+          fmt::format(
+              "{}/reversal/sample holds {} for a turning point of site {} (must rise and stay below {})",
+              group_, samples[i], site, file_.length("sample")),
+          "make the file anew with dresslife-strain");
+    }
+    reversals.push_back({strains[i], samples[i]});
+  }
+  return reversals;
+}
+
+}  // namespace dresslife::fatigue

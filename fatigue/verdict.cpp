@@ -1,0 +1,117 @@
+#include "fatigue/verdict.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+namespace dresslife::fatigue {
+namespace {
+
+void add_layer_names(const std::vector<pipeline::Component>& components, std::vector<std::string>& names) {
+  for (const pipeline::Component& c : components) {
+    if (!c.layer.empty()) names.push_back(c.layer);
+    add_layer_names(c.components, names);
+  }
+}
+
+/// "wire 17" -> "wire"
+std::string without_number(const std::string& part) {
+  const std::size_t space = part.find_last_of(' ');
+  const bool numbered = space != std::string::npos && space + 1 < part.size() &&
+                        part.find_first_not_of("0123456789", space + 1) == std::string::npos;
+  return numbered ? part.substr(0, space) : part;
+}
+
+}  // namespace
+
+bool SiteDamage::worse(std::size_t a, std::size_t b) const {
+  if (damage[a] != damage[b]) return damage[a] > damage[b];
+  if (range[a] != range[b]) return range[a] > range[b];
+  return a < b;
+}
+
+std::size_t SiteDamage::worst() const {
+  return worst_by_group(*this, 1, [](std::size_t) { return 0; }).front();
+}
+
+std::vector<DamageCounter> counters_for(const SiteSet& sites, const pipeline::Job& job) {
+  std::vector<DamageCounter> counters;
+  for (const std::string& name : sites.material().values) {
+    counters.emplace_back(pipeline::material_of(job, name), job.fatigue);
+  }
+  return counters;
+}
+
+SiteDamage damage_of(const SiteSet& sites, const std::vector<DamageCounter>& counters,
+                     const std::function<void(double)>& progress) {
+  SiteDamage all;
+  all.damage.reserve(sites.size());
+  all.range.reserve(sites.size());
+  DamageCounter::Workspace workspace;
+  sites.for_each([&](std::size_t site, std::span<const float> strains) {
+    all.damage.push_back(counters[sites.material().index[site]](strains, workspace));
+    float low = strains.empty() ? 0 : strains[0], high = low;
+    for (const float strain : strains) low = std::min(low, strain), high = std::max(high, strain);
+    all.range.push_back(high - low);
+    if (site % 1024 == 0) progress(double(site) / sites.size());
+  });
+  return all;
+}
+
+std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t groups,
+                                        const std::function<std::size_t(std::size_t)>& group_of) {
+  std::vector<std::size_t> worst(groups, no_site);
+  for (std::size_t site = 0; site < all.damage.size(); ++site) {
+    std::size_t& leader = worst[group_of(site)];
+    if (leader == no_site || all.worse(site, leader)) leader = site;
+  }
+  return worst;
+}
+
+std::vector<std::size_t> worst_sites(const SiteDamage& all, std::size_t count) {
+  std::vector<std::size_t> sites;
+  for (std::size_t site = 0; site < all.damage.size(); ++site) {
+    if (all.damage[site] > 0) sites.push_back(site);
+  }
+  const std::size_t kept = std::min(count, sites.size());
+  std::partial_sort(sites.begin(), sites.begin() + kept, sites.end(),
+                    [&](std::size_t a, std::size_t b) { return all.worse(a, b); });
+  sites.resize(kept);
+  return sites;
+}
+
+std::vector<std::string> layer_names(const pipeline::Dresspack& dresspack) {
+  std::vector<std::string> names;
+  add_layer_names(dresspack.components, names);
+  return names;
+}
+
+std::string layer_of(const std::string& component, const std::vector<std::string>& layer_names) {
+  std::string layer;
+  for (std::size_t begin = 0; begin <= component.size();) {
+    const std::size_t end = std::min(component.find('/', begin), component.size());
+    const std::string part = component.substr(begin, end - begin);
+    const bool is_layer = std::find(layer_names.begin(), layer_names.end(), part) != layer_names.end();
+    layer += (begin > 0 ? "/" : "") + (is_layer ? part : without_number(part));
+    begin = end + 1;
+  }
+  return layer;
+}
+
+double position_from_tool(const std::vector<double>& length, std::size_t segment) {
+  return std::accumulate(length.begin() + segment + 1, length.end(), length[segment] / 2);
+}
+
+std::vector<double> strain_between_reversals(const std::vector<Reversal>& reversals, std::size_t samples) {
+  assert(!reversals.empty());
+  std::vector<double> strain(samples, reversals.back().strain);
+  for (std::size_t i = 0; i + 1 < reversals.size(); ++i) {
+    const Reversal &a = reversals[i], &b = reversals[i + 1];
+    for (std::int64_t t = a.sample; t < b.sample; ++t) {
+      strain[t] = a.strain + (b.strain - a.strain) * double(t - a.sample) / double(b.sample - a.sample);
+    }
+  }
+  return strain;
+}
+
+}  // namespace dresslife::fatigue

@@ -1,0 +1,53 @@
+// From the strains of every site to what a report tells: which wire breaks first, where, when, and what moved
+// then.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fatigue/damage.h"
+#include "fatigue/strain_file.h"
+#include "pipeline/job.h"
+
+namespace dresslife::fatigue {
+
+constexpr std::size_t no_site = 0xffffffff;
+
+/// Damage of every site of a set, with what ranks equals.
+struct SiteDamage {
+  std::vector<double> damage;  ///< (site) per repeat of the motion
+  std::vector<float> range;    ///< (site) largest minus smallest strain
+
+  /// Larger damage first; where equal (often 0), larger range first, then lower index.
+  bool worse(std::size_t a, std::size_t b) const;
+  std::size_t worst() const;  ///< no_site for an empty set
+};
+
+/// A counter for each material of a set, in the order of its materials.
+std::vector<DamageCounter> counters_for(const SiteSet& sites, const pipeline::Job& job);
+
+/// Damage of all sites. progress is told the share done.
+SiteDamage damage_of(const SiteSet& sites, const std::vector<DamageCounter>& counters,
+                     const std::function<void(double)>& progress);
+
+/// The worst site of each group, (group); no_site where a group is empty. group_of(site) < groups.
+std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t groups,
+                                        const std::function<std::size_t(std::size_t)>& group_of);
+
+/// The `count` worst sites that are damaged at all, worst first.
+std::vector<std::size_t> worst_sites(const SiteDamage& all, std::size_t count);
+
+/// Path of a wire without the numbers of its parts: "signal cable 3/conductor 2/layer 1/wire 17" of a job
+/// whose components name a layer "layer 1" is "signal cable/conductor/layer 1/wire".
+std::string layer_of(const std::string& component, const std::vector<std::string>& layer_names);
+std::vector<std::string> layer_names(const pipeline::Dresspack& dresspack);
+
+/// Distance along the dresspack from the tool clamp to the middle of a segment. length (segment) [m]
+double position_from_tool(const std::vector<double>& length, std::size_t segment);
+
+/// Strain at every sample from the reversals alone: straight between them. Precondition: reversals not empty.
+std::vector<double> strain_between_reversals(const std::vector<Reversal>& reversals, std::size_t samples);
+
+}  // namespace dresslife::fatigue

@@ -1,0 +1,391 @@
+// The stage on small strain files with known answers: what life.h5 says, that its parts agree, and what is
+// refused.
+#include "fatigue/life_file.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numeric>
+
+#include "fatigue/verdict.h"
+#include "tests/fatigue/materials.h"
+
+using namespace dresslife;
+using namespace dresslife::fatigue;
+using namespace dresslife::fatigue_tests;
+using pipeline::FileReader;
+using pipeline::FileWriter;
+
+namespace {
+
+constexpr double same_sum = 1e-12;  // relative: the same terms in another order
+constexpr std::size_t samples = 101, segments = 4;
+constexpr double duration = 50;  // of the motion below [s]
+
+/// A folder of this test's own, gone afterwards.
+struct Folder {
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("dresslife-life-{}", ::getpid());
+};
+
+struct Site {
+  int segment = 0;
+  std::string component, material;
+  std::vector<float> strain;  // of the reversals
+  std::vector<std::uint32_t> sample;
+};
+
+struct StrainFile {
+  std::vector<Site> sites, stick, free;
+  std::vector<std::uint32_t> probes;  // sites; their histories are 1000 + sample
+  std::vector<std::int32_t> step = std::vector<std::int32_t>(samples, 0);
+  std::uint64_t wrong_offset = 0;  // added to the last offset
+};
+
+/// 0, a, -a, 0 at samples 0, 20, 60, 100: one closed cycle of amplitude a.
+Site swing(int segment, std::string component, float amplitude, std::string material = "copper") {
+  return {
+      segment, std::move(component), std::move(material), {0, amplitude, -amplitude, 0}, {0, 20, 60, 100}};
+}
+
+void write_set(FileWriter& file, const std::string& group, const std::vector<Site>& sites,
+               std::uint64_t wrong_offset) {
+  std::vector<std::int32_t> segment;
+  std::vector<std::string> component, material;
+  std::vector<std::uint64_t> offset{0};
+  std::vector<float> strain;
+  std::vector<std::uint32_t> sample;
+  for (const Site& site : sites) {
+    segment.push_back(site.segment);
+    component.push_back(site.component);
+    material.push_back(site.material);
+    strain.insert(strain.end(), site.strain.begin(), site.strain.end());
+    sample.insert(sample.end(), site.sample.begin(), site.sample.end());
+    offset.push_back(strain.size());
+  }
+  offset.back() += wrong_offset;
+  const std::vector<double> helix(sites.size() * 3, 0.5), fibre(sites.size() * 2, 0.25);
+  file.append(group + "/site/segment", std::span<const std::int32_t>(segment));
+  file.append(group + "/site/component", std::span<const std::string>(component));
+  file.append(group + "/site/material", std::span<const std::string>(material));
+  file.append(group + "/site/helix", std::span<const double>(helix));
+  file.append(group + "/site/fibre", std::span<const double>(fibre));
+  file.append(group + "/reversal/offset", std::span<const std::uint64_t>(offset));
+  file.append(group + "/reversal/strain", std::span<const float>(strain));
+  file.append(group + "/reversal/sample", std::span<const std::uint32_t>(sample));
+}
+
+void write_strain(const std::filesystem::path& path, const StrainFile& f) {
+  FileWriter file(path, pipeline::strain_format());
+  file.set_axis("segment", segments);
+  file.set_axis("level", 1);
+  file.set_axis("sample", samples);
+  std::vector<double> time, probe;
+  for (std::size_t t = 0; t < samples; ++t) time.push_back(duration * t / (samples - 1));
+  const std::vector<double> lengths{0.1, 0.2, 0.3, 0.4};
+  const std::vector<std::string> text{"approach", "weld", "retreat"};
+  const std::vector<double> rows(samples * segments, 0.0), pairs(2 * samples * segments, 0.0);
+  file.append("/time", std::span<const double>(time));
+  file.append("/program/step", std::span<const std::int32_t>(f.step));
+  file.append("/program/text", std::span<const std::string>(text));
+  file.append("/segment/length", std::span<const double>(lengths));
+  file.append("/deformation/curvature", std::span<const double>(pairs));
+  file.append("/deformation/twist", std::span<const double>(rows));
+  file.append("/deformation/elongation", std::span<const double>(rows));
+  write_set(file, "", f.sites, f.wrong_offset);
+  write_set(file, "/bound_stick", f.stick, 0);
+  write_set(file, "/bound_free", f.free, 0);
+  for (std::size_t p = 0; p < f.probes.size(); ++p) {
+    for (std::size_t t = 0; t < samples; ++t) probe.push_back(1000 + double(t));
+  }
+  file.append("/probe/site", std::span<const std::uint32_t>(f.probes));
+  file.append("/probe/strain", std::span<const double>(probe));
+  file.attribute("job", "made by a test");
+  file.attribute("history", "");
+  file.attribute("input_sha256", "");
+  file.commit();
+}
+
+pipeline::Job test_job() {
+  pipeline::Job job;
+  auto cu = copper(), al = aluminium();
+  cu.name = "copper";
+  al.name = "aluminium";
+  job.dresspack.materials = {cu, al};
+  pipeline::Component cable;
+  cable.name = "cable";
+  cable.components.resize(2);
+  cable.components[0].layer = "layer 1";
+  cable.components[1].layer = "layer 2";
+  job.dresspack.components = {cable};
+  return job;
+}
+
+StrainFile example() {
+  StrainFile f;
+  f.sites = {swing(0, "cable 1/layer 1/wire 1", 0.004f),  swing(0, "cable 1/layer 2/wire 1", 0.005f),
+             swing(1, "cable 1/layer 1/wire 1", 0.006f),  swing(2, "cable 2/layer 1/wire 7", 0.01f),
+             swing(2, "cable 2/layer 2/wire 12", 0.008f), swing(3, "cable 1/layer 1/wire 1", 0.0f)};
+  // The worst one has an inner cycle too: 0.01 -> 0.002 -> 0.008 -> -0.01
+  f.sites[3].strain = {0, 0.01f, 0.002f, 0.008f, -0.01f, 0};
+  f.sites[3].sample = {0, 20, 30, 40, 60, 100};
+  f.stick = {swing(2, "cable 2/layer 1/wire 7", 0.02f)};
+  f.free = {swing(2, "cable 2/layer 1/wire 7", 0.001f), swing(2, "cable 2/layer 2/wire 12", 0.002f)};
+  for (std::size_t t = 0; t < samples; ++t) f.step[t] = t < 35 ? 0 : t < 80 ? 1 : 2;
+  return f;
+}
+
+struct Result {
+  Notes notes;
+  std::filesystem::path file;
+};
+
+Result run(const Folder& folder, const StrainFile& f, const pipeline::Job& job = test_job(),
+           const std::string& name = "life.h5") {
+  const auto strain_path = folder.path / "strain.h5", life_path = folder.path / name;
+  write_strain(strain_path, f);
+  const FileReader strain(strain_path, pipeline::strain_format());
+  FileWriter life(life_path, pipeline::life_format());
+  Result result{write_life(strain, job, life, [](double) {}), life_path};
+  life.attribute("job", "made by a test");
+  life.attribute("history", "");
+  life.attribute("input_sha256", "");
+  life.commit();
+  return result;
+}
+
+double exact_damage(const Site& site, const pipeline::Job& job) {
+  std::vector<Reversal> reversals;
+  for (std::size_t i = 0; i < site.strain.size(); ++i) reversals.push_back({site.strain[i], site.sample[i]});
+  return sum_of_damage(evaluate_cycles(reversals, pipeline::material_of(job, site.material), job.fatigue));
+}
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+std::string bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("life.h5: damage of every site, and the worst one's life, place, moment and name") {
+  const Folder folder;
+  const StrainFile f = example();
+  const Result result = run(folder, f);
+  const FileReader life(result.file, pipeline::life_format());
+  const auto damage = life.read<double>("/damage"), lives = life.read<double>("/life");
+  REQUIRE(damage.size() == 6);
+  for (std::size_t site = 0; site < 5; ++site) {
+    CHECK(damage[site] ==
+          Approx(exact_damage(f.sites[site], test_job())).epsilon(DamageCounter::table_error));
+    CHECK(lives[site] == 1 / damage[site]);
+  }
+  CHECK(damage[5] == 0);
+  CHECK(lives[5] == std::numeric_limits<double>::infinity());
+  CHECK(life.read<std::string>("/site/component")[4] == "cable 2/layer 2/wire 12");
+  CHECK(life.read<std::string>("/site/material") == std::vector<std::string>(6, "copper"));
+  CHECK(life.read<double>("/site/helix") == std::vector<double>(18, 0.5));
+
+  CHECK(life.number_attribute("worst_site") == 3);
+  CHECK(life.number_attribute("damage_per_repeat") == damage[3]);
+  CHECK(life.number_attribute("life_repeats") == 1 / damage[3]);
+  CHECK(life.number_attribute("repeat_seconds") == duration);
+  CHECK(life.number_attribute("life_hours") == Approx(duration / 3600 / damage[3]));
+  CHECK(life.number_attribute("life_months") ==
+        Approx(duration / 3600 / damage[3] / 80 / (365.2425 / 12 / 7)));
+  CHECK(life.number_attribute("worst_segment_from_tool") == 2);
+  CHECK(life.number_attribute("worst_position_from_tool") == Approx(0.4 + 0.3 / 2));
+  CHECK(life.text_attribute("worst_component") == "cable 2/layer 1/wire 7");
+  CHECK(life.number_attribute("worst_time") == Approx(30));  // the large cycle ends at sample 60
+  CHECK(life.text_attribute("worst_step") == "weld");
+  CHECK_THAT(result.notes.summary,
+             Catch::Contains("until cable 2/layer 1/wire 7 breaks, 0.55 m from the tool, worst "
+                             "during 'weld'"));
+  CHECK(result.notes.warnings.empty());
+}
+
+TEST_CASE("life.h5: cycles, time, steps, segments and layers add up") {
+  const Folder folder;
+  const Result result = run(folder, example());
+  const FileReader life(result.file, pipeline::life_format());
+  const auto damage = life.read<double>("/damage");
+
+  const auto site = life.read<std::uint32_t>("/cycles/site");
+  const auto cycle_damage = life.read<double>("/cycles/damage");
+  CHECK(site ==
+        std::vector<std::uint32_t>{3, 3, 4, 2, 1, 0});  // worst first; the undamaged site is not listed
+  CHECK(cycle_damage[0] + cycle_damage[1] == Approx(damage[3]).epsilon(same_sum));
+  CHECK(life.read<std::uint32_t>("/cycles/begin")[0] == 30);
+  CHECK(life.read<std::uint32_t>("/cycles/end")[0] == 40);
+  CHECK(life.read<double>("/cycles/range")[0] == Approx(0.006));
+  CHECK(life.read<double>("/cycles/mean")[0] == Approx(0.005));
+
+  CHECK(life.read<std::uint32_t>("/segment/worst_site") == std::vector<std::uint32_t>{1, 2, 3, 5});
+  const auto segment_damage = life.read<double>("/segment/damage");
+  for (std::size_t segment = 0; segment < segments; ++segment) {
+    std::vector<double> rate;
+    life.read_rows("/damage_rate", segment, 1, rate);
+    REQUIRE(rate.size() == samples);
+    CHECK(sum(rate) == Approx(segment_damage[segment]).epsilon(same_sum));
+  }
+  const auto by_step = life.read<double>("/program/damage");
+  CHECK(by_step == std::vector<double>{0, sum(by_step), 0});  // both cycles end during the second line
+  CHECK(sum(by_step) == Approx(damage[3]).epsilon(same_sum));
+
+  CHECK(life.read<std::string>("/layer/component") ==
+        std::vector<std::string>{"cable/layer 1/wire", "cable/layer 2/wire"});
+  CHECK(life.read<std::uint32_t>("/layer/worst_site") == std::vector<std::uint32_t>{3, 4});
+  CHECK(life.read<double>("/layer/damage") == std::vector<double>{damage[3], damage[4]});
+}
+
+TEST_CASE("life.h5: the bounds are the lives of their own sites") {
+  const Folder folder;
+  const StrainFile f = example();
+  const Result result = run(folder, f);
+  const FileReader life(result.file, pipeline::life_format());
+  const double stick = 1 / exact_damage(f.stick[0], test_job()),
+               free = 1 / exact_damage(f.free[1], test_job());
+  CHECK(life.number_attribute("life_repeats_all_stick") == Approx(stick).epsilon(DamageCounter::table_error));
+  CHECK(life.number_attribute("life_repeats_all_free") == Approx(free).epsilon(DamageCounter::table_error));
+  CHECK(life.number_attribute("life_hours_all_free") ==
+        Approx(free * duration / 3600).epsilon(DamageCounter::table_error));
+}
+
+TEST_CASE("life.h5: the worst strain is its probe, or straight between its reversals") {
+  const Folder folder;
+  StrainFile f = example();
+  f.probes = {1, 3};
+  const Result probed = run(folder, f);
+  const auto history = FileReader(probed.file, pipeline::life_format()).read<double>("/worst/strain");
+  CHECK((history[0] == 1000 && history[100] == 1100));
+  f.probes = {1};
+  const Result bare = run(folder, f, test_job(), "bare.h5");
+  const auto straight = FileReader(bare.file, pipeline::life_format()).read<double>("/worst/strain");
+  REQUIRE(straight.size() == samples);
+  CHECK(straight[10] == Approx(0.005));
+  CHECK(straight[50] == Approx(-0.001));
+  CHECK(straight[100] == 0);
+}
+
+TEST_CASE("life.h5: materials are each site's own, or the one that the job sets for all") {
+  const Folder folder;
+  StrainFile f = example();
+  f.sites[4].material = "aluminium";
+  const Result own = run(folder, f);
+  const auto damage = FileReader(own.file, pipeline::life_format()).read<double>("/damage");
+  CHECK(damage[4] == Approx(exact_damage(f.sites[4], test_job())).epsilon(DamageCounter::table_error));
+  pipeline::Job job = test_job();
+  job.fatigue.material = "aluminium";
+  const Result all = run(folder, f, job, "all.h5");
+  const auto aluminium_damage = FileReader(all.file, pipeline::life_format()).read<double>("/damage");
+  CHECK(aluminium_damage[4] == damage[4]);
+  CHECK(aluminium_damage[3] > damage[3]);
+}
+
+TEST_CASE("life.h5: no damage, no sites, and strains that no wire survives") {
+  const Folder folder;
+  StrainFile still = example();
+  for (Site& site : still.sites) site.strain = {1e-6f, 2e-6f}, site.sample = {0, 100};
+  still.sites[2].strain = {1e-6f, 3e-6f};
+  const Result harmless = run(folder, still);
+  const FileReader calm(harmless.file, pipeline::life_format());
+  CHECK(calm.number_attribute("life_hours") == std::numeric_limits<double>::infinity());
+  CHECK(calm.number_attribute("worst_site") == 2);  // the largest range
+  CHECK(calm.rows("/cycles/site") == 0);
+  CHECK(harmless.notes.summary == "no wire is damaged");
+
+  const Result empty = run(folder, StrainFile{}, test_job(), "empty.h5");
+  const FileReader none(empty.file, pipeline::life_format());
+  CHECK(none.number_attribute("worst_segment_from_tool") == 0);
+  CHECK(none.rows("/damage") == 0);
+  CHECK(empty.notes.summary == "no wire was evaluated");
+
+  StrainFile absurd = example();
+  absurd.sites[0] = swing(0, "cable 1/layer 1/wire 1", 40);
+  const Result torn = run(folder, absurd, test_job(), "torn.h5");
+  CHECK(FileReader(torn.file, pipeline::life_format()).number_attribute("life_repeats") == 0.5);
+  REQUIRE(torn.notes.warnings.size() == 1);
+  CHECK_THAT(torn.notes.warnings[0],
+             Catch::Contains("1 of the worst wire's cycles tear it on their first reversal"));
+}
+
+TEST_CASE("life.h5: a material whose cyclic curve contradicts its life curve is warned of") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  job.dresspack.materials[0].cyclic_strength = 100e6;
+  const Result cyclic = run(folder, example(), job);
+  REQUIRE(cyclic.notes.warnings.size() == 1);
+  CHECK_THAT(cyclic.notes.warnings[0], Catch::Contains("material copper: K' 100 MPa"));
+  job.fatigue.stress = pipeline::Stress::elastic;  // then they are not used
+  CHECK(run(folder, example(), job).notes.warnings.empty());
+}
+
+TEST_CASE("life.h5: the same input gives the same bytes") {
+  const Folder folder;
+  const auto once = bytes(run(folder, example(), test_job(), "once.h5").file);
+  CHECK(once.size() > 10000);
+  CHECK(once == bytes(run(folder, example(), test_job(), "again.h5").file));
+}
+
+TEST_CASE("life.h5: strain files that contradict themselves are refused, and nothing is left behind") {
+  const Folder folder;
+  const auto refused = [&](const StrainFile& f, const std::string& words) {
+    INFO(words);
+    CHECK_THROWS_WITH(run(folder, f), Catch::Contains("strain.h5: error: ") && Catch::Contains(words) &&
+                                          Catch::Contains("make the file anew with dresslife-strain"));
+    CHECK_FALSE(std::filesystem::exists(folder.path / "life.h5"));
+    CHECK_FALSE(std::filesystem::exists(folder.path / "life.h5.part"));
+  };
+  StrainFile f = example();
+  f.sites[0].segment = 9;
+  refused(f, "/site/segment names segment 9 (there are 4)");
+  f = example();
+  f.wrong_offset = 1;
+  refused(f, "/reversal/offset does not divide the turning points among the sites");
+  f = example();
+  f.sites[3].sample[5] = 777;
+  refused(f, "/reversal/sample holds 777 for a turning point of site 3");
+  f = example();
+  f.sites[3].sample[2] = 20;
+  refused(f, "/reversal/sample holds 20 for a turning point of site 3 (must rise");
+  f = example();
+  f.step[7] = 3;
+  refused(f, "/program/step names line 3 (/program/text has 3)");
+  f = example();
+  f.free.clear();
+  refused(f, "/bound_free holds no sites");
+}
+
+TEST_CASE("sites are visited in order with their own strains, also over many blocks") {
+  const Folder folder;
+  StrainFile f = example();
+  f.sites.clear();
+  const std::size_t each = 999, count = 2 * SiteSet::block_reversals / each + 7;
+  for (std::size_t site = 0; site < count; ++site) {
+    Site& made = f.sites.emplace_back(swing(0, "cable 1", 0));
+    made.strain.assign(site % 3 == 0 ? each : site % 3, static_cast<float>(site));
+    made.sample.assign(made.strain.size(), 0);
+  }
+  f.sites[count / 2].strain.assign(SiteSet::block_reversals + 5, 0.5f);  // one that fills more than a block
+  f.sites[count / 2].sample.assign(SiteSet::block_reversals + 5, 0);
+  write_strain(folder.path / "many.h5", f);
+  const FileReader strain(folder.path / "many.h5", pipeline::strain_format());
+  const SiteSet sites(strain, "");
+  std::size_t visited = 0;
+  bool all_equal = true;
+  sites.for_each([&](std::size_t site, std::span<const float> strains) {
+    all_equal =
+        all_equal && site == visited &&
+        std::equal(strains.begin(), strains.end(), f.sites[site].strain.begin(), f.sites[site].strain.end());
+    ++visited;
+  });
+  CHECK(visited == count);
+  CHECK(all_equal);
+}
