@@ -475,6 +475,7 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format) 
 FileReader::~FileReader() = default;
 
 bool FileReader::has(const std::string& dataset) const { return impl_->open.count(dataset) > 0; }
+bool FileReader::has_attribute(const std::string& name) const { return H5Aexists(impl_->file, name.c_str()) > 0; }
 std::size_t FileReader::length(const std::string& axis) const {
   const auto found = impl_->axes.find(axis);
   return found == impl_->axes.end() ? 0 : found->second;

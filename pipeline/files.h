@@ -96,6 +96,7 @@ class FileReader {
   FileReader& operator=(const FileReader&) = delete;
 
   bool has(const std::string& dataset) const;
+  bool has_attribute(const std::string& name) const;          ///< of the root
   std::size_t length(const std::string& axis) const;          ///< of a named axis; 0 when no dataset has it
   std::size_t rows(const std::string& dataset) const;
   std::size_t row_size(const std::string& dataset) const;     ///< values per row

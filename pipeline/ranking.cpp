@@ -1,0 +1,180 @@
+#include "pipeline/ranking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/files.h"
+#include "pipeline/readable.h"
+#include "pipeline/units.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+RankingRow read_row(const JobResult& result) {
+  RankingRow row;
+  row.job = result.name;
+  row.life_file = result.life_file;
+  row.failure = result.failure;
+  if (!row.done()) return row;
+  try {
+    const FileReader file(result.life_file, life_format());
+    row.life_repeats = file.number_attribute("life_repeats");
+    row.life_hours = file.number_attribute("life_hours");
+    row.life_months = file.number_attribute("life_months");
+    row.life_repeats_all_stick = file.number_attribute("life_repeats_all_stick");
+    row.life_repeats_all_free = file.number_attribute("life_repeats_all_free");
+    row.repeat_seconds = file.number_attribute("repeat_seconds");
+    row.damage_per_repeat = file.number_attribute("damage_per_repeat");
+    if (file.length("site") == 0) return row;
+    row.worst_segment_from_tool = static_cast<int>(file.number_attribute("worst_segment_from_tool"));
+    row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
+    row.worst_time = file.number_attribute("worst_time");
+    if (file.has_attribute("worst_component")) row.worst_component = file.text_attribute("worst_component");
+    if (file.has_attribute("worst_step")) row.worst_step = file.text_attribute("worst_step");
+  } catch (const InputError& problem) {
+    row.failure = problem.what();
+  }
+  return row;
+}
+
+bool better(const RankingRow& one, const RankingRow& other) {
+  if (one.done() != other.done()) return one.done();
+  if (one.done() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
+  return one.job < other.job;
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"') quoted += '"';
+    quoted += letter;
+  }
+  return quoted + '"';
+}
+
+/// One column of the terminal's table, as wide as its widest cell.
+struct Column {
+  std::string title;
+  bool to_the_right;
+  std::vector<std::string> cells;
+  std::size_t width() const {
+    std::size_t widest = columns_of(title);
+    for (const std::string& cell : cells) widest = std::max(widest, columns_of(cell));
+    return widest;
+  }
+  std::string padded(const std::string& cell) const {
+    const std::string space(width() - columns_of(cell), ' ');
+    return to_the_right ? space + cell : cell + space;
+  }
+};
+
+std::string life_text(double life) { return std::isinf(life) ? "no damage" : readable(life); }
+
+std::string bounds_text(const RankingRow& row) {
+  return fmt::format("{} .. {}", life_text(row.hours_of(row.life_repeats_all_stick)),
+                     life_text(row.hours_of(row.life_repeats_all_free)));
+}
+
+std::string segment_text(const RankingRow& row) {
+  if (row.worst_segment_from_tool == 0) return "-";
+  return fmt::format("{} ({:.2f} m)", row.worst_segment_from_tool, row.worst_position_from_tool);
+}
+
+/// What breaks and what moved then; the second line of a job.
+std::string story(const RankingRow& row) {
+  if (row.worst_component.empty()) return "no wire was evaluated";
+  if (!(row.damage_per_repeat > 0)) return "no damage";
+  const std::string at = fmt::format(" at {:.1f} s", row.worst_time);
+  return row.worst_component + (row.worst_step.empty() ? ", worst" : ", by '" + row.worst_step + "'") + at;
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char letter) { return letter == '\n' || letter == '\r' || letter == '\t'; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
+  std::vector<RankingRow> rows;
+  rows.reserve(results.size());
+  for (const JobResult& result : results) rows.push_back(read_row(result));
+  std::stable_sort(rows.begin(), rows.end(), better);
+  return rows;
+}
+
+std::string ranking_csv(const std::vector<RankingRow>& rows) {
+  std::string text =
+      "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,life_months,"
+      "life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,worst_time_s,worst_step,"
+      "status,message\n";
+  for (const RankingRow& row : rows) {
+    if (!row.done()) {
+      text += fmt::format("{},,,,,,,,,,,,failed,{}\n", csv_cell(row.job), csv_cell(row.failure));
+      continue;
+    }
+    const bool evaluated = row.worst_segment_from_tool > 0;
+    const std::array<std::string, 14> cells{row.job,
+                                            shortest_text(row.life_repeats),
+                                            shortest_text(row.life_hours),
+                                            evaluated ? std::to_string(row.worst_segment_from_tool) : "",
+                                            row.worst_component,
+                                            shortest_text(row.damage_per_repeat),
+                                            shortest_text(row.life_months),
+                                            shortest_text(row.life_repeats_all_stick),
+                                            shortest_text(row.life_repeats_all_free),
+                                            evaluated ? shortest_text(row.worst_position_from_tool) : "",
+                                            evaluated ? shortest_text(row.worst_time) : "",
+                                            row.worst_step,
+                                            "done",
+                                            ""};
+    for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width) {
+  constexpr std::size_t longest_name = 32;
+  std::array<Column, 7> columns{{{"", true, {}},
+                                 {"job", false, {}},
+                                 {"life [h]", true, {}},
+                                 {"all stick .. all free [h]", true, {}},
+                                 {"months", true, {}},
+                                 {"repeats", true, {}},
+                                 {"worst segment from tool", true, {}}}};
+  std::size_t rank = 0;
+  for (const RankingRow& row : rows) {
+    ++rank;
+    const std::array<std::string, 7> cells =
+        row.done() ? std::array<std::string, 7>{std::to_string(rank),       "",
+                                                life_text(row.life_hours),  bounds_text(row),
+                                                life_text(row.life_months), life_text(row.life_repeats),
+                                                segment_text(row)}
+                   : std::array<std::string, 7>{"-", "", "failed", "", "", "", ""};
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i].cells.push_back(i == 1 ? shortened(one_line(row.job), longest_name) : cells[i]);
+  }
+  const auto line = [&](auto cell_of) {
+    std::string text;
+    for (const Column& column : columns) text += column.padded(cell_of(column)) + "  ";
+    return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
+  };
+  std::string text = line([](const Column& column) { return column.title; });
+  const std::string indent(columns[0].width() + 2, ' ');
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    text += line([i](const Column& column) { return column.cells[i]; });
+    const std::string second = one_line(rows[i].done() ? story(rows[i]) : rows[i].failure);
+    // A reason for failure is kept whole: its end is the remedy.
+    text += indent + (rows[i].done() ? shortened(second, width - indent.size()) : second) + '\n';
+  }
+  return text;
+}
+
+}  // namespace dresslife::pipeline

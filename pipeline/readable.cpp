@@ -1,0 +1,55 @@
+#include "pipeline/readable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double longest_written_out = 1e9;
+constexpr double shortest_written_out = 1e-4;
+
+bool continues(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
+
+}  // namespace
+
+std::string grouped(std::string digits) {
+  const std::size_t first = digits.starts_with('-') ? 1 : 0;
+  const std::size_t end = std::min(digits.find_first_not_of("0123456789", first), digits.size());
+  for (std::size_t place = end; place > first + 3;) digits.insert(place -= 3, ",");
+  return digits;
+}
+
+std::string readable(double value, int figures) {
+  if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return value > 0 ? "unlimited" : "-unlimited";
+  if (value == 0) return "0";
+  // Rounded first, so that 999.6 becomes 1,000 and not 1e+03.
+  const double rounded = std::stod(fmt::format("{:.{}e}", value, figures - 1));
+  const double size = std::abs(rounded);
+  if (size >= longest_written_out || size < shortest_written_out) {
+    std::string text = fmt::format("{:.{}e}", rounded, figures - 1);
+    return text;
+  }
+  const int decimals = std::max(0, figures - 1 - static_cast<int>(std::floor(std::log10(size) + 1e-12)));
+  return grouped(fmt::format("{:.{}f}", rounded, decimals));
+}
+
+std::size_t columns_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char byte) { return !continues(byte); }));
+}
+
+std::string shortened(const std::string& text, std::size_t columns) {
+  if (columns_of(text) <= columns) return text;
+  const std::size_t kept = columns > 3 ? columns - 3 : 0;
+  std::size_t bytes = 0;
+  for (std::size_t character = 0; character < kept; ++character) do
+      ++bytes;
+    while (bytes < text.size() && continues(text[bytes]));
+  return text.substr(0, bytes) + std::string(std::min<std::size_t>(columns, 3), '.');
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,22 @@
+// Numbers as people read them, for tables, axes and the report. Files that programs read use units.h instead.
+#pragma once
+
+#include <string>
+
+namespace dresslife::pipeline {
+
+/// `figures` significant figures: "0.0123", "1.5", "12,300", "4.56e+12" from ten digits on; "unlimited" for
+/// infinity,
+/// "-" for NaN.
+std::string readable(double value, int figures = 3);
+
+/// The digits of a whole part in groups of three: "1234567.5" -> "1,234,567.5".
+std::string grouped(std::string digits);
+
+/// Columns that UTF-8 text takes in a terminal where every character is one wide.
+std::size_t columns_of(const std::string& text);
+
+/// Text cut at a character to at most `columns`, "..." at its end when something was cut.
+std::string shortened(const std::string& text, std::size_t columns);
+
+}  // namespace dresslife::pipeline
