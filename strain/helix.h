@@ -1,23 +1,23 @@
-// Nested helices: from the state of a parent rod to the state of a component that lies in it on a helix
-// (README W5-W12).
+// Nested helices: from the state of a parent rod to the state of a component that lies in it on a helix.
+// README W5 to W12.
 //
-// A rod is a curve with a frame (d1, d2, d3 = tangent), described per ideal length l of its own: path length
-// per l
-// (`stretch`, 1 = undeformed for the dresspack) and the rotation rate of the frame per l (`bend1`, `bend2`,
-// `twist` about d1, d2, d3 [1/m]), each as a power series in l about the place of interest. A component at
-// radius R from the parent's axis and angle theta(l) from d1 toward d2, theta' = tan(alpha)/R with the lay
-// angle alpha signed (left hand negative), has the path derivative, with X = bend1 sin(theta) - bend2
-// cos(theta),
-//     v = R (theta' + twist) e_theta + (stretch + R X) e_z (W5)
-// which has no radial part. Hence the child's frame n = inward radial, b = t x n, t = v/|v| turns against the
-// parent's by theta about e_z and by the deformed lay angle a = atan(R sigma / y) about n, and its state per
-// ideal length of its own, l_child = l / cos(alpha), is with sigma = theta' + twist, y = stretch + R X, V =
-// sqrt(R^2 sigma^2 + y^2)          (W6)
+// A rod is a curve with a frame (d1, d2, d3 = tangent), described per ideal length l of its own: `stretch`,
+// path length per l, is 1 for the undeformed dresspack; `bend1`, `bend2`, `twist` are the frame's rotation
+// rates about d1, d2, d3 [1/m]; each is a power series in l about the place of interest.
+//
+// A component lies at radius R from its parent's axis, at the angle theta(l) from d1 toward d2; theta' =
+// tan(alpha)/R with the lay angle alpha signed (left hand negative). With X = bend1 sin(theta) - bend2
+// cos(theta), sigma = theta' + twist and y = stretch + R X its path derivative is
+//     v = R sigma e_theta + y e_z,    V = |v| (W5)
+// which has no radial part. So the component's frame (n = inward radial, b = t x n, t = v/V) turns against
+// its parent's by theta about e_z and by the deformed lay angle a = atan(R sigma / y) about n, and the
+// component's state per ideal length of its own, l / cos(alpha), is (W6)
 //     stretch = cos(alpha) V
-//     bend1   = cos(alpha) (a' - (bend1 cos(theta) + bend2 sin(theta)))        a' = R (sigma' y - sigma y') /
-//     V^2 bend2   = cos(alpha) (R sigma^2 + y X) / V twist   = cos(alpha) sigma stretch_parent / V
-// The axial strain of a component is its stretch over that in the undeformed construction, minus one (W7).
-// This is the geometry without approximation. `thesis` is Backman's set (12)-(23), see README W9.
+//     bend1   = cos(alpha) (a' - bend1 cos(theta) - bend2 sin(theta)),  a' = R (sigma' y - sigma y') / V^2
+//     bend2   = cos(alpha) (R sigma^2 + y X) / V
+//     twist   = cos(alpha) sigma stretch / V
+// with the parent's state on the right. Axial strain is the stretch over that of the undeformed construction,
+// minus one (W7). Nothing is approximated. `thesis` kinematics is Backman's set (12) to (23), see README W9.
 #pragma once
 
 #include "pipeline/job.h"
@@ -30,14 +30,12 @@ namespace dresslife::strain {
 template <class T>
 struct Rod {
   Series<T> stretch, bend1, bend2, twist;
+};
 
-  /// A rod in a uniform state, as the dresspack is within a segment. curvature [1/m], rate [rad/m].
-  static Rod uniform(const T& elongation, const T& curvature1, const T& curvature2, const T& rate,
-                     int order) {
-    return {Series<T>::constant(1.0 + elongation, order), Series<T>::constant(curvature1, order),
-            Series<T>::constant(curvature2, order), Series<T>::constant(rate, order)};
-  }
-  int order() const { return stretch.order; }
+/// A wire's stretch and bending at one place, values only.
+template <class T>
+struct WireState {
+  T stretch, bend1, bend2;
 };
 
 /// Where a component lies in its parent, at one place along it.
@@ -48,41 +46,53 @@ struct Placement {
   double lay_cosine = 1;        ///< cos(alpha)
   double turn_rate = 0;         ///< theta' per ideal length of the parent [rad/m]; 0 on the axis
   Series<double> sine, cosine;  ///< of theta along the parent
-
-  /// lay_angle signed [rad]; phase = theta here [rad].
-  Placement(pipeline::Kinematics model, double helix_radius, double lay_angle, double phase)
-      : kinematics(model),
-        radius(helix_radius),
-        lay_tangent(std::tan(lay_angle)),
-        lay_cosine(std::cos(lay_angle)) {
-    assert(radius > 0 || lay_angle == 0);
-    turn_rate = radius > 0 ? lay_tangent / radius : 0;
-    constexpr int highest = Series<double>::capacity - 1;
-    sine = sine_series(phase, turn_rate, highest);
-    cosine = cosine_series(phase, turn_rate, highest);
-  }
 };
 
-/// cos^2 and sin cos of the deformed lay angle (13), with which the thesis' equations are written.
+inline namespace DRESSLIFE_MACHINE {
+
+/// lay_angle signed [rad]; phase = theta at the place [rad].
+inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_angle,
+                                double phase) {
+  assert(radius > 0 || lay_angle == 0);
+  constexpr int highest = Series<double>::capacity - 1;
+  Placement place;
+  place.kinematics = kinematics;
+  place.radius = radius;
+  place.lay_tangent = std::tan(lay_angle);
+  place.lay_cosine = std::cos(lay_angle);
+  place.turn_rate = radius > 0 ? place.lay_tangent / radius : 0;
+  place.sine = sine_series(phase, place.turn_rate, highest);
+  place.cosine = cosine_series(phase, place.turn_rate, highest);
+  return place;
+}
+
+/// A rod in a uniform state, as the dresspack is within a segment. curvature [1/m], twist [rad/m].
+template <class T>
+Rod<T> uniform_rod(const T& elongation, const T& curvature1, const T& curvature2, const T& twist, int order) {
+  return {constant_series(T(1.0 + elongation), order), constant_series(curvature1, order),
+          constant_series(curvature2, order), constant_series(twist, order)};
+}
+
+/// The deformed lay angle (13), as the thesis' equations use it.
 template <class T>
 struct ThesisAngle {
   T cosine_squared, cosine, sine_cosine;
-
-  ThesisAngle(const Rod<T>& parent, const Placement& place) {
-    const T tangent = (place.lay_tangent + place.radius * parent.twist.at[0]) / parent.stretch.at[0];
-    cosine_squared = 1.0 / (1.0 + tangent * tangent);
-    cosine = square_root(cosine_squared);
-    sine_cosine = tangent * cosine_squared;
-  }
 };
 
-/// Path length of the component per ideal length of its parent (exact: V of W6; thesis: 1 + its strain, W9).
+template <class T>
+ThesisAngle<T> thesis_angle(const Rod<T>& parent, const Placement& place) {
+  const T tangent = (place.lay_tangent + place.radius * parent.twist.at[0]) / parent.stretch.at[0];
+  const T cosine_squared = 1.0 / (1.0 + tangent * tangent);
+  return {cosine_squared, square_root(cosine_squared), tangent * cosine_squared};
+}
+
+/// Path length of a component per ideal length of its parent (exact: V of W5; thesis: 1 + its strain, W9).
 template <class T>
 T path_rate(const Rod<T>& parent, const Placement& place) {
   const double R = place.radius;
   const T X = parent.bend1.at[0] * place.sine.at[0] - parent.bend2.at[0] * place.cosine.at[0];
   if (place.kinematics == pipeline::Kinematics::thesis) {
-    const ThesisAngle<T> a(parent, place);
+    const ThesisAngle<T> a = thesis_angle(parent, place);
     return 1.0 + a.cosine_squared * (parent.stretch.at[0] - 1.0 + R * X) +
            R * a.sine_cosine * parent.twist.at[0];
   }
@@ -90,60 +100,62 @@ T path_rate(const Rod<T>& parent, const Placement& place) {
   return square_root(R * R * sigma * sigma + y * y);
 }
 
-/// The mean of path_rate over all phases theta at this state of the parent. With f(y) = sqrt(A + y^2), y =
-/// stretch + R K sin, K^2 = bend1^2 + bend2^2, the mean is f + f'' R^2K^2/4 + f'''' R^4K^4/64; the next term
-/// is below A (RK)^6/50, 2e-6 at RK = 0.2 and alpha = 25 deg. (W10)
+/// The mean of path_rate over all phases theta at this state of the parent (W10). With f(y) = sqrt(A + y^2),
+/// y = stretch + R K sin and K^2 = bend1^2 + bend2^2 it is f + f2 R^2 K^2 / 4 + f4 R^4 K^4 / 64, f2 and f4
+/// the second and fourth derivative; the next term is below A (R K)^6 / 50, 2e-7 at R K = 0.2 and alpha = 25
+/// deg.
 template <class T>
 T mean_path_rate(const Rod<T>& parent, const Placement& place) {
   const double R = place.radius;
   if (place.kinematics == pipeline::Kinematics::thesis) {
-    const ThesisAngle<T> a(parent, place);
+    const ThesisAngle<T> a = thesis_angle(parent, place);
     return 1.0 + a.cosine_squared * (parent.stretch.at[0] - 1.0) + R * a.sine_cosine * parent.twist.at[0];
   }
   const T sigma = place.turn_rate + parent.twist.at[0];
   const T y2 = parent.stretch.at[0] * parent.stretch.at[0], A = R * R * sigma * sigma;
-  const T bend2 = R * R * (parent.bend1.at[0] * parent.bend1.at[0] + parent.bend2.at[0] * parent.bend2.at[0]);
+  const T bend = R * R * (parent.bend1.at[0] * parent.bend1.at[0] + parent.bend2.at[0] * parent.bend2.at[0]);
   const T f = square_root(A + y2), inverse2 = 1.0 / (A + y2);
-  const T second = 0.25 * A * bend2 * inverse2 * inverse2;  // f'' R^2 K^2 / 4, over f
-  return f * (1.0 + second * (1.0 + (3.0 / 16.0) * bend2 * (4.0 * y2 - A) * inverse2 * inverse2));
+  const T second = 0.25 * A * bend * inverse2 * inverse2;  // f2 R^2 K^2 / 4, over f
+  return f * (1.0 + second * (1.0 + (3.0 / 16.0) * bend * (4.0 * y2 - A) * inverse2 * inverse2));
 }
 
 template <class T>
 Rod<T> thesis_child(const Rod<T>& parent, const Placement& place) {
-  const ThesisAngle<T> a(parent, place);
+  const ThesisAngle<T> a = thesis_angle(parent, place);
   const T X = parent.bend1.at[0] * place.sine.at[0] - parent.bend2.at[0] * place.cosine.at[0];
   const T Y = parent.bend1.at[0] * place.cosine.at[0] + parent.bend2.at[0] * place.sine.at[0];
-  return {Series<T>::constant(path_rate(parent, place), 0), Series<T>::constant(a.cosine_squared * X, 0),
-          Series<T>::constant(a.cosine * Y, 0), Series<T>::constant(a.sine_cosine * X, 0)};
+  return {constant_series(path_rate(parent, place), 0), constant_series(T(a.cosine_squared * X), 0),
+          constant_series(T(a.cosine * Y), 0), constant_series(T(a.sine_cosine * X), 0)};
 }
 
 /// The component glued to its parent, one order less than the parent (W6).
 template <class T>
 Rod<T> child(const Rod<T>& parent, const Placement& place) {
   if (place.kinematics == pipeline::Kinematics::thesis) return thesis_child(parent, place);
-  const double R = place.radius;
+  const double R = place.radius, c = place.lay_cosine;
   const Series<T> X = parent.bend1 * place.sine - parent.bend2 * place.cosine;
   const Series<T> radial = parent.bend1 * place.cosine + parent.bend2 * place.sine;
   const Series<T> y = parent.stretch + R * X, sigma = place.turn_rate + parent.twist;
   const Series<T> V2 = (R * R) * (sigma * sigma) + y * y;
   const Series<T> V = square_root(V2);
   const Series<T> angle_slope = (R * (slope(sigma) * y - sigma * slope(y))) / V2;
-  const double c = place.lay_cosine;
-  Rod<T> rod{stretched(c * V, c), stretched(c * (angle_slope - radial), c),
-             stretched(c * ((R * (sigma * sigma) + y * X) / V), c),
-             stretched(c * ((sigma * parent.stretch) / V), c)};
-  const int order = parent.order() - 1;
+  Rod<T> rod;
+  rod.stretch = stretched(c * V, c);
+  rod.bend1 = stretched(c * (angle_slope - radial), c);
+  rod.bend2 = stretched(c * ((R * (sigma * sigma) + y * X) / V), c);
+  rod.twist = stretched(c * ((sigma * parent.stretch) / V), c);
+  const int order = parent.stretch.order - 1;
   rod.stretch.order = rod.bend1.order = rod.bend2.order = rod.twist.order = order;
   return rod;
 }
 
-/// The component when it slides along its path until its axial strain is `strain` everywhere: curvature and
-/// torsion per path length stay, so its rotation rates per material length scale with the stretch. rest = the
-/// component in the undeformed construction. (W11)
+/// The component when it slides along its path until its axial strain is `strain` everywhere (W11): curvature
+/// and torsion per path length stay, so its rotation rates per material length scale with the stretch. rest:
+/// the component in the undeformed construction.
 template <class T>
 Rod<T> slid(const Rod<T>& glued, const T& strain, const Rod<double>& rest, pipeline::Kinematics kinematics) {
   Rod<T> rod = glued;
-  for (int k = 0; k <= glued.order(); ++k) rod.stretch.at[k] = (1.0 + strain) * rest.stretch.at[k];
+  for (int k = 0; k <= glued.stretch.order; ++k) rod.stretch.at[k] = (1.0 + strain) * rest.stretch.at[k];
   if (kinematics == pipeline::Kinematics::thesis) return rod;
   const Series<T> factor = rod.stretch / glued.stretch;
   rod.bend1 = glued.bend1 * factor;
@@ -152,15 +164,33 @@ Rod<T> slid(const Rod<T>& glued, const T& strain, const Rod<double>& rest, pipel
   return rod;
 }
 
-/// What the fibre at angle phi (from n toward b) on a wire of radius r adds to the axial strain:
-/// r (d bend1 sin(phi) - d bend2 cos(phi)), with bend1 about n and bend2 about b. (W12)
+/// The last level's values, glued: W6 without the series. bend1 is about n and needs a parent of order one (0
+/// without); bend2 is about b.
 template <class T>
-T fibre_strain(const Rod<T>& wire, const Rod<double>& rest, pipeline::Kinematics kinematics, double r,
-               double phi_sine, double phi_cosine) {
-  if (kinematics == pipeline::Kinematics::thesis)  // kappa_no counts against n, kappa_bi along b
-    return r * (-1.0 * wire.bend2.at[0] * phi_sine - wire.bend1.at[0] * phi_cosine);
-  return r * ((wire.bend1.at[0] - rest.bend1.at[0]) * phi_sine -
-              (wire.bend2.at[0] - rest.bend2.at[0]) * phi_cosine);
+WireState<T> wire_state(const Rod<T>& parent, const Placement& place) {
+  const double R = place.radius, c = place.lay_cosine;
+  const double sine = place.sine.at[0], cosine = place.cosine.at[0];
+  const T X = parent.bend1.at[0] * sine - parent.bend2.at[0] * cosine;
+  const T radial = parent.bend1.at[0] * cosine + parent.bend2.at[0] * sine;
+  if (place.kinematics == pipeline::Kinematics::thesis) {  // kappa_bi is about b, kappa_no against n
+    const ThesisAngle<T> a = thesis_angle(parent, place);
+    return {path_rate(parent, place), -a.cosine * radial, a.cosine_squared * X};
+  }
+  const T sigma = place.turn_rate + parent.twist.at[0], y = parent.stretch.at[0] + R * X;
+  const T V2 = R * R * sigma * sigma + y * y, V = square_root(V2);
+  WireState<T> wire{c * V, 0.0 * V, c * ((R * sigma * sigma + y * X) / V)};
+  if (parent.stretch.order == 0) return wire;
+  const T y_slope = parent.stretch.at[1] + R * (parent.bend1.at[1] * sine - parent.bend2.at[1] * cosine) +
+                    R * place.turn_rate * radial;
+  wire.bend1 = c * (R * (parent.twist.at[1] * y - sigma * y_slope) / V2 - radial);
+  return wire;
 }
 
+/// What the fibre at angle phi (from n toward b) on a wire of radius r adds to the axial strain (W12).
+template <class T>
+T fibre_strain(const T& bend1_change, const T& bend2_change, double r, double phi_sine, double phi_cosine) {
+  return r * (bend1_change * phi_sine - bend2_change * phi_cosine);
+}
+
+}  // namespace DRESSLIFE_MACHINE
 }  // namespace dresslife::strain

@@ -1,13 +1,20 @@
 // Eight samples side by side: arithmetic on a Pack is arithmetic on eight samples, in one instruction where
-// the machine has registers that wide and in several where it has not. The compilers' vector extension does
-// the lowering, so one source serves every instruction set (see DRESSLIFE_EVERY_MACHINE).
+// the machine has registers that wide and in several where it has not. Included by kernels_body.h only,
+// before helix.h.
 #pragma once
 
 #include <cmath>
 
+#include "strain/sizes.h"
+
+#ifndef DRESSLIFE_MACHINE
+#error "pack.h belongs to the kernels, which name their instruction set"
+#endif
+
 namespace dresslife::strain {
 
-constexpr int pack_size = 8;
+inline namespace DRESSLIFE_MACHINE {
+
 typedef double Pack __attribute__((vector_size(pack_size * sizeof(double))));
 
 inline Pack square_root(const Pack& x) {
@@ -16,13 +23,5 @@ inline Pack square_root(const Pack& x) {
   return root;
 }
 
-/// Before a hot function: compiled once per instruction set, everything it calls inlined into each copy, the
-/// right copy chosen when the program starts. Elsewhere than on x86-64 there is one copy.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define DRESSLIFE_EVERY_MACHINE \
-  __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512"), flatten))
-#else
-#define DRESSLIFE_EVERY_MACHINE
-#endif
-
+}  // namespace DRESSLIFE_MACHINE
 }  // namespace dresslife::strain

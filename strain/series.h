@@ -2,8 +2,17 @@
 // that the nested helices need (W6). Every level of nesting uses up one order: the child's rotation rate
 // needs the slope of its lay angle, which needs the slope of its parent's rotation rate.
 //
-// T is double or a Pack (pack.h) of samples. Orders are run-time numbers below `capacity`.
+// T is double or a pack of samples side by side (kernels_body.h). Orders are run-time numbers below
+// `capacity`.
+//
+// The functions of this header and of helix.h are compiled once per instruction set (kernels.h) and therefore
+// carry the name of the set: two copies of one name would be merged by the linker, and a plain machine might
+// run the wide one.
 #pragma once
+
+#ifndef DRESSLIFE_MACHINE
+#define DRESSLIFE_MACHINE any_machine
+#endif
 
 #include <array>
 #include <cassert>
@@ -11,24 +20,27 @@
 
 namespace dresslife::strain {
 
-inline double square_root(double x) { return std::sqrt(x); }
-
 template <class T>
 struct Series {
   static constexpr int capacity = 8;  ///< orders 0 .. capacity - 1
 
   int order = 0;               ///< highest power kept
   std::array<T, capacity> at;  ///< coefficients; those above `order` hold nothing
-
-  static Series constant(const T& value, int order) {
-    assert(order < capacity);
-    Series series;
-    series.order = order;
-    series.at[0] = value;
-    for (int k = 1; k <= order; ++k) series.at[k] = value * 0.0;
-    return series;
-  }
 };
+
+inline namespace DRESSLIFE_MACHINE {
+
+inline double square_root(double x) { return std::sqrt(x); }
+
+template <class T>
+Series<T> constant_series(const T& value, int order) {
+  assert(order < Series<T>::capacity);
+  Series<T> series;
+  series.order = order;
+  series.at[0] = value;
+  for (int k = 1; k <= order; ++k) series.at[k] = value * 0.0;
+  return series;
+}
 
 template <class A, class B>
 auto operator+(const Series<A>& a, const Series<B>& b) {
@@ -142,4 +154,5 @@ inline Series<double> cosine_series(double angle, double rate, int order) {
   return series;
 }
 
+}  // namespace DRESSLIFE_MACHINE
 }  // namespace dresslife::strain

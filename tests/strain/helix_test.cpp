@@ -25,9 +25,8 @@ struct Nested {
 
 Nested nest(const State& state, const std::vector<space_curve::Level>& levels, Kinematics kinematics) {
   const int order = static_cast<int>(levels.size());
-  Nested nested{
-      Rod<double>::uniform(state.elongation, state.curvature1, state.curvature2, state.twist, order),
-      Rod<double>::uniform(0, 0, 0, 0, order)};
+  Nested nested{uniform_rod<double>(state.elongation, state.curvature1, state.curvature2, state.twist, order),
+                uniform_rod<double>(0, 0, 0, 0, order)};
   for (const auto& level : levels) {
     const Placement place(kinematics, level.radius, level.lay_angle, level.phase);
     nested = {child(nested.now, place), child(nested.rest, place)};

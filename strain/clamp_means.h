@@ -1,0 +1,60 @@
+// The axial strain of straight components that slide from clamp to clamp: (path length now)/(path length at
+// rest) - 1 over all segments (README W10). Built sample by sample in blocks that hold every segment, read
+// per segment afterwards.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "strain/chain.h"
+#include "strain/history.h"
+
+namespace dresslife::strain {
+
+class ClampMeans {
+ public:
+  /// lengths, arcs: rest length and centre of each segment [m]. samples: of the whole history.
+  ClampMeans(const Construction& construction, std::vector<LayerSlip> plan, std::vector<double> lengths,
+             std::vector<double> arcs, std::size_t samples);
+
+  /// The next samples, of every segment.
+  void add(const DeformationHistory& block);
+
+  const std::vector<LayerSlip>& plan() const { return plan_; }
+  bool needed() const { return !groups_.empty(); }
+
+  /// (sample) strain of a part; null when it does not slide from clamp to clamp.
+  const double* of_part(int part) const;
+  /// (sample) strain of node `node` of the waves_per_layer nodes around wire layer `layer` in `part`.
+  const double* of_node(int part, int layer, int node) const;
+  /// (sample) strain at any angle around the layer, from its nodes; `turn` counts from wire 1.
+  std::vector<double> at_angle(int part, int layer, double turn) const;
+
+  /// The same at every `every`-th sample, to read only.
+  ClampMeans thinned(std::size_t every) const;
+
+  /// Gives each sliding step of `chain` its strains, from sample `first` on.
+  void attach(BundleChain& chain, int part, std::size_t first = 0) const;
+
+ private:
+  struct Group {  ///< what slides in one parent
+    int parent;
+    std::vector<BundleChain> chains;  ///< one per segment, nodes: the sliding components
+    std::vector<std::size_t> rows;    ///< of strain_, one per node
+  };
+
+  void list_group(int parent);
+  std::size_t add_row();
+
+  const Construction& construction_;
+  std::vector<LayerSlip> plan_;
+  std::vector<double> lengths_, arcs_;
+  std::size_t stride_, next_ = 0;
+  std::vector<Group> groups_;  ///< parents before children
+  std::map<int, std::size_t> part_row_;
+  std::map<std::pair<int, int>, std::size_t> layer_row_;  ///< (part, layer) -> first of waves_per_layer rows
+  std::vector<std::vector<double>> strain_;
+};
+
+}  // namespace dresslife::strain

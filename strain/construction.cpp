@@ -1,0 +1,129 @@
+#include "strain/construction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dresslife::strain {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+static_assert(Series<double>::capacity >= highest_level + 2);
+
+std::string element(const Layer& layer, int number) {
+  return (layer.label.empty() ? "" : layer.label + "/") + layer.name + " " + std::to_string(number);
+}
+
+}  // namespace
+
+double Layer::pitch() const {
+  if (helix_radius == 0 || lay_angle == 0) return std::numeric_limits<double>::infinity();
+  return 2 * pi * helix_radius / std::abs(std::tan(lay_angle));
+}
+
+Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics)
+    : kinematics_(kinematics) {
+  for (const auto& component : dresspack.components) add(component, dresspack_itself, 1);
+  list_parts(dresspack_itself, dresspack_itself);
+}
+
+void Construction::check(const pipeline::Component& component, int parent_layer, int level) const {
+  const std::string name = "'" + component.name + "'";
+  if (level > highest_level)
+    throw pipeline::InputError(
+        component.where,
+        fmt::format("component {} lies {} levels deep (at most {} are computed)", name, level, highest_level),
+        "join the outermost levels that have no lay of their own");
+  if (component.helix_radius == 0 && (component.count > 1 || component.lay_angle != 0))
+    throw pipeline::InputError(
+        component.where,
+        fmt::format("component {} has helix radius 0 (one straight part fits on the axis, not "
+                    "several, and without a lay angle)",
+                    name),
+        "give the radius from the parent's axis to the part's, or count 1 and lay angle 0");
+  for (const Layer& other : layers_)
+    if (other.parent == parent_layer && other.name == component.name && other.label == component.layer)
+      throw pipeline::InputError(
+          component.where,
+          fmt::format("two components {} lie in the same part (their paths would be the same)", name),
+          "give each its own `layer`, for example 'layer 1'");
+}
+
+void Construction::add(const pipeline::Component& component, int parent_layer, int level) {
+  check(component, parent_layer, level);
+  Layer layer;
+  layer.name = component.name;
+  layer.label = component.layer;
+  layer.material = component.material;
+  layer.is_wire = component.components.empty();
+  layer.level = level;
+  layer.parent = parent_layer;
+  layer.count = component.count;
+  layer.part_radius = component.radius;
+  layer.helix_radius = component.helix_radius;
+  layer.lay_angle = component.hand == pipeline::Hand::left ? -component.lay_angle : component.lay_angle;
+  layer.phase = component.phase;
+  const int index = static_cast<int>(layers_.size());
+  layers_.push_back(layer);
+  levels_ = std::max(levels_, level);
+  for (const auto& inner : component.components) add(inner, index, level + 1);
+}
+
+void Construction::list_parts(int parent_layer, int parent_part) {
+  Bundle bundle{parent_part, {}};
+  for (std::size_t k = 0; k < layers_.size(); ++k)
+    if (layers_[k].parent == parent_layer && layers_[k].is_wire)
+      bundle.wire_layers.push_back(static_cast<int>(k));
+  if (!bundle.wire_layers.empty()) bundles_.push_back(bundle);
+  for (std::size_t k = 0; k < layers_.size(); ++k) {
+    if (layers_[k].parent != parent_layer || layers_[k].is_wire) continue;
+    for (int number = 1; number <= layers_[k].count; ++number) {
+      const int index = static_cast<int>(parts_.size()), layer = static_cast<int>(k);
+      parts_.push_back({layer, number, parent_part, wire_path(layer, number, parent_part)});
+      list_parts(layer, index);
+    }
+  }
+}
+
+std::vector<int> Construction::ancestry(int part) const {
+  std::vector<int> line;
+  for (; part != dresspack_itself; part = parts_[part].parent) line.insert(line.begin(), part);
+  return line;
+}
+
+double Construction::length_rate(int part) const {
+  double rate = 1;
+  for (; part != dresspack_itself; part = parts_[part].parent)
+    rate /= std::cos(layers_[parts_[part].layer].lay_angle);
+  return rate;
+}
+
+/// The thesis knows no hands: all its lay angles are positive.
+double Construction::lay_angle(const Layer& layer) const {
+  return kinematics_ == pipeline::Kinematics::thesis ? std::abs(layer.lay_angle) : layer.lay_angle;
+}
+
+double Construction::phase(int layer, int number, int parent, double arc) const {
+  const Layer& of = layers_[layer];
+  double phase = of.phase + 2 * pi * (number - 1) / of.count;
+  if (of.helix_radius > 0) phase += arc * length_rate(parent) * std::tan(lay_angle(of)) / of.helix_radius;
+  if (kinematics_ == pipeline::Kinematics::thesis && parent != dresspack_itself) {  // (19)
+    const Part& in = parts_[parent];
+    phase += pi - this->phase(in.layer, in.number, in.parent, arc);
+  }
+  return std::remainder(phase, 2 * pi);
+}
+
+Placement Construction::placement(int layer, int number, int parent, double arc, double turn) const {
+  return make_placement(kinematics_, layers_[layer].helix_radius, lay_angle(layers_[layer]),
+                        phase(layer, number, parent, arc) + turn);
+}
+
+std::string Construction::wire_path(int layer, int number, int parent) const {
+  const std::string own = element(layers_[layer], number);
+  return parent == dresspack_itself ? own : parts_[parent].path + "/" + own;
+}
+
+}  // namespace dresslife::strain

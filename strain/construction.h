@@ -1,0 +1,83 @@
+// The dresspack's component tree as flat lists: layers, parts that hold parts, bundles of wires, and where
+// each of them lies (README W5, W8).
+//
+// Level 1 lies in the dresspack. A layer is K equal parts on one helix; its parts that hold further layers
+// are listed, its wires are not (they are K evenly spaced phases). A bundle is a part (or the dresspack
+// itself) together with the wire layers directly in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/job.h"
+#include "strain/helix.h"
+
+namespace dresslife::strain {
+
+constexpr int dresspack_itself = -1;  ///< as the parent of a part or layer
+constexpr int highest_level = 6;      ///< of nesting; Series::capacity must exceed it by two
+
+struct Layer {
+  std::string name;      ///< "signal cable"; part k is "signal cable k"
+  std::string label;     ///< "layer 1" where layers share a name, else empty
+  std::string material;  ///< of wires
+  bool is_wire = false;
+  int level = 1;
+  int parent = dresspack_itself;  ///< layer in whose parts it lies
+  int count = 1;                  ///< K
+  double part_radius = 0;         ///< [m]
+  double helix_radius = 0;        ///< R [m]
+  double lay_angle = 0;           ///< negative = left hand [rad]
+  double phase = 0;               ///< of part 1 at the base clamp [rad]
+
+  double pitch() const;  ///< along the parent [m]; infinite when straight
+};
+
+struct Part {
+  int layer;
+  int number;        ///< 1 .. K
+  int parent;        ///< part, or dresspack_itself
+  std::string path;  ///< "signal cable 3/conductor 2"
+};
+
+struct Bundle {
+  int part;  ///< or dresspack_itself
+  std::vector<int> wire_layers;
+};
+
+class Construction {
+ public:
+  /// Errors: InputError for wires that could not be told apart, several parts on one axis, nesting beyond
+  /// highest_level.
+  Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics);
+
+  const std::vector<Layer>& layers() const { return layers_; }
+  const std::vector<Part>& parts() const { return parts_; }  ///< parents before children
+  const std::vector<Bundle>& bundles() const { return bundles_; }
+  pipeline::Kinematics kinematics() const { return kinematics_; }
+  int levels() const { return levels_; }  ///< of the deepest wire
+
+  /// Parts from the outermost to `part` itself; empty for the dresspack.
+  std::vector<int> ancestry(int part) const;
+  /// Ideal length of `part` per length of the dresspack.
+  double length_rate(int part) const;
+  /// theta of part `number` of `layer` in `parent` at `arc` along the dresspack [m] (W8).
+  double phase(int layer, int number, int parent, double arc) const;
+  /// The same as a place to compute with. turn: added to the phase [rad].
+  Placement placement(int layer, int number, int parent, double arc, double turn = 0) const;
+  std::string wire_path(int layer, int number, int parent) const;
+
+ private:
+  void add(const pipeline::Component& component, int parent_layer, int level);
+  void check(const pipeline::Component& component, int parent_layer, int level) const;
+  void list_parts(int parent_layer, int parent_part);
+  double lay_angle(const Layer& layer) const;
+
+  pipeline::Kinematics kinematics_;
+  std::vector<Layer> layers_;
+  std::vector<Part> parts_;
+  std::vector<Bundle> bundles_;
+  int levels_ = 0;
+};
+
+}  // namespace dresslife::strain

@@ -1,0 +1,295 @@
+#include "strain/evaluation.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "pipeline/errors.h"
+
+namespace dresslife::strain {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr std::size_t block_samples = 256;    // waves of five layers: 26 kB, within the first-level cache
+constexpr std::size_t thinned_samples = 256;  // at least so many of them pick the wires of the bounds
+
+std::vector<double> centres(const std::vector<double>& lengths) {
+  std::vector<double> arcs;
+  double start = 0;
+  for (const double length : lengths) {
+    arcs.push_back(start + length / 2);
+    start += length;
+  }
+  return arcs;
+}
+
+double total(const std::vector<double>& lengths) {
+  return std::accumulate(lengths.begin(), lengths.end(), 0.0);
+}
+
+}  // namespace
+
+void SiteRows::clear() {
+  segment.clear();
+  component.clear();
+  helix.clear();
+  fibre.clear();
+  material.clear();
+  turning.clear();
+  strain.clear();
+  sample.clear();
+}
+
+Evaluation::Evaluation(const Construction& construction, const pipeline::Strain& settings,
+                       std::vector<double> lengths, std::size_t samples)
+    : construction_(construction),
+      lengths_(std::move(lengths)),
+      arcs_(centres(lengths_)),
+      samples_(samples),
+      fibres_(strain::surface_fibres(settings.surface_fibres)),
+      surface_fibres_(settings.surface_fibres),
+      fibre_count_(static_cast<int>(fibres_.size())),
+      gate_(static_cast<float>(settings.gate)),
+      means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
+      stick_{{construction, plan_slip(construction, {pipeline::Slip::stick}, total(lengths_)), lengths_,
+              arcs_, samples},
+             {}},
+      free_{{construction, plan_slip(construction, {pipeline::Slip::free}, total(lengths_)), lengths_, arcs_,
+             samples},
+            {}} {
+  for (std::size_t b = 0; b < construction.bundles().size(); ++b) {
+    const Bundle& bundle = construction.bundles()[b];
+    first_wire_.push_back(wires_.size());
+    for (const int layer : bundle.wire_layers)
+      for (int number = 1; number <= construction.layers()[layer].count; ++number)
+        wires_.push_back(
+            {static_cast<int>(b), layer, number, construction.wire_path(layer, number, bundle.part)});
+  }
+  find_probes(settings.probes);
+}
+
+void Evaluation::find_probes(const std::vector<pipeline::Probe>& probes) {
+  for (const pipeline::Probe& probe : probes) {
+    const auto wire =
+        std::find_if(wires_.begin(), wires_.end(), [&](const Wire& w) { return w.path == probe.component; });
+    if (wire == wires_.end())
+      throw pipeline::InputError(
+          {},
+          fmt::format("strain.probes: no wire is called '{}' (a path from the outermost part "
+                      "inward)",
+                      probe.component),
+          fmt::format("write it like '{}'", wires_.empty() ? "" : wires_.front().path));
+    const int segments = static_cast<int>(lengths_.size());
+    if (probe.segment_from_tool < 1 || probe.segment_from_tool > segments)
+      throw pipeline::InputError(
+          {},
+          fmt::format("strain.probes: there is no segment {} from the tool (the dresspack has "
+                      "{})",
+                      probe.segment_from_tool, segments),
+          "count from 1 at the tool");
+    probes_.push_back(
+        {lengths_.size() - probe.segment_from_tool, {static_cast<std::size_t>(wire - wires_.begin()), 0}});
+  }
+}
+
+void Evaluation::add(const DeformationHistory& block) {
+  for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) means->add(block);
+}
+
+BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment,
+                                    const ClampMeans& means) const {
+  BundleChain chain = chain_to(construction_, means.plan(), bundle.part, arcs_[segment], fibres_);
+  means.attach(chain, bundle.part);
+  for (const int layer : bundle.wire_layers)
+    for (int node = 0; node < waves_per_layer; ++node) {
+      WireNode at = node_at(construction_, means.plan(), chain, layer, 1, bundle.part, arcs_[segment],
+                            2 * pi * node / waves_per_layer);
+      if (at.slide.sliding == Sliding::clamp_to_clamp)
+        at.slide.clamp_strain = means.of_node(bundle.part, layer, node);
+      chain.nodes.push_back(at);
+    }
+  return chain;
+}
+
+void Evaluation::scan_bundle(
+    std::size_t b, std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
+    std::size_t row, float gate,
+    const std::function<void(Site, const Extremes&, const TurningList&)>& found) const {
+  const Bundle& bundle = construction_.bundles()[b];
+  const BundleChain chain = layer_chain(bundle, segment, means);
+  const DeformationColumns columns = history.columns(row);
+
+  struct Group {  // up to sixteen wires of one layer, one fibre
+    std::size_t wave_row, first_wire;
+    int fibre;
+    LaneScan scan;
+    std::vector<TurningList> turning;
+  };
+  std::vector<Group> groups;
+  std::size_t wire = first_wire_[b];
+  for (std::size_t k = 0; k < bundle.wire_layers.size(); ++k) {
+    const int count = construction_.layers()[bundle.wire_layers[k]].count;
+    for (int first = 0; first < count; first += lanes) {
+      std::vector<double> angles;
+      for (int j = first; j < std::min(count, first + lanes); ++j) angles.push_back(2 * pi * j / count);
+      for (int f = 0; f < fibre_count_; ++f)
+        groups.push_back({(k * fibre_count_ + f) * waves_per_layer, wire + first, f, LaneScan(angles, gate),
+                          std::vector<TurningList>(angles.size())});
+    }
+    wire += count;
+  }
+
+  std::vector<float> waves(bundle.wire_layers.size() * fibre_count_ * waves_per_layer * block_samples);
+  for (std::size_t first = 0; first < history.samples(); first += block_samples) {
+    const std::size_t count = std::min(block_samples, history.samples() - first);
+    kernels().layer_waves(pointers(chain), columns, first, count, waves.data(), block_samples);
+    for (Group& group : groups) {
+      Waves of;
+      for (int w = 0; w < waves_per_layer; ++w)
+        of.at[w] = waves.data() + (group.wave_row + w) * block_samples;
+      group.scan.scan(of, count, group.turning);
+    }
+  }
+  for (Group& group : groups) group.scan.finish(group.turning);
+  // groups of one run of wires are its fibres: hand out wire by wire, fibre by fibre
+  for (std::size_t g = 0; g < groups.size(); g += fibre_count_)
+    for (int lane = 0; lane < groups[g].scan.wires(); ++lane)
+      for (int f = 0; f < fibre_count_; ++f) {
+        Group& group = groups[g + f];
+        found({group.first_wire + lane, f}, {group.scan.lowest(lane), group.scan.highest(lane)},
+              group.turning[lane]);
+      }
+}
+
+std::vector<double> Evaluation::history_of(Site site, std::size_t segment, const ClampMeans& means,
+                                           const DeformationHistory& history, std::size_t row) const {
+  const Wire& wire = wires_[site.wire];
+  const int part = construction_.bundles()[wire.bundle].part;
+  BundleChain chain = chain_to(construction_, means.plan(), part, arcs_[segment], {fibres_[site.fibre]});
+  means.attach(chain, part);
+  chain.nodes.push_back(
+      node_at(construction_, means.plan(), chain, wire.layer, wire.number, part, arcs_[segment], 0));
+  std::vector<double> sliding;
+  if (chain.nodes[0].slide.sliding == Sliding::clamp_to_clamp) {
+    sliding = means.at_angle(part, wire.layer,
+                             2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
+    chain.nodes[0].slide.clamp_strain = sliding.data();
+  }
+  std::vector<double> strain(padded(history.samples()));
+  kernels().node_strains(pointers(chain), history.columns(row), 0, history.samples(), strain.data(),
+                         strain.size());
+  strain.resize(history.samples());
+  return strain;
+}
+
+void Evaluation::append(SiteRows& rows, Site site, std::size_t segment, const TurningList& turning) const {
+  const Wire& wire = wires_[site.wire];
+  const Layer& layer = construction_.layers()[wire.layer];
+  const int part = construction_.bundles()[wire.bundle].part;
+  rows.segment.push_back(static_cast<std::int32_t>(segment));
+  rows.component.push_back(wire.path);
+  rows.material.push_back(layer.material);
+  const std::size_t helix = rows.helix.size();
+  rows.helix.resize(helix + 3 * construction_.levels(), 0.0);
+  auto put_level = [&](const Layer& of, double phase) {
+    double* at = rows.helix.data() + helix + 3 * (of.level - 1);
+    at[0] = of.helix_radius;
+    at[1] = of.lay_angle;
+    at[2] = phase;
+  };
+  for (int inner = part; inner != dresspack_itself; inner = construction_.parts()[inner].parent) {
+    const Part& in = construction_.parts()[inner];
+    put_level(construction_.layers()[in.layer],
+              construction_.phase(in.layer, in.number, in.parent, arcs_[segment]));
+  }
+  put_level(layer, construction_.phase(wire.layer, wire.number, part, arcs_[segment]));
+  const bool on_axis = surface_fibres_ == 0;
+  rows.fibre.insert(rows.fibre.end(),
+                    {on_axis ? 0 : layer.part_radius, fibre_angle(site.fibre, surface_fibres_)});
+  rows.turning.push_back(turning.strain.size());
+  rows.strain.insert(rows.strain.end(), turning.strain.begin(), turning.strain.end());
+  rows.sample.insert(rows.sample.end(), turning.sample.begin(), turning.sample.end());
+}
+
+void Evaluation::Worst::consider(Site site, const Extremes& extremes) {
+  if (extremes.range() > range) {
+    range = extremes.range();
+    by_range = site;
+  }
+  if (extremes.size() > size) {
+    size = extremes.size();
+    by_size = site;
+  }
+}
+
+void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
+                          const Sink& sink) {
+  const std::size_t bundles = construction_.bundles().size();
+  std::vector<Worst> worst(construction_.layers().size());
+  SiteRows rows;
+  for (std::size_t b = 0; b < bundles; ++b) {
+    rows.clear();
+    scan_bundle(b, segment, means_, history, row, gate_,
+                [&](Site site, const Extremes& extremes, const TurningList& turning) {
+                  append(rows, site, segment, turning);
+                  worst[wires_[site.wire].layer].consider(site, extremes);
+                });
+    sink.sites(rows);
+    if (sink.progress)
+      sink.progress((static_cast<double>(segment) + (b + 1.0) / bundles) / static_cast<double>(segments()));
+  }
+  for (Bound* bound : {&stick_, &free_}) {
+    const bool same = bound->means.plan() == means_.plan();
+    put_bound(same ? worst : worst_of(*bound, segment, history, row), bound->means, segment, history, row,
+              bound == &stick_ ? sink.bound_stick : sink.bound_free);
+  }
+  auto probe = [&](Site site) {
+    const std::size_t index = (segment * wires_.size() + site.wire) * fibre_count_ + site.fibre;
+    sink.probe({index, history_of(site, segment, means_, history, row)});
+  };
+  const auto of_all = std::max_element(worst.begin(), worst.end(),
+                                       [](const Worst& a, const Worst& b) { return a.range < b.range; });
+  if (of_all != worst.end() && of_all->range >= 0) probe(of_all->by_range);
+  for (const auto& [at, site] : probes_)
+    if (at == segment) probe(site);
+}
+
+std::vector<Evaluation::Worst> Evaluation::worst_of(Bound& bound, std::size_t segment,
+                                                    const DeformationHistory& history,
+                                                    std::size_t row) const {
+  const std::size_t every = std::max<std::size_t>(1, history.samples() / thinned_samples);
+  if (!bound.thin) bound.thin.emplace(bound.means.thinned(every));
+  const DeformationHistory thin = history.thinned(row, every);
+  std::vector<Worst> worst(construction_.layers().size());
+  constexpr float no_turns = std::numeric_limits<float>::max();
+  for (std::size_t b = 0; b < construction_.bundles().size(); ++b)
+    scan_bundle(b, segment, *bound.thin, thin, 0, no_turns,
+                [&](Site site, const Extremes& extremes, const TurningList&) {
+                  worst[wires_[site.wire].layer].consider(site, extremes);
+                });
+  return worst;
+}
+
+void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
+                           const DeformationHistory& history, std::size_t row,
+                           const std::function<void(const SiteRows&)>& sink) const {
+  std::set<Site> sites;
+  for (const Worst& layer : worst)
+    if (layer.range >= 0) sites.insert({layer.by_range, layer.by_size});
+  SiteRows rows;
+  for (const Site site : sites) {
+    TurningPoints points(gate_);
+    TurningList turning;
+    for (const double strain : history_of(site, segment, means, history, row))
+      points.next(static_cast<float>(strain), turning);
+    points.finish(turning);
+    append(rows, site, segment, turning);
+  }
+  sink(rows);
+}
+
+}  // namespace dresslife::strain

@@ -1,0 +1,50 @@
+// The deformation of segments over time, laid out for the kernels: one padded row of samples per segment and
+// channel.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "strain/deformation.h"
+#include "strain/kernels.h"
+
+namespace dresslife::strain {
+
+/// Samples up to the next multiple of a pack, with room to work on.
+inline std::size_t padded(std::size_t samples) { return (samples + pack_size - 1) / pack_size * pack_size; }
+
+class DeformationHistory {
+ public:
+  DeformationHistory(std::size_t segments, std::size_t samples)
+      : samples_(samples), stride_(padded(samples)), values_(segments * 4 * stride_, 0.0) {}
+
+  std::size_t samples() const { return samples_; }
+
+  void set(std::size_t segment, std::size_t sample, const Deformation& deformation) {
+    double* at = values_.data() + segment * 4 * stride_ + sample;
+    at[0] = deformation.curvature1;
+    at[stride_] = deformation.curvature2;
+    at[2 * stride_] = deformation.twist;
+    at[3 * stride_] = deformation.elongation;
+  }
+
+  DeformationColumns columns(std::size_t segment) const {
+    const double* at = values_.data() + segment * 4 * stride_;
+    return {at, at + stride_, at + 2 * stride_, at + 3 * stride_};
+  }
+
+  /// Every `every`-th sample of one segment.
+  DeformationHistory thinned(std::size_t segment, std::size_t every) const {
+    DeformationHistory thin(1, (samples_ + every - 1) / every);
+    for (int channel = 0; channel < 4; ++channel)
+      for (std::size_t k = 0; k < thin.samples_; ++k)
+        thin.values_[channel * thin.stride_ + k] = values_[(segment * 4 + channel) * stride_ + k * every];
+    return thin;
+  }
+
+ private:
+  std::size_t samples_, stride_;
+  std::vector<double> values_;
+};
+
+}  // namespace dresslife::strain

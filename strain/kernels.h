@@ -1,0 +1,148 @@
+// The two hot loops, compiled once per instruction set: from the deformation of a segment to the strains of
+// the wires of a bundle, and from waves of strain to turning points. Which set runs is chosen when the
+// program starts; one machine always chooses the same.
+//
+// Everything here is plain data and pointers, so that no shared inline function can be compiled for the wrong
+// machine.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "strain/helix.h"
+#include "strain/sizes.h"
+#include "strain/slip.h"
+
+namespace dresslife::strain {
+
+// ---- strains of a bundle ----------------------------------------------------------------------------------
+
+/// The deformation of one segment over time: pointers to (sample) values.
+struct DeformationColumns {
+  const double *curvature1, *curvature2, *twist, *elongation;
+};
+
+/// How one component slides, and what it needs for it.
+struct SlidingNumbers {
+  Sliding sliding = Sliding::glued;
+  int helical_level = 0;                 ///< of along_ancestor
+  double mean_rest_rate = 1;             ///< mean path rate at rest, over the phase or the ancestor's pitch
+  const double* clamp_strain = nullptr;  ///< (sample) of clamp_to_clamp
+};
+
+/// One level of the chain from the dresspack to the bundle's part.
+struct ChainStep {
+  Placement place;
+  Rod<double> rest;  ///< the part in the undeformed construction
+  SlidingNumbers slide;
+  /// The same with the part, or else its nearest helical ancestor, moved on by sixths of its pitch.
+  std::array<Placement, phases_per_pitch> turned;
+  std::array<Rod<double>, phases_per_pitch> turned_rest;
+};
+
+/// One place around a wire layer.
+struct WireNode {
+  Placement place;
+  double rest_rate = 1;
+  WireState<double> rest;
+  SlidingNumbers slide;
+  double wire_radius = 0;  ///< of its fibres [m]
+};
+
+struct Fibre {
+  double phi_sine = 0, phi_cosine = 0;
+  bool on_axis = false;
+};
+
+/// A bundle in one segment.
+struct BundleChain {
+  std::vector<ChainStep> steps;
+  std::vector<WireNode> nodes;  ///< for waves: waves_per_layer nodes a layer, evenly spaced
+  std::vector<Fibre> fibres;
+  int order = 0;  ///< of the part's state: 1 when fibres feel bend1
+};
+
+struct BundlePointers {
+  const ChainStep* steps;
+  const WireNode* nodes;
+  const Fibre* fibres;
+  int step_count, node_count, fibre_count, order;
+};
+
+// ---- turning points ---------------------------------------------------------------------------------------
+
+struct TurningList {
+  std::vector<float> strain;
+  std::vector<std::uint32_t> sample;
+
+  void add(float value, std::uint32_t at) {
+    strain.push_back(value);
+    sample.push_back(at);
+  }
+  void clear() {
+    strain.clear();
+    sample.clear();
+  }
+};
+
+/// Out of line on purpose: the kernels call it and must not hold a copy.
+void add_turning_point(TurningList& list, float strain, std::uint32_t sample);
+
+/// The five waves of a block of samples: strain_j = w0 + w1 sin(theta_j) + w2 cos(theta_j) + w3 sin(2
+/// theta_j) + w4 cos(2 theta_j). (W13)
+struct Waves {
+  const float* at[waves_per_layer];
+};
+
+struct LaneState {
+  alignas(64) float shape[waves_per_layer - 1][lanes];  ///< sin, cos, sin 2, cos 2 of each wire's angle
+  alignas(64) float direction[lanes];  ///< +1 rising, -1 falling, 0 not yet moved by the gate
+  alignas(64) float extreme[lanes];
+  alignas(64) float low[lanes];
+  alignas(64) float high[lanes];
+  alignas(64) float last[lanes];
+  alignas(64) std::int32_t extreme_at[lanes];
+  alignas(64) std::int32_t low_at[lanes];
+  alignas(64) std::int32_t high_at[lanes];
+  int used = 0;  ///< wires; spare lanes repeat the first
+  float gate = 0;
+  std::int32_t sample = 0;  ///< of the next strain
+};
+
+// ---- the set for this machine -----------------------------------------------------------------------------
+
+struct Kernels {
+  const char* machine;
+  /// Strains of every node and fibre at samples [first, first + count), to out[(node * fibres + fibre) *
+  /// stride + t].
+  void (*node_strains)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                       double* out, std::size_t stride);
+  /// The waves of every wire layer and fibre, to out[((layer * fibres + fibre) * waves_per_layer + wave) *
+  /// stride + t].
+  void (*layer_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                      float* out, std::size_t stride);
+  /// Path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
+  void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,
+                         std::size_t count, double weight, double* sum, std::size_t stride);
+  /// The next `count` samples of up to sixteen wires.
+  void (*scan)(LaneState&, const Waves&, std::size_t count, TurningList* out);
+};
+// count is padded by the callee to a multiple of pack_size: columns and outputs have room for it.
+
+const Kernels& kernels();                               ///< the widest this machine can run
+std::vector<const Kernels*> kernels_of_this_machine();  ///< all it can run, plain one first
+
+inline BundlePointers pointers(const BundleChain& chain) {
+  return {chain.steps.data(),
+          chain.nodes.data(),
+          chain.fibres.data(),
+          static_cast<int>(chain.steps.size()),
+          static_cast<int>(chain.nodes.size()),
+          static_cast<int>(chain.fibres.size()),
+          chain.order};
+}
+
+}  // namespace dresslife::strain

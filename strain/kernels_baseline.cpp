@@ -1,0 +1,17 @@
+// The hot loops for the plain instruction set of the build: any machine of its kind.
+#define DRESSLIFE_MACHINE baseline
+#define DRESSLIFE_MACHINE_KERNELS baseline_kernels
+#define DRESSLIFE_MACHINE_NAME "baseline"
+
+// Everything from outside comes first: it must be compiled for any machine.
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pipeline/job.h"
+
+#include "strain/kernels_body.h"

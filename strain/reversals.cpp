@@ -1,0 +1,74 @@
+#include "strain/reversals.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace dresslife::strain {
+
+void TurningPoints::next(float strain, TurningList& out) {
+  const std::uint32_t now = sample_++;
+  last_ = strain;
+  if (now == 0) {
+    out.add(strain, now);
+    low_ = high_ = extreme_ = strain;
+    return;
+  }
+  if (direction_ != 0) {
+    const float beyond = static_cast<float>(direction_) * (strain - extreme_);
+    if (beyond < 0 && -beyond >= gate_) {
+      out.add(extreme_, extreme_at_);
+      direction_ = -direction_;
+    } else if (!(beyond > 0)) {
+      return;
+    }
+    extreme_ = strain;
+    extreme_at_ = now;
+    return;
+  }
+  if (strain < low_) low_ = strain, low_at_ = now;
+  if (strain > high_) high_ = strain, high_at_ = now;
+  if (high_ - low_ < gate_ || !(high_ > low_)) return;
+  const bool rising = high_at_ == now;
+  const std::uint32_t before = rising ? low_at_ : high_at_;
+  if (before > 0) out.add(rising ? low_ : high_, before);
+  direction_ = rising ? 1 : -1;
+  extreme_ = strain;
+  extreme_at_ = now;
+}
+
+void TurningPoints::finish(TurningList& out) const {
+  if (sample_ < 2) return;
+  if (direction_ != 0 && extreme_at_ != sample_ - 1) out.add(extreme_, extreme_at_);
+  out.add(last_, sample_ - 1);
+}
+
+LaneScan::LaneScan(std::span<const double> angles, float gate, const Kernels& machine) : machine_(&machine) {
+  assert(!angles.empty() && angles.size() <= lanes);
+  state_.used = static_cast<int>(angles.size());
+  state_.gate = gate;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const double angle = angles[lane < state_.used ? lane : 0];
+    state_.shape[0][lane] = static_cast<float>(std::sin(angle));
+    state_.shape[1][lane] = static_cast<float>(std::cos(angle));
+    state_.shape[2][lane] = static_cast<float>(std::sin(2 * angle));
+    state_.shape[3][lane] = static_cast<float>(std::cos(2 * angle));
+    state_.direction[lane] = 0;
+    state_.extreme_at[lane] = state_.low_at[lane] = state_.high_at[lane] = 0;
+  }
+}
+
+void LaneScan::scan(const Waves& waves, std::size_t count, std::span<TurningList> out) {
+  assert(static_cast<int>(out.size()) == state_.used);
+  if (count > 0) machine_->scan(state_, waves, count, out.data());
+}
+
+void LaneScan::finish(std::span<TurningList> out) const {
+  if (state_.sample < 2) return;
+  for (int wire = 0; wire < state_.used; ++wire) {
+    if (state_.direction[wire] != 0 && state_.extreme_at[wire] != state_.sample - 1)
+      out[wire].add(state_.extreme[wire], state_.extreme_at[wire]);
+    out[wire].add(state_.last[wire], state_.sample - 1);
+  }
+}
+
+}  // namespace dresslife::strain

@@ -1,0 +1,55 @@
+// Turning points of a strain history (README W14).
+//
+// Kept: the first and last sample, and every turning point whose rises and falls reach the gate: a hysteresis
+// filter. It drops only cycles with a range below the gate; rainflow counting of what is kept finds every
+// cycle of range >= gate with its true extremes. A plateau counts at its first sample.
+//
+// `TurningPoints` is the plain filter of one history; `LaneScan` runs it on the wires of a layer, sixteen
+// side by side, from the five waves of the layer (W13):
+//     strain_j(t) = w0 + w1 sin(theta_j) + w2 cos(theta_j) + w3 sin(2 theta_j) + w4 cos(2 theta_j).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "strain/kernels.h"
+
+namespace dresslife::strain {
+
+/// Precondition of both: finite strains.
+class TurningPoints {
+ public:
+  /// gate: smallest range kept, >= 0.
+  explicit TurningPoints(float gate) : gate_(gate) {}
+
+  void next(float strain, TurningList& out);
+  void finish(TurningList& out) const;  ///< after the last sample
+
+ private:
+  float gate_;
+  std::uint32_t sample_ = 0;  ///< of the next strain
+  float last_ = 0;
+  int direction_ = 0;  ///< +1 rising, -1 falling, 0 not yet known
+  float extreme_ = 0, low_ = 0, high_ = 0;
+  std::uint32_t extreme_at_ = 0, low_at_ = 0, high_at_ = 0;
+};
+
+class LaneScan {
+ public:
+  /// angles: theta_j of up to 16 wires, relative to the angle from which the waves count [rad].
+  LaneScan(std::span<const double> angles, float gate, const Kernels& machine = kernels());
+
+  /// The next `count` samples; turning points of wire j go to out[j].
+  void scan(const Waves& waves, std::size_t count, std::span<TurningList> out);
+  void finish(std::span<TurningList> out) const;
+
+  int wires() const { return state_.used; }
+  float lowest(int wire) const { return state_.low[wire]; }
+  float highest(int wire) const { return state_.high[wire]; }
+
+ private:
+  const Kernels* machine_;
+  LaneState state_;
+};
+
+}  // namespace dresslife::strain
