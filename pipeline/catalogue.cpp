@@ -24,7 +24,7 @@ fs::path shipped_catalogue() {
 std::vector<fs::path> search_folders(const std::string& folder, const Where& named_at) {
   std::vector<fs::path> folders;
   std::error_code failure;
-  fs::path here = fs::absolute(named_at.file, failure).lexically_normal().parent_path();
+  fs::path here = fs::absolute(folder_of(named_at) / "any", failure).lexically_normal().parent_path();
   for (; !here.empty(); here = here.parent_path()) {
     for (const fs::path& candidate : {here / folder, here / "config" / folder})
       if (fs::is_directory(candidate, failure)) folders.push_back(candidate);
@@ -65,7 +65,7 @@ void resolve(Node& entry, const std::string& folder, int depth = 0) {
   entry = std::move(base);
 }
 
-const char* folder_of(std::string_view key) {
+const char* shelf_of(std::string_view key) {
   for (const Shelf& shelf : shelves)
     if (key == shelf.key) return shelf.folder;
   return nullptr;
@@ -118,16 +118,27 @@ Node* step_into(Node& node, const std::string& word, const Where& where, const s
   }
   if (node.is_scalar())
     throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path), "shorten the path");
-  Node& found = node[word];
-  if (found.kind == Node::Kind::null) found.where = where;
-  return &found;
+  if (Node* found = node.find(word)) return found;
+  Node& added = node[word];
+  node.entries.back().where = added.where = where;
+  return &added;
+}
+
+/// A command line has no lines to point at.
+void place_at(Node& node, const Where& where) {
+  node.where = where;
+  for (Node& item : node.items) place_at(item, where);
+  for (Entry& entry : node.entries) {
+    entry.where = where;
+    place_at(entry.value, where);
+  }
 }
 
 }  // namespace
 
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at) {
   if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
-    return read_yaml((fs::path(named_at.file).parent_path() / name).lexically_normal());
+    return read_yaml((folder_of(named_at) / name).lexically_normal());
   std::vector<std::string> names;
   for (const fs::path& place : search_folders(folder, named_at)) {
     std::error_code failure;
@@ -150,8 +161,8 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     const std::string word = path.substr(begin, dot - begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
     // A catalogue entry is looked up as soon as a path leads into it.
-    if (begin > 0 && node->is_scalar() && path.find('.') == begin - 1)
-      if (const char* folder = folder_of(path.substr(0, begin - 1))) resolve(*node, folder);
+    if (begin > 0 && path.find('.') == begin - 1 && word != "from")
+      if (const char* folder = shelf_of(path.substr(0, begin - 1))) resolve(*node, folder);
     node = step_into(*node, word, where, path);
     begin = dot + 1;
   }
@@ -163,7 +174,9 @@ void apply_set(Node& job, const std::string& set) {
   const std::size_t equals = set.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError(where, "is not key.path=value", "write for example --set simulation.segments=80");
-  set_value(job, set.substr(0, equals), parse_yaml(set.substr(equals + 1), where.file), where);
+  Node value = parse_yaml(set.substr(equals + 1), where.file);
+  place_at(value, where);
+  set_value(job, set.substr(0, equals), std::move(value), where);
 }
 
 /// Looks up all that the job names; afterwards the tree stands for itself.

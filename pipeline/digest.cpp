@@ -42,7 +42,9 @@ std::string sha256(std::string_view bytes) {
 
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError({file.string()}, "cannot be read", "check the path");
+  // A folder opens like a file and fails on the first read.
+  if (!in || (in.peek(), in.bad())) throw InputError({file.string()}, "cannot be read", "check the path");
+  in.clear();
   Sha256 digest;
   std::vector<char> block(1 << 20);
   while (in) {

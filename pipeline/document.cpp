@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -53,13 +54,55 @@ class Converter {
     if (map.find(key.Scalar()))
       throw InputError(where, fmt::format("duplicate key '{}'", key.Scalar()), "keep one of the two");
     Node converted = convert(value, depth + 1);
-    if (converted.where.line <= 0) converted.where = where;
+    // A value that is not there lies, for the library, where the next line begins.
+    if (converted.where.line <= 0 || converted.kind == Node::Kind::null) converted.where = where;
     map.entries.push_back({key.Scalar(), where, std::move(converted)});
   }
 
   const std::string& file_;
   int nodes_ = 0;
 };
+
+/// Walks a stream of documents and keeps only where it is.
+class Walker : public YAML::EventHandler {
+ public:
+  YAML::Mark begin;                             ///< of the document
+  YAML::Mark last = YAML::Mark::null_mark();    ///< of the latest key or value
+
+  void OnDocumentStart(const YAML::Mark& mark) override { begin = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { last = mark; }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { last = mark; }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override { last = mark; }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    last = mark;
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    last = mark;
+  }
+  void OnMapEnd() override {}
+};
+
+/// Refuses what the library lets pass: further documents, a stray ',' (to it an endless stream of empty documents) and
+/// a quote that is never closed, which it only notices in text that does not end in a line feed.
+void check_stream(const std::string& text, const std::string& file) {
+  std::istringstream stream(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
+  YAML::Parser parser(stream);
+  Walker walker;
+  try {
+    if (!parser.HandleNextDocument(walker)) return;
+    const YAML::Mark first = walker.begin;
+    if (!parser.HandleNextDocument(walker)) return;
+    const Where where = place(walker.begin, file);
+    if (walker.begin.pos == first.pos) throw InputError(where, "is not YAML (no value begins like this)", "mend the line");
+    throw InputError(where, "a second document begins here", "keep one document per file");
+  } catch (const YAML::Exception& problem) {
+    if (problem.msg != YAML::ErrorMsg::EOF_IN_SCALAR) throw;
+    throw InputError(walker.last.is_null() ? Where{file, 1, 1} : place(walker.last, file),
+                     "is not YAML (a quote that opens here or in the lines below is never closed)", "close it");
+  }
+}
 
 bool all_scalars(const Node& list) {
   return std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is_scalar(); });
@@ -143,15 +186,14 @@ Node list_of(std::vector<Node> items) {
 }
 
 Node parse_yaml(const std::string& text, const std::string& file) {
-  std::vector<YAML::Node> documents;
+  YAML::Node document;
   try {
-    documents = YAML::LoadAll(text);
+    check_stream(text, file);
+    document = YAML::Load(text);
   } catch (const YAML::Exception& problem) {
     throw InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg), "mend the line");
   }
-  if (documents.size() > 1)
-    throw InputError(place(documents[1].Mark(), file), "a second document begins here", "keep one document per file");
-  Node root = documents.empty() ? Node{} : Converter(file).convert(documents[0]);
+  Node root = Converter(file).convert(document);
   if (root.where.line <= 0) root.where = {file, 1, 1};
   return root;
 }
@@ -162,6 +204,10 @@ std::string to_yaml(const Node& node) {
   YAML::Emitter out;
   emit(out, node);
   return std::string(out.c_str()) + "\n";
+}
+
+std::filesystem::path folder_of(const Where& where) {
+  return where.file.starts_with("--set ") ? "" : std::filesystem::path(where.file).parent_path();
 }
 
 std::string read_text(const std::filesystem::path& file) {

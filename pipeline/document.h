@@ -46,6 +46,9 @@ Node read_yaml(const std::filesystem::path& file);
 /// The document as text that parse_yaml() reads back to the same tree.
 std::string to_yaml(const Node& node);
 
+/// The folder that file names written at a place are relative to: the file's, or the current one for `--set`.
+std::filesystem::path folder_of(const Where& where);
+
 /// The whole of a text file. Errors: InputError when it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 

@@ -12,7 +12,7 @@ namespace {
 std::string joined(const Fields::Words& words) { return fmt::format("{}", fmt::join(words, " | ")); }
 
 std::optional<double> parse_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
@@ -194,7 +194,7 @@ void FieldReader::path(Key key, std::filesystem::path& value, Need need, std::st
   if (written.empty()) return;
   const Node* node = levels_.back().map->find(key);
   // Absolute, because the echo of a job may be read from another folder.
-  value = std::filesystem::absolute(std::filesystem::path(node->where.file).parent_path() / written).lexically_normal();
+  value = std::filesystem::absolute(folder_of(node->where) / written).lexically_normal();
 }
 
 void FieldReader::place(Where& where) { where = levels_.back().map->where; }
