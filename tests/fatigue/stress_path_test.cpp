@@ -2,10 +2,12 @@
 // memory.
 #include "fatigue/stress_path.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "fatigue/strain_life.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;
@@ -187,6 +189,25 @@ TEST_CASE("notch of Dowling's 7075-T6 example by Neuber's rule") {
     CHECK(stress_path.go_to(nominal[i]) == Approx(stresses[i]).epsilon(published).margin(published));
     CHECK(strain_path.go_to(nominal[i]) == Approx(strains[i]).epsilon(published).margin(published));
   }
+
+  // Cycles of each level's outer loop by SWT, and blocks of the whole programme to failure.
+  const StrainLife life(material(71000, 1466, -0.143, 0.262, -0.619), pipeline::MeanStress::swt);
+  const std::vector<std::pair<double, double>> amplitude_max{
+      {0.0157637642202125, 670.118981741784},  {0.0091966175201974, 670.118981741784},
+      {0.00728223107001298, 574.934387724122}, {0.00594652307210966, 465.574073578862},
+      {0.00483201013545857, 335.484122629028}, {0.0037403035088587, 186.490348798986},
+      {0.00266770047484482, 34.7997835572959}, {0.00159718384944938, -117.186856115291}};
+  const std::vector<double> count{1,   11,  35,  88,
+                                  180, 300, 510, 780};  // compression: the rest does nothing either
+  const std::vector<double> cycles{159.645925615254, 504.251997395751, 1274.33498206718, 3821.09445509244,
+                                   18512.92202959,   287632.055780832, 307595727.596641};
+  double damage = 0;
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    const double one = life.damage({amplitude_max[i].first, amplitude_max[i].second, 0});
+    if (i < cycles.size()) CHECK(1 / one == Approx(cycles[i]).epsilon(published));
+    damage += count[i] * one;
+  }
+  CHECK(1 / damage == Approx(11.1930311960313).epsilon(published));
 }
 
 TEST_CASE("memory agrees with a bundle of friction sliders on random paths") {
