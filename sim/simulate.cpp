@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/mounting.h"
+
 namespace dresslife::sim {
 namespace {
 
 using pipeline::InputError;
-
-/// Between equilibria on the way from the mounting pose to the first waypoint, largest axis: a quarter turn
-/// would still find its branch, this is far from it.
-constexpr double equilibrium_step = 5 * EIGEN_PI / 180;  // [rad]
 
 RodProperties properties_of(const pipeline::Job& job) {
   const pipeline::Dresspack& hose = job.dresspack;
@@ -52,7 +50,7 @@ Simulation::Simulation(const pipeline::Job& job)
   if (robot_)
     for (const pipeline::Link& link : job_.robot.links) description_.link_names.push_back(link.name);
   check_reach();
-  start_ = settled(mounted());
+  start_ = mount(job_, rod_, *path_, robot_);
 }
 
 Simulation::~Simulation() = default;
@@ -81,56 +79,6 @@ void Simulation::check_reach() const {
       "give it more free length, with slack to bend, or move a clamp");
 }
 
-/// At rest in the clamps of the first waypoint, without obstacles.
-RodState Simulation::mounted() {
-  if (!robot_) return find_equilibrium(rod_, path_->at(0).clamps).state;
-  const Eigen::VectorXd from = robot_->mounting_pose(), way = robot_->motion().position(0) - from;
-  const ClampFrames clamps = robot_->pose(from).clamps;
-  RodState state;
-  if (job_.routing.tool_clamp->roll) {
-    state = find_equilibrium(rod_, clamps).state;
-  } else {
-    TwistFreeClamp free = twist_free_roll(rod_, clamps);
-    robot_->turn_tool_clamp(free.roll);
-    state = std::move(free.equilibrium.state);
-  }
-  const int steps = static_cast<int>(std::ceil(way.lpNorm<Eigen::Infinity>() / equilibrium_step));
-  for (int k = 1; k <= steps; ++k)
-    state = find_equilibrium(rod_, robot_->pose(from + way * k / steps).clamps, state).state;
-  return state;
-}
-
-std::unique_ptr<World> Simulation::make_world(const RodState& state, const Pose& pose) const {
-  WorldSettings settings;
-  settings.time_step = job_.simulation.time_step;
-  settings.friction = job_.dresspack.friction;
-  settings.floor = job_.simulation.floor;
-  if (robot_) {
-    settings.base_link = robot_->base_link();
-    settings.tool_link = robot_->tool_link();
-  }
-  auto world = std::make_unique<World>(rod_, settings, state, pose.links);
-  if (robot_ && job_.simulation.contact)
-    for (size_t link = 0; link < job_.robot.links.size(); ++link)
-      for (const pipeline::Capsule& capsule : job_.robot.links[link].capsules)
-        world->add(static_cast<int>(link), CapsuleShape{capsule.from, capsule.to, capsule.radius});
-  return world;
-}
-
-/// Where the mounted dresspack comes to rest among the robot's links and on the floor.
-RodState Simulation::settled(const RodState& state) const {
-  const Pose pose = path_->at(0);
-  const std::unique_ptr<World> world = make_world(state, pose);
-  const Equilibrium rest = settle(*world, pose.links);
-  if (rest.status == EquilibriumStatus::converged) return rest.state;
-  const std::string what =
-      rest.status == EquilibriumStatus::too_short
-          ? "dresspack is drawn taut at the start"
-          : fmt::format("dresspack does not come to rest at the start (still moves at {:.3g} m/s)",
-                        rest.residual);
-  throw InputError(job_.routing.where, what, "check the free length and the clamps' places and directions");
-}
-
 void Simulation::check_step(const StepReport& report, const RodState& state, double time) const {
   if (!report.finite)
     throw InputError({job_.routing.where.file},
@@ -149,7 +97,7 @@ void Simulation::run(const std::function<void(const Sample&)>& take,
                      const std::function<void(double)>& progress) const {
   const int per_sample = steps_per_sample(job_.simulation);
   Pose pose = path_->at(0);
-  const std::unique_ptr<World> world = make_world(start_, pose);
+  const std::unique_ptr<World> world = make_world(job_, rod_, robot_, start_, pose);
   std::vector<double> tension(rod_.segments());
   StepReport since;
   const auto hand_over = [&](int sample) {

@@ -1,10 +1,8 @@
 // The run of one job: from the dresspack at rest in its clamps, step by step through the motion, to samples.
 //
-// Start: the dresspack is clamped in the mounting pose, its tool end free of torsion (unless the routing
-// gives a roll), carried to the first waypoint through a row of static equilibria, which keeps whole turns,
-// and left to come to rest among the obstacles. Then (R6) time goes on in steps h, clamps and links follow
-// the motion, and every 1/(rate h)-th state is a sample: t = k/rate, k = 0, 1, ... until the motion has
-// ended. Memory does not grow with the motion's length.
+// (R6) From rest in its mounting (mounting.h), time goes on in steps h, clamps and links follow the motion,
+// and every 1/(rate h)-th state is a sample: t = k/rate, k = 0, 1, ... until the motion has ended. Memory
+// does not grow with the motion's length.
 #pragma once
 
 #include <functional>
@@ -14,7 +12,6 @@
 
 #include "pipeline/job.h"
 #include "sim/clamp_path.h"
-#include "sim/equilibrium.h"
 #include "sim/world.h"
 
 namespace dresslife::sim {
@@ -60,9 +57,6 @@ class Simulation {
 
  private:
   void check_reach() const;
-  RodState mounted();
-  RodState settled(const RodState& state) const;
-  std::unique_ptr<World> make_world(const RodState& state, const Pose& pose) const;
   std::string moment(double time) const;
   void check_step(const StepReport& report, const RodState& state, double time) const;
 
