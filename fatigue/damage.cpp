@@ -186,25 +186,54 @@ double DamageCounter::Tables::morrow_damage(double amplitude, double stress_mean
 
 namespace {
 
-/// One period of a repeated history: starts and ends with the largest |strain|, alternating (as
-/// rotate_to_largest()).
-void rotate(std::span<const float> strains, std::vector<double>& period) {
-  std::size_t largest = 0;
-  for (std::size_t i = 1; i < strains.size(); ++i) {
-    if (std::fabs(strains[i]) > std::fabs(strains[largest])) largest = i;
+/// True if rises and falls take turns strictly, as dresslife-strain writes them. No branch: the compiler
+/// vectorises it.
+bool alternates(std::span<const float> strains) {
+  bool strict = true;
+  for (std::size_t i = 1; i + 1 < strains.size(); ++i) {
+    const bool peak = (strains[i] > strains[i - 1]) & (strains[i] > strains[i + 1]);
+    const bool valley = (strains[i] < strains[i - 1]) & (strains[i] < strains[i + 1]);
+    strict &= peak | valley;
   }
+  return strict;
+}
+
+std::size_t largest_of(std::span<const float> strains) {
+  float largest = 0;
+  for (const float strain : strains) largest = std::max(largest, std::fabs(strain));
+  const auto is_largest = [&](float strain) { return std::fabs(strain) == largest; };
+  return std::find_if(strains.begin(), strains.end(), is_largest) - strains.begin();
+}
+
+/// One period of a repeated history: starts and ends with the largest |strain|, alternating (as
+/// rotate_to_largest()). Where the history alternates, only the joint of its end and its begin needs care:
+/// after its first two reversals the last direction is the history's own again.
+void rotate(std::span<const float> strains, std::vector<double>& period) {
+  const std::size_t largest = largest_of(strains), careful = alternates(strains) ? 2 : strains.size();
   period.resize(strains.size() + 1);
   double* const out = period.data();
   std::size_t n = 0;
-  const auto append = [&](double strain) {
-    if (strain == out[n]) return;
-    const bool continues = n > 0 && (out[n] > out[n - 1]) == (strain > out[n]);
-    n += continues ? 0 : 1;
-    out[n] = strain;
+  const auto append = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (strains[i] == out[n]) continue;
+      const bool continues = n > 0 && (out[n] > out[n - 1]) == (strains[i] > out[n]);
+      n += continues ? 0 : 1;
+      out[n] = strains[i];
+    }
+  };
+  const auto copy = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) out[n + 1 + i - from] = strains[i];
+    n += to > from ? to - from : 0;
   };
   out[0] = strains[largest];
-  for (std::size_t i = largest + 1; i < strains.size(); ++i) append(strains[i]);
-  for (std::size_t i = 0; i <= largest; ++i) append(strains[i]);
+  const std::size_t after_joint = std::min(largest + 1, careful);
+  if (careful == 2) {
+    copy(largest + 1, strains.size());
+  } else {
+    append(largest + 1, strains.size());
+  }
+  append(0, after_joint);
+  copy(after_joint, largest + 1);
   period.resize(n + 1);
 }
 

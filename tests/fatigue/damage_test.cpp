@@ -187,6 +187,21 @@ TEST_CASE("tables agree with the exact evaluation for every combination of setti
   CHECK(worst < DamageCounter::table_error);
 }
 
+TEST_CASE("histories that do not alternate do the damage of their reversals") {
+  std::mt19937 random(35);
+  std::uniform_int_distribution<int> level(-4, 4);  // few levels: plateaus, ties, runs in one direction
+  const pipeline::Fatigue settings;
+  const DamageCounter counter(copper(), settings);
+  DamageCounter::Workspace workspace;
+  for (int trial = 0; trial < 500; ++trial) {
+    std::vector<float> samples;
+    for (int i = 0; i < 2 + trial % 30; ++i) samples.push_back(0.003f * level(random));
+    const auto reversals = find_reversals(std::vector<double>(samples.begin(), samples.end()));
+    const double exact = sum_of_damage(evaluate_cycles(reversals, copper(), settings));
+    CHECK(counter(samples, workspace) == Approx(exact).epsilon(DamageCounter::table_error));
+  }
+}
+
 TEST_CASE("stress of the repeated history: mirrored strains mirror the stresses") {
   std::mt19937 random(32);
   pipeline::Fatigue settings;
