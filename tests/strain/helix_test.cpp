@@ -24,11 +24,11 @@ struct Nested {
 };
 
 Nested nest(const State& state, const std::vector<space_curve::Level>& levels, Kinematics kinematics) {
-  const int order = static_cast<int>(levels.size());
+  const int order = static_cast<int>(levels.size()) + 1;
   Nested nested{uniform_rod<double>(state.elongation, state.curvature1, state.curvature2, state.twist, order),
                 uniform_rod<double>(0, 0, 0, 0, order)};
   for (const auto& level : levels) {
-    const Placement place(kinematics, level.radius, level.lay_angle, level.phase);
+    const Placement place = make_placement(kinematics, level.radius, level.lay_angle, level.phase);
     nested = {child(nested.now, place), child(nested.rest, place)};
   }
   return nested;
@@ -92,3 +92,89 @@ void compare_with_space(int depth, int states) {
 TEST_CASE("one level of helices agrees with curves in space") { compare_with_space(1, 1000); }
 TEST_CASE("two levels of helices agree with curves in space") { compare_with_space(2, 1000); }
 TEST_CASE("three levels of helices agree with curves in space") { compare_with_space(3, 1000); }
+
+TEST_CASE(
+    "a straight part of a twisted dresspack stretches by geometry, not by twice that as in the thesis") {
+  const State twisted{0, 0, 0, 5};
+  const std::vector<space_curve::Level> cable{{0.01845L, 0, 0}};
+  // sqrt(1 + (R tau)^2) - 1 and (R tau)^2 / (1 + (R tau)^2)
+  CHECK(nest(twisted, cable, Kinematics::exact).strain() == Approx(0.00424602).epsilon(1e-6));
+  CHECK(nest(twisted, cable, Kinematics::thesis).strain() == Approx(0.00843825).epsilon(1e-6));
+}
+
+TEST_CASE("the thesis' equations give the numbers evaluated by hand") {
+  // eps 0.001, kappa (2, -1) 1/m, tau 3 rad/m; conductor R 2.825 mm, 25 deg, theta 0.7; wire R 0.75 mm, 5
+  // deg, theta 2
+  const State state{0.001, 2, -1, 3};
+  const auto conductor = nest(state, {{0.002825L, 25 * degree, 0.7L}}, Kinematics::thesis);
+  constexpr double digits = 1e-12;
+  CHECK(conductor.strain() == Approx(0.008833103190336391).epsilon(digits));
+  CHECK(conductor.now.twist.at[0] == Approx(0.7950300460873669).epsilon(digits));  // (16)
+  CHECK(conductor.now.bend2.at[0] == Approx(0.8000364651749452).epsilon(digits));  // (17)
+  CHECK(conductor.now.bend1.at[0] == Approx(1.6761881725546248).epsilon(digits));  // (18)
+  const auto wire =
+      nest(state, {{0.002825L, 25 * degree, 0.7L}, {0.00075L, 5 * degree, 2.0L}}, Kinematics::thesis);
+  CHECK(wire.strain() == Approx(0.010200217430071047).epsilon(digits));         // (20)
+  CHECK(wire.now.twist.at[0] == Approx(0.16092222367210385).epsilon(digits));   // (21)
+  CHECK(wire.now.bend2.at[0] == Approx(0.029817250902044963).epsilon(digits));  // (22)
+  CHECK(wire.now.bend1.at[0] == Approx(1.8430355238940468).epsilon(digits));    // (23)
+}
+
+TEST_CASE("in a twisted cable the worst wire strains half as much again as the thesis says") {
+  // A cable at 180 deg/m; conductors and wires of table 1. (16) leaves out the parent's twist, so the thesis'
+  // wires see their conductor's stretch only.
+  double exact = 0, thesis = 0;
+  for (int k = 0; k < 36; ++k) {
+    const std::vector<space_curve::Level> levels{{0.002825L, 25 * degree, 0},
+                                                 {0.00075L, 5 * degree, 10 * k * degree}};
+    exact = std::max(exact, nest({0, 0, 0, std::numbers::pi}, levels, Kinematics::exact).strain());
+    thesis = std::max(thesis, nest({0, 0, 0, std::numbers::pi}, levels, Kinematics::thesis).strain());
+  }
+  CHECK(exact == Approx(0.00496).epsilon(2e-3));  // the oracle's curves give the same, above
+  CHECK(thesis == Approx(0.00341).epsilon(2e-3));
+}
+
+TEST_CASE("the mean over the phases is the average of many phases") {
+  Random random;
+  for (int k = 0; k < 200; ++k) {
+    const State state = random.state();
+    const auto levels = random.levels(1);
+    for (const Kinematics kinematics : {Kinematics::exact, Kinematics::thesis}) {
+      const auto rod =
+          uniform_rod<double>(state.elongation, state.curvature1, state.curvature2, state.twist, 1);
+      auto place = [&](double phase) {
+        return make_placement(kinematics, levels[0].radius, levels[0].lay_angle, phase);
+      };
+      double mean = 0;
+      constexpr int phases =
+          64;  // the average of a smooth periodic function over so many is exact to rounding
+      for (int m = 0; m < phases; ++m)
+        mean += path_rate(rod, place(2 * std::numbers::pi * m / phases)) / phases;
+      constexpr double next_term =
+          3e-7;  // A (R K)^6 / 50 at the largest radius, curvature and lay angle drawn
+      CHECK(std::abs(mean_path_rate(rod, place(0.3)) - mean) < next_term);
+    }
+  }
+}
+
+TEST_CASE("the last level's values are those of the full recursion") {
+  Random random;
+  for (int k = 0; k < 200; ++k) {
+    const State state = random.state();
+    const auto levels = random.levels(3);
+    for (const Kinematics kinematics : {Kinematics::exact, Kinematics::thesis}) {
+      const Nested parent = nest(state, {levels[0], levels[1]}, kinematics),
+                   wire = nest(state, levels, kinematics);
+      Rod<double> at_order_one = parent.now;
+      REQUIRE(parent.now.stretch.order >= (kinematics == Kinematics::exact ? 1 : 0));
+      const auto values = wire_state(
+          at_order_one, make_placement(kinematics, levels[2].radius, levels[2].lay_angle, levels[2].phase));
+      CHECK(values.stretch == Approx(wire.now.stretch.at[0]).epsilon(1e-14));
+      const bool exact = kinematics == Kinematics::exact;
+      CHECK(values.bend1 ==
+            Approx(exact ? wire.now.bend1.at[0] : -wire.now.bend2.at[0]).epsilon(1e-12).margin(1e-11));
+      CHECK(values.bend2 ==
+            Approx(exact ? wire.now.bend2.at[0] : wire.now.bend1.at[0]).epsilon(1e-12).margin(1e-11));
+    }
+  }
+}

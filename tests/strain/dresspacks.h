@@ -1,0 +1,50 @@
+// Constructions that the tests of this folder share.
+#pragma once
+
+#include <numbers>
+
+#include "pipeline/job.h"
+
+namespace test_dresspacks {
+
+using dresslife::pipeline::Component;
+using dresslife::pipeline::Dresspack;
+using dresslife::pipeline::Hand;
+
+constexpr double degree = std::numbers::pi / 180;
+
+inline Component part(const std::string& name, int count, double radius, double helix_radius,
+                      double lay_angle_deg, Hand hand = Hand::right) {
+  Component component;
+  component.name = name;
+  component.count = count;
+  component.radius = radius;
+  component.helix_radius = helix_radius;
+  component.lay_angle = lay_angle_deg * degree;
+  component.hand = hand;
+  return component;
+}
+
+inline Component wires(const std::string& label, int count, double radius, double helix_radius,
+                       double lay_angle_deg, Hand hand) {
+  Component component = part("wire", count, radius, helix_radius, lay_angle_deg, hand);
+  component.layer = label;
+  component.material = "copper";
+  return component;
+}
+
+/// The welding dresspack of the thesis' table 1, all wire layers.
+inline Dresspack thesis_dresspack() {
+  Component conductor = part("conductor", 7, 0.001175, 0.002825, 25);
+  const int counts[] = {31, 25, 18, 12, 6};
+  for (int k = 0; k < 5; ++k)
+    conductor.components.push_back(
+        wires("layer " + std::to_string(k + 1), counts[k], 75e-6, 0.00075 - 0.00015 * k, 5, Hand::left));
+  Component cable = part("signal cable", 10, 0.0053, 0.01845, 0);
+  cable.components = {conductor};
+  Dresspack dresspack;
+  dresspack.components = {cable};
+  return dresspack;
+}
+
+}  // namespace test_dresspacks
