@@ -82,6 +82,25 @@ double Statics::unbalance(const RodState& state) {
   return largest / std::max(scale, 1e-12);
 }
 
+// m . d2(phi)/d(delta)2 in the world, for log(e^(phi/2) e^delta e^(phi/2)) in the mid-frame. With u =
+// phi/theta, p = delta . u, q = delta - p u, the second order is  c u q.q + s' p q: the first from
+// cos(theta'/2) = cos(theta/2) cos(q/2), c = cot(theta/2)/4 - s^2/(2 theta); the second as p only adds to
+// theta in s(theta) q.
+Matrix3 turn_curvature(const LinkTurn& turn, const Vector3& moment) {
+  const double theta = turn.phi.norm(), s = turn.stretch;
+  if (theta < 1e-12) return Matrix3::Zero();
+  const bool small = theta < 0.02;  // series: the next terms are below 1e-11
+  const double cotangent = small ? 0 : 1 / std::tan(theta / 2);
+  const double c = small ? -theta / 12 - theta * theta * theta / 360 : cotangent / 4 - s * s / (2 * theta);
+  const double slope =
+      small ? theta / 12 + 7 * theta * theta * theta / 1440 : s / theta * (1 - theta / 2 * cotangent);
+  const Vector3 u = turn.phi / theta, world_u = turn.axis.normalized();
+  const double along = moment.dot(u);
+  const Vector3 across = turn.map * (moment - along * u) / s;  // G = R s across u
+  return 2 * c * along * (Matrix3::Identity() - world_u * world_u.transpose()) +
+         slope * (world_u * across.transpose() + across * world_u.transpose());
+}
+
 // (S12), derived in sim/README.md. With arms a, b, link force f, world moment m and turns da, db of the
 // segments: gap: k B^T B and (f.a) 1 - sym(f a^T) on each segment's own turning; turn: H = G K G^T + (sym(m
 // phi^T) - (m.phi) 1)/6 on da - db, and the antisymmetric half of m in the coupling.
@@ -90,11 +109,10 @@ void Statics::add_link(const RodState& state, int j) {
   const LinkEnds ends = link_ends(rod_, state, j);
   const LinkTurn turn = link_turn(*ends.orientation_a, *ends.orientation_b);
   const Vector3& stiffness = rod_.turn_stiffness(j);
-  const Vector3 moment = turn.map * stiffness.cwiseProduct(turn.phi - rod_.rest_turn(j));
-  const Vector3 phi = 2 * turn.stretch * turn.axis, f = pull_[j];
-  Matrix3 h = turn.map * stiffness.asDiagonal() * turn.map.transpose();
-  h += (0.5 * (moment * phi.transpose() + phi * moment.transpose()) - moment.dot(phi) * Matrix3::Identity()) /
-       6;
+  const Vector3 local_moment = stiffness.cwiseProduct(turn.phi - rod_.rest_turn(j));
+  const Vector3 moment = turn.map * local_moment, f = pull_[j];
+  const Matrix3 h =
+      turn.map * stiffness.asDiagonal() * turn.map.transpose() + turn_curvature(turn, local_moment);
   const double k = rod_.gap_stiffness(j);
   const auto own = [&](int i, const Vector3& arm, double side) {
     const Matrix3 s = skew(arm);
@@ -185,9 +203,10 @@ double allowed_part(std::span<const Twist6> step) {
   return turn > largest_turn ? largest_turn / turn : 1;
 }
 
-double furthest(std::span<const Twist6> step) {
+// The longest way that any end of a segment of length l goes.
+double furthest(std::span<const Twist6> step, double l) {
   double far = 0;
-  for (const Twist6& s : step) far = std::max(far, s.linear().norm());
+  for (const Twist6& s : step) far = std::max(far, s.linear().norm() + l * s.angular().norm());
   return far;
 }
 
@@ -227,8 +246,10 @@ Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const Ro
       shift = std::max(shift_factor * shift, least_shift);
       continue;
     }
-    const double part = allowed_part(statics.step()), far = furthest(statics.step());
-    if (shift == 0 && (result.residual < settings.tolerance || far < smallest_step * p.length)) {
+    const double part = allowed_part(statics.step()), far = furthest(statics.step(), rod.segment_length());
+    // A chain that may turn for nothing (a ring about its clamps' tangent) needs some shift to the end.
+    if (shift <= shift_factor * least_shift &&
+        (result.residual < settings.tolerance || far < smallest_step * p.length)) {
       result.status = EquilibriumStatus::converged;
       break;
     }
