@@ -15,6 +15,7 @@ constexpr double carrying_speed = 20 * EIGEN_PI / 180;  // of the fastest axis o
 constexpr int settling_steps = 6000;
 constexpr double rest = 1e-3;  // what settling aims at: a hose that creeps a millimetre in a second [m/s]
 constexpr double near_rest = 2e-2;     // still a start: sways by less than its diameter [m/s]
+constexpr double lean = 0.3;           // of a hose held up: straight up it could stay there, balanced
 constexpr double overlap_share = 0.5;  // of the diameter: overlaps up to this are pushed out while settling
 
 struct Held {
@@ -51,7 +52,7 @@ class Mounting {
     Vector3 side = chord.cross(g);
     if (side.norm() > 0) side *= g.norm() / side.norm();
     Held best;
-    for (const Vector3& gravity : std::array<Vector3, 5>{g, 0 * g, -g, side, -side}) {
+    for (const Vector3& gravity : std::array<Vector3, 4>{g, side, -side, Vector3(-g + lean * side)}) {
       Held held = equilibrium(pose, gravity);
       if (!held.found || (best.found && held.depth >= best.depth)) continue;
       best = std::move(held);
