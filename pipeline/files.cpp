@@ -126,7 +126,7 @@ struct FileWriter::Impl {
   };
   std::filesystem::path final_name, part;
   const Format* format = nullptr;
-  Handle file, link_creation;
+  Handle file;
   std::map<std::string, Open> open;  // ordered: same calls, same bytes
   std::map<std::string, std::size_t> axes, text_widths;
   bool committed = false;
@@ -180,8 +180,21 @@ struct FileWriter::Impl {
       H5Pset_shuffle(creation);
       H5Pset_deflate(creation, 1);
     }
-    made.id = Handle(H5Dcreate2(file, path.c_str(), made.file_type, space, link_creation, creation, H5P_DEFAULT), H5Dclose);
+    make_groups(path);
+    made.id = Handle(H5Dcreate2(file, path.c_str(), made.file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
     if (!made.id.valid() || !write_text_attribute(made.id, "unit", made.description->unit)) fail("dataset " + path);
+  }
+
+  /// The groups above a dataset. (Left to the library they would carry the time of day: other bytes in every run.)
+  void make_groups(const std::string& path) {
+    const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+    H5Pset_obj_track_times(creation, false);
+    for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {
+      const std::string group = path.substr(0, end);
+      if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
+      const Handle made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+      if (!made.valid()) fail("group " + group);
+    }
   }
 
   void put(Open& target, const void* bytes, std::size_t count) {
@@ -271,8 +284,6 @@ FileWriter::FileWriter(std::filesystem::path file, const Format& format) : impl_
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false);
-  impl_->link_creation = Handle(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(impl_->link_creation, 1);
   impl_->file = Handle(H5Fcreate(impl_->part.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("the file cannot be created");
   attribute("format", format.name);
