@@ -96,6 +96,24 @@ void Evaluation::find_probes(const std::vector<pipeline::Probe>& probes) {
   }
 }
 
+std::size_t Evaluation::longest_path() const {
+  std::size_t longest = 0;
+  for (const Wire& wire : wires_) longest = std::max(longest, wire.path.size());
+  return longest;
+}
+
+std::size_t Evaluation::longest_material() const {
+  std::size_t longest = 0;
+  for (const Layer& layer : construction_.layers()) longest = std::max(longest, layer.material.size());
+  return longest;
+}
+
+std::string Evaluation::summary() const {
+  if (worst_range_ < 0) return "no wire was evaluated";
+  return fmt::format("{} sites; largest strain range {:.3f} %, segment {} from the tool, {}", sites(),
+                     100 * worst_range_, segments() - worst_segment_, wires_[worst_.wire].path);
+}
+
 void Evaluation::add(const DeformationHistory& block) {
   for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) means->add(block);
 }
@@ -253,7 +271,14 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   };
   const auto of_all = std::max_element(worst.begin(), worst.end(),
                                        [](const Worst& a, const Worst& b) { return a.range < b.range; });
-  if (of_all != worst.end() && of_all->range >= 0) probe(of_all->by_range);
+  if (of_all != worst.end() && of_all->range >= 0) {
+    probe(of_all->by_range);
+    if (of_all->range > worst_range_) {
+      worst_range_ = of_all->range;
+      worst_ = of_all->by_range;
+      worst_segment_ = segment;
+    }
+  }
   for (const auto& [at, site] : probes_)
     if (at == segment) probe(site);
 }

@@ -53,6 +53,10 @@ class Evaluation {
   std::size_t segments() const { return lengths_.size(); }
   std::size_t sites() const { return segments() * wires_.size() * fibre_count_; }
 
+  std::size_t longest_path() const;  ///< of a site's component [bytes]
+  std::size_t longest_material() const;
+  std::string summary() const;  ///< one line on the site with the largest strain range so far
+
   void add(const DeformationHistory& block);  ///< first pass, in order of time
 
   /// Second pass: segment `segment`, whose history is `row` of `history`. Call for segments in order.
@@ -109,8 +113,11 @@ class Evaluation {
   float gate_;
   ClampMeans means_;
   Bound stick_, free_;
-  std::vector<Wire> wires_;                           ///< bundle by bundle
-  std::vector<std::size_t> first_wire_;               ///< of each bundle
+  std::vector<Wire> wires_;              ///< bundle by bundle
+  std::vector<std::size_t> first_wire_;  ///< of each bundle
+  Site worst_;
+  std::size_t worst_segment_ = 0;
+  float worst_range_ = -1;
   std::vector<std::pair<std::size_t, Site>> probes_;  ///< (segment, site) that the job names
 };
 

@@ -1,0 +1,24 @@
+// dresslife-strain: motion.h5 in, strain.h5 out.
+#include "pipeline/stage.h"
+#include "strain/strain_file.h"
+
+int main(int argc, char** argv) {
+  using namespace dresslife;
+  const pipeline::StageInfo info{
+      .program = "dresslife-strain",
+      .purpose = "Tells what every wire of a dresspack feels while the robot moves.",
+      .input = "motion.h5",
+      .output = "strain.h5",
+      .example = "dresslife-strain motion.h5 -o strain.h5 --set strain.slip=stick"};
+  return pipeline::run_stage(
+      info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
+        const pipeline::FileReader motion(call.input, pipeline::motion_format());
+        const pipeline::Job job = pipeline::job_of(call, motion, {pipeline::Part::sim});
+        pipeline::FileWriter file(call.output, pipeline::strain_format());
+        const std::string summary =
+            strain::write_strain(motion, job, file, [&](double share) { progress.show(share); });
+        pipeline::stamp(file, call, job, motion.text_attribute("history"));
+        file.commit();
+        progress.note(summary);
+      });
+}

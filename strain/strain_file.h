@@ -1,0 +1,19 @@
+// motion.h5 in, strain.h5 out: the evaluation wired to the files, in blocks of rows so that memory does not
+// grow with the motion beyond a few histories.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "pipeline/files.h"
+#include "pipeline/job.h"
+
+namespace dresslife::strain {
+
+/// Writes every dataset of strain.h5 and returns a line on the worst site. progress: share of the work done.
+/// Errors: InputError for a motion without samples, a dresspack without wires, and those of Construction and
+/// Evaluation.
+std::string write_strain(const pipeline::FileReader& motion, const pipeline::Job& job,
+                         pipeline::FileWriter& strain, const std::function<void(double)>& progress);
+
+}  // namespace dresslife::strain
