@@ -1,0 +1,54 @@
+// What a life file tells about one job, and the charts of it. Each chart is inline SVG in the classes of
+// report.cpp.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dresslife::pipeline {
+
+/// One cycle of the worst wire.
+struct WorstCycle {
+  double range = 0, count = 0, damage = 0;
+};
+
+/// The part of a life file that a reader looks at; sizes do not depend on the number of wires.
+struct LifeSummary {
+  std::vector<double> time;            ///< (sample) [s]
+  std::vector<double> strain;          ///< (sample) of the worst wire
+  std::vector<double> damage_rate;     ///< (sample) of the worst segment; empty: no wire was evaluated
+  std::vector<std::int32_t> step;      ///< (sample) program line, -1: none
+  std::vector<std::string> step_text;  ///< (line)
+  std::vector<double> step_damage;     ///< (line) of the worst wire, per repeat
+  std::vector<double> segment_length;  ///< (segment) from the base [m]
+  std::vector<double> segment_damage;  ///< (segment) of its worst wire, per repeat
+  std::vector<std::string> layer;      ///< (layer) path of a layer of wires
+  std::vector<double> layer_damage;    ///< (layer) of its worst wire, per repeat
+  std::vector<WorstCycle> cycles;      ///< of the worst wire
+  std::string job, history;
+};
+
+/// Errors: InputError when the file cannot be read.
+LifeSummary read_life(const std::filesystem::path& life_file);
+
+/// A stretch of time in which one program line runs.
+struct ProgramRun {
+  std::int32_t step;
+  double begin, end;  ///< [s]
+  double damage = 0;  ///< of the worst segment, closed in this stretch
+};
+std::vector<ProgramRun> program_runs(const LifeSummary& life);
+
+/// Strain of the worst wire over time, the program below it, and how the damage adds up; the program lines
+/// that cost most are named above.
+std::string strain_chart(const LifeSummary& life);
+
+/// Damage per repeat along the dresspack, base to tool; worst_from_tool is marked, 0: none.
+std::string segment_chart(const LifeSummary& life, int worst_from_tool);
+
+/// How many cycles of which strain range the worst wire sees in a repeat, and what each range costs.
+std::string cycle_chart(const LifeSummary& life);
+
+}  // namespace dresslife::pipeline

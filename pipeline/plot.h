@@ -1,0 +1,89 @@
+// Charts as inline SVG: axes, ticks, lines and bars. Colours and fonts are left to the page through classes,
+// so that a chart follows the reader's light or dark scheme. Lengths are in units of the picture, about one
+// pixel each.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dresslife::pipeline {
+
+/// Text made harmless between HTML tags and in quoted attributes.
+std::string escaped(const std::string& text);
+
+/// 10^exponent as text: "10⁻⁶".
+std::string power_of_ten(int exponent);
+
+/// readable() as pages write it: "4.56·10¹²" instead of "4.56e+12".
+std::string printed(double value, int figures = 3);
+
+struct Tick {
+  double value;
+  std::string label;  ///< empty: a mark alone
+};
+
+/// One axis of a chart, in the unit of its title. Precondition: low < high; 0 < low when logarithmic.
+struct Axis {
+  std::string title;
+  double low = 0, high = 1;
+  bool logarithmic = false;
+  bool reversed = false;  ///< high at the left or bottom end
+
+  /// At round values, at most about `most` of them with a label.
+  std::vector<Tick> ticks(int most) const;
+};
+
+/// An axis from 0 (or below) to the round value above `high`.
+Axis linear_axis(std::string title, double low, double high, int most_ticks = 6);
+
+/// An axis over whole decades around [low, high].
+Axis decades_axis(std::string title, double low, double high);
+
+/// A picture under construction.
+class Picture {
+ public:
+  /// title, description: what a screen reader says.
+  Picture(double width, double height, std::string title, std::string description);
+
+  enum class Anchor { start, middle, end };
+  void line(double x1, double y1, double x2, double y2, const char* style);
+  /// hint: shown when the pointer rests on it.
+  void box(double x, double y, double width, double height, const char* style, const std::string& hint = "");
+  void dot(double x, double y, double radius, const char* style, const std::string& hint = "");
+  void curve(const std::vector<std::pair<double, double>>& points, const char* style);
+  void text(double x, double y, const std::string& words, const char* style, Anchor anchor = Anchor::start);
+  void upright_text(double x, double y, const std::string& words,
+                    const char* style);  ///< reads upwards, centred
+
+  double width() const { return width_; }
+  std::string svg() const;
+
+ private:
+  double width_, height_;
+  std::string title_, description_, body_;
+};
+
+/// Width that a text takes at the size of the charts' labels, never too small.
+double text_width(const std::string& words);
+
+/// A rectangle of a picture with a scale along each side.
+struct Panel {
+  double left, top, width, height;
+  Axis x, y;
+
+  double across(double value) const;  ///< from x to the picture, clamped to the panel
+  double down(double value) const;    ///< from y to the picture, clamped to the panel
+  double bottom() const { return top + height; }
+  double right() const { return left + width; }
+
+  /// Grid, tick marks, labels and titles of both axes.
+  void draw_axes(Picture& picture, bool with_x_labels = true) const;
+};
+
+/// The extremes of each of `columns` equal stretches of a history, in the order in which they occur: a curve
+/// that looks the same at that width and has at most two points per column.
+std::vector<std::pair<double, double>> thinned(const std::vector<double>& time,
+                                               const std::vector<double>& value, std::size_t columns);
+
+}  // namespace dresslife::pipeline

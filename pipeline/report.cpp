@@ -1,0 +1,318 @@
+#include "pipeline/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pipeline/document.h"
+#include "pipeline/errors.h"
+#include "pipeline/life_charts.h"
+#include "pipeline/plot.h"
+#include "pipeline/readable.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// A job's charts take about 60 kB: of a larger study only the best and the worst have them.
+constexpr std::size_t most_detailed = 40;
+constexpr std::size_t most_compared = 40;
+constexpr std::size_t listed_lines = 10, listed_layers = 12;
+
+constexpr const char* style = R"(
+:root { color-scheme: light dark; --page: #ffffff; --ink: #1b1f24; --soft: #5b6570; --rule: #d5dae0; --grid: #e6e9ed;
+  --blue: #0072b2; --hot: #c94f00; --band: #eef1f5; --band-2: #d9dfe7; }
+@media (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e8eaed; --soft: #a0a9b4; --rule: #3a424c;
+  --grid: #2a3037; --blue: #56b4e9; --hot: #f08c3a; --band: #242a31; --band-2: #37404a; } }
+body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
+  font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
+h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem; border-top: 2px solid var(--rule); }
+h3 { font-size: 1rem; margin: 1.6rem 0 .2rem; } p { margin: .3rem 0 .6rem; max-width: 46rem; } .soft { color: var(--soft); font-size: .9rem; }
+a { color: var(--blue); } .wide { overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
+th { color: var(--soft); font-weight: 600; } .number { text-align: right; white-space: nowrap; } .failed { color: var(--hot); font-weight: 600; }
+.meter { display: inline-block; width: 8rem; height: .7rem; background: var(--band); margin-right: .5rem; }
+.meter > span { display: block; height: 100%; background: var(--hot); }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: .5rem 0; } dt { color: var(--soft); } dd { margin: 0; }
+details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
+pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8rem; line-height: 1.35; }
+svg { display: block; width: 100%; height: auto; font: 12px system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
+svg text { fill: var(--ink); } svg .tick, svg .axis-title { fill: var(--soft); } svg .cell { fill: var(--soft); font-size: 11px; }
+svg .note { paint-order: stroke; stroke: var(--page); stroke-width: 4px; stroke-linejoin: round; }
+svg path { fill: none; } svg .grid { stroke: var(--grid); } svg .mark { stroke: var(--soft); } svg .leader { stroke: var(--hot); stroke-dasharray: 3 3; }
+svg .curve { stroke: var(--blue); stroke-width: 1.2; stroke-linejoin: round; } svg .curve-hot { stroke: var(--hot); stroke-width: 1.6; }
+svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg .even { fill: var(--band); } svg .odd { fill: var(--band-2); }
+svg .whisker { stroke: var(--blue); stroke-width: 5; stroke-opacity: .35; stroke-linecap: round; }
+@media print { details { display: none; } h2 { break-before: page; } }
+)";
+
+std::string life_cell(double life) { return std::isinf(life) ? "no damage" : printed(life); }
+
+std::string place_words(const RankingRow& row) {
+  return fmt::format("segment {} from the tool, {:.2f} m from its clamp", row.worst_segment_from_tool,
+                     row.worst_position_from_tool);
+}
+
+bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
+
+// ---- ranking ----------------------------------------------------------------------------------------------
+
+std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
+  std::string text;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const RankingRow& row = rows[i];
+    const std::string name =
+        detailed[i] ? fmt::format("<a href=\"#job-{}\">{}</a>", i + 1, escaped(row.job)) : escaped(row.job);
+    if (!row.done()) {
+      text += fmt::format(
+          "<tr><td class=\"number\">-</td><td>{}</td><td colspan=\"6\"><span class=\"failed\">failed</span> "
+          "{}</td></tr>\n",
+          name, escaped(row.failure));
+      continue;
+    }
+    const std::string where = !damaged(row)
+                                  ? "no wire is damaged"
+                                  : fmt::format("{}<br>{}", escaped(row.worst_component), place_words(row));
+    const std::string moved = !damaged(row)
+                                  ? ""
+                                  : fmt::format("{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
+                                                escaped(row.worst_step), row.worst_time, row.repeat_seconds);
+    text += fmt::format(
+        "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\"><b>{}</b></td><td "
+        "class=\"number\">{} .. {}</td>"
+        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
+        i + 1, name, life_cell(row.life_hours), life_cell(row.hours_of(row.life_repeats_all_stick)),
+        life_cell(row.hours_of(row.life_repeats_all_free)), life_cell(row.life_months),
+        life_cell(row.life_repeats), where, moved);
+  }
+  return text;
+}
+
+/// Lives beside each other on one axis of decades: a dot, and the bounds as a bar behind it.
+std::string comparison_chart(const std::vector<RankingRow>& rows) {
+  std::vector<const RankingRow*> shown;
+  double low = INFINITY, high = 0;
+  for (const RankingRow& row : rows) {
+    if (!row.done() || !damaged(row) || shown.size() == most_compared) continue;
+    shown.push_back(&row);
+    for (const double repeats : {row.life_repeats, row.life_repeats_all_stick, row.life_repeats_all_free}) {
+      const double hours = row.hours_of(repeats);
+      if (!(hours > 0) || std::isinf(hours)) continue;
+      low = std::min(low, hours);
+      high = std::max(high, hours);
+    }
+  }
+  if (shown.size() < 2 || !(high > 0)) return "";
+  constexpr double row_height = 24, names = 230, width = 960;
+  Panel panel{names,
+              8,
+              width - names - 20,
+              row_height * static_cast<double>(shown.size()),
+              decades_axis("life [h of motion]", low, high),
+              {"", 0, 1}};
+  Picture picture(width, panel.bottom() + 44, "Lives compared",
+                  "Life in hours with the bounds all stick and all free.");
+  for (const Tick& tick : panel.x.ticks(8)) {
+    picture.line(panel.across(tick.value), panel.top, panel.across(tick.value), panel.bottom(), "grid");
+    picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
+  }
+  picture.text(panel.left + panel.width / 2, panel.bottom() + 36, panel.x.title, "axis-title",
+               Picture::Anchor::middle);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const RankingRow& row = *shown[i];
+    const double y = panel.top + row_height * (static_cast<double>(i) + 0.5);
+    picture.text(names - 10, y + 4, shortened(row.job, 32), "name", Picture::Anchor::end);
+    const auto x = [&](double repeats) { return panel.across(row.hours_of(repeats)); };
+    picture.line(x(row.life_repeats_all_stick), y, x(row.life_repeats_all_free), y, "whisker");
+    picture.dot(x(row.life_repeats), y, 5, "dot",
+                fmt::format("{}: {} h", row.job, life_cell(row.life_hours)));
+  }
+  return picture.svg();
+}
+
+std::string ranking_section(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
+  const std::string chart = comparison_chart(rows);
+  return fmt::format(
+      "<div class=\"wide\"><table>\n<thead><tr><th></th><th>job</th><th class=\"number\">life [h]</th>"
+      "<th class=\"number\">all stick .. all free [h]</th><th class=\"number\">months</th><th "
+      "class=\"number\">repeats</th>"
+      "<th>breaks first</th><th>what moved then</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}"
+      "<p class=\"soft\">Life is until the first wire breaks, in hours of motion; months count the job's "
+      "operating hours per week. "
+      "Parts inside the dresspack rub on each other: glued together (all stick) they live shorter, slipping "
+      "freely (all free) "
+      "longer, and the truth lies between. Wires scatter: half of them break before the life that the "
+      "material's constants give.</p>\n",
+      ranking_rows(rows, detailed), chart.empty() ? "" : "<h3>Lives compared</h3>\n" + chart);
+}
+
+// ---- one job ----------------------------------------------------------------------------------------------
+
+std::string meter(double share) {
+  return fmt::format("<span class=\"meter\"><span style=\"width:{:.1f}%\"></span></span>{:.1f} %",
+                     100 * share, 100 * share);
+}
+
+std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] > values[b]; });
+  std::erase_if(order, [&](std::size_t i) { return !(values[i] > 0); });
+  if (order.size() > most) order.resize(most);
+  return order;
+}
+
+std::string program_table(const LifeSummary& life) {
+  const double total = std::accumulate(life.step_damage.begin(), life.step_damage.end(), 0.0);
+  const std::vector<ProgramRun> runs = program_runs(life);
+  std::string rows;
+  for (const std::size_t line : largest_first(life.step_damage, listed_lines)) {
+    std::size_t times = 0;
+    const ProgramRun* costliest = nullptr;
+    for (const ProgramRun& run : runs) {
+      if (run.step != static_cast<std::int32_t>(line)) continue;
+      ++times;
+      if (!costliest || run.damage > costliest->damage) costliest = &run;
+    }
+    rows += fmt::format(
+        "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td "
+        "class=\"number\">{}</td></tr>\n",
+        line + 1, escaped(life.step_text[line]), times,
+        costliest ? fmt::format("{:.1f} .. {:.1f} s", costliest->begin, costliest->end) : "",
+        meter(life.step_damage[line] / total), printed(life.step_damage[line]));
+  }
+  if (rows.empty()) return "";
+  return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">A cycle of strain counts for the line in "
+         "which its range is "
+         "reached.</p>\n<div class=\"wide\"><table>\n<thead><tr><th "
+         "class=\"number\">line</th><th>program</th>"
+         "<th class=\"number\">runs</th><th>costliest at</th><th>share of the damage</th><th "
+         "class=\"number\">damage per repeat</th></tr>"
+         "</thead>\n<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string layer_table(const LifeSummary& life, const RankingRow& row) {
+  std::string rows;
+  for (const std::size_t i : largest_first(life.layer_damage, listed_layers)) {
+    const double repeats = 1 / life.layer_damage[i];
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+        "class=\"number\">{}</td></tr>\n",
+        escaped(life.layer[i]), printed(row.hours_of(repeats)), printed(repeats),
+        printed(life.layer_damage[i]));
+  }
+  if (rows.empty()) return "";
+  return "<h3>Life by layer of wires</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>layer</th><th "
+         "class=\"number\">life [h]</th>"
+         "<th class=\"number\">repeats</th><th class=\"number\">damage per "
+         "repeat</th></tr></thead>\n<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string facts(const RankingRow& row) {
+  std::string list;
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
+  };
+  fact("life", std::isinf(row.life_hours)
+                   ? "no damage"
+                   : fmt::format("<b>{} h</b> of motion = {} repeats of {:.1f} s = {} months",
+                                 printed(row.life_hours), printed(row.life_repeats), row.repeat_seconds,
+                                 printed(row.life_months)));
+  fact("bounds",
+       fmt::format("{} h (all stick) .. {} h (all free)", life_cell(row.hours_of(row.life_repeats_all_stick)),
+                   life_cell(row.hours_of(row.life_repeats_all_free))));
+  if (damaged(row)) {
+    fact("breaks first", escaped(row.worst_component));
+    fact("where", place_words(row));
+    fact("when", fmt::format("at {:.1f} s, {}", row.worst_time,
+                             row.worst_step.empty() ? "outside any program line"
+                                                    : "during '" + escaped(row.worst_step) + "'"));
+  }
+  return "<dl>\n" + list + "</dl>\n";
+}
+
+std::string under(const std::string& heading, const std::string& remark, const std::string& chart) {
+  if (chart.empty()) return "";
+  return fmt::format("<h3>{}</h3>\n<p class=\"soft\">{}</p>\n{}", heading, remark, chart);
+}
+
+std::string charts(const RankingRow& row) {
+  const LifeSummary life = read_life(row.life_file);
+  return under("Strain of the worst wire over time",
+               "Below the strain, the program line being executed (rest the pointer on it for its text); "
+               "named above, the lines "
+               "that cost most.",
+               strain_chart(life)) +
+         under("Damage along the dresspack",
+               "Of the worst wire in each segment; 1 means broken after one repeat.",
+               segment_chart(life, row.worst_segment_from_tool)) +
+         under("Cycles of the worst wire",
+               "How often each strain range occurs in a repeat, and its share of the damage.",
+               cycle_chart(life)) +
+         program_table(life) + layer_table(life, row) +
+         fmt::format(
+             "<details><summary>Settings</summary>\n<pre>{}</pre></details>\n<details><summary>History</"
+             "summary>\n<pre>{}</pre></details>\n",
+             escaped(life.job), escaped(life.history));
+}
+
+std::string job_section(const RankingRow& row, std::size_t rank) {
+  std::string body;
+  try {
+    body = facts(row) + charts(row);
+  } catch (const InputError& problem) {
+    body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
+  }
+  return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}</section>\n", rank, rank, escaped(row.job),
+                     body);
+}
+
+/// Which jobs have a section of their own: all that are done, or in large studies the best and the worst of
+/// them.
+std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
+  const auto done = static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
+  std::vector<bool> detailed(rows.size(), false);
+  for (std::size_t i = 0; i < done; ++i)
+    detailed[i] = done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2;
+  return detailed;
+}
+
+std::string summary(const std::vector<RankingRow>& rows) {
+  const auto done = static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
+  std::string text = fmt::format("{} of {} jobs done", done, rows.size());
+  if (done < rows.size())
+    text += fmt::format(", <span class=\"failed\">{} failed</span>", rows.size() - done);
+  if (done > most_detailed)
+    text += fmt::format("; charts for the {} best and the {} worst of them", most_detailed / 2,
+                        most_detailed / 2);
+  return "<p>" + text + ".</p>\n";
+}
+
+}  // namespace
+
+std::string report_page(const std::string& study, const std::vector<RankingRow>& rows) {
+  const std::vector<bool> detailed = detailed_jobs(rows);
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: dresspack "
+      "life</title>\n"
+      "<style>{}</style>\n</head>\n<body>\n<h1>{}: dresspack life by motion</h1>\n",
+      escaped(study), style, escaped(study));
+  page += summary(rows) + ranking_section(rows, detailed);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (detailed[i]) page += job_section(rows[i], i + 1);
+  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n</body>\n</html>\n", DRESSLIFE_VERSION);
+}
+
+void write_report(const std::filesystem::path& file, const std::string& study,
+                  const std::vector<RankingRow>& rows) {
+  write_text_if_changed(file, report_page(study, rows));
+}
+
+}  // namespace dresslife::pipeline
