@@ -32,6 +32,15 @@ Frame along(const Vector3& from, const Vector3& to) {
   return {(from + to) / 2, Quaternion::FromTwoVectors(Vector3::UnitZ(), to - from)};
 }
 
+// Beyond any hose; ODE ends the whole program when it meets numbers near overflow.
+constexpr double fastest = 1e6;  // [m/s], [rad/s]
+
+bool believable(std::span<const Twist6> change) {
+  return std::all_of(change.begin(), change.end(), [](const Twist6& twist) {
+    return std::all_of(twist.value, twist.value + 6, [](double value) { return std::abs(value) < fastest; });
+  });
+}
+
 void* tag(int number) { return reinterpret_cast<void*>(static_cast<std::intptr_t>(number)); }
 int tag_of(dGeomID geom) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom))); }
 
@@ -309,6 +318,8 @@ StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> link
     p.find_contacts(next);
     p.contact_solver.solve(p.state, p.settings.friction, h, p.solver, p.contacts);
   }
+  report.finite = believable(p.solver.velocity_change());
+  if (!report.finite) return report;
   p.push_bodies();
   p.pull_state();
   p.solver.finish(p.state);

@@ -1,0 +1,54 @@
+#include "sim/motion_file.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/scratch.h"
+#include "tests/sim/simple_job.h"
+
+namespace dresslife::sim {
+namespace {
+
+TEST_CASE("motion file: what the run hands over can be read back") {
+  const pipeline::Scratch scratch;
+  const auto name = scratch / "motion.h5";
+  const Simulation simulation(simple_job());
+  std::vector<double> times, positions, clamps, joints;
+  std::vector<std::int32_t> steps;
+  {
+    pipeline::FileWriter file(name, pipeline::motion_format());
+    MotionFile motion(file, simulation.description());
+    simulation.run([&](const Sample& sample) {
+      motion.add(sample);
+      times.push_back(sample.time);
+      steps.push_back(sample.step);
+      for (const Vector3& x : sample.state.position) positions.insert(positions.end(), x.begin(), x.end());
+      for (const Frame& f : {sample.pose.clamps.base, sample.pose.clamps.tool})
+        clamps.insert(clamps.end(),
+                      {f.orientation.w(), f.orientation.x(), f.orientation.y(), f.orientation.z()});
+      joints.push_back(sample.pose.joints[0]);
+    });
+    file.attribute("job", "");
+    file.attribute("history", "");
+    file.attribute("input_sha256", "");
+    file.commit();
+  }
+  const pipeline::FileReader file(name, pipeline::motion_format());
+  CHECK(file.length("sample") == times.size());
+  CHECK(file.length("segment") == 20);
+  CHECK(file.length("clamp") == 2);
+  CHECK(file.read<double>("/time") == times);
+  CHECK(file.read<double>("/segment/position") == positions);
+  CHECK(file.read<double>("/segment/length") == std::vector<double>(20, 0.05));
+  CHECK(file.read<double>("/clamp/orientation") == clamps);
+  CHECK(file.read<double>("/robot/joint_position") == joints);
+  CHECK(file.dataset_attribute("/robot/link_pose", "links") == "bench,spindle");
+  CHECK(file.read<std::int32_t>("/program/step") == steps);
+  CHECK(file.read<std::string>("/program/text") ==
+        std::vector<std::string>{"start", "turn", "dwell 3", "back"});
+  CHECK(file.rows("/energy") == times.size());
+  CHECK(file.rows("/tension") == times.size());
+  CHECK(file.rows("/contact/max_depth") == times.size());
+}
+
+}  // namespace
+}  // namespace dresslife::sim

@@ -1,0 +1,55 @@
+// A job small enough to reason about: one axis along x that turns the tool clamp, the hose lying along it.
+#pragma once
+
+#include "pipeline/job.h"
+
+namespace dresslife::sim {
+
+inline pipeline::MotionStep move_to(double angle, const std::string& text = "") {
+  pipeline::MotionStep step;
+  step.joints = {angle};
+  step.text = text;
+  return step;
+}
+
+inline pipeline::MotionStep dwell_for(double seconds) {
+  pipeline::MotionStep step;
+  step.dwell = seconds;
+  return step;
+}
+
+/// Base clamp at x = 0, tool clamp at x = 0.9 on the turning link, both 1 m above the floor and pointing
+/// along x; 1 m of hose between them, in which it sags.
+inline pipeline::Job simple_job() {
+  pipeline::Job job;
+  pipeline::Joint joint;
+  joint.name = "spindle";
+  joint.axis = {1, 0, 0};
+  joint.lower = -20;
+  joint.upper = 20;
+  joint.speed = 3;
+  joint.acceleration = 6;
+  job.robot.name = "spindle";
+  job.robot.joints = {joint};
+  job.robot.links = {{"bench", {}}, {"spindle", {}}};
+  job.motion.name = "turn";
+  job.motion.steps = {move_to(0, "start"), move_to(2, "turn"), dwell_for(0.5), move_to(0, "back")};
+  job.dresspack.diameter = 0.04;
+  job.dresspack.mass_per_length = 1.5;
+  job.dresspack.bending_stiffness = 2;
+  job.dresspack.torsional_stiffness = 1.6;
+  job.dresspack.axial_stiffness = 1e5;
+  job.dresspack.damping_time = 0.01;
+  job.dresspack.friction = 0.3;
+  job.routing.free_length = 1;
+  job.routing.base_clamp = pipeline::Clamp{"bench", {0, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 9, 3}};
+  job.routing.tool_clamp = pipeline::Clamp{"spindle", {0.9, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 10, 3}};
+  // The axis goes through both clamps, so that turning it only twists the hose.
+  job.robot.joints[0].origin = {0, 0, 1};
+  job.routing.tool_clamp->position = {0.9, 0, 0};
+  job.routing.where = {"job.yaml", 8, 3};
+  job.simulation.segments = 20;
+  return job;
+}
+
+}  // namespace dresslife::sim
