@@ -95,6 +95,18 @@ LinkState Rod::link_state(const RodState& state, int link) const {
           turn_stiffness_[link].cwiseProduct(turn.phi - rest_turn_[link])};
 }
 
+double Rod::potential_energy(const RodState& state) const {
+  double energy = 0;
+  for (const Vector3& x : state.position) energy -= segment_mass_ * properties_.gravity.dot(x);
+  for (int j = 0; j < links(); ++j) {
+    const LinkState link = link_state(state, j);
+    energy += 0.5 * (gap_stiffness_[j] * link.gap.squaredNorm() + link.moment.dot(link.turn - rest_turn_[j]));
+  }
+  return energy;
+}
+
+// Stretch from the link force that acted, f^2/(2 k): the gaps themselves carry what a turn within one step
+// adds to them in second order, which the next step takes away and which is no stretch of the hose.
 Energy Rod::energy(const RodState& state) const {
   Energy energy;
   for (int i = 0; i < segments(); ++i) {
@@ -106,9 +118,10 @@ Energy Rod::energy(const RodState& state) const {
     energy.gravitational -= segment_mass_ * properties_.gravity.dot(state.position[i]);
   }
   for (int j = 0; j < links(); ++j) {
+    if (gap_stiffness_[j] == 0) continue;
     const LinkState link = link_state(state, j);
-    energy.elastic +=
-        0.5 * (gap_stiffness_[j] * link.gap.squaredNorm() + link.moment.dot(link.turn - rest_turn_[j]));
+    energy.elastic += 0.5 * (state.link_force[j].squaredNorm() / gap_stiffness_[j] +
+                             link.moment.dot(link.turn - rest_turn_[j]));
   }
   return energy;
 }

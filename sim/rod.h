@@ -98,6 +98,8 @@ class Rod {
   RodState straight(const Frame& base) const;
   LinkState link_state(const RodState& state, int link) const;
   Energy energy(const RodState& state) const;
+  /// Of stretch, bending, twist and gravity, from positions alone (S11): what an equilibrium minimises [J].
+  double potential_energy(const RodState& state) const;
   /// Mean over the chain of the stretch along the tangents [m/m]; > 0: pulled longer than the free length.
   double mean_elongation(const RodState& state) const;
   /// Pull along the tangent in each link, from RodState::link_force [N].
