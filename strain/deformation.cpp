@@ -1,6 +1,8 @@
 #include "strain/deformation.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -51,11 +53,21 @@ Vector3d circle_curvature(const Vector3d& a, const Vector3d& b, const Vector3d& 
   return frame.conjugate() * (2 * normal / (before.norm() * after.norm() * across.norm()));
 }
 
+constexpr std::size_t fewest_for_curves = 7;
+
+/// The parabola p through (5/12 p(0) + 13/12 p(1)) / (3/2), p(2) and p(3) at 1/2, 3/2 and 5/2: factors of
+/// these three.
+constexpr std::array<std::array<double, 3>, 3> end_weights{{{135.0 / 112, -55.0 / 224, 9.0 / 224},
+                                                            {27.0 / 112, 213.0 / 224, -43.0 / 224},
+                                                            {-9.0 / 112, 153.0 / 224, 89.0 / 224}}};
+
 }  // namespace
 
 DeformationGauge::DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure)
     : lengths_(std::move(lengths)), measure_(measure), links_(lengths_.size() + 1) {
   assert(!lengths_.empty());
+  const auto [shortest, longest] = std::minmax_element(lengths_.begin(), lengths_.end());
+  equal_lengths_ = *longest - *shortest <= 1e-9 * *longest;  // rounding of a length divided by a number
   link_lengths_.push_back(lengths_.front() / 2);
   for (std::size_t i = 1; i < lengths_.size(); ++i)
     link_lengths_.push_back((lengths_[i - 1] + lengths_[i]) / 2);
@@ -93,6 +105,24 @@ void DeformationGauge::measure_links(const ChainPose& pose) {
 }
 
 void DeformationGauge::rotation_vectors(std::span<Deformation> out) const {
+  const std::size_t segments = lengths_.size();
+  if (segments < fewest_for_curves || !equal_lengths_) return rotation_vectors_on_lines(out);
+  const double l = lengths_.front();
+  auto rate = [&](std::size_t link) { return Vector3d(links_[link].rotation / l); };
+  for (std::size_t i = end_weights.size(); i + end_weights.size() < segments; ++i)
+    set(out[i], (9 * (rate(i) + rate(i + 1)) - rate(i - 1) - rate(i + 2)) / 16);
+  const Vector3d base = (rate(0) + rate(1)) / 1.5, tool = (rate(segments) + rate(segments - 1)) / 1.5;
+  for (std::size_t i = 0; i < end_weights.size(); ++i) {
+    const auto& weight = end_weights[i];
+    set(out[i], weight[0] * base + weight[1] * rate(2) + weight[2] * rate(3));
+    set(out[segments - 1 - i],
+        weight[0] * tool + weight[1] * rate(segments - 2) + weight[2] * rate(segments - 3));
+  }
+}
+
+/// The same for unequal lengths or few segments: the value at the centre on the line through the two links,
+/// where the two outermost links are one in the middle of their sum.
+void DeformationGauge::rotation_vectors_on_lines(std::span<Deformation> out) const {
   const std::size_t segments = lengths_.size();
   if (segments < 4) {  // too few links for a line beside the merged end links: plain means
     for (std::size_t i = 0; i < segments; ++i)

@@ -5,11 +5,16 @@
 // tool clamp. A link spans the rest length between what it ties: half a segment at a clamp.
 //
 // `rotation_vector` (default): phi_i = log(q_a^* q_b) of link i, in the frame both sides share (a rotation
-// leaves its axis where it is), over the link's length: (curvature1, curvature2, twist) there (W1). A segment
-// takes the value at its centre on the line through its two links (W2). The two outermost links enter through
-// their sum, phi_0 + phi_1 over one and a half segments: a chain whose clamp links carry Gregory's end
-// correction (5/12 and 13/12 of a segment instead of 1/2 and 1) and samples of a smooth curve then both give
-// their curvature. Error of second order in the segment's length.
+// leaves its axis where it is), over the link's length: (curvature1, curvature2, twist) at the link (W1). In
+// the simulated chain that is the curvature there to the accuracy of the simulation, but for the two
+// outermost links, whose compliances are 5/12 and 13/12 of a segment instead of 1/2 and 1 (Gregory's end
+// correction). They enter through their sum only,
+//     (phi_0 + phi_1) / (3/2 l) = (5/12 kappa(0) + 13/12 kappa(l)) / (3/2),
+// which is also right for a uniform curve whose clamp links are half a segment. A segment takes the value at
+// its centre of the cubic through the four links around it, the outermost three segments of the parabola
+// through that sum and the next two links (W2): fourth and third order in l for the simulated chain. On poses
+// sampled from a smooth curve phi_i is the mean over the link: second order inside; 0.03 of the change of
+// curvature over one segment in the outermost ones.
 //
 // `thesis` (Backman 3.2): 1/r = 4 K/(A B C) of the circle through three successive centres (24), pointing to
 // the side of the neighbours in the segment's own frame; twist = the angle of q_{i-1}^* q_i about the tangent
@@ -61,10 +66,12 @@ class DeformationGauge {
 
   void measure_links(const ChainPose& pose);
   void rotation_vectors(std::span<Deformation> out) const;
+  void rotation_vectors_on_lines(std::span<Deformation> out) const;
   void circles(const ChainPose& pose, std::span<Deformation> out) const;
   void elongations(std::span<Deformation> out) const;
 
   std::vector<double> lengths_, link_lengths_;
+  bool equal_lengths_;
   pipeline::DeformationMeasure measure_;
   std::vector<Link> links_;
 };
