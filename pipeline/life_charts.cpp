@@ -67,8 +67,8 @@ std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<Progr
         costliest = &run;
     if (!costliest) continue;
     labels.push_back({panel.across((costliest->begin + costliest->end) / 2),
-                      fmt::format("{:.0f} % {}", percent * life.step_damage[line] / total,
-                                  shortened(life.step_text[line], 48))});
+                      fmt::format("{:.0f} %  line {}: {}", percent * life.step_damage[line] / total, line + 1,
+                                  shortened(life.step_text[line], 40))});
   }
   std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.x < b.x; });
   return labels;
@@ -230,6 +230,8 @@ std::string strain_chart(const LifeSummary& life) {
                   fmt::format("Strain between {:.3g} and {:.3g} percent over {:.0f} seconds.", percent * *low,
                               percent * *high, life.time.back() - life.time.front()));
   strain.draw_axes(picture, false);
+  if (strain.y.low < 0 && strain.y.high > 0)
+    picture.line(strain.left, strain.down(0), strain.right(), strain.down(0), "mark");
   draw_labels(picture, strain, labels, 4, label_row);
   std::vector<std::pair<double, double>> points =
       thinned(life.time, life.strain, static_cast<std::size_t>(panel_width));
@@ -242,7 +244,7 @@ std::string strain_chart(const LifeSummary& life) {
   if (damaged) {
     share.draw_axes(picture);
     picture.curve(stair(share, life.time, shares_so_far(life.damage_rate)), "curve-hot");
-    picture.text(left_margin + 6, share.top + 13, "damage closed so far", "note");
+    picture.text(left_margin + 6, share.top + 13, "damage so far", "note");
   } else {
     const Panel ticks{left_margin, strip, panel_width, strip_height, time, {"", 0, 1}};
     for (const Tick& tick : time.ticks(9))
@@ -277,9 +279,9 @@ std::string segment_chart(const LifeSummary& life, int worst_from_tool) {
     if (!worst) continue;
     const double middle = (from + to) / 2;
     const std::string words = fmt::format("worst: segment {} from the tool", from_tool);
-    const bool left = middle + text_width(words) > page_width;
-    picture.line(middle, 16, middle, top, "leader");
-    picture.text(middle + (left ? 4 : -4), 12, words, "note",
+    const bool left = middle + 5 + text_width(words) > page_width;
+    picture.line(middle, 4, middle, top, "leader");
+    picture.text(middle + (left ? -5 : 5), 13, words, "note",
                  left ? Picture::Anchor::end : Picture::Anchor::start);
   }
   return picture.svg();

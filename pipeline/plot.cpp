@@ -47,13 +47,14 @@ std::vector<Tick> logarithmic_ticks(double low, double high, int most) {
   const double decades = std::log10(high / low);
   const int every = std::max(1, static_cast<int>(std::ceil(decades / most)));
   const bool narrow = decades < 2.5;
+  const bool room = decades < 0.4 * most;  // between 1 and 2, the closest two labels
   std::vector<Tick> ticks;
   for (int exponent = static_cast<int>(std::floor(std::log10(low) - 1)); exponent <= std::log10(high) + 1;
        ++exponent)
     for (const int factor : {1, 2, 5}) {
       const double value = factor * std::pow(10, exponent);
       if (value < low * (1 - close_to_tick) || value > high * (1 + close_to_tick)) continue;
-      const bool labelled = factor == 1 ? exponent % every == 0 : narrow;
+      const bool labelled = factor == 1 ? exponent % every == 0 : narrow && room;
       if (factor == 1 || narrow)
         ticks.push_back({value, labelled ? logarithmic_label(factor, exponent) : ""});
     }
@@ -188,10 +189,8 @@ void Picture::upright_text(double x, double y, const std::string& words, const c
 }
 
 std::string Picture::svg() const {
-  return fmt::format(
-      "<svg viewBox=\"0 0 {} {}\" role=\"img\" "
-      "xmlns=\"http://www.w3.org/2000/svg\">\n<title>{}</title><desc>{}</desc>\n{}</svg>\n",
-      at(width_), at(height_), escaped(title_), escaped(description_), body_);
+  return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\">\n<title>{}</title><desc>{}</desc>\n{}</svg>\n",
+                     at(width_), at(height_), escaped(title_), escaped(description_), body_);
 }
 
 // ---- panel ------------------------------------------------------------------------------------------------

@@ -80,7 +80,7 @@ std::string bounds_text(const RankingRow& row) {
 }
 
 std::string segment_text(const RankingRow& row) {
-  if (row.worst_segment_from_tool == 0) return "-";
+  if (row.worst_segment_from_tool == 0 || !(row.damage_per_repeat > 0)) return "-";
   return fmt::format("{} ({:.2f} m)", row.worst_segment_from_tool, row.worst_position_from_tool);
 }
 
@@ -88,8 +88,8 @@ std::string segment_text(const RankingRow& row) {
 std::string story(const RankingRow& row) {
   if (row.worst_component.empty()) return "no wire was evaluated";
   if (!(row.damage_per_repeat > 0)) return "no damage";
-  const std::string at = fmt::format(" at {:.1f} s", row.worst_time);
-  return row.worst_component + (row.worst_step.empty() ? ", worst" : ", by '" + row.worst_step + "'") + at;
+  const std::string during = row.worst_step.empty() ? "" : " during '" + row.worst_step + "'";
+  return fmt::format("{} breaks first, worst at {:.1f} s{}", row.worst_component, row.worst_time, during);
 }
 
 std::string one_line(std::string text) {

@@ -49,9 +49,10 @@ svg .whisker { stroke: var(--blue); stroke-width: 5; stroke-opacity: .35; stroke
 )";
 
 std::string life_cell(double life) { return std::isinf(life) ? "no damage" : printed(life); }
+std::string hours_words(double hours) { return std::isinf(hours) ? "no damage" : printed(hours) + " h"; }
 
 std::string place_words(const RankingRow& row) {
-  return fmt::format("segment {} from the tool, {:.2f} m from its clamp", row.worst_segment_from_tool,
+  return fmt::format("segment {} from the tool ({:.2f} m)", row.worst_segment_from_tool,
                      row.worst_position_from_tool);
 }
 
@@ -143,16 +144,17 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "operating hours per week. "
       "Parts inside the dresspack rub on each other: glued together (all stick) they live shorter, slipping "
       "freely (all free) "
-      "longer, and the truth lies between. Wires scatter: half of them break before the life that the "
-      "material's constants give.</p>\n",
+      "longer, and the truth lies between. The material's constants are medians: of many "
+      "such wires, about half break earlier.</p>\n",
       ranking_rows(rows, detailed), chart.empty() ? "" : "<h3>Lives compared</h3>\n" + chart);
 }
 
 // ---- one job ----------------------------------------------------------------------------------------------
 
-std::string meter(double share) {
+/// A share with a bar beside it, whose full length is the largest share of the table.
+std::string meter(double share, double largest) {
   return fmt::format("<span class=\"meter\"><span style=\"width:{:.1f}%\"></span></span>{:.1f} %",
-                     100 * share, 100 * share);
+                     100 * share / largest, 100 * share);
 }
 
 std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
@@ -167,6 +169,8 @@ std::vector<std::size_t> largest_first(const std::vector<double>& values, std::s
 std::string program_table(const LifeSummary& life) {
   const double total = std::accumulate(life.step_damage.begin(), life.step_damage.end(), 0.0);
   const std::vector<ProgramRun> runs = program_runs(life);
+  double largest = 0;
+  for (const double damage : life.step_damage) largest = std::max(largest, damage);
   std::string rows;
   for (const std::size_t line : largest_first(life.step_damage, listed_lines)) {
     std::size_t times = 0;
@@ -181,7 +185,7 @@ std::string program_table(const LifeSummary& life) {
         "class=\"number\">{}</td></tr>\n",
         line + 1, escaped(life.step_text[line]), times,
         costliest ? fmt::format("{:.1f} .. {:.1f} s", costliest->begin, costliest->end) : "",
-        meter(life.step_damage[line] / total), printed(life.step_damage[line]));
+        meter(life.step_damage[line] / total, largest / total), printed(life.step_damage[line]));
   }
   if (rows.empty()) return "";
   return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">A cycle of strain counts for the line in "
@@ -223,8 +227,8 @@ std::string facts(const RankingRow& row) {
                                  printed(row.life_hours), printed(row.life_repeats), row.repeat_seconds,
                                  printed(row.life_months)));
   fact("bounds",
-       fmt::format("{} h (all stick) .. {} h (all free)", life_cell(row.hours_of(row.life_repeats_all_stick)),
-                   life_cell(row.hours_of(row.life_repeats_all_free))));
+       fmt::format("{} (all stick) .. {} (all free)", hours_words(row.hours_of(row.life_repeats_all_stick)),
+                   hours_words(row.hours_of(row.life_repeats_all_free))));
   if (damaged(row)) {
     fact("breaks first", escaped(row.worst_component));
     fact("where", place_words(row));

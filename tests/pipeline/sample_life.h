@@ -1,0 +1,145 @@
+// A life file like those of dresslife-fatigue, with numbers made by formula, for tests of ranking and report.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "pipeline/files.h"
+
+namespace dresslife::pipeline {
+
+struct SampleLife {
+  double repeats = 12000;  ///< of the worst wire; infinite: no damage
+  int segments = 50, lines = 28, samples = 4500;
+  int worst_from_tool = 3;
+  bool wires = true;  ///< false: the dresspack holds none
+  std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
+  std::string line_name = "weld spot";
+  std::string job = "robot:\n  name: <R&D> \"two\"\n";
+};
+
+/// Writes a life file that is consistent in itself: shares add up and the worst is the worst.
+inline void write_sample_life(const std::filesystem::path& file, const SampleLife& sample = {}) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double rate = 25, free_length = 2.4;  // [Hz], [m]
+  const bool damaged = sample.wires && std::isfinite(sample.repeats);
+  const double damage = damaged ? 1 / sample.repeats : 0;
+  const auto segments = static_cast<std::size_t>(sample.segments),
+             lines = static_cast<std::size_t>(sample.lines),
+             samples = static_cast<std::size_t>(sample.samples);
+  const std::size_t worst_segment = segments - static_cast<std::size_t>(sample.worst_from_tool);
+
+  std::vector<double> time(samples), strain(samples), line_damage(lines, 0.0), rate_row(samples, 0.0);
+  std::vector<std::int32_t> step(samples);
+  std::vector<std::string> text;
+  for (std::size_t line = 0; line < lines; ++line)
+    text.push_back(line % 7 == 0
+                       ? "home"
+                       : sample.line_name + " " + std::to_string(line) + ": swing the gun past the fixture");
+  for (std::size_t k = 0; k < samples; ++k) {
+    time[k] = static_cast<double>(k) / rate;
+    // Moves of uneven length; the program runs through its lines about three times.
+    const double progress =
+        3.0 * static_cast<double>(lines * k) / static_cast<double>(samples) + 0.4 * std::sin(0.3 * time[k]);
+    step[k] = static_cast<std::int32_t>(std::clamp(progress, 0.0, 3.0 * sample.lines - 1)) % sample.lines;
+    const double swing =
+        std::sin(1.1 * time[k]) + 0.5 * std::sin(2.7 * time[k] + 1) + (step[k] % 5 == 2 ? 1.2 : 0.0);
+    strain[k] = damaged || !sample.wires ? 0.004 * swing * (sample.wires ? 1 : 0) : 1e-5 * swing;
+  }
+  std::vector<std::uint32_t> cycle_site, begin, end;
+  std::vector<double> range, mean, count, cycle_damage;
+  double total = 0;
+  for (std::size_t k = 0; damaged && k < 240; ++k) {
+    cycle_site.push_back(0);
+    range.push_back(0.018 * std::exp(-0.018 * static_cast<double>(k)));
+    mean.push_back(0.001);
+    count.push_back(k % 11 == 3 ? 0.5 : 1);
+    begin.push_back(static_cast<std::uint32_t>(k * 17));
+    end.push_back(static_cast<std::uint32_t>((k * 2654435761u) % samples));
+    cycle_damage.push_back(count.back() * std::pow(range.back(), 3));
+    total += cycle_damage.back();
+  }
+  for (std::size_t k = 0; k < cycle_damage.size(); ++k) {
+    cycle_damage[k] *= damage / total;
+    rate_row[end[k]] += cycle_damage[k];
+    line_damage[static_cast<std::size_t>(step[end[k]])] += cycle_damage[k];
+  }
+  std::vector<double> segment_damage(segments, 0.0);
+  for (std::size_t k = 0; k < segments; ++k) {
+    const double distance = std::abs(static_cast<double>(k) - static_cast<double>(worst_segment));
+    segment_damage[k] = damage * (std::exp(-0.5 * distance) + 1e-4 * std::pow(std::sin(0.4 * distance), 2));
+  }
+  segment_damage[worst_segment] = damage;
+
+  const std::size_t sites = sample.wires ? 1 : 0;
+  const auto put = [](auto& writer, const char* path, const auto& values) {
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    writer.append(path, std::span<const Value>(values));
+  };
+  FileWriter writer(file, life_format());
+  writer.set_axis("level", 3);
+  writer.set_axis("sample", samples);
+  put(writer, "/site/segment", std::vector<std::int32_t>(sites, static_cast<std::int32_t>(worst_segment)));
+  put(writer, "/site/component", std::vector<std::string>(sites, sample.worst_component));
+  put(writer, "/site/helix", std::vector<double>(9 * sites, 0.0));
+  put(writer, "/site/fibre", std::vector<double>(2 * sites, 0.0));
+  put(writer, "/site/material", std::vector<std::string>(sites, "copper"));
+  put(writer, "/damage", std::vector<double>(sites, damage));
+  put(writer, "/life", std::vector<double>(sites, damaged ? sample.repeats : infinity));
+  put(writer, "/cycles/site", cycle_site);
+  put(writer, "/cycles/range", range);
+  put(writer, "/cycles/mean", mean);
+  put(writer, "/cycles/count", count);
+  put(writer, "/cycles/begin", begin);
+  put(writer, "/cycles/end", end);
+  put(writer, "/cycles/damage", cycle_damage);
+  for (std::size_t k = 0; k < segments; ++k)
+    put(writer, "/damage_rate", k == worst_segment ? rate_row : std::vector<double>(samples, 0.0));
+  put(writer, "/segment/length", std::vector<double>(segments, free_length / sample.segments));
+  put(writer, "/segment/worst_site", std::vector<std::uint32_t>(segments, sample.wires ? 0u : 4294967295u));
+  put(writer, "/segment/damage", segment_damage);
+  const std::vector<std::string> layers{"signal cable/conductor/layer 1/wire",
+                                        "signal cable/conductor/layer 2/wire"};
+  put(writer, "/layer/component", sample.wires ? layers : std::vector<std::string>{});
+  put(writer, "/layer/worst_site", std::vector<std::uint32_t>(2 * sites, 0));
+  put(writer, "/layer/damage",
+      sample.wires ? std::vector<double>{damage, damage / 3} : std::vector<double>{});
+  put(writer, "/worst/strain", strain);
+  put(writer, "/time", time);
+  put(writer, "/program/step", step);
+  put(writer, "/program/text", text);
+  put(writer, "/program/damage", line_damage);
+
+  const double repeats = damaged ? sample.repeats : infinity, seconds = time.back();
+  const auto hours = [&](double times) { return times * seconds / 3600; };
+  writer.attribute("life_repeats", repeats);
+  writer.attribute("life_hours", hours(repeats));
+  writer.attribute("life_months", hours(repeats) / 80 * 7 * 12 / 365.25);
+  writer.attribute("damage_per_repeat", damage);
+  writer.attribute("repeat_seconds", seconds);
+  writer.attribute("life_repeats_all_stick", repeats / 400);
+  writer.attribute("life_repeats_all_free", repeats * 1.5);
+  writer.attribute("life_hours_all_stick", hours(repeats / 400));
+  writer.attribute("life_hours_all_free", hours(repeats * 1.5));
+  writer.attribute("worst_site", sample.wires ? 0.0 : -1.0);
+  writer.attribute("worst_segment_from_tool",
+                   sample.wires ? static_cast<double>(sample.worst_from_tool) : 0.0);
+  writer.attribute("worst_position_from_tool",
+                   sample.wires ? (sample.worst_from_tool - 0.5) * free_length / sample.segments : 0.0);
+  writer.attribute("worst_component", sample.wires ? sample.worst_component : "");
+  writer.attribute("worst_time", damaged ? time[end[0]] : 0.0);
+  writer.attribute("worst_step", damaged ? text[static_cast<std::size_t>(step[end[0]])] : "");
+  writer.attribute("job", sample.job);
+  writer.attribute(
+      "history",
+      std::string(
+          "dresslife-sim 1: dresslife-sim job.yaml\ndresslife-fatigue 1: dresslife-fatigue strain.h5"));
+  writer.attribute("input_sha256", std::string(64, '0'));
+  writer.commit();
+}
+
+}  // namespace dresslife::pipeline
