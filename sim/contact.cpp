@@ -50,30 +50,60 @@ void ContactSolver::condense(const RodSolver& solver, const std::vector<Contact>
   }
 }
 
-// Projected Gauss-Seidel on (S10).
+// Projected Gauss-Seidel on (S10). velocity_ holds w for the present answer; a changed impulse changes it by
+// a column of the (symmetric) condensed matrix, and idle contacts cost nothing.
 void ContactSolver::iterate(double friction, double h) {
   const int rows = static_cast<int>(direction_.size());
+  const auto change_answer = [&](int row, double change) {
+    const double* column = &effective_[static_cast<size_t>(row) * rows];
+    for (int k = 0; k < rows; ++k) velocity_[k] += change * column[k];
+  };
+  for (int row = 0; row < rows; ++row)
+    if (answer_[row] != 0) change_answer(row, answer_[row]);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    double change = 0;
+    double largest = 0;
     for (int row = 0; row < rows; ++row) {
-      const double* w = &effective_[static_cast<size_t>(row) * rows];
       const bool normal = row % 3 == 0;
-      const double soft = normal ? softness / h : 0;
-      double velocity = velocity_[row] + soft * answer_[row];
-      for (int k = 0; k < rows; ++k) velocity += w[k] * answer_[k];
-      const double wanted = answer_[row] - velocity / (w[row] + soft);
+      const double soft = normal ? softness / h : 0,
+                   mass = effective_[static_cast<size_t>(row) * rows + row] + soft;
+      const double wanted = answer_[row] - (velocity_[row] + soft * answer_[row]) / mass;
       const double limit = normal ? 0 : friction * answer_[row - row % 3];
       const double next = normal ? std::max(0.0, wanted) : std::clamp(wanted, -limit, limit);
-      change = std::max(change, std::abs(next - answer_[row]));
+      const double change = next - answer_[row];
+      if (change == 0) continue;
       answer_[row] = next;
+      change_answer(row, change);
+      largest = std::max(largest, std::abs(change));
     }
-    if (change < smallest_change) break;
+    if (largest < smallest_change) break;
+  }
+}
+
+// The impulses of the step before, where the same segment touched the same obstacle, are a good first answer.
+// Both lists are in order of segment.
+void ContactSolver::start_from_last_step(const std::vector<Contact>& contacts, double h) {
+  size_t k = 0;
+  for (size_t c = 0; c < contacts.size(); ++c) {
+    while (k < last_.size() && last_[k].segment < contacts[c].segment) ++k;
+    size_t match = k;
+    while (match < last_.size() && last_[match].segment == contacts[c].segment &&
+           last_[match].obstacle != contacts[c].obstacle)
+      ++match;
+    if (match >= last_.size() || last_[match].segment != contacts[c].segment) continue;
+    const auto [first, second] = tangents(contacts[c].normal);
+    answer_[3 * c] = h * last_[match].normal_force;
+    answer_[3 * c + 1] = h * last_[match].friction_force.dot(first);
+    answer_[3 * c + 2] = h * last_[match].friction_force.dot(second);
+    if (match == k) ++k;
   }
 }
 
 void ContactSolver::solve(const RodState& state, double friction, double h, RodSolver& solver,
                           std::vector<Contact>& contacts) {
-  if (contacts.empty()) return;
+  if (contacts.empty()) {
+    last_.clear();
+    return;
+  }
   const std::span<const Twist6> change = solver.velocity_change();
   const int rows = 3 * static_cast<int>(contacts.size());
   direction_.resize(rows), velocity_.resize(rows), answer_.assign(rows, 0.0);
@@ -91,6 +121,7 @@ void ContactSolver::solve(const RodState& state, double friction, double h, RodS
     }
     velocity_[3 * k] -= c.depth > 0 ? std::min(overlap_share * c.depth / h, push_speed) : c.depth / h;
   }
+  start_from_last_step(contacts, h);
   condense(solver, contacts);
   iterate(friction, h);
   impulse_.assign(change.size(), Twist6{});
@@ -108,6 +139,7 @@ void ContactSolver::solve(const RodState& state, double friction, double h, RodS
                              spin.cross(c.point - state.position[c.segment]) - c.obstacle_velocity;
     c.sliding_speed = (velocity - velocity.dot(c.normal) * c.normal).norm();
   }
+  last_ = contacts;
 }
 
 }  // namespace dresslife::sim

@@ -34,10 +34,12 @@ class ContactSolver {
 
  private:
   void condense(const RodSolver& solver, const std::vector<Contact>& contacts);
+  void start_from_last_step(const std::vector<Contact>& contacts, double h);
   void iterate(double friction, double h);
 
-  std::vector<Twist6> direction_, response_, impulse_;
-  std::vector<double> effective_, velocity_, answer_, previous_;
+  std::vector<Twist6> direction_, response_, impulse_;  // (row): contact's normal and two tangents in turn
+  std::vector<double> effective_, velocity_, answer_;   // (row, row), (row), (row)
+  std::vector<Contact> last_;                           // of the step before
 };
 
 }  // namespace dresslife::sim
