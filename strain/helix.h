@@ -32,10 +32,10 @@ struct Rod {
   Series<T> stretch, bend1, bend2, twist;
 };
 
-/// A wire's stretch and bending at one place, values only.
+/// The same at one place, values only: what a wire needs.
 template <class T>
 struct WireState {
-  T stretch, bend1, bend2;
+  T stretch, bend1, bend2, twist;
 };
 
 /// Where a component lies in its parent, at one place along it.
@@ -128,10 +128,39 @@ Rod<T> thesis_child(const Rod<T>& parent, const Placement& place) {
           constant_series(T(a.cosine * Y), 0), constant_series(T(a.sine_cosine * X), 0)};
 }
 
+/// The values of a glued component (W6) without the series. bend1 needs a parent of order one and is 0
+/// without; in `thesis` bend1 is minus kappa_no, about n, and bend2 kappa_bi, about b: not the order that Rod
+/// keeps them in.
+template <class T>
+WireState<T> wire_state(const Rod<T>& parent, const Placement& place) {
+  const double R = place.radius, c = place.lay_cosine;
+  const double sine = place.sine.at[0], cosine = place.cosine.at[0];
+  const T X = parent.bend1.at[0] * sine - parent.bend2.at[0] * cosine;
+  const T radial = parent.bend1.at[0] * cosine + parent.bend2.at[0] * sine;
+  if (place.kinematics == pipeline::Kinematics::thesis) {
+    const ThesisAngle<T> a = thesis_angle(parent, place);
+    return {path_rate(parent, place), -a.cosine * radial, a.cosine_squared * X, a.sine_cosine * X};
+  }
+  const T sigma = place.turn_rate + parent.twist.at[0], y = parent.stretch.at[0] + R * X;
+  const T V2 = R * R * sigma * sigma + y * y, V = square_root(V2), scale = c / V;
+  WireState<T> wire{c * V, 0.0 * V, scale * (R * sigma * sigma + y * X),
+                    scale * sigma * parent.stretch.at[0]};
+  if (parent.stretch.order == 0) return wire;
+  const T y_slope = parent.stretch.at[1] + R * (parent.bend1.at[1] * sine - parent.bend2.at[1] * cosine) +
+                    R * place.turn_rate * radial;
+  wire.bend1 = c * (R * (parent.twist.at[1] * y - sigma * y_slope) / V2 - radial);
+  return wire;
+}
+
 /// The component glued to its parent, one order less than the parent (W6).
 template <class T>
 Rod<T> child(const Rod<T>& parent, const Placement& place) {
   if (place.kinematics == pipeline::Kinematics::thesis) return thesis_child(parent, place);
+  if (parent.stretch.order == 1) {
+    const WireState<T> values = wire_state(parent, place);
+    return {constant_series(values.stretch, 0), constant_series(values.bend1, 0),
+            constant_series(values.bend2, 0), constant_series(values.twist, 0)};
+  }
   const double R = place.radius, c = place.lay_cosine;
   const Series<T> X = parent.bend1 * place.sine - parent.bend2 * place.cosine;
   const Series<T> radial = parent.bend1 * place.cosine + parent.bend2 * place.sine;
@@ -157,33 +186,18 @@ Rod<T> slid(const Rod<T>& glued, const T& strain, const Rod<double>& rest, pipel
   Rod<T> rod = glued;
   for (int k = 0; k <= glued.stretch.order; ++k) rod.stretch.at[k] = (1.0 + strain) * rest.stretch.at[k];
   if (kinematics == pipeline::Kinematics::thesis) return rod;
+  if (glued.stretch.order == 0) {
+    const T factor = rod.stretch.at[0] / glued.stretch.at[0];
+    rod.bend1.at[0] *= factor;
+    rod.bend2.at[0] *= factor;
+    rod.twist.at[0] *= factor;
+    return rod;
+  }
   const Series<T> factor = rod.stretch / glued.stretch;
   rod.bend1 = glued.bend1 * factor;
   rod.bend2 = glued.bend2 * factor;
   rod.twist = glued.twist * factor;
   return rod;
-}
-
-/// The last level's values, glued: W6 without the series. bend1 is about n and needs a parent of order one (0
-/// without); bend2 is about b.
-template <class T>
-WireState<T> wire_state(const Rod<T>& parent, const Placement& place) {
-  const double R = place.radius, c = place.lay_cosine;
-  const double sine = place.sine.at[0], cosine = place.cosine.at[0];
-  const T X = parent.bend1.at[0] * sine - parent.bend2.at[0] * cosine;
-  const T radial = parent.bend1.at[0] * cosine + parent.bend2.at[0] * sine;
-  if (place.kinematics == pipeline::Kinematics::thesis) {  // kappa_bi is about b, kappa_no against n
-    const ThesisAngle<T> a = thesis_angle(parent, place);
-    return {path_rate(parent, place), -a.cosine * radial, a.cosine_squared * X};
-  }
-  const T sigma = place.turn_rate + parent.twist.at[0], y = parent.stretch.at[0] + R * X;
-  const T V2 = R * R * sigma * sigma + y * y, V = square_root(V2);
-  WireState<T> wire{c * V, 0.0 * V, c * ((R * sigma * sigma + y * X) / V)};
-  if (parent.stretch.order == 0) return wire;
-  const T y_slope = parent.stretch.at[1] + R * (parent.bend1.at[1] * sine - parent.bend2.at[1] * cosine) +
-                    R * place.turn_rate * radial;
-  wire.bend1 = c * (R * (parent.twist.at[1] * y - sigma * y_slope) / V2 - radial);
-  return wire;
 }
 
 /// What the fibre at angle phi (from n toward b) on a wire of radius r adds to the axial strain (W12).

@@ -25,7 +25,15 @@ struct Series {
   static constexpr int capacity = 8;  ///< orders 0 .. capacity - 1
 
   int order = 0;               ///< highest power kept
-  std::array<T, capacity> at;  ///< coefficients; those above `order` hold nothing
+  std::array<T, capacity> at;  ///< coefficients; those above `order` hold nothing and are not copied
+
+  Series() {}
+  Series(const Series& other) { *this = other; }
+  Series& operator=(const Series& other) {
+    order = other.order;
+    for (int k = 0; k <= order; ++k) at[k] = other.at[k];
+    return *this;
+  }
 };
 
 inline namespace DRESSLIFE_MACHINE {

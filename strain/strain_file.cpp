@@ -12,9 +12,7 @@ using pipeline::FileReader;
 using pipeline::FileWriter;
 
 constexpr std::size_t block_samples = 512;  // rows read at a time
-constexpr std::size_t history_bytes = std::size_t{256}
-                                      << 20;  // of the segments evaluated in one pass over the motion
-constexpr double first_pass_share = 0.05;     // of the work, for the progress display
+constexpr double first_pass_share = 0.05;   // of the work, for the progress display
 
 /// Reads the motion block by block and measures the deformation of every segment.
 class MotionReader {
@@ -131,7 +129,7 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
 }  // namespace
 
 std::string write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
-                         const std::function<void(double)>& progress) {
+                         const std::function<void(double)>& progress, std::size_t history_bytes) {
   MotionReader reader(motion, job.strain.deformation);
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();

@@ -1,0 +1,179 @@
+// The stage on small motion files: what strain.h5 says, that its parts agree, and what is refused.
+#include "strain/strain_file.h"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "pipeline/document.h"
+#include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/scratch.h"
+
+using namespace dresslife;
+using pipeline::FileReader;
+using pipeline::FileWriter;
+using pipeline::Scratch;
+
+namespace {
+
+constexpr std::size_t segments = 8, samples = 60;
+constexpr double length = 1.2;
+
+pipeline::Job job_with(const std::vector<std::string>& sets = {}) {
+  return pipeline::job_from(pipeline::parse_yaml(pipeline::sample_job, "job.yaml"), sets);
+}
+
+/// Rotation rate of the whole dresspack at a sample [1/m].
+Eigen::Vector3d rate_at(std::size_t t) {
+  return {2 * std::sin(0.3 * t), 1.5 * std::cos(0.2 * t), 3 * std::sin(0.1 * t)};
+}
+
+/// A dresspack that bends and twists uniformly, in samples of motion.h5.
+void write_motion(const std::filesystem::path& name, std::size_t count = samples) {
+  FileWriter file(name, pipeline::motion_format());
+  file.set_axis("segment", segments);
+  file.set_axis("clamp", 2);
+  const double l = length / segments;
+  for (std::size_t t = 0; t < count; ++t) {
+    std::vector<double> position, orientation, clamp_position, clamp_orientation;
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    Eigen::Vector3d x(0, 0, 0);
+    auto put = [&](std::vector<double>& positions, std::vector<double>& orientations) {
+      positions.insert(positions.end(), {x.x(), x.y(), x.z()});
+      orientations.insert(orientations.end(), {q.w(), q.x(), q.y(), q.z()});
+    };
+    const Eigen::Vector3d rate = rate_at(t);
+    auto advance = [&](double by) {
+      const double angle = rate.norm() * by;
+      if (angle > 0) q = q * Eigen::Quaterniond(Eigen::AngleAxisd(angle, rate.normalized()));
+    };
+    auto half = [&] { x += l / 2 * (q * Eigen::Vector3d::UnitZ()); };
+    put(clamp_position, clamp_orientation);
+    advance(l / 2);
+    for (std::size_t i = 0; i < segments; ++i) {
+      half();
+      put(position, orientation);
+      half();
+      advance(i + 1 < segments ? l : l / 2);
+    }
+    put(clamp_position, clamp_orientation);
+    file.append("/time", std::vector<double>{0.04 * t});
+    file.append("/segment/position", position);
+    file.append("/segment/orientation", orientation);
+    file.append("/clamp/position", clamp_position);
+    file.append("/clamp/orientation", clamp_orientation);
+    file.append("/program/step", std::vector<std::int32_t>{static_cast<std::int32_t>(t / 10)});
+    file.append("/contact/count", std::vector<std::int32_t>{0});
+    file.append("/contact/max_depth", std::vector<double>{0});
+    file.append("/energy", std::vector<double>{0, 0, 0});
+    file.append("/tension", std::vector<double>(segments, 0.0));
+  }
+  if (count == 0)
+    for (const char* dataset : {"/time", "/segment/position", "/segment/orientation", "/clamp/position",
+                                "/clamp/orientation", "/contact/max_depth", "/energy", "/tension"})
+      file.append(dataset, std::span<const double>());
+  if (count == 0)
+    for (const char* dataset : {"/program/step", "/contact/count"})
+      file.append(dataset, std::span<const std::int32_t>());
+  file.append("/segment/length", std::vector<double>(segments, l));
+  file.append("/program/text", std::vector<std::string>{"nod", "rest", "nod", "rest", "nod", "home"});
+  file.attribute("job", "");
+  file.attribute("history", "made for a test");
+  file.attribute("input_sha256", "");
+  file.commit();
+}
+
+std::string evaluate(const std::filesystem::path& motion, const std::filesystem::path& out,
+                     const pipeline::Job& job, std::size_t history_bytes = strain::default_history_bytes) {
+  const FileReader reader(motion, pipeline::motion_format());
+  FileWriter writer(out, pipeline::strain_format());
+  const std::string summary = strain::write_strain(
+      reader, job, writer, [](double) {}, history_bytes);
+  writer.attribute("job", "");
+  writer.attribute("history", "");
+  writer.attribute("input_sha256", "");
+  writer.commit();
+  return summary;
+}
+
+}  // namespace
+
+TEST_CASE("strain.h5 holds the deformation, every site's turning points and the probes of the motion") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  const std::string summary = evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with());
+  CHECK_THAT(summary, Catch::StartsWith("144 sites; largest strain range"));
+  const FileReader file(scratch / "strain.h5", pipeline::strain_format());
+
+  const auto curvature = file.read<double>("/deformation/curvature"),
+             twist = file.read<double>("/deformation/twist");
+  constexpr double rounding = 1e-9;
+  for (std::size_t t = 0; t < samples; ++t)
+    for (std::size_t i = 0; i < segments; ++i) {
+      CHECK(std::abs(curvature[(t * segments + i) * 2] - rate_at(t)[0]) < rounding);
+      CHECK(std::abs(curvature[(t * segments + i) * 2 + 1] - rate_at(t)[1]) < rounding);
+      CHECK(std::abs(twist[t * segments + i] - rate_at(t)[2]) < rounding);
+    }
+
+  REQUIRE(file.rows("/site/segment") == segments * 3 * 6);
+  const auto component = file.read<std::string>("/site/component"),
+             material = file.read<std::string>("/site/material");
+  CHECK(component.front() == "cable 1/wire 1");
+  CHECK(component.back() == "cable 3/wire 6");
+  CHECK(material.front() == "copper");
+  const auto helix = file.read<double>("/site/helix");
+  CHECK(helix[0] == Approx(0.01845));
+  CHECK(helix[4] == Approx(-25 * std::acos(-1) / 180));
+
+  const auto offset = file.read<std::uint64_t>("/reversal/offset");
+  const auto strain = file.read<float>("/reversal/strain");
+  const auto sample = file.read<std::uint32_t>("/reversal/sample");
+  REQUIRE(offset.front() == 0);
+  REQUIRE(offset.back() == strain.size());
+  for (std::size_t site = 0; site + 1 < offset.size(); ++site) {
+    REQUIRE(offset[site + 1] >= offset[site] + 2);
+    CHECK(sample[offset[site]] == 0);
+    CHECK(sample[offset[site + 1] - 1] == samples - 1);
+  }
+  for (const std::string bound : {"/bound_stick", "/bound_free"}) {
+    CHECK(file.rows(bound + "/site/segment") >= segments);
+    CHECK(file.read<std::uint64_t>(bound + "/reversal/offset").back() ==
+          file.rows(bound + "/reversal/strain"));
+  }
+
+  const auto probe = file.read<std::uint32_t>("/probe/site");
+  const auto history = file.read<double>("/probe/strain");
+  REQUIRE(probe.size() == segments + 1);  // one of the job's
+  constexpr double single = 1e-6;         // waves and turning points are single precision
+  for (std::size_t p = 0; p < probe.size(); ++p)
+    for (std::uint64_t k = offset[probe[p]]; k < offset[probe[p] + 1]; ++k)
+      CHECK(std::abs(strain[k] - history[p * samples + sample[k]]) < single);
+  CHECK(file.read<std::int32_t>("/program/step").back() == 5);
+  CHECK(file.read<std::string>("/program/text").back() == "home");
+}
+
+TEST_CASE("the same motion gives the same bytes, read in one pass or segment by segment") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  evaluate(scratch / "motion.h5", scratch / "once.h5", job_with());
+  evaluate(scratch / "motion.h5", scratch / "twice.h5", job_with());
+  constexpr std::size_t three_segments = 3 * samples * 4 * sizeof(double);
+  evaluate(scratch / "motion.h5", scratch / "passes.h5", job_with(), three_segments);
+  CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "twice.h5"));
+  CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "passes.h5"));
+}
+
+TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5", 0);
+  CHECK_THAT(
+      pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
+      Catch::Contains("holds no samples"));
+  write_motion(scratch / "motion.h5");
+  pipeline::Job bare = job_with();
+  bare.dresspack.components.clear();
+  CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", bare); }),
+             Catch::Contains("without components"));
+  CHECK(scratch.entries() == 1);  // nothing left of the output
+}
