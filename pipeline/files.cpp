@@ -467,7 +467,7 @@ struct FileReader::Impl {
   }
 };
 
-FileReader::FileReader(const std::filesystem::path& file, const Format& format) : impl_(std::make_unique<Impl>()) {
+FileReader::FileReader(const std::filesystem::path& file, const Format& format, Scope scope) : impl_(std::make_unique<Impl>()) {
   silence_library();
   impl_->name = file;
   impl_->format = &format;
@@ -477,7 +477,8 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format) 
   impl_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("is not an HDF5 file, or is cut off");
   impl_->check_format();
-  for (const Dataset& description : format.datasets) impl_->open_dataset(description);
+  if (scope == Scope::everything)
+    for (const Dataset& description : format.datasets) impl_->open_dataset(description);
   for (const AttributeInfo& attribute : format.attributes)
     if (!attribute.may_be_absent && H5Aexists(impl_->file, attribute.name.c_str()) <= 0)
       impl_->fail(fmt::format("attribute '{}' is missing", attribute.name));

@@ -90,7 +90,9 @@ class FileWriter {
 /// non-finite values. Errors: InputError, one line.
 class FileReader {
  public:
-  FileReader(const std::filesystem::path& file, const Format& format);
+  enum class Scope { everything, attributes };
+  /// attributes: leaves the datasets alone, for who gathers a few numbers from many files.
+  FileReader(const std::filesystem::path& file, const Format& format, Scope scope = Scope::everything);
   ~FileReader();
   FileReader(const FileReader&) = delete;
   FileReader& operator=(const FileReader&) = delete;

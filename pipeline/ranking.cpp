@@ -20,7 +20,7 @@ RankingRow read_row(const JobResult& result) {
   row.failure = result.failure;
   if (!row.done()) return row;
   try {
-    const FileReader file(result.life_file, life_format());
+    const FileReader file(result.life_file, life_format(), FileReader::Scope::attributes);
     row.life_repeats = file.number_attribute("life_repeats");
     row.life_hours = file.number_attribute("life_hours");
     row.life_months = file.number_attribute("life_months");
@@ -28,7 +28,7 @@ RankingRow read_row(const JobResult& result) {
     row.life_repeats_all_free = file.number_attribute("life_repeats_all_free");
     row.repeat_seconds = file.number_attribute("repeat_seconds");
     row.damage_per_repeat = file.number_attribute("damage_per_repeat");
-    if (file.length("site") == 0) return row;
+    if (file.number_attribute("worst_site") < 0) return row;
     row.worst_segment_from_tool = static_cast<int>(file.number_attribute("worst_segment_from_tool"));
     row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
     row.worst_time = file.number_attribute("worst_time");
