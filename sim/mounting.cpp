@@ -12,8 +12,8 @@ namespace {
 using pipeline::InputError;
 
 constexpr double carrying_speed = 20 * EIGEN_PI / 180;  // of the fastest axis on the way to the start [rad/s]
-constexpr int settling_steps = 6000;
-constexpr double rest = 1e-3;  // what settling aims at: a hose that creeps a millimetre in a second [m/s]
+constexpr int settling_steps = 20000;
+constexpr double rest = 1e-5;          // what settling aims at [m/s]
 constexpr double near_rest = 2e-2;     // still a start: sways by less than its diameter [m/s]
 constexpr double lean = 0.3;           // of a hose held up: straight up it could stay there, balanced
 constexpr double overlap_share = 0.5;  // of the diameter: overlaps up to this are pushed out while settling
