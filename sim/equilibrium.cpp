@@ -11,7 +11,9 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double largest_turn = 0.5;       // of a segment in one iteration [rad]
+constexpr double largest_turn = 0.5;  // of a segment in one iteration [rad]
+constexpr double saddle_turn = 0.02;  // given to a chain that balances on a saddle [rad]
+constexpr int most_saddles = 10;
 constexpr double shift_factor = 4;         // by which the shift grows and shrinks
 constexpr double smallest_step = 1e-13;    // of the length: rounding of positions
 constexpr double energy_rounding = 1e-12;  // of the energies summed over some hundred links
@@ -34,6 +36,9 @@ class Statics {
   double energy_change(const RodState& from, const RodState& to, double part) const;
 
   std::span<const Twist6> step() const { return step_; }
+  /// Replaces the step by a small one that bends the chain where it yields most, the same every time.
+  void bend_softly(const RodState& state, double shift);
+
   /// Work of the unbalanced forces over the step: twice the energy it is expected to free [J].
   double expected_work() const;
   /// The link forces that the step leads to, to first order: those to take for the geometric stiffness.
@@ -157,6 +162,23 @@ int Statics::solve(const RodState& state, double shift) {
   return not_positive;
 }
 
+// (K + shift M)^-1 of an irregular torque, scaled to saddle_turn: rich in the directions in which K is
+// negative.
+void Statics::bend_softly(const RodState& state, double shift) {
+  unsigned number = 12345;
+  for (Twist6& u : unbalanced_)
+    for (int k = 3; k < 6; ++k) {
+      number = 1664525u * number + 1013904223u;
+      u.value[k] = number / 4294967296.0 - 0.5;
+    }
+  double growing = shift;
+  while (solve(state, growing) > 0) growing *= 2;
+  double turn = 0;
+  for (const Twist6& s : step_) turn = std::max(turn, s.angular().norm());
+  for (Twist6& s : step_)
+    for (double& x : s.value) x *= saddle_turn / turn;
+}
+
 double Statics::expected_work() const {
   double work = 0;
   for (size_t i = 0; i < step_.size(); ++i)
@@ -238,10 +260,20 @@ Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const Ro
   const double unit = p.bending_stiffness / (p.mass_per_length * std::pow(p.length, 4));
   const double least_shift = 0.1 * unit;
   double shift = 0;
+  int saddles = 0;
   result.residual = statics.unbalance(state);
   while (result.iterations < settings.iterations) {
     ++result.iterations;
     const int not_positive = statics.solve(state, shift);
+    // A symmetric start may lead to a balance on edge: then it is pushed off, to fall to the stable side.
+    if (not_positive > 0 && shift >= least_shift && result.residual < settings.tolerance &&
+        !settings.also_unstable && saddles++ < most_saddles) {
+      statics.bend_softly(state, least_shift);
+      state = moved(state, statics.step(), 1);
+      statics.start_pull(state);
+      result.residual = statics.unbalance(state);
+      continue;
+    }
     if (not_positive > 0 && !settings.also_unstable) {
       shift = std::max(shift_factor * shift, least_shift);
       continue;
