@@ -98,7 +98,8 @@ std::string failure_line(const fs::path& log) {
     if (line.find(": error: ") != std::string::npos) return line;
     if (!line.empty()) last = line;
   }
-  return last;
+  // The shell's word for a stage that was ended from outside.
+  return last == "Killed" ? "it was killed (out of memory?)" : last;
 }
 
 /// The failed stage's word on a job, from Ninja's "FAILED: easy/motion.h5".

@@ -29,6 +29,7 @@ bool fits_a_folder(char c) {
 std::string folder_name(std::string text) {
   for (char& c : text)
     if (!fits_a_folder(c)) c = '_';
+  if (text.starts_with('.')) text[0] = '_';  // neither hidden nor a way out of the results
   return text;
 }
 
@@ -113,7 +114,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
   check_keys(document);
   Study study;
   const Node* name = document.find("name");
-  study.name = folder_name(name && name->is_scalar() ? name->text : file.stem().string());
+  study.name = folder_name(name && name->is_scalar() && !name->text.empty() ? name->text : file.stem().string());
 
   const Node& written = *document.find("base");
   const Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where) : written;
