@@ -20,6 +20,7 @@ constexpr double percent = 100;
 constexpr double narrow_span = 30;     // ratios below this stay on a linear axis
 constexpr double widest_span = 1e6;    // what lies further below the largest is nothing beside it
 constexpr double smallest_cell = 0.5;  // narrower stretches of the program cannot be seen
+constexpr double nearly_worst = 0.8;   // of the largest damage: no other place, seen from the plant
 constexpr std::size_t named_lines = 4;
 constexpr double named_share = 0.03;  // of the damage, that a line needs to be named
 
@@ -67,7 +68,7 @@ std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<Progr
         costliest = &run;
     if (!costliest) continue;
     labels.push_back({panel.across((costliest->begin + costliest->end) / 2),
-                      fmt::format("{:.0f} %  line {}: {}", percent * life.step_damage[line] / total, line + 1,
+                      fmt::format("{:.0f} %: line {}, {}", percent * life.step_damage[line] / total, line + 1,
                                   shortened(life.step_text[line], 40))});
   }
   std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.x < b.x; });
@@ -93,16 +94,24 @@ void draw_labels(Picture& picture, const Panel& panel, const std::vector<Label>&
   }
 }
 
+/// One cell per stretch of the program, in turns light and dark, and marked where it costs much.
 void draw_program(Picture& picture, const LifeSummary& life, const std::vector<ProgramRun>& runs,
                   const Panel& panel, double top, double height) {
+  const double total = sum(life.damage_rate);
+  bool dark = false;
   for (const ProgramRun& run : runs) {
     const double from = panel.across(run.begin), to = panel.across(run.end);
-    if (to - from < smallest_cell) continue;
-    picture.box(from, top, to - from, height, run.step % 2 ? "odd" : "even",
-                fmt::format("{:.1f} .. {:.1f} s, line {}: {}", run.begin, run.end, run.step + 1,
-                            line_name(life, run.step)));
+    const double share = total > 0 ? run.damage / total : 0;
+    if (to - from < smallest_cell && share < named_share) continue;
+    dark = !dark;
+    picture.box(from, top, std::max(to - from, smallest_cell), height,
+                share >= named_share ? "costly"
+                : dark               ? "dark"
+                                     : "light",
+                fmt::format("{:.1f} .. {:.1f} s, line {}: {}; {:.1f} % of the damage", run.begin, run.end,
+                            run.step + 1, line_name(life, run.step), percent * share));
     const std::string number = std::to_string(run.step + 1);
-    if (run.step >= 0 && to - from > text_width(number) + 4)
+    if (run.step >= 0 && to - from > text_width(number) + 2)
       picture.text((from + to) / 2, top + height - 4.5, number, "cell", Picture::Anchor::middle);
   }
   picture.text(left_margin - 6, top + height - 4, "line", "tick", Picture::Anchor::end);
@@ -285,6 +294,14 @@ std::string segment_chart(const LifeSummary& life, int worst_from_tool) {
                  left ? Picture::Anchor::end : Picture::Anchor::start);
   }
   return picture.svg();
+}
+
+double nearly_worst_share(const LifeSummary& life) {
+  double most = 0, nearly = 0;
+  for (const double damage : life.segment_damage) most = std::max(most, damage);
+  for (std::size_t k = 0; k < life.segment_damage.size(); ++k)
+    if (life.segment_damage[k] >= nearly_worst * most) nearly += life.segment_length[k];
+  return most > 0 ? nearly / sum(life.segment_length) : 0;
 }
 
 std::string cycle_chart(const LifeSummary& life) {

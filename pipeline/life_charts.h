@@ -48,6 +48,9 @@ std::string strain_chart(const LifeSummary& life);
 /// Damage per repeat along the dresspack, base to tool; worst_from_tool is marked, 0: none.
 std::string segment_chart(const LifeSummary& life, int worst_from_tool);
 
+/// Share of the length on which the damage is at least 0.8 of the largest: near 1, the worst segment says little.
+double nearly_worst_share(const LifeSummary& life);
+
 /// How many cycles of which strain range the worst wire sees in a repeat, and what each range costs.
 std::string cycle_chart(const LifeSummary& life);
 

@@ -23,10 +23,21 @@ double round_step(double span, int most) {
   return 10 * power;
 }
 
-std::string linear_label(double value, double step) {
-  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + close_to_tick)));
-  if (std::abs(value) >= 1e7 || decimals > 6) return fmt::format("{:.3g}", value);
-  return grouped(fmt::format("{:.{}f}", std::abs(value) < step * close_to_tick ? 0.0 : value, decimals));
+/// `power`: a common power of ten that is written behind the digits; 0: none.
+std::string linear_label(double value, double step, int power) {
+  if (std::abs(value) < step * close_to_tick) value = 0;
+  if (power != 0 && value == 0) return "0";
+  const double scale = std::pow(10, power);
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step / scale) + close_to_tick)));
+  const std::string digits = grouped(fmt::format("{:.{}f}", value / scale, decimals));
+  return power == 0 ? digits : digits + "·" + power_of_ten(power);
+}
+
+/// Digits alone from a thousandth to a million; beyond, a power of ten keeps labels short.
+int power_of_labels(double low, double high) {
+  const int exponent =
+      static_cast<int>(std::floor(std::log10(std::max(std::abs(low), std::abs(high))) + close_to_tick));
+  return exponent < -3 || exponent > 6 ? exponent : 0;
 }
 
 std::string logarithmic_label(int factor, int exponent) {
@@ -37,9 +48,10 @@ std::string logarithmic_label(int factor, int exponent) {
 
 std::vector<Tick> linear_ticks(double low, double high, int most) {
   const double step = round_step(high - low, most);
+  const int power = power_of_labels(low, high);
   std::vector<Tick> ticks;
   for (double k = std::ceil(low / step - close_to_tick); k * step <= high + step * close_to_tick; ++k)
-    ticks.push_back({k * step, linear_label(k * step, step)});
+    ticks.push_back({k * step, linear_label(k * step, step, power)});
   return ticks;
 }
 

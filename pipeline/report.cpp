@@ -43,7 +43,8 @@ svg text { fill: var(--ink); } svg .tick, svg .axis-title { fill: var(--soft); }
 svg .note { paint-order: stroke; stroke: var(--page); stroke-width: 4px; stroke-linejoin: round; }
 svg path { fill: none; } svg .grid { stroke: var(--grid); } svg .mark { stroke: var(--soft); } svg .leader { stroke: var(--hot); stroke-dasharray: 3 3; }
 svg .curve { stroke: var(--blue); stroke-width: 1.2; stroke-linejoin: round; } svg .curve-hot { stroke: var(--hot); stroke-width: 1.6; }
-svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg .even { fill: var(--band); } svg .odd { fill: var(--band-2); }
+svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg .light { fill: var(--band); } svg .dark { fill: var(--band-2); }
+svg .costly { fill: var(--hot); fill-opacity: .55; }
 svg .whisker { stroke: var(--blue); stroke-width: 5; stroke-opacity: .35; stroke-linecap: round; }
 @media print { details { display: none; } h2 { break-before: page; } }
 )";
@@ -244,15 +245,26 @@ std::string under(const std::string& heading, const std::string& remark, const s
   return fmt::format("<h3>{}</h3>\n<p class=\"soft\">{}</p>\n{}", heading, remark, chart);
 }
 
+std::string place_remark(const LifeSummary& life) {
+  std::string text = "Of the worst wire in each segment; 1 means broken after one repeat.";
+  const double share = nearly_worst_share(life);
+  if (share > 0.5)
+    text += fmt::format(
+        " On {:.0f} % of the length it is within a fifth of the worst, as when cables slip freely from clamp "
+        "to clamp: "
+        "do not expect the break in one place.",
+        100 * share);
+  return text;
+}
+
 std::string charts(const RankingRow& row) {
   const LifeSummary life = read_life(row.life_file);
   return under("Strain of the worst wire over time",
-               "Below the strain, the program line being executed (rest the pointer on it for its text); "
-               "named above, the lines "
-               "that cost most.",
+               "Below the strain, the lines of the program (rest the pointer on one for its text); those "
+               "that cost most are "
+               "marked and named.",
                strain_chart(life)) +
-         under("Damage along the dresspack",
-               "Of the worst wire in each segment; 1 means broken after one repeat.",
+         under("Damage along the dresspack", place_remark(life),
                segment_chart(life, row.worst_segment_from_tool)) +
          under("Cycles of the worst wire",
                "How often each strain range occurs in a repeat, and its share of the damage.",

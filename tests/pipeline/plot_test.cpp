@@ -22,6 +22,8 @@ TEST_CASE("plot: linear ticks stand at round values") {
   CHECK(labels(Axis{"", 0, 40000}.ticks(4)) == Words{"0", "10,000", "20,000", "30,000", "40,000"});
   CHECK(labels(Axis{"", -0.003, 0.0025}.ticks(6)) ==
         Words{"-0.003", "-0.002", "-0.001", "0.000", "0.001", "0.002"});
+  CHECK(labels(Axis{"", 0, 1.5e-5}.ticks(4)) == Words{"0", "0.5·10⁻⁵", "1.0·10⁻⁵", "1.5·10⁻⁵"});
+  CHECK(labels(Axis{"", 0, 3e7}.ticks(3)) == Words{"0", "1·10⁷", "2·10⁷", "3·10⁷"});
   CHECK(labels(Axis{"", 3.1, 3.9}.ticks(3)) == Words{"3.5"});
 }
 

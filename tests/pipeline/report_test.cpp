@@ -215,6 +215,15 @@ TEST_CASE("report: the highest bar is the worst segment and stands where it lies
   CHECK(segment_chart(life, 0).empty());
 }
 
+TEST_CASE("report: damage that is much the same all along is said to be") {
+  LifeSummary life;
+  life.segment_length = {0.5, 0.5, 0.5, 0.5};
+  life.segment_damage = {9e-6, 1e-5, 1e-6, 8.5e-6};
+  CHECK(nearly_worst_share(life) == 0.75);
+  life.segment_damage = {0, 0, 0, 0};
+  CHECK(nearly_worst_share(life) == 0);
+}
+
 TEST_CASE("report: cycles of one range share one bar") {
   LifeSummary life;
   life.cycles = {{0.01, 1, 1e-5}, {0.01, 0.5, 1e-5}, {0.001, 1, 0}};
