@@ -228,9 +228,11 @@ void Evaluation::append(SiteRows& rows, Site site, std::size_t segment, const Tu
   const bool on_axis = surface_fibres_ == 0;
   rows.fibre.insert(rows.fibre.end(),
                     {on_axis ? 0 : layer.part_radius, fibre_angle(site.fibre, surface_fibres_)});
-  rows.turning.push_back(turning.strain.size());
-  rows.strain.insert(rows.strain.end(), turning.strain.begin(), turning.strain.end());
-  rows.sample.insert(rows.sample.end(), turning.sample.begin(), turning.sample.end());
+  rows.turning.push_back(turning.size());
+  for (const TurningPoint& point : turning.points()) {
+    rows.strain.push_back(point.strain);
+    rows.sample.push_back(point.sample);
+  }
 }
 
 void Evaluation::Worst::consider(Site site, const Extremes& extremes) {

@@ -14,8 +14,6 @@ extern const Kernels set;
 }
 #endif
 
-void add_turning_point(TurningList& list, float strain, std::uint32_t sample) { list.add(strain, sample); }
-
 std::vector<const Kernels*> kernels_of_this_machine() {
   std::vector<const Kernels*> sets{&baseline_kernels::set};
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)

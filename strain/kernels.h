@@ -9,12 +9,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "strain/helix.h"
 #include "strain/sizes.h"
 #include "strain/slip.h"
+#include "strain/turning_list.h"
 
 namespace dresslife::strain {
 
@@ -74,41 +74,25 @@ struct BundlePointers {
 
 // ---- turning points ---------------------------------------------------------------------------------------
 
-struct TurningList {
-  std::vector<float> strain;
-  std::vector<std::uint32_t> sample;
-
-  void add(float value, std::uint32_t at) {
-    strain.push_back(value);
-    sample.push_back(at);
-  }
-  void clear() {
-    strain.clear();
-    sample.clear();
-  }
-};
-
-/// Out of line on purpose: the kernels call it and must not hold a copy.
-void add_turning_point(TurningList& list, float strain, std::uint32_t sample);
-
 /// The five waves of a block of samples: strain_j = w0 + w1 sin(theta_j) + w2 cos(theta_j) + w3 sin(2
 /// theta_j) + w4 cos(2 theta_j). (W13)
 struct Waves {
   const float* at[waves_per_layer];
 };
 
+/// Sixteen wires between two blocks of samples. Spare lanes repeat the first wire and write nothing.
 struct LaneState {
   alignas(64) float shape[waves_per_layer - 1][lanes];  ///< sin, cos, sin 2, cos 2 of each wire's angle
   alignas(64) float direction[lanes];  ///< +1 rising, -1 falling, 0 not yet moved by the gate
-  alignas(64) float extreme[lanes];
-  alignas(64) float low[lanes];
+  alignas(64) float extreme[lanes];    ///< furthest strain in that direction since the last turn
+  alignas(64) float low[lanes];        ///< lowest and highest while the direction is 0
   alignas(64) float high[lanes];
   alignas(64) float last[lanes];
   alignas(64) std::int32_t extreme_at[lanes];
   alignas(64) std::int32_t low_at[lanes];
   alignas(64) std::int32_t high_at[lanes];
-  int used = 0;  ///< wires; spare lanes repeat the first
-  float gate = 0;
+  int used = 0;             ///< wires
+  float below_gate = 0;     ///< largest number below the gate: a turn is kept when strain moves away by more
   std::int32_t sample = 0;  ///< of the next strain
 };
 
@@ -127,8 +111,9 @@ struct Kernels {
   /// Path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
   void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                          std::size_t count, double weight, double* sum, std::size_t stride);
-  /// The next `count` samples of up to sixteen wires.
-  void (*scan)(LaneState&, const Waves&, std::size_t count, TurningList* out);
+  /// The next `count` samples of up to sixteen wires; end[j], where the next turning point of wire j goes,
+  /// moves on. It needs room for count + 1 points.
+  void (*scan)(LaneState&, const Waves&, std::size_t count, TurningPoint** end);
 };
 // count is padded by the callee to a multiple of pack_size: columns and outputs have room for it.
 

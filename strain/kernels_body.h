@@ -188,149 +188,152 @@ inline Vector load_lanes(const Value* from) {
   return vector;
 }
 
-inline bool any(const Ints& mask) {
+/// Bit j: mask of lane j.
+inline unsigned bits(const Ints& mask) {
 #if defined(__AVX512F__)
-  return _mm512_test_epi32_mask(reinterpret_cast<const __m512i&>(mask),
-                                reinterpret_cast<const __m512i&>(mask)) != 0;
+  return _mm512_movepi32_mask(reinterpret_cast<const __m512i&>(mask));
+#elif defined(__AVX2__)
+  const __m256* half = reinterpret_cast<const __m256*>(&mask);
+  return static_cast<unsigned>(_mm256_movemask_ps(half[0]) | _mm256_movemask_ps(half[1]) << 8);
 #else
   typedef std::int64_t Words __attribute__((vector_size(lanes * sizeof(std::int32_t))));
   const Words w = reinterpret_cast<const Words&>(mask);
-  return ((w[0] | w[1] | w[2] | w[3]) | (w[4] | w[5] | w[6] | w[7])) != 0;
+  if (((w[0] | w[1] | w[2] | w[3]) | (w[4] | w[5] | w[6] | w[7])) == 0) return 0;
+  unsigned found = 0;
+  for (int lane = 0; lane < lanes; ++lane) found |= mask[lane] ? 1u << lane : 0;
+  return found;
 #endif
 }
 
-/// What of a LaneState changes from sample to sample, in registers.
-struct LaneRegisters {
-  Floats direction, extreme, low, high;
-  Ints extreme_at, low_at, high_at;
-
-  explicit LaneRegisters(const LaneState& state)
-      : direction(load_lanes<Floats>(state.direction)),
-        extreme(load_lanes<Floats>(state.extreme)),
-        low(load_lanes<Floats>(state.low)),
-        high(load_lanes<Floats>(state.high)),
-        extreme_at(load_lanes<Ints>(state.extreme_at)),
-        low_at(load_lanes<Ints>(state.low_at)),
-        high_at(load_lanes<Ints>(state.high_at)) {}
-
-  void save(LaneState& state) const {
-    store_pack(direction, state.direction);
-    store_pack(extreme, state.extreme);
-    store_pack(low, state.low);
-    store_pack(high, state.high);
-    store_pack(extreme_at, state.extreme_at);
-    store_pack(low_at, state.low_at);
-    store_pack(high_at, state.high_at);
-  }
-
-  /// One sample; the wires that turn here, or have moved by the gate for the first time, come back as a mask.
-  template <bool undecided>
-  inline __attribute__((always_inline)) Ints advance(const Floats& x, std::int32_t now, float gate) {
-    if constexpr (undecided) {
-      low_at = x < low ? Ints{} + now : low_at;
-      high_at = x > high ? Ints{} + now : high_at;
-    }
-    low = x < low ? x : low;
-    high = x > high ? x : high;
-    const Floats beyond = direction * (x - extreme);
-    const Ints further = beyond > 0.0f;
-    extreme = further ? x : extreme;
-    extreme_at = further ? Ints{} + now : extreme_at;
-    Ints event = (beyond < 0.0f) & (beyond <= -gate);
-    if constexpr (undecided) event |= (direction == 0.0f) & (high > low) & (high - low >= gate);
-    return event;
-  }
-};
-
-/// Applies an event of TurningPoints::next to one lane of a saved state.
-inline void turn_lane(LaneState& state, int lane, float x, std::int32_t now, TurningList* out) {
-  if (state.direction[lane] != 0) {
-    if (out) add_turning_point(*out, state.extreme[lane], state.extreme_at[lane]);
-    state.direction[lane] = -state.direction[lane];
-  } else {
-    const bool rising = state.high_at[lane] == now;
-    const std::int32_t before = rising ? state.low_at[lane] : state.high_at[lane];
-    if (out && before > 0) add_turning_point(*out, rising ? state.low[lane] : state.high[lane], before);
-    state.direction[lane] = rising ? 1.0f : -1.0f;
-  }
-  state.extreme[lane] = x;
-  state.extreme_at[lane] = now;
-}
-
-/// Strains of sixteen wires at one sample (W13).
+/// Factors of the waves for sixteen wires (W13), all times `sign`: +1 or the direction in which each wire
+/// moves.
 struct Shape {
-  Floats sine1, cosine1, sine2, cosine2;
+  Floats sign, sine1, cosine1, sine2, cosine2;
 
-  explicit Shape(const LaneState& state)
-      : sine1(load_lanes<Floats>(state.shape[0])),
-        cosine1(load_lanes<Floats>(state.shape[1])),
-        sine2(load_lanes<Floats>(state.shape[2])),
-        cosine2(load_lanes<Floats>(state.shape[3])) {}
+  Shape(const LaneState& state, const Floats& of)
+      : sign(of),
+        sine1(of * load_lanes<Floats>(state.shape[0])),
+        cosine1(of * load_lanes<Floats>(state.shape[1])),
+        sine2(of * load_lanes<Floats>(state.shape[2])),
+        cosine2(of * load_lanes<Floats>(state.shape[3])) {}
 
   inline __attribute__((always_inline)) Floats at(const Waves& waves, std::size_t t) const {
-    return (waves.at[0][t] + waves.at[1][t] * sine1 + waves.at[2][t] * cosine1) +
+    return (waves.at[0][t] * sign + waves.at[1][t] * sine1 + waves.at[2][t] * cosine1) +
            (waves.at[3][t] * sine2 + waves.at[4][t] * cosine2);
+  }
+  inline __attribute__((always_inline)) void flip(const Ints& where) {
+    sign = where ? -sign : sign;
+    sine1 = where ? -sine1 : sine1;
+    cosine1 = where ? -cosine1 : cosine1;
+    sine2 = where ? -sine2 : sine2;
+    cosine2 = where ? -cosine2 : cosine2;
   }
 };
 
-constexpr std::size_t burst = 4;  // samples run on the speculation that no wire turns
+const Floats forward = Floats{} + 1.0f;
 
-template <bool undecided>
-void scan_samples(LaneState& state, const Waves& waves, std::size_t from, std::size_t to, TurningList* out) {
-  const Shape shape(state);
-  const float gate = state.gate;
-  const std::int32_t before = state.sample;
-  LaneRegisters now(state);
-  for (std::size_t t = from; t < to;) {
-    const std::size_t end = t + burst < to ? t + burst : to;
-    if (end - t == burst) {
-      LaneRegisters ahead = now;
-      Ints event{};
-      for (std::size_t k = 0; k < burst; ++k)
-        event |=
-            ahead.advance<undecided>(shape.at(waves, t + k), before + static_cast<std::int32_t>(t + k), gate);
-      if (!any(event)) {
-        now = ahead;
-        t = end;
-        continue;
-      }
-    }
-    for (; t < end; ++t) {
-      const Floats x = shape.at(waves, t);
-      const std::int32_t sample = before + static_cast<std::int32_t>(t);
-      const Ints event = now.advance<undecided>(x, sample, gate);
-      if (!any(event)) continue;
-      now.save(state);
+/// Decided wires: strain times direction rises to `extreme`; a turn is where it has fallen from there by the
+/// gate. Scans samples [from, to) and turns with them.
+void scan_decided(LaneState& state, const Waves& waves, std::size_t from, std::size_t to,
+                  TurningPoint** end) {
+  Shape toward(state, load_lanes<Floats>(state.direction));
+  Floats extreme = toward.sign * load_lanes<Floats>(state.extreme);
+  Ints extreme_at = load_lanes<Ints>(state.extreme_at);
+  const unsigned used = (1u << state.used) - 1;
+  for (std::size_t t = from; t < to; ++t) {
+    const std::int32_t sample = state.sample + static_cast<std::int32_t>(t);
+    const Floats y = toward.at(waves, t);
+    const Ints further = y > extreme;
+    extreme = further ? y : extreme;
+    extreme_at = further ? Ints{} + sample : extreme_at;
+    const Ints turned = extreme - y > state.below_gate;
+    unsigned left = bits(turned);
+    if (__builtin_expect(left != 0, 0)) {
       alignas(64) float strain[lanes];
-      alignas(64) std::int32_t turns[lanes];
-      store_pack(x, strain);
-      store_pack(event, turns);
-      for (int lane = 0; lane < lanes; ++lane)
-        if (turns[lane])
-          turn_lane(state, lane, strain[lane], sample, lane < state.used ? &out[lane] : nullptr);
-      now = LaneRegisters(state);
+      alignas(64) std::int32_t at[lanes];
+      store_pack(Floats(toward.sign * extreme), strain);
+      store_pack(extreme_at, at);
+      for (left &= used; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        *end[lane]++ = {strain[lane], static_cast<std::uint32_t>(at[lane])};
+      }
+      toward.flip(turned);
+      extreme = turned ? -y : extreme;
+      extreme_at = turned ? Ints{} + sample : extreme_at;
     }
   }
-  now.save(state);
+  store_pack(toward.sign, state.direction);
+  store_pack(Floats(toward.sign * extreme), state.extreme);
+  store_pack(extreme_at, state.extreme_at);
 }
 
-void scan(LaneState& state, const Waves& waves, std::size_t count, TurningList* out) {
+struct Stretch {
+  std::size_t end;   ///< the sample after the last one seen
+  unsigned decided;  ///< wires that have moved by the gate there
+};
+
+/// Wires that have not moved by the gate yet: follows their lowest and highest strain from sample `from` to
+/// the first at which one of them has, or to `to`.
+Stretch scan_undecided(LaneState& state, const Waves& waves, std::size_t from, std::size_t to) {
+  const Shape shape(state, forward);
+  const Ints undecided = load_lanes<Floats>(state.direction) == 0.0f;
+  Floats low = load_lanes<Floats>(state.low), high = load_lanes<Floats>(state.high);
+  Ints low_at = load_lanes<Ints>(state.low_at), high_at = load_lanes<Ints>(state.high_at);
+  unsigned decided = 0;
+  std::size_t t = from;
+  for (; t < to && decided == 0; ++t) {
+    const std::int32_t sample = state.sample + static_cast<std::int32_t>(t);
+    const Floats x = shape.at(waves, t);
+    const Ints lower = x<low, higher = x> high;
+    low = lower ? x : low;
+    high = higher ? x : high;
+    low_at = lower ? Ints{} + sample : low_at;
+    high_at = higher ? Ints{} + sample : high_at;
+    decided = bits(undecided & (high - low > state.below_gate));
+  }
+  store_pack(low, state.low);
+  store_pack(high, state.high);
+  store_pack(low_at, state.low_at);
+  store_pack(high_at, state.high_at);
+  return {t, decided};
+}
+
+/// Starts the wires that have moved by the gate.
+void decide(LaneState& state, unsigned decided, TurningPoint** end) {
+  for (; decided != 0; decided &= decided - 1) {  // the newer of lowest and highest is where the wire is now
+    const int lane = __builtin_ctz(decided);
+    const bool rising = state.high_at[lane] > state.low_at[lane];
+    const std::int32_t before = rising ? state.low_at[lane] : state.high_at[lane];
+    if (lane < state.used && before > 0)
+      *end[lane]++ = {rising ? state.low[lane] : state.high[lane], static_cast<std::uint32_t>(before)};
+    state.direction[lane] = rising ? 1.0f : -1.0f;
+    state.extreme[lane] = rising ? state.high[lane] : state.low[lane];
+    state.extreme_at[lane] = rising ? state.high_at[lane] : state.low_at[lane];
+  }
+}
+
+void scan(LaneState& state, const Waves& waves, std::size_t count, TurningPoint** end) {
+  const Shape shape(state, forward);
   std::size_t from = 0;
   if (state.sample == 0) {
-    const Floats x = Shape(state).at(waves, 0);
+    const Floats x = shape.at(waves, 0);
     store_pack(x, state.low);
     store_pack(x, state.high);
     store_pack(x, state.extreme);
-    for (int lane = 0; lane < state.used; ++lane) add_turning_point(out[lane], state.low[lane], 0);
+    for (int lane = 0; lane < state.used; ++lane) *end[lane]++ = {state.low[lane], 0};
     from = 1;
   }
-  bool undecided = false;
-  for (int lane = 0; lane < lanes; ++lane) undecided |= state.direction[lane] == 0;
-  if (undecided)
-    scan_samples<true>(state, waves, from, count, out);
-  else
-    scan_samples<false>(state, waves, from, count, out);
-  store_pack(Shape(state).at(waves, count - 1), state.last);
+  // Undecided wires have direction 0, so the decided scan leaves them alone; it runs piece by piece between
+  // the samples at which others are decided.
+  while (from < count) {
+    Stretch stretch{count, 0};
+    if (bits(load_lanes<Floats>(state.direction) == 0.0f) != 0)
+      stretch = scan_undecided(state, waves, from, count);
+    scan_decided(state, waves, from, stretch.end, end);
+    decide(state, stretch.decided, end);
+    from = stretch.end;
+  }
+  store_pack(shape.at(waves, count - 1), state.last);
   state.sample += static_cast<std::int32_t>(count);
 }
 

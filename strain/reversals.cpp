@@ -1,5 +1,7 @@
 #include "strain/reversals.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -45,7 +47,7 @@ void TurningPoints::finish(TurningList& out) const {
 LaneScan::LaneScan(std::span<const double> angles, float gate, const Kernels& machine) : machine_(&machine) {
   assert(!angles.empty() && angles.size() <= lanes);
   state_.used = static_cast<int>(angles.size());
-  state_.gate = gate;
+  state_.below_gate = gate > 0 ? std::nextafter(gate, 0.0f) : 0;
   for (int lane = 0; lane < lanes; ++lane) {
     const double angle = angles[lane < state_.used ? lane : 0];
     state_.shape[0][lane] = static_cast<float>(std::sin(angle));
@@ -59,15 +61,24 @@ LaneScan::LaneScan(std::span<const double> angles, float gate, const Kernels& ma
 
 void LaneScan::scan(const Waves& waves, std::size_t count, std::span<TurningList> out) {
   assert(static_cast<int>(out.size()) == state_.used);
-  if (count > 0) machine_->scan(state_, waves, count, out.data());
+  if (count == 0) return;
+  std::array<TurningPoint*, lanes> end{};
+  for (std::size_t wire = 0; wire < out.size(); ++wire) end[wire] = out[wire].room(count + 1);
+  machine_->scan(state_, waves, count, end.data());
+  for (std::size_t wire = 0; wire < out.size(); ++wire) out[wire].set_end(end[wire]);
 }
 
-void LaneScan::finish(std::span<TurningList> out) const {
-  if (state_.sample < 2) return;
-  for (int wire = 0; wire < state_.used; ++wire) {
-    if (state_.direction[wire] != 0 && state_.extreme_at[wire] != state_.sample - 1)
-      out[wire].add(state_.extreme[wire], state_.extreme_at[wire]);
-    out[wire].add(state_.last[wire], state_.sample - 1);
+void LaneScan::finish(std::span<TurningList> out) {
+  for (int wire = 0; wire < state_.used && state_.sample > 1; ++wire) {
+    const bool moved = state_.direction[wire] != 0;
+    if (moved && state_.extreme_at[wire] != state_.sample - 1)
+      out[wire].add(state_.extreme[wire], static_cast<std::uint32_t>(state_.extreme_at[wire]));
+    out[wire].add(state_.last[wire], static_cast<std::uint32_t>(state_.sample - 1));
+    if (!moved) continue;  // lowest and highest are known from the scan
+    for (const TurningPoint& point : out[wire].points()) {
+      state_.low[wire] = std::min(state_.low[wire], point.strain);
+      state_.high[wire] = std::max(state_.high[wire], point.strain);
+    }
   }
 }
 

@@ -41,10 +41,10 @@ class LaneScan {
 
   /// The next `count` samples; turning points of wire j go to out[j].
   void scan(const Waves& waves, std::size_t count, std::span<TurningList> out);
-  void finish(std::span<TurningList> out) const;
+  void finish(std::span<TurningList> out);
 
   int wires() const { return state_.used; }
-  float lowest(int wire) const { return state_.low[wire]; }
+  float lowest(int wire) const { return state_.low[wire]; }  ///< after finish()
   float highest(int wire) const { return state_.high[wire]; }
 
  private:

@@ -8,9 +8,9 @@
 // public counters do. wire_strain_gsamples_per_s: Evaluation alone. machines: the same with each instruction
 // set are in the tests, not here.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -67,9 +67,9 @@ float three_point_ranges(const std::vector<float>& history) {
 double best_seconds(const std::function<void()>& work) {
   double best = 1e300;
   for (int repeat = 0; repeat < 5; ++repeat) {
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     work();
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    best = std::min(best, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
   return best;
 }

@@ -152,7 +152,7 @@ TEST_CASE("every wire's turning points are those of the full recursion when all 
                          [&](const auto& links, std::size_t segment, std::size_t t) {
                            return glued_strain(construction, links, centre(segment), history, segment, t);
                          });
-      CHECK(difference < wave_tolerance);
+    CHECK(difference < wave_tolerance);
   }
 }
 
@@ -281,16 +281,20 @@ TEST_CASE("at a bend radius of 100 mm a glued wire sees thirty times what a slip
   };
   // The thesis: cos^2(25 deg) (2.825 mm + cos^2(5 deg) 0.75 mm) / 100 mm = 2.9 %.
   CHECK(largest(Slip::stick, Kinematics::thesis, 0) == Approx(0.0293).epsilon(0.01));
-  // The geometry: the conductor bends by cos^4(25 deg) of the cable's curvature where it is outermost, not cos^2.
+  // The geometry: the conductor bends by cos^4(25 deg) of the cable's curvature where it is outermost, not
+  // cos^2.
   const double cosine = std::cos(25 * degree), sine = std::sin(25 * degree);
   const double conductor = cosine * cosine * 0.002825 * curvature;
   const double bend = std::pow(cosine, 4) * curvature;
-  const double own_curvature = sine * sine / 0.002825;  // of the undeformed conductor: its stretch turns it too
+  const double own_curvature =
+      sine * sine / 0.002825;  // of the undeformed conductor: its stretch turns it too
   const double glued = conductor + 0.00075 * (bend - own_curvature * conductor) + 75e-6 * bend;
   constexpr double second_order = 0.03;  // of the strain: products of 3 % strains with angles of the lay
   CHECK(largest(Slip::stick, Kinematics::exact, 1) == Approx(glued).epsilon(second_order));
-  // Slipping leaves the wire's own bending, largest where the change of lay angle adds to it: cos (1 + sin^2).
-  constexpr double mean_stretch = 0.05;  // of the bending: the mean over the pitch grows with the curvature's square
+  // Slipping leaves the wire's own bending, largest where the change of lay angle adds to it: cos (1 +
+  // sin^2).
+  constexpr double mean_stretch =
+      0.05;  // of the bending: the mean over the pitch grows with the curvature's square
   CHECK(largest(Slip::free, Kinematics::exact, 1) ==
         Approx(75e-6 * curvature * cosine * (1 + sine * sine)).epsilon(mean_stretch));
 }
