@@ -1,0 +1,44 @@
+// What the chain costs on one core: the driven cable of tests/sim/rod_driven_cable.h, no contact, processor
+// time.
+//
+// sim_cpu_s_per_s_n40: processor seconds per simulated second at n = 40, 5 ms.
+// sim_cost_ratio_n240_n30: processor time per segment and step at n = 240 over that at n = 30.
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+
+#include "tests/sim/rod_driven_cable.h"
+
+namespace {
+
+using namespace dresslife::sim;
+using test::DrivenCable;
+
+/// Processor time of one run over the time of comparison, per step [s]; the best of a few, as others disturb.
+double seconds_per_step(int segments) {
+  constexpr double h = 0.005;
+  constexpr int steps = 4800, repeats = 7;
+  const Rod rod(DrivenCable::properties(segments));
+  double best = 1e9;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    WorldSettings settings;
+    settings.time_step = h;
+    World world(rod, settings, rod.straight(DrivenCable::base()));
+    std::vector<Load> loads;
+    const std::clock_t begin = std::clock();
+    for (int k = 0; k < steps; ++k) {
+      DrivenCable::weigh(rod, k * h, loads);
+      world.advance(DrivenCable::clamps((k + 1) * h), {}, loads);
+    }
+    best = std::min(best, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / steps);
+  }
+  return best;
+}
+
+}  // namespace
+
+int main() {
+  const double n40 = seconds_per_step(40), n240 = seconds_per_step(240), n30 = seconds_per_step(30);
+  std::printf("sim_cpu_s_per_s_n40 %.5f\n", n40 / 0.005);
+  std::printf("sim_cost_ratio_n240_n30 %.3f\n", (n240 / 240) / (n30 / 30));
+}
