@@ -90,28 +90,33 @@ int run(const Options& options) {
   return 1;
 }
 
+/// Jobs whose results are not those of the study as it is now written, each with the reason.
+std::map<std::string, std::string> unfinished_jobs(const Study& study, const StudyPlaces& places) {
+  std::map<std::string, std::string> reasons;
+  const Lock lock(places.folder);
+  write_build_graph(study, places);
+  const std::vector<std::string> pending = run_build_graph(places, 1, true, {}).pending;
+  for (const StudyJob& job : study.jobs)
+    if (std::find(pending.begin(), pending.end(), job.name) != pending.end()) reasons[job.name] = pending_state(job, places);
+  return reasons;
+}
+
 int status(const Options& options) {
   const Study study = read_study(options.study, options.sets);
   const StudyPlaces places = places_of(study, options);
-  std::map<std::string, std::string> state;
-  if (fs::is_directory(places.folder)) {
-    const Lock lock(places.folder);
-    write_build_graph(study, places);
-    for (const std::string& job : run_build_graph(places, 1, true, {}).pending) state[job] = "pending";
-  }
-  int unfinished = 0;
+  const bool begun = fs::is_directory(places.folder);
+  const auto unfinished = begun ? unfinished_jobs(study, places) : std::map<std::string, std::string>{};
+  std::size_t done = 0;
   for (const StudyJob& job : study.jobs) {
-    std::string word = "done";
+    std::string word = begun ? "done" : "to do";
     if (!job.failure.empty())
       word = "failed   " + job.failure;
-    else if (!fs::is_directory(places.folder) || !fs::exists(places.job(job.name)))
-      word = "to do";
-    else if (state.count(job.name))
-      word = pending_state(job, places);
-    unfinished += word != "done";
+    else if (const auto reason = unfinished.find(job.name); reason != unfinished.end())
+      word = reason->second;
+    done += word == "done";
     fmt::print("{:<40} {}\n", job.name, word);
   }
-  fmt::print("{} of {} jobs done\n", study.jobs.size() - unfinished, study.jobs.size());
+  fmt::print("{} of {} jobs done\n", done, study.jobs.size());
   return 0;
 }
 
@@ -120,7 +125,7 @@ int report(const Options& options) {
   const StudyPlaces places = places_of(study, options);
   if (!fs::is_directory(places.folder))
     throw InputError({places.folder.string()}, "is not there (the study has not run)", "run it: dresslife run " + options.study);
-  return publish(study, places, {}) ? 1 : 0;
+  return publish(study, places, unfinished_jobs(study, places)) ? 1 : 0;
 }
 
 int manual(const Options& options) {

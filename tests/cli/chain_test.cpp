@@ -36,7 +36,7 @@ TEST_CASE("the three stages run one after the other, and the same input gives th
   CHECK(content(scratch / "life.h5") == content(scratch / "again.h5"));
 }
 
-TEST_CASE("--quiet says nothing, and --set reaches every stage") {
+TEST_CASE("the option --quiet says nothing, and --set reaches every stage") {
   Scratch scratch;
   write_small_job(scratch);
   REQUIRE(sim(scratch, "--quiet --set simulation.segments=8").err.empty());

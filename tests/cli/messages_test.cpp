@@ -37,16 +37,16 @@ TEST_CASE("dresslife-sim refuses a job with one line that names the place") {
     std::string from, to, words;
   };
   const Case cases[] = {
-      {"free_length_m: 0.9", "free_length_mm: 900", "job.yaml:18:3: error: unknown key 'routing.free_length_mm'; its unit is m, write 'free_length_m'"},
-      {"free_length_m: 0.9", "free_length_m: 0.9 m", "job.yaml:18:18: error: routing.free_length_m is '0.9 m' (must be a number"},
-      {"free_length_m: 0.9", "free_length_m: .nan", "job.yaml:18:18: error: routing.free_length_m is .nan (must be finite)"},
-      {"free_length_m: 0.9", "free_length_m: -1", "job.yaml:18:18: error: routing.free_length_m is -1 (must be > 0 m)"},
-      {"free_length_m: 0.9", "free_length_m: 0.9\n  free_length_m: 1", "job.yaml:19:3: error: duplicate key 'free_length_m'"},
+      {"free_length_m: 0.9", "free_length_mm: 900", "job.yaml:20:3: error: unknown key 'routing.free_length_mm'; its unit is m, write 'free_length_m'"},
+      {"free_length_m: 0.9", "free_length_m: 0.9 m", "job.yaml:20:18: error: routing.free_length_m is '0.9 m' (must be a number"},
+      {"free_length_m: 0.9", "free_length_m: .nan", "job.yaml:20:18: error: routing.free_length_m is .nan (must be finite)"},
+      {"free_length_m: 0.9", "free_length_m: -1", "job.yaml:20:18: error: routing.free_length_m is -1 (must be > 0 m)"},
+      {"free_length_m: 0.9", "free_length_m: 0.9\n  free_length_m: 1", "job.yaml:21:3: error: duplicate key 'free_length_m'"},
       {"routing:\n  free_length_m: 0.9\n", "", "job.yaml:1:1: error: routing is missing"},
-      {"segments: 12", "segmets: 12", "job.yaml:20:3: error: unknown key 'simulation.segmets'; did you mean 'segments'?"},
-      {"segments: 12", "segments: 2", "job.yaml:20:13: error: simulation.segments is 2 (must be 4 .. 2000)"},
-      {"sample_rate_Hz: 50", "sample_rate_Hz: 60", "job.yaml:20:3: error: simulation.sample_rate_Hz 60 leaves 3.33333 steps of 5 ms"},
-      {"material: copper", "material: coper", "job.yaml:16:99: error: 'coper' is not in the catalogue"},
+      {"segments: 12", "segmets: 12", "job.yaml:22:3: error: unknown key 'simulation.segmets'; did you mean 'segments'?"},
+      {"segments: 12", "segments: 2", "job.yaml:22:13: error: simulation.segments is 2 (must be 4 .. 2000)"},
+      {"sample_rate_Hz: 50", "sample_rate_Hz: 60", "job.yaml:22:3: error: simulation.sample_rate_Hz 60 leaves 3.33333 steps of 5 ms"},
+      {"material: copper", "material: coper", "job.yaml:18:99: error: 'coper' is not in the catalogue"},
       {"clamp_poses: poses.csv", "clamp_poses: none.csv", ""},
       {"motion: {", "motion: {{", "job.yaml:1:"},
   };
