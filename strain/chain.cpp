@@ -68,6 +68,7 @@ WireNode node_at(const Construction& construction, const std::vector<LayerSlip>&
   node.place = construction.placement(layer, number, part, arc, turn);
   node.rest_rate = path_rate(rest, node.place);
   node.rest = wire_state(rest, node.place);
+  node.inverse_rest_stretch = 1 / node.rest.stretch;
   node.slide = sliding_numbers(plan[layer], chain, dresspack, node.place);
   node.wire_radius = construction.layers()[layer].part_radius;
   return node;

@@ -36,6 +36,7 @@ struct Rod {
 template <class T>
 struct WireState {
   T stretch, bend1, bend2, twist;
+  T inverse_stretch;  ///< what sliding scales with; not in `thesis`
 };
 
 /// Where a component lies in its parent, at one place along it.
@@ -139,16 +140,17 @@ WireState<T> wire_state(const Rod<T>& parent, const Placement& place) {
   const T radial = parent.bend1.at[0] * cosine + parent.bend2.at[0] * sine;
   if (place.kinematics == pipeline::Kinematics::thesis) {
     const ThesisAngle<T> a = thesis_angle(parent, place);
-    return {path_rate(parent, place), -a.cosine * radial, a.cosine_squared * X, a.sine_cosine * X};
+    return {path_rate(parent, place), -a.cosine * radial, a.cosine_squared * X, a.sine_cosine * X,
+            1.0 + 0.0 * X};
   }
   const T sigma = place.turn_rate + parent.twist.at[0], y = parent.stretch.at[0] + R * X;
-  const T V2 = R * R * sigma * sigma + y * y, V = square_root(V2), scale = c / V;
-  WireState<T> wire{c * V, 0.0 * V, scale * (R * sigma * sigma + y * X),
-                    scale * sigma * parent.stretch.at[0]};
+  const T V = square_root(R * R * sigma * sigma + y * y), inverse = 1.0 / V, scale = c * inverse;
+  WireState<T> wire{c * V, 0.0 * V, scale * (R * sigma * sigma + y * X), scale * sigma * parent.stretch.at[0],
+                    (1 / c) * inverse};
   if (parent.stretch.order == 0) return wire;
   const T y_slope = parent.stretch.at[1] + R * (parent.bend1.at[1] * sine - parent.bend2.at[1] * cosine) +
                     R * place.turn_rate * radial;
-  wire.bend1 = c * (R * (parent.twist.at[1] * y - sigma * y_slope) / V2 - radial);
+  wire.bend1 = c * (R * (parent.twist.at[1] * y - sigma * y_slope) * inverse * inverse - radial);
   return wire;
 }
 

@@ -46,7 +46,8 @@ struct ChainStep {
 /// One place around a wire layer.
 struct WireNode {
   Placement place;
-  double rest_rate = 1;
+  double rest_rate = 1;             ///< path rate at rest
+  double inverse_rest_stretch = 1;  ///< 1 / stretch at rest
   WireState<double> rest;
   SlidingNumbers slide;
   double wire_radius = 0;  ///< of its fibres [m]

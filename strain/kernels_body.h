@@ -82,19 +82,16 @@ inline void descend(const BundlePointers& chain, const DeformationColumns& in, s
   }
 }
 
-/// Strains of one node's fibres at a pack of samples.
-inline void strains_of_node(const BundlePointers& chain, const Descent& descent, const WireNode& node,
-                            std::size_t sample, Pack* strain) {
-  const Rod<Pack>& parent = descent.rods[chain.step_count];
+/// Strains of one node's fibres at a pack of samples. sliding: its axial strain when it slides.
+inline void strains_of_node(const BundlePointers& chain, const Rod<Pack>& parent, const WireNode& node,
+                            const Pack& sliding, Pack* strain) {
   const WireState<Pack> wire = wire_state(parent, node.place);
-  const bool exact = node.place.kinematics == pipeline::Kinematics::exact;
-  const double ideal = exact ? node.place.lay_cosine : 1;
-  Pack axial = wire.stretch / (ideal * node.rest_rate) - 1.0;
+  Pack axial = wire.stretch * node.inverse_rest_stretch - 1.0;
   Pack bend1 = wire.bend1, bend2 = wire.bend2;
   if (node.slide.sliding != Sliding::glued) {
-    axial = free_strain(chain, descent, chain.step_count, node.place, node.slide, sample);
-    if (exact) {  // curvature per path length stays (W11)
-      const Pack factor = (1.0 + axial) * (ideal * node.rest_rate) / wire.stretch;
+    axial = sliding;
+    if (node.place.kinematics == pipeline::Kinematics::exact) {  // curvature per path length stays (W11)
+      const Pack factor = (1.0 + sliding) * node.rest.stretch * wire.inverse_stretch;
       bend1 *= factor;
       bend2 *= factor;
     }
@@ -118,7 +115,9 @@ void node_strains(const BundlePointers& chain, const DeformationColumns& in, std
     descend(chain, in, first + t, descent);
     Pack strain[most_fibres];
     for (int n = 0; n < chain.node_count; ++n) {
-      strains_of_node(chain, descent, chain.nodes[n], first + t, strain);
+      const WireNode& node = chain.nodes[n];
+      const Pack sliding = free_strain(chain, descent, chain.step_count, node.place, node.slide, first + t);
+      strains_of_node(chain, descent.rods[chain.step_count], node, sliding, strain);
       for (int f = 0; f < chain.fibre_count; ++f)
         store_pack(strain[f], out + (static_cast<std::size_t>(n) * chain.fibre_count + f) * stride + t);
     }
@@ -149,8 +148,13 @@ void layer_waves(const BundlePointers& chain, const DeformationColumns& in, std:
     descend(chain, in, first + t, descent);
     for (int layer = 0; layer < layers; ++layer) {
       Pack strain[waves_per_layer][most_fibres];
-      for (int n = 0; n < waves_per_layer; ++n)
-        strains_of_node(chain, descent, chain.nodes[layer * waves_per_layer + n], first + t, strain[n]);
+      Pack sliding{};
+      for (int n = 0; n < waves_per_layer; ++n) {
+        const WireNode& node = chain.nodes[layer * waves_per_layer + n];
+        if (n == 0 || node.slide.sliding != Sliding::over_pitch)  // the mean over the pitch is the layer's
+          sliding = free_strain(chain, descent, chain.step_count, node.place, node.slide, first + t);
+        strains_of_node(chain, descent.rods[chain.step_count], node, sliding, strain[n]);
+      }
       for (int f = 0; f < chain.fibre_count; ++f)
         for (int w = 0; w < waves_per_layer; ++w) {
           Pack sum = to_waves.factor[w][0] * strain[0][f];
