@@ -11,6 +11,7 @@
 #include "pipeline/life_charts.h"
 #include "pipeline/plot.h"
 #include "pipeline/readable.h"
+#include "pipeline/scene.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -22,9 +23,9 @@ constexpr std::size_t listed_lines = 10, listed_layers = 12;
 
 constexpr const char* style = R"(
 :root { color-scheme: light dark; --page: #ffffff; --ink: #1b1f24; --soft: #5b6570; --rule: #d5dae0; --grid: #e6e9ed;
-  --blue: #0072b2; --hot: #c94f00; --band: #eef1f5; --band-2: #d9dfe7; }
+  --blue: #0072b2; --hot: #c94f00; --band: #eef1f5; --band-2: #d9dfe7; --arm: #c3ccd6; --arm-2: #b3bdc9; }
 @media (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e8eaed; --soft: #a0a9b4; --rule: #3a424c;
-  --grid: #2a3037; --blue: #56b4e9; --hot: #f08c3a; --band: #242a31; --band-2: #37404a; } }
+  --grid: #2a3037; --blue: #56b4e9; --hot: #f08c3a; --band: #242a31; --band-2: #37404a; --arm: #4a5562; --arm-2: #57636f; } }
 body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
   font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
 h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem; border-top: 2px solid var(--rule); }
@@ -44,6 +45,8 @@ svg .note { paint-order: stroke; stroke: var(--page); stroke-width: 4px; stroke-
 svg path { fill: none; } svg .grid { stroke: var(--grid); } svg .mark { stroke: var(--soft); } svg .leader { stroke: var(--hot); stroke-dasharray: 3 3; }
 svg .curve { stroke: var(--blue); stroke-width: 1.2; stroke-linejoin: round; } svg .curve-hot { stroke: var(--hot); stroke-width: 1.6; }
 svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg .light { fill: var(--band); } svg .dark { fill: var(--band-2); }
+svg line { stroke-linecap: round; } svg .arm { stroke: var(--arm); } svg .arm-2 { stroke: var(--arm-2); } svg .halo { stroke: var(--page); stroke-linecap: butt; }
+svg .hose { stroke: var(--blue); } svg .hose-hot { stroke: var(--hot); }
 svg .costly { fill: var(--hot); fill-opacity: .55; }
 svg .whisker { stroke: var(--blue); stroke-width: 5; stroke-opacity: .35; stroke-linecap: round; }
 @media print { details { display: none; } h2 { break-before: page; } }
@@ -276,10 +279,19 @@ std::string charts(const RankingRow& row) {
              escaped(life.job), escaped(life.history));
 }
 
+/// The worst moment as a picture; none when the motion file has been cleared away.
+std::string scene(const RankingRow& row) {
+  const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
+  std::error_code ignored;
+  if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
+  return under("The moment", "Robot and dresspack when the most damaging cycle closes; the worst segment is marked.",
+               scene_picture(motion, row.worst_time, row.worst_segment_from_tool));
+}
+
 std::string job_section(const RankingRow& row, std::size_t rank) {
   std::string body;
   try {
-    body = facts(row) + charts(row);
+    body = facts(row) + scene(row) + charts(row);
   } catch (const InputError& problem) {
     body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
   }

@@ -43,6 +43,15 @@ TEST_CASE("a study runs every job, and again only what changed") {
   for (const std::string file : {"ranking.csv", "report.html", "build.ninja"}) CHECK(fs::exists(scratch / ("runs/study/" + file)));
   CHECK(content(scratch / "runs/study/ranking.csv").rfind("job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat", 0) == 0);
   CHECK(first.out.find("runs/study/report.html") != std::string::npos);
+  // The picture of the worst moment: every segment once, in two halves, one of them marked.
+  const std::string report = content(scratch / "runs/study/report.html");
+  const auto count = [&](const std::string& words) {
+    int found = 0;
+    for (std::size_t at = report.find(words); at != std::string::npos; at = report.find(words, at + 1)) ++found;
+    return found;
+  };
+  CHECK(count("<line class=\"hose-hot\"") == 2 * 2);
+  CHECK(count("<line class=\"hose\"") == 2 * 2 * 11);
 
   CHECK(stages_ran(run_study()) == "0");
   const std::string ranking = content(scratch / "runs/study/ranking.csv");
