@@ -14,6 +14,7 @@ namespace {
 constexpr double largest_turn = 0.5;  // of a segment in one iteration [rad]
 constexpr double saddle_turn = 0.02;  // given to a chain that balances on a saddle [rad]
 constexpr int most_saddles = 10;
+constexpr double least_gain = 1e-4;        // a step must free this share of the work it promises
 constexpr double shift_factor = 4;         // by which the shift grows and shrinks
 constexpr double smallest_step = 1e-13;    // of the length: rounding of positions
 constexpr double energy_rounding = 1e-12;  // of the energies summed over some hundred links
@@ -239,74 +240,103 @@ void take_to_rest(const Rod& rod, RodState& state) {
     state.link_force[j] = rod.gap_stiffness(j) * rod.link_state(state, j).gap;
 }
 
-}  // namespace
-
 // Levenberg-Marquardt on (S11). Two things let it take large turns although stretch is far stiffer than
 // bending: the geometric stiffness uses the link forces that the last step predicted, not k g, which the
 // turns of that step have spoilt by their second order (as with Lagrange multipliers); and the shift is by
 // the mass matrix, so that the steps are those of an implicit motion through a viscous medium.
+class Descent {
+ public:
+  Descent(const Rod& rod, const ClampFrames& clamps, const RodState& start, std::span<const Load> loads,
+          const EquilibriumSettings& settings)
+      : rod_(rod), settings_(settings), statics_(rod, loads) {
+    const RodProperties& p = rod.properties();
+    // The slowest bending motion of a clamped hose has a frequency^2 of 5000 of these.
+    least_shift_ = 0.1 * p.bending_stiffness / (p.mass_per_length * std::pow(p.length, 4));
+    result_.state = start;
+    result_.state.clamps = clamps;
+    take_to_rest(rod, result_.state);
+    restart();
+  }
+
+  Equilibrium run() {
+    while (result_.iterations < settings_.iterations && result_.status != EquilibriumStatus::converged) {
+      ++result_.iterations;
+      iterate();
+    }
+    RodState& state = result_.state;
+    take_to_rest(rod_, state);
+    restart();
+    result_.negative_pivots = statics_.solve(state, 0);
+    if (missing_length(rod_, state.clamps) > longest_elongation * rod_.properties().length ||
+        rod_.mean_elongation(state) > longest_elongation)
+      result_.status = EquilibriumStatus::too_short;
+    return result_;
+  }
+
+ private:
+  void restart() {
+    statics_.start_pull(result_.state);
+    result_.residual = statics_.unbalance(result_.state);
+  }
+  void raise_shift() { shift_ = std::max(shift_factor * shift_, least_shift_); }
+
+  void iterate() {
+    const bool positive = statics_.solve(result_.state, shift_) == 0;
+    if (positive || settings_.also_unstable) {
+      if (balanced())
+        result_.status = EquilibriumStatus::converged;
+      else
+        step();
+    } else if (shift_ >= least_shift_ && result_.residual < settings_.tolerance &&
+               saddles_++ < most_saddles) {
+      // A symmetric start may lead to a balance on edge: it is pushed off, to fall to the stable side.
+      statics_.bend_softly(result_.state, least_shift_);
+      result_.state = moved(result_.state, statics_.step(), 1);
+      restart();
+    } else {
+      raise_shift();
+    }
+  }
+
+  // A chain that may turn for nothing (a ring about its clamps' tangent) needs some shift to the end.
+  bool balanced() const {
+    const double far = furthest(statics_.step(), rod_.segment_length());
+    return shift_ <= shift_factor * least_shift_ &&
+           (result_.residual < settings_.tolerance || far < smallest_step * rod_.properties().length);
+  }
+
+  void step() {
+    RodState& state = result_.state;
+    const double part = allowed_part(statics_.step()), work = part * statics_.expected_work();
+    RodState next = moved(state, statics_.step(), part);
+    const Energy energy = rod_.energy(state);
+    const double rounding = energy_rounding * (energy.elastic + std::abs(energy.gravitational));
+    if (!settings_.also_unstable &&
+        statics_.energy_change(state, next, part) > -least_gain * work + rounding) {
+      raise_shift();
+      statics_.start_pull(state);
+      return;
+    }
+    statics_.predict_pull(state, part);
+    state = std::move(next);
+    result_.residual = statics_.unbalance(state);
+    shift_ = shift_ < 2 * least_shift_ ? 0 : shift_ / shift_factor;
+  }
+
+  const Rod& rod_;
+  const EquilibriumSettings settings_;
+  Statics statics_;
+  Equilibrium result_;
+  double shift_ = 0, least_shift_ = 0;
+  int saddles_ = 0;
+};
+
+}  // namespace
+
 Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const RodState& start,
                              std::span<const Load> loads, const EquilibriumSettings& settings) {
   assert(loads.empty() || static_cast<int>(loads.size()) == rod.segments());
-  const RodProperties& p = rod.properties();
-  Equilibrium result;
-  result.state = start;
-  result.state.clamps = clamps;
-  RodState& state = result.state;
-  Statics statics(rod, loads);
-  take_to_rest(rod, state);
-  statics.start_pull(state);
-  // The slowest bending motion of a clamped hose has frequency^2 of 500 of these.
-  const double unit = p.bending_stiffness / (p.mass_per_length * std::pow(p.length, 4));
-  const double least_shift = 0.1 * unit;
-  double shift = 0;
-  int saddles = 0;
-  result.residual = statics.unbalance(state);
-  while (result.iterations < settings.iterations) {
-    ++result.iterations;
-    const int not_positive = statics.solve(state, shift);
-    // A symmetric start may lead to a balance on edge: then it is pushed off, to fall to the stable side.
-    if (not_positive > 0 && shift >= least_shift && result.residual < settings.tolerance &&
-        !settings.also_unstable && saddles++ < most_saddles) {
-      statics.bend_softly(state, least_shift);
-      state = moved(state, statics.step(), 1);
-      statics.start_pull(state);
-      result.residual = statics.unbalance(state);
-      continue;
-    }
-    if (not_positive > 0 && !settings.also_unstable) {
-      shift = std::max(shift_factor * shift, least_shift);
-      continue;
-    }
-    const double part = allowed_part(statics.step()), far = furthest(statics.step(), rod.segment_length());
-    // A chain that may turn for nothing (a ring about its clamps' tangent) needs some shift to the end.
-    if (shift <= shift_factor * least_shift &&
-        (result.residual < settings.tolerance || far < smallest_step * p.length)) {
-      result.status = EquilibriumStatus::converged;
-      break;
-    }
-    RodState next = moved(state, statics.step(), part);
-    const Energy energy = rod.energy(state);
-    const double rounding = energy_rounding * (energy.elastic + std::abs(energy.gravitational));
-    const double work = part * statics.expected_work();
-    if (!settings.also_unstable && statics.energy_change(state, next, part) > -1e-4 * work + rounding) {
-      shift = std::max(shift_factor * shift, least_shift);
-      statics.start_pull(state);
-      continue;
-    }
-    statics.predict_pull(state, part);
-    state = std::move(next);
-    result.residual = statics.unbalance(state);
-    shift = shift < 2 * least_shift ? 0 : shift / shift_factor;
-  }
-  take_to_rest(rod, state);
-  statics.start_pull(state);
-  statics.unbalance(state);
-  result.negative_pivots = statics.solve(state, 0);
-  if (missing_length(rod, clamps) > longest_elongation * p.length ||
-      rod.mean_elongation(state) > longest_elongation)
-    result.status = EquilibriumStatus::too_short;
-  return result;
+  return Descent(rod, clamps, start, loads, settings).run();
 }
 
 Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const EquilibriumSettings& settings) {

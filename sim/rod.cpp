@@ -23,21 +23,17 @@ constexpr double tension_beta = 0.3, free_tension = 0.3;
 // Radius of gyration squared over radius squared: between a solid (0.5) and a thin tube (1).
 constexpr double inertia_shape = 0.75;
 
-}  // namespace
-
-// ---- what is built once -----------------------------------------------------------------------------------
-
 // (S5) End links: the sum over links of energy * length is a quadrature of the integral of m^2/EI from clamp
 // to clamp. Half lengths at the ends (trapezoid rule) err by l^2; Gregory's first correction -l/12 (m_1 -
 // m_0) turns the weights 1/2, 1 into 5/12, 13/12. Where the moment vanishes (free end) the plain weights do.
-static double compliance_length(const RodProperties& p, int link, double l) {
+double compliance_length(const RodProperties& p, int link, double l) {
   const int n = p.segments;
   if (link == 0 || link == n) return l * 5 / 12;
   if (link == 1 || (link == n - 1 && p.tool_end != End::free)) return l * (n == 2 ? 14.0 : 13.0) / 12;
   return l;
 }
 
-static Vector3 end_mask(const RodProperties& p, int link) {
+Vector3 end_mask(const RodProperties& p, int link) {
   const End end = link == 0 ? p.base_end : link == p.segments ? p.tool_end : End::clamped;
   switch (end) {
     case End::clamped:
@@ -48,6 +44,10 @@ static Vector3 end_mask(const RodProperties& p, int link) {
       return {0, 0, 0};
   }
 }
+
+}  // namespace
+
+// ---- what is built once -----------------------------------------------------------------------------------
 
 Rod::Rod(const RodProperties& p) : properties_(p) {
   assert(p.segments >= 2 && p.length > 0 && p.mass_per_length > 0 && p.diameter > 0);
