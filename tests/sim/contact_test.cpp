@@ -156,10 +156,9 @@ TEST_CASE("a hose across a box rests on it without rocking") {
   CHECK(r.force.z() > 10);
 }
 
-TEST_CASE("a hose on a slope sticks below the friction angle and slides as a block above it") {
-  // Gravity is tilted instead of the floor. The hose lies free but for a base clamp that follows it... a
-  // pinned base end would hold it; so the base clamp moves with the block's own law and carries no force
-  // then.
+TEST_CASE("a hose on a slope steeper than its friction slides as a block") {
+  // Gravity is tilted instead of the floor. The base clamp moves by the block's own law, so it must carry no
+  // force.
   const double angle = 0.4, friction = 0.3, g = 9.81;
   RodProperties p = hose(10);
   p.tool_end = End::free;
