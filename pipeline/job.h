@@ -160,7 +160,7 @@ struct Strain {
   Kinematics kinematics = Kinematics::exact;
   std::vector<Slip> slip{Slip::free};   ///< one for every level, or one per level, outermost first
   int surface_fibres = 1;               ///< per wire; 0: the wire's axis
-  double gate = 1e-4;                   ///< turning points of a smaller strain range are dropped
+  double gate = 5e-4;                   ///< turning points of a smaller strain range are dropped
   std::vector<Probe> probes;
 };
 
