@@ -94,6 +94,7 @@ routing:
 simulation:
   segments: 12
   sample_rate_Hz: 50
+strain: {slip: stick}
 )");
 }
 

@@ -62,7 +62,7 @@ TEST_CASE("a study runs every job, and again only what changed") {
   CHECK(stages_ran(run_study()) == "2");
   CHECK(content(scratch / "runs/study/ranking.csv") != ranking);
   // Settings of the middle stage: that and the last.
-  scratch.write("job.yaml", job + "strain: {slip: stick}\n");
+  scratch.write("job.yaml", replaced(job, "slip: stick", "slip: free"));
   CHECK(stages_ran(run_study()) == "4");
   // The poses beside the job: everything. Words alone: nothing.
   scratch.write("job.yaml", "# a remark\n" + job);
