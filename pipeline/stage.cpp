@@ -42,6 +42,9 @@ int run_stage(const StageInfo& info, int argc, char** argv, const std::function<
   app.add_option("--set", call.sets, "override a key of the job, for example simulation.segments=80; may be repeated")
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
+  call.options.resize(info.options.size());
+  for (std::size_t i = 0; i < info.options.size(); ++i)
+    app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)->type_name(info.options[i].value)->allow_extra_args(false);
   app.add_flag("--quiet", call.quiet, "no progress, no notes");
   app.set_version_flag("--version", info.program + " " + DRESSLIFE_VERSION);
   try {

@@ -15,6 +15,13 @@
 
 namespace dresslife::pipeline {
 
+/// An option of one stage only; it may be given several times.
+struct StageOption {
+  std::string name;   ///< "--assume"
+  std::string value;  ///< what it takes: "LINE=then|else"
+  std::string meaning;
+};
+
 struct StageInfo {
   std::string program;  ///< "dresslife-sim"
   std::string purpose;  ///< one sentence for --help
@@ -22,6 +29,7 @@ struct StageInfo {
   std::string output;   ///< what -o names: "motion.h5"
   std::string example;  ///< a command that can be typed
   bool input_is_job = false;  ///< the input is the job itself; other stages take --job
+  std::vector<StageOption> options = {};
 };
 
 struct StageCall {
@@ -29,6 +37,7 @@ struct StageCall {
   std::filesystem::path input, output;
   std::filesystem::path job_file;  ///< of --job; empty: the job in the input file
   std::vector<std::string> sets;
+  std::vector<std::vector<std::string>> options;  ///< values given for each of info.options
   bool quiet = false;
 };
 

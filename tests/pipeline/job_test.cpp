@@ -218,7 +218,7 @@ TEST_CASE("job: what contradicts itself is refused") {
   check_case(
       {"axis: [0, 1, 0]", "axis: [0, 0, 0]", "name: two axes", "axis of axis_2 is zero; give its direction"});
   check_case({"{dwell_s: 0.5}", "{dwell_s: 0.5, joints_deg: [0, 0]}", "{dwell_s",
-              "a step must be one of: joints_deg (a move), dwell_s, repeat with steps; split it into steps"});
+              "a step must be one of: joints_deg or position_mm (a move), dwell_s, repeat with steps; split it into steps"});
   check_case({"{dwell_s: 0.5}", "{dwell_s: 0.5, zone_deg: 1}", "{dwell_s",
               "speed and zone belong to a move; take them out of this step"});
   check_case({"speed_percent: 50", "speed_percent: 50, speed_deg_per_s: 3", "{joints_deg: [10.7",

@@ -1,0 +1,39 @@
+// Robot programs of any language that is read, by the ends of their files' names; and what becomes of them: a
+// motion.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <vector>
+
+#include "pipeline/job.h"
+#include "sim/program/program.h"
+
+namespace dresslife::sim {
+
+enum class Language { rapid, krl, fanuc, joint_columns, ros_trajectory };
+
+/// By extension. Errors: InputError for one that no reader knows.
+Language language_of(const std::filesystem::path& file);
+
+/// Runs the program. tools, work_objects: those that it names but does not hold. Problems are added, not
+/// thrown.
+Program read_program(Language language, std::deque<SourceFile> files, const ImportOptions& options,
+                     const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects,
+                     Problems& problems);
+
+/// The program of a motion (`program`, `modules`, `routine`, `assume`, `tools`, `work_objects`).
+/// Errors: one InputError with all problems. Precondition: motion.program is set.
+Program read_program(const pipeline::Motion& motion);
+
+/// The program as steps, one for each move and dwell; speeds and zones that the program leaves out are
+/// `defaults`'.
+pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defaults);
+
+/// The motion that is run: itself, or its program's.
+pipeline::Motion resolved_motion(const pipeline::Motion& motion);
+
+/// What was skipped, one line each: "file:line: skipped: what".
+std::vector<std::string> skipped_lines(const Program& program);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,106 @@
+#include "sim/program/program.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <sstream>
+
+namespace dresslife::sim {
+
+namespace {
+
+constexpr std::size_t listed_problems = 50;
+
+}  // namespace
+
+std::string ArmConfiguration::text() const {
+  switch (kind) {
+    case Kind::any:
+      return "";
+    case Kind::abb:
+      return fmt::format("abb {}", fmt::join(numbers, " "));
+    case Kind::kuka:
+      return fmt::format("kuka {}", fmt::join(numbers, " "));
+    case Kind::fanuc:
+      break;
+  }
+  return fmt::format("fanuc {}{}{} {} {} {}", numbers[0] ? 'F' : 'N', numbers[1] ? 'U' : 'D',
+                     numbers[2] ? 'T' : 'B', numbers[3], numbers[4], numbers[5]);
+}
+
+std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
+  std::istringstream words(text);
+  std::string kind, word;
+  ArmConfiguration read;
+  if (!(words >> kind)) return read;
+  if (kind == "fanuc") {
+    read.kind = ArmConfiguration::Kind::fanuc;
+    if (!(words >> word) || word.size() != 3) return {};
+    constexpr std::array letters{"NF", "DU", "BT"};
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t which = std::string(letters[i]).find(word[i]);
+      if (which == std::string::npos) return {};
+      read.numbers.push_back(static_cast<int>(which));
+    }
+  }
+  while (words >> word) {
+    int number = 0;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (end.ec != std::errc() || end.ptr != word.data() + word.size()) return {};
+    read.numbers.push_back(number);
+  }
+  const std::size_t count = read.numbers.size();
+  if (kind == "abb") read.kind = ArmConfiguration::Kind::abb;
+  if (kind == "kuka") read.kind = ArmConfiguration::Kind::kuka;
+  const bool whole =
+      (kind == "abb" && count == 4) || (kind == "kuka" && count == 2) || (kind == "fanuc" && count == 6);
+  return whole ? std::optional(read) : std::nullopt;
+}
+
+void Problems::add(const pipeline::Where& where, const std::string& what, const std::string& remedy) {
+  const auto same = [&](const Problem& p) {
+    return p.where.line == where.line && p.where.column == where.column && p.where.file == where.file &&
+           p.what == what;
+  };
+  if (full() || std::any_of(problems_.begin(), problems_.end(), same))
+    return;  // a line in a loop is told once
+  problems_.push_back({where, what, remedy});
+}
+
+bool Problems::full() const { return problems_.size() >= listed_problems; }
+
+void Problems::throw_if_any() const {
+  if (problems_.empty()) return;
+  std::vector<Problem> sorted = problems_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
+    return std::tie(a.where.file, a.where.line, a.where.column) <
+           std::tie(b.where.file, b.where.line, b.where.column);
+  });
+  std::string rest;
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    rest +=
+        std::string("\n") + pipeline::InputError(sorted[i].where, sorted[i].what, sorted[i].remedy).what();
+  if (full()) rest += fmt::format("\n({} problems are listed; there may be more)", listed_problems);
+  throw pipeline::InputError(sorted[0].where, sorted[0].what, sorted[0].remedy + rest);
+}
+
+SourceFile::SourceFile(std::string name, std::string text)
+    : name_(std::move(name)), text_(std::move(text)), starts_{0} {
+  for (std::size_t i = 0; i < text_.size(); ++i)
+    if (text_[i] == '\n') starts_.push_back(i + 1);
+}
+
+std::string SourceFile::line(int number) const {
+  if (number < 1 || number > static_cast<int>(starts_.size())) return "";
+  std::size_t begin = starts_[number - 1];
+  std::size_t end = std::min(text_.find('\n', begin), text_.size());
+  const auto blank = [&](std::size_t i) { return static_cast<unsigned char>(text_[i]) <= ' '; };
+  while (begin < end && blank(begin)) ++begin;
+  while (end > begin && blank(end - 1)) --end;
+  std::string line = text_.substr(begin, std::min<std::size_t>(end - begin, 200));
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = c == '\t' ? ' ' : '?';
+  return line;
+}
+
+}  // namespace dresslife::sim

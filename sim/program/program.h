@@ -1,0 +1,150 @@
+// What every reader of robot programs makes of a file: the moves in the order in which the controller runs
+// them.
+//
+// Lengths are m, angles rad, times s, whatever the language writes; quaternions are Eigen's. A pose is that
+// of the tool frame in the work object's frame, the work object's that in the world (the robot's base frame,
+// as the controllers take it), the tool's that in the flange frame. A stationary tool stands in the world and
+// the robot carries the work object: then the tool's frame is that in the world and the work object's that in
+// the flange.
+//
+// Problems are collected while reading and told all at once; what a reader leaves out on purpose (input and
+// output, messages, logic without moves) is listed with its line.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/errors.h"
+#include "sim/rotation.h"
+
+namespace dresslife::sim {
+
+/// Which of the arms that reach a pose is meant, in the words of its controller.
+struct ArmConfiguration {
+  enum class Kind { any, abb, kuka, fanuc };
+  Kind kind = Kind::any;
+  /// abb: quadrants of axes 1, 4, 6 and cfx. kuka: status, turn. fanuc: wrist flipped, arm up, arm in front
+  /// (1 or 0), then the turns of axes 1, 4 and 6.
+  std::vector<int> numbers;
+
+  /// "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty for any.
+  std::string text() const;
+  bool operator==(const ArmConfiguration&) const = default;
+};
+
+/// Reads what text() writes. Empty: not a configuration.
+std::optional<ArmConfiguration> arm_configuration(const std::string& text);
+
+/// Where a move leads: joint angles, or a pose of the tool.
+struct Target {
+  std::vector<double> joints;         ///< [rad]; empty: a pose
+  Frame pose;                         ///< of the tool in the work object
+  ArmConfiguration configuration;     ///< of a pose
+  std::vector<double> external_axes;  ///< as programmed, mm or deg as the axis is; empty: none
+};
+
+struct NamedFrame {
+  std::string name;
+  Frame frame;
+  bool stationary = false;  ///< of a tool: it stands in the world, the robot carries the work object
+};
+
+struct MoveSpeed {
+  std::optional<double> axis_percent;  ///< of each axis' largest speed [%]
+  std::optional<double> tool;          ///< largest of the tool's origin [m/s]
+  std::optional<double> orientation;   ///< largest of the tool's rotation [rad/s]
+  std::optional<double> duration;      ///< of the whole move [s]
+};
+
+struct MoveZone {
+  double distance = 0;  ///< the tool may leave its path this near to the target [m]; 0 and percent 0: stop
+  double percent = 0;  ///< of the way in which the robot would stop, where the controller blends by speed [%]
+};
+
+struct Instruction {
+  enum class Kind { joint, linear, circular, dwell };
+  Kind kind = Kind::joint;
+  Target target;
+  Frame via;             ///< of a circular move: the pose on the way
+  int tool = -1;         ///< index into Program::tools; -1: the flange
+  int work_object = -1;  ///< index into Program::work_objects; -1: the world
+  MoveSpeed speed;
+  MoveZone zone;
+  double acceleration_percent = 100;
+  double dwell = 0;  ///< [s]
+  pipeline::Where where;
+  std::string routine;  ///< that holds the line
+  std::string text;     ///< of the line
+};
+
+/// Something the reader left out.
+struct Skipped {
+  pipeline::Where where;
+  std::string what;
+  bool may_move = false;  ///< nobody knows whether it moves the robot
+};
+
+struct Program {
+  std::string name;
+  std::vector<Instruction> instructions;
+  std::vector<NamedFrame> tools, work_objects;
+  std::vector<Skipped> skipped;
+};
+
+struct Problem {
+  pipeline::Where where;
+  std::string what, remedy;
+};
+
+class Problems {
+ public:
+  void add(const pipeline::Where& where, const std::string& what, const std::string& remedy);
+  bool empty() const { return problems_.empty(); }
+  bool full() const;  ///< more would not help anybody
+  const std::vector<Problem>& list() const { return problems_; }
+  /// Throws one InputError that words every problem on a line of its own, in the order of the files' lines.
+  void throw_if_any() const;
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+enum class Assumption { then_branch, else_branch };
+
+struct ImportOptions {
+  std::string routine;  ///< where to start; empty: the language's own start
+  /// "file.mod:12" or "12" -> what an undecidable branch on that line does.
+  std::map<std::string, Assumption> assume;
+  double spot_time = 1;  ///< dwell of a spot weld [s]
+};
+
+/// Bounds on what a program may ask of its reader; past them the reading ends with a problem.
+struct ImportLimits {
+  static constexpr std::size_t file_bytes = 8u << 20;
+  static constexpr std::size_t tokens = 2'000'000;
+  static constexpr int nesting = 60;           ///< of expressions and of blocks
+  static constexpr int calls = 60;             ///< routines that call routines
+  static constexpr long executed = 3'000'000;  ///< statements and values
+  static constexpr std::size_t instructions = 100'000;
+  static constexpr std::size_t skipped = 20'000;
+  static constexpr std::size_t values = 100'000;  ///< numbers of one variable, and variables
+};
+
+/// A source file in memory.
+class SourceFile {
+ public:
+  SourceFile(std::string name, std::string text);
+
+  const std::string& name() const { return name_; }
+  const std::string& text() const { return text_; }
+  /// Line (from 1) without its end and the blanks around it, at most 200 characters; unprintable ones as '?'.
+  std::string line(int number) const;
+
+ private:
+  std::string name_, text_;
+  std::vector<std::size_t> starts_;  // of the lines
+};
+
+}  // namespace dresslife::sim

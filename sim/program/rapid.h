@@ -1,0 +1,21 @@
+// ABB RAPID: modules of one task, run from a routine (main unless told otherwise).
+//
+// Read: MODULE with CONST, VAR, PERS data, RECORD, PROC, FUNC and TRAP; assignment, IF, FOR, WHILE, TEST,
+// RETURN; every Move, Trigg, Search, Arc, Spot, Disp and EGMMove instruction as a move; \T \V \Z \WObj; Offs,
+// RelTool, PoseMult, PoseInv, OrientZYX and arithmetic; WaitTime; AccSet, VelSet, PDispSet, ConfL, ConfJ.
+// Everything else is listed as skipped. A search goes to its end point. Source: Technical reference manual
+// RAPID instructions, functions and data types (3HAC050917) for the meaning of the instructions.
+#pragma once
+
+#include "sim/program/interpreter.h"
+
+namespace dresslife::sim {
+
+/// Parses modules into `code`; sources must stay alive in code.files.
+void parse_rapid(Code& code, int file, Problems& problems);
+
+/// Runs what was parsed.
+void run_rapid(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
+               const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,339 @@
+#include "sim/program/parser.h"
+#include "sim/program/rapid.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Kind = Statement::Kind;
+
+class RapidParser {
+ public:
+  RapidParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
+      : code_(code), file_(file), at_(tokens, file, false), problems_(problems) {}
+
+  void run() {
+    while (!at_.at_end() && !at_.at_word("module")) at_.next();  // %%% VERSION and LANGUAGE %%%
+    if (at_.at_end())
+      problems_.add({code_.files[file_].name(), 1, 1}, "holds no MODULE",
+                    "give a RAPID module (.mod, .prg, .sys)");
+    while (!at_.at_end() && !problems_.full()) module();
+  }
+
+ private:
+  void module() {
+    if (!at_.take_word("module")) {
+      at_.next();
+      return;
+    }
+    guarded([&] {
+      at_.word("the module's name");
+      if (at_.take_sign("("))
+        while (!at_.at_end() && !at_.take_sign(")")) at_.next();
+    });
+    while (!at_.at_end() && !at_.take_word("endmodule")) {
+      if (problems_.full()) return;
+      guarded([&] { member(); });
+    }
+  }
+
+  /// Runs `read`; a syntax error in it becomes a problem and the reading goes on behind the statement.
+  template <class Read>
+  bool guarded(const Read& read) {
+    const Place before = at_.place();
+    try {
+      read();
+      return true;
+    } catch (const SyntaxError& error) {
+      problems_.add({code_.files[file_].name(), error.place.line, error.place.column}, error.what,
+                    error.remedy);
+    }
+    while (!at_.at_end() && !at_.at_sign(";") && !opens_or_closes()) at_.next();
+    at_.take_sign(";");
+    if (const Place now = at_.place(); now.line == before.line && now.column == before.column) at_.next();
+    return false;
+  }
+
+  /// A word that a lost reader finds its way by.
+  bool opens_or_closes() const {
+    for (const char* word : {"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile",
+                             "endtest", "proc", "func", "else", "elseif", "case", "default"})
+      if (at_.at_word(word)) return true;
+    return false;
+  }
+
+  void member() {
+    if (at_.take_word("local") || at_.take_word("task")) return member();
+    if (at_.at_word("proc") || at_.at_word("func") || at_.at_word("trap")) return routine();
+    if (at_.take_word("record")) return record();
+    if (at_.at_word("const") || at_.at_word("var") || at_.at_word("pers")) {
+      code_.data.push_back(declaration());
+      return;
+    }
+    if (at_.take_word("alias")) {
+      while (!at_.at_end() && !at_.at_sign(";")) at_.next();
+      at_.need_sign(";");
+      return;
+    }
+    at_.fail(fmt::format("has {} where a declaration or a routine is expected", at_.seen()),
+             "mend the module");
+  }
+
+  void record() {
+    RecordType type;
+    type.name = at_.word("the record's name");
+    while (!at_.take_word("endrecord")) {
+      const RecordType* inner = code_.record(at_.word("a type"));
+      type.fields.push_back(at_.word("a component"));
+      type.types.push_back(inner);
+      at_.need_sign(";");
+    }
+    code_.records.push_back(std::move(type));
+  }
+
+  Statement declaration() {
+    Statement statement;
+    statement.kind = Kind::declare;
+    at_.next();  // CONST, VAR, PERS
+    statement.text = at_.word("a type");
+    statement.place = at_.place();
+    statement.name = at_.word("a name");
+    statement.arguments.emplace_back();
+    if (at_.take_sign("{")) {
+      do statement.arguments.push_back(at_.expression());
+      while (at_.take_sign(","));
+      at_.need_sign("}");
+    }
+    if (at_.take_sign(":=")) statement.arguments[0] = at_.expression();
+    at_.need_sign(";");
+    return statement;
+  }
+
+  void routine() {
+    Routine routine;
+    const bool function = at_.at_word("func");
+    const std::string end = function ? "endfunc" : at_.at_word("trap") ? "endtrap" : "endproc";
+    at_.next();
+    if (function) at_.word("a type");
+    routine.place = at_.place();
+    routine.written = std::string(at_.peek().text);
+    routine.name = at_.word("the routine's name");
+    if (at_.take_sign("(")) parameters(routine);
+    routine.body = body({end.c_str(), "error", "undo", "backward"});
+    while (!at_.at_end() && !at_.at_word(end)) {  // handlers of errors: not of the normal cycle
+      if (at_.at_word("endmodule") || at_.at_word("proc") || at_.at_word("func")) break;
+      at_.next();
+    }
+    at_.need_word(end);
+    code_.routines.push_back(std::move(routine));
+  }
+
+  void parameters(Routine& routine) {
+    while (!at_.take_sign(")")) {
+      if (at_.take_sign(",") || at_.take_sign("|")) continue;
+      Parameter parameter;
+      parameter.option = at_.take_sign("\\");
+      parameter.given_back = at_.take_word("inout") || at_.take_word("var") || at_.take_word("pers");
+      if (!at_.take_word("switch")) at_.word("a type");
+      parameter.name = at_.word("a parameter");
+      if (at_.take_sign("{"))
+        while (!at_.take_sign("}")) {
+          if (at_.at_end()) at_.fail("ends in a list of parameters", "close it");
+          at_.next();
+        }
+      routine.parameters.push_back(std::move(parameter));
+    }
+  }
+
+  bool at_any(const std::vector<const char*>& words) const {
+    for (const char* word : words)
+      if (at_.at_word(word)) return true;
+    return false;
+  }
+
+  /// Statements up to one of these words, which is not taken.
+  std::vector<Statement> body(const std::vector<const char*>& ends) {
+    struct Level {
+      int& depth;
+      ~Level() { --depth; }
+    } level{++depth_};
+    if (depth_ > ImportLimits::nesting)
+      at_.fail(fmt::format("is nested more than {} deep", ImportLimits::nesting), "use routines");
+    std::vector<Statement> statements;
+    while (!at_any(ends) && !problems_.full()) {
+      if (at_.at_end() || at_.at_word("endmodule") || at_.at_word("endproc") || at_.at_word("endfunc") ||
+          at_.at_word("proc") || at_.at_word("func"))
+        at_.fail(fmt::format("has {} before {}", at_.seen(), ends[0]),
+                 fmt::format("close the block with {}", ends[0]));
+      guarded([&] { statement(statements); });
+    }
+    return statements;
+  }
+
+  void statement(std::vector<Statement>& into) {
+    if (at_.take_sign(";")) return;
+    if (at_.peek().kind == Token::Kind::word && at_.at_sign(":", 1)) {  // a label
+      at_.next();
+      at_.next();
+      return;
+    }
+    Statement s;
+    s.place = at_.place();
+    s.text = std::string(at_.peek().text);
+    if (at_.at_word("const") || at_.at_word("var") || at_.at_word("pers")) {
+      into.push_back(declaration());
+      return;
+    }
+    if (at_.take_word("if"))
+      if_statement(s);
+    else if (at_.take_word("for"))
+      for_statement(s);
+    else if (at_.take_word("while"))
+      while_statement(s);
+    else if (at_.take_word("test"))
+      test_statement(s);
+    else if (at_.take_word("return"))
+      return_statement(s);
+    else if (at_.take_word("exit"))
+      simple(s, Kind::finish);
+    else if (at_.take_word("goto"))
+      goto_statement(s);
+    else if (at_.take_word("connect"))
+      connect_statement(s);
+    else if (at_.at_sign("%"))
+      late_call(s);
+    else
+      assignment_or_call(s);
+    into.push_back(std::move(s));
+  }
+
+  void simple(Statement& s, Kind kind) {
+    s.kind = kind;
+    at_.need_sign(";");
+  }
+
+  void if_statement(Statement& s) {
+    s.kind = Kind::branch;
+    Branch branch;
+    branch.place = s.place;
+    branch.conditions.push_back(at_.expression());
+    if (!at_.take_word("then")) {  // the compact IF
+      statement(branch.body);
+      s.branches.push_back(std::move(branch));
+      return;
+    }
+    branch.body = body({"endif", "else", "elseif"});
+    s.branches.push_back(std::move(branch));
+    while (!at_.at_word("endif")) {
+      Branch next;
+      next.place = at_.place();
+      if (at_.take_word("elseif")) {
+        next.conditions.push_back(at_.expression());
+        at_.need_word("then");
+      } else {
+        at_.need_word("else");
+      }
+      next.body = body({"endif", "else", "elseif"});
+      s.branches.push_back(std::move(next));
+    }
+    at_.need_word("endif");
+  }
+
+  void loop_body(Statement& s, const char* end) {
+    at_.need_word("do");
+    s.branches.emplace_back();
+    s.branches[0].body = body({end});
+    at_.need_word(end);
+  }
+
+  void for_statement(Statement& s) {
+    s.kind = Kind::count;
+    s.name = at_.word("the loop's variable");
+    at_.need_word("from");
+    s.arguments.push_back(at_.expression());
+    at_.need_word("to");
+    s.arguments.push_back(at_.expression());
+    s.arguments.push_back(at_.take_word("step") ? at_.expression() : Expression{});
+    loop_body(s, "endfor");
+  }
+
+  void while_statement(Statement& s) {
+    s.kind = Kind::while_loop;
+    s.arguments.push_back(at_.expression());
+    loop_body(s, "endwhile");
+  }
+
+  void test_statement(Statement& s) {
+    s.kind = Kind::choose;
+    s.arguments.push_back(at_.expression());
+    while (!at_.take_word("endtest")) {
+      Branch branch;
+      branch.place = at_.place();
+      if (at_.take_word("case")) {
+        do branch.conditions.push_back(at_.expression());
+        while (at_.take_sign(","));
+      } else {
+        at_.need_word("default");
+      }
+      at_.need_sign(":");
+      branch.body = body({"endtest", "case", "default"});
+      s.branches.push_back(std::move(branch));
+    }
+  }
+
+  void return_statement(Statement& s) {
+    s.kind = Kind::give_back;
+    if (!at_.at_sign(";")) s.arguments.push_back(at_.expression());
+    at_.need_sign(";");
+  }
+
+  void goto_statement(Statement& s) {
+    s.name = "goto";
+    at_.word("a label");
+    at_.need_sign(";");
+  }
+
+  void connect_statement(Statement& s) {
+    s.name = "connect";
+    while (!at_.at_end() && !at_.at_sign(";")) at_.next();
+    at_.need_sign(";");
+  }
+
+  void late_call(Statement& s) {  // %"routine"% arguments;
+    at_.next();
+    Expression name = at_.expression(6);
+    at_.need_sign("%");
+    s.name = name.kind == Expression::Kind::text ? lower_case(name.text) : "%";
+    s.text = name.text;
+    s.arguments = at_.arguments(";");
+    at_.need_sign(";");
+  }
+
+  void assignment_or_call(Statement& s) {
+    if (at_.at_sign(":=", 1) || at_.at_sign(".", 1) || at_.at_sign("{", 1)) {
+      s.kind = Kind::assign;
+      s.arguments.push_back(at_.reference());
+      at_.need_sign(":=");
+      s.arguments.push_back(at_.expression());
+      at_.need_sign(";");
+      return;
+    }
+    s.name = at_.word("a statement");
+    s.arguments = at_.arguments(";");
+    at_.need_sign(";");
+  }
+
+  Code& code_;
+  int file_;
+  Cursor at_;
+  Problems& problems_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+void parse_rapid(Code& code, int file, Problems& problems) {
+  const std::vector<Token> tokens = tokens_of(code.files[file], {'!', "", false, false}, problems);
+  RapidParser(code, file, tokens, problems).run();
+}
+
+}  // namespace dresslife::sim

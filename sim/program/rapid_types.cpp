@@ -1,0 +1,275 @@
+// RAPID's records, and the speeds and zones that every controller knows by name.
+#include "sim/program/rapid_types.h"
+
+#include <algorithm>
+
+namespace dresslife::sim {
+namespace {
+
+struct Written {
+  const char* name;
+  std::vector<std::pair<const char*, const char*>> fields;  // component, record type or ""
+  int optional_from = 1'000'000;
+};
+
+/// In an order in which each record comes after those that it holds.
+const std::vector<Written>& written_types() {
+  static const std::vector<Written> types{
+      {"pos", {{"x", ""}, {"y", ""}, {"z", ""}}},
+      {"orient", {{"q1", ""}, {"q2", ""}, {"q3", ""}, {"q4", ""}}},
+      {"pose", {{"trans", "pos"}, {"rot", "orient"}}},
+      {"confdata", {{"cf1", ""}, {"cf4", ""}, {"cf6", ""}, {"cfx", ""}}},
+      {"robjoint",
+       {{"rax_1", ""}, {"rax_2", ""}, {"rax_3", ""}, {"rax_4", ""}, {"rax_5", ""}, {"rax_6", ""}}},
+      {"extjoint",
+       {{"eax_a", ""}, {"eax_b", ""}, {"eax_c", ""}, {"eax_d", ""}, {"eax_e", ""}, {"eax_f", ""}}},
+      {"robtarget", {{"trans", "pos"}, {"rot", "orient"}, {"robconf", "confdata"}, {"extax", "extjoint"}}},
+      {"jointtarget", {{"robax", "robjoint"}, {"extax", "extjoint"}}},
+      {"loaddata", {{"mass", ""}, {"cog", "pos"}, {"aom", "orient"}, {"ix", ""}, {"iy", ""}, {"iz", ""}}},
+      {"tooldata", {{"robhold", ""}, {"tframe", "pose"}, {"tload", "loaddata"}}},
+      {"wobjdata", {{"robhold", ""}, {"ufprog", ""}, {"ufmec", ""}, {"uframe", "pose"}, {"oframe", "pose"}}},
+      {"speeddata", {{"v_tcp", ""}, {"v_ori", ""}, {"v_leax", ""}, {"v_reax", ""}}},
+      {"zonedata",
+       {{"finep", ""},
+        {"pzone_tcp", ""},
+        {"pzone_ori", ""},
+        {"pzone_eax", ""},
+        {"zone_ori", ""},
+        {"zone_leax", ""},
+        {"zone_reax", ""}}},
+  };
+  return types;
+}
+
+Value numbers(const std::vector<double>& list, const RecordType* type) {
+  std::vector<Value> items;
+  for (double number : list) items.push_back(number_value(number));
+  return list_value(std::move(items), type);
+}
+
+}  // namespace
+
+void add_rapid_types(Code& code) {
+  for (const Written& written : written_types()) {
+    RecordType type;
+    type.name = written.name;
+    type.optional_from = written.optional_from;
+    for (const auto& [field, inner] : written.fields) {
+      type.fields.push_back(field);
+      type.types.push_back(*inner ? code.record(inner) : nullptr);
+    }
+    code.records.push_back(std::move(type));
+  }
+}
+
+std::optional<Value> rapid_speed(const Code& code, const std::string& name) {
+  static const std::vector<int> speeds{5,    10,   20,   30,   40,   50,   60,  80,   100,
+                                       150,  200,  300,  400,  500,  600,  800, 1000, 1500,
+                                       2000, 2500, 3000, 4000, 5000, 6000, 7000};
+  for (int speed : speeds)
+    if (name == fmt::format("v{}", speed))
+      return numbers({double(speed), 500, 5000, 1000}, code.record("speeddata"));
+  return {};
+}
+
+std::optional<Value> rapid_zone(const Code& code, const std::string& name) {
+  // Radius of the tool's path [mm]; the orientation's zone is 1.5 times it, but for z0 (data type zonedata).
+  static const std::vector<int> zones{0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200};
+  const RecordType* type = code.record("zonedata");
+  const auto zone = [&](bool stop, double r) {
+    const double wide = r < 5 ? r : 1.5 * r;
+    Value value = numbers({0, r, wide, wide, wide / 10, wide, wide / 10}, type);
+    value.items[0] = truth_value(stop);
+    return value;
+  };
+  if (name == "fine") return zone(true, 0);
+  if (name == "z0") return zone(false, 0.3);
+  for (int radius : zones)
+    if (radius > 0 && name == fmt::format("z{}", radius)) return zone(false, radius);
+  return {};
+}
+
+Value rapid_initial(const Code& code, const std::string& type_name, int depth) {
+  if (type_name == "num" || type_name == "dnum" || type_name == "byte") return number_value(0);
+  if (type_name == "bool") return truth_value(false);
+  if (type_name == "string") return text_value("");
+  const RecordType* type = code.record(type_name);
+  if (!type || depth > 8) return {};
+  std::vector<Value> items;
+  for (const RecordType* inner : type->types)
+    items.push_back(inner ? rapid_initial(code, inner->name, depth + 1) : number_value(0));
+  return list_value(std::move(items), type);
+}
+
+const std::vector<std::string>& harmless_rapid_instructions() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list{"set",
+                                  "reset",
+                                  "setdo",
+                                  "setgo",
+                                  "setao",
+                                  "pulsedo",
+                                  "invertdo",
+                                  "waitdi",
+                                  "waitdo",
+                                  "waitgi",
+                                  "waitgo",
+                                  "waitai",
+                                  "waitao",
+                                  "waituntil",
+                                  "waitrob",
+                                  "waitsynctask",
+                                  "tpwrite",
+                                  "tperase",
+                                  "tpreadfk",
+                                  "tpreadnum",
+                                  "tpreaddnum",
+                                  "tpshow",
+                                  "uimsgbox",
+                                  "uishow",
+                                  "uimsgwrite",
+                                  "errwrite",
+                                  "errlog",
+                                  "errraise",
+                                  "bookerrno",
+                                  "stop",
+                                  "break",
+                                  "raise",
+                                  "retry",
+                                  "trynext",
+                                  "skipwarn",
+                                  "open",
+                                  "close",
+                                  "write",
+                                  "writebin",
+                                  "writestrbin",
+                                  "writerawbytes",
+                                  "writeanybin",
+                                  "readrawbytes",
+                                  "readanybin",
+                                  "readbin",
+                                  "packrawbytes",
+                                  "unpackrawbytes",
+                                  "clearrawbytes",
+                                  "packdnheader",
+                                  "rewind",
+                                  "clkstart",
+                                  "clkstop",
+                                  "clkreset",
+                                  "add",
+                                  "incr",
+                                  "decr",
+                                  "clear",
+                                  "trygint",
+                                  "bitset",
+                                  "bitclear",
+                                  "isignaldi",
+                                  "isignaldo",
+                                  "isignalgi",
+                                  "isignalai",
+                                  "isleep",
+                                  "iwatch",
+                                  "idelete",
+                                  "ienable",
+                                  "idisable",
+                                  "itimer",
+                                  "ierror",
+                                  "ipers",
+                                  "connect",
+                                  "triggio",
+                                  "triggequip",
+                                  "triggint",
+                                  "triggcheckio",
+                                  "triggspeed",
+                                  "triggstopproc",
+                                  "triggramp",
+                                  "gripload",
+                                  "motsup",
+                                  "singarea",
+                                  "speedrefresh",
+                                  "pathaccLim",
+                                  "pathacclim",
+                                  "cirpathmode",
+                                  "dynamics",
+                                  "resetaxis",
+                                  "actunit",
+                                  "deactunit",
+                                  "confjoff",
+                                  "worldacclim",
+                                  "pathresol",
+                                  "softact",
+                                  "softdeact",
+                                  "tunereset",
+                                  "tuneservo",
+                                  "startmove",
+                                  "stopmove",
+                                  "stopmovereset",
+                                  "startmoveretry",
+                                  "clearpath",
+                                  "storepath",
+                                  "restopath",
+                                  "setsysdata",
+                                  "load",
+                                  "unload",
+                                  "startload",
+                                  "waitload",
+                                  "checkprogref",
+                                  "socketcreate",
+                                  "socketconnect",
+                                  "socketsend",
+                                  "socketreceive",
+                                  "socketclose",
+                                  "socketbind",
+                                  "socketlisten",
+                                  "socketaccept",
+                                  "rmqfindslot",
+                                  "rmqsendmessage",
+                                  "rmqempty",
+                                  "setdataval",
+                                  "getdataval",
+                                  "setallDataVal",
+                                  "setalldataval",
+                                  "syncmoveon",
+                                  "syncmoveoff",
+                                  "syncmoveundo",
+                                  "getsysdata",
+                                  "opendir",
+                                  "closedir",
+                                  "makedir",
+                                  "removefile",
+                                  "copyfile",
+                                  "eoffsset",
+                                  "goto",
+                                  "timex",
+                                  "exitcycle",
+                                  "savecfgdata",
+                                  "warmstart",
+                                  "spystart",
+                                  "spystop",
+                                  "egmgetid",
+                                  "egmreset",
+                                  "egmsetupuc",
+                                  "egmsetupai",
+                                  "egmsetupao",
+                                  "egmactjoint",
+                                  "egmactpose",
+                                  "egmactmove",
+                                  "egmstop",
+                                  "egmstreamstart",
+                                  "egmstreamstop",
+                                  "toolchange",
+                                  "setgun",
+                                  "calib",
+                                  "stcalib",
+                                  "stclose",
+                                  "stopen",
+                                  "indgun",
+                                  "gunopen",
+                                  "gunclose"};
+    std::sort(list.begin(), list.end());
+    return list;
+  }();
+  return names;
+}
+
+}  // namespace dresslife::sim
