@@ -1,0 +1,91 @@
+// The two welding robots, from the study files to the ranking: what the 2018 thesis found and what must hold of it.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+struct Row {
+  double repeats = 0, hours = 0, from_tool = 0;  // [1], [h], [m]
+  int segment = 0;
+};
+
+/// ranking.csv by job. None of its cells before the step text holds a comma.
+std::map<std::string, Row> ranking(const fs::path& file) {
+  std::istringstream lines(content(file));
+  std::map<std::string, Row> rows;
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::vector<std::string> cells{""};
+    for (char c : line) c == ',' ? cells.emplace_back() : cells.back() += c;
+    REQUIRE(cells.size() > 9);
+    rows[cells[0]] = {std::stod(cells[1]), std::stod(cells[2]), std::stod(cells[9]), std::stoi(cells[3])};
+  }
+  return rows;
+}
+
+/// Runs a study of config/studies, or one written in the test.
+std::map<std::string, Row> run_study(const Scratch& scratch, const std::string& file, const std::string& name) {
+  const Outcome outcome = run(scratch, "dresslife", "run '" + file + "'");
+  INFO(outcome.err);
+  INFO(outcome.out);
+  REQUIRE(outcome.status == 0);
+  return ranking(scratch / ("runs/" + name + "/ranking.csv"));
+}
+
+const std::string config = std::string(DRESSLIFE_SOURCE_DIR) + "/config/";
+constexpr double free_third = 0.7;  // a third of the dresspack's free length, from the tool [m]
+
+}  // namespace
+
+TEST_CASE("two robots, shipped study: robot 1 wears its dresspack out before robot 2, near the robot's head") {
+  Scratch scratch;
+  auto rows = run_study(scratch, config + "studies/two_robots.yaml", "two_robots");
+  REQUIRE(rows.size() == 4);
+  CHECK(rows["spot_robot_1"].repeats < rows["spot_robot_2"].repeats);
+  CHECK(rows["spot_robot_1"].from_tool < free_third);
+  CHECK(rows["spot_robot_2"].from_tool < free_third);
+  CHECK(rows["easy"].repeats > rows["spot_robot_2"].repeats);
+  CHECK(rows["hard"].repeats < rows["spot_robot_1"].repeats);
+
+  const Outcome again = run(scratch, "dresslife", "run '" + config + "studies/two_robots.yaml'");
+  CHECK(again.err.find("nothing to do") != std::string::npos);
+}
+
+TEST_CASE("two robots with the thesis' settings: hours, robot 1 worse, aluminium worse than copper in the same place") {
+  Scratch scratch;
+  auto rows = run_study(scratch, config + "studies/two_robots_thesis.yaml", "two_robots_thesis");
+  const Row copper_1 = rows["thesis-spot_robot_1-copper"], copper_2 = rows["thesis-spot_robot_2-copper"];
+  const Row aluminium_1 = rows["thesis-spot_robot_1-aluminium_7070_t6"], aluminium_2 = rows["thesis-spot_robot_2-aluminium_7070_t6"];
+  CHECK(copper_1.hours < copper_2.hours);
+  CHECK(aluminium_1.hours < aluminium_2.hours);
+  for (const Row& copper : {copper_1, copper_2}) {
+    CHECK(copper.hours > 0.5);
+    CHECK(copper.hours < 24);
+    CHECK(copper.from_tool < free_third);
+  }
+  CHECK(aluminium_1.hours < copper_1.hours);
+  CHECK(aluminium_2.hours < copper_2.hours);
+  CHECK(std::abs(aluminium_1.segment - copper_1.segment) <= 1);
+  CHECK(std::abs(aluminium_2.segment - copper_2.segment) <= 1);
+}
+
+TEST_CASE("the life of robot 1 is converged in segments and time step") {
+  constexpr double most_change = 0.1;  // the issue's limit; a fatigue exponent near 9 makes it 1 % in strain
+  Scratch scratch;
+  const fs::path study = scratch.write("convergence.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml
+jobs:
+  shipped: {motion: spot_robot_1}
+  twice_the_segments: {motion: spot_robot_1, simulation.segments: 100}
+  half_the_step: {motion: spot_robot_1, simulation.time_step_ms: 2.5}
+)");
+  auto rows = run_study(scratch, study.string(), "convergence");
+  const double shipped = rows["shipped"].repeats;
+  CHECK(std::abs(rows["twice_the_segments"].repeats / shipped - 1) < most_change);
+  CHECK(std::abs(rows["half_the_step"].repeats / shipped - 1) < most_change);
+}
