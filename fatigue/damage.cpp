@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "fatigue/log_table.h"
 #include "fatigue/stress_path.h"
@@ -54,6 +55,14 @@ std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Coun
 std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
                                            const pipeline::Material& material,
                                            const pipeline::Fatigue& settings) {
+  if (!material.strain_life_table.empty()) {
+    const StrainLifeTable table(material.strain_life_table);
+    return list_cycles(
+        reversals, settings.counting, [&](double strain) { return material.youngs_modulus * strain; },
+        [&](double amplitude, double, double) {
+          return amplitude <= settings.endurance_strain ? 0 : table.damage(amplitude);
+        });
+  }
   const CyclicCurve cyclic(material);
   const StrainLife life(material, settings.mean_stress, settings.endurance_strain);
   const auto curve = [&](double strain) {
@@ -148,43 +157,43 @@ class CurveTable {
   LogTable table_;
 };
 
-}  // namespace
-
-/// What the loop of DamageCounter reads.
-struct DamageCounter::Tables {
+/// What the loop reads for a metal.
+struct MetalTables {
   // Morrow's axis is stretched by u^(1/(c-b)); these ends leave room for mean stresses of -2 sf to 0.999 sf.
-  static constexpr double morrow_room = 1e7;
+  // Walker's by (s_a/s_max)^(-(1-gamma)/b): for copper down to s_a = 0.03 s_max; beyond, lives are solved.
+  static constexpr double life_room = 1e7;
 
-  Tables(const pipeline::Material& m, const pipeline::Fatigue& f)
-      : material(m),
-        settings(f),
-        life(m, f.mean_stress, f.endurance_strain),
+  MetalTables(const pipeline::Material& m, const pipeline::Fatigue& f)
+      : life(m, f.mean_stress, f.endurance_strain),
         branch(CyclicCurve(m)),
         strain_damage(life.coffin_manson(), fewest_reversals / room(f), most_reversals * room(f)),
         swt_damage(life.swt(), fewest_reversals, most_reversals) {}
   static double room(const pipeline::Fatigue& f) {
-    return f.mean_stress == MeanStress::morrow ? morrow_room : 1;
+    return f.mean_stress == MeanStress::morrow || f.mean_stress == MeanStress::walker ? life_room : 1;
   }
 
   double morrow_damage(double amplitude, double stress_mean) const;
-  template <class Use>
-  auto with_functions(const Use& use) const;
+  double walker_damage(double amplitude, double stress_max, double stress_mean) const;
 
-  pipeline::Material material;
-  pipeline::Fatigue settings;
   StrainLife life;
   BranchTable branch;
   CurveTable strain_damage, swt_damage;
 };
 
-double DamageCounter::Tables::morrow_damage(double amplitude, double stress_mean) const {
+double MetalTables::walker_damage(double amplitude, double stress_max, double stress_mean) const {
+  if (stress_max <= 0) return 0;
+  const double stretch = life.walker_stretch(stress_max, stress_mean);
+  if (stretch < 1 / life_room || stretch > life_room) return life.damage({amplitude, stress_max, stress_mean});
+  const double damage = strain_damage(amplitude) / stretch;
+  return damage < 2 / most_reversals ? 0 : std::min(damage, 2 / fewest_reversals);
+}
+
+double MetalTables::morrow_damage(double amplitude, double stress_mean) const {
   if (stress_mean >= life.fatigue_strength()) return 2 / fewest_reversals;
   const StrainLife::MorrowScale scale = life.morrow_scale(stress_mean);  // (F8)
   const double damage = strain_damage(amplitude / scale.strain) / scale.life;
   return damage < 2 / most_reversals ? 0 : std::min(damage, 2 / fewest_reversals);
 }
-
-namespace {
 
 /// True if rises and falls take turns strictly, as dresslife-strain writes them. No branch: the compiler
 /// vectorises it.
@@ -293,6 +302,23 @@ double sum_repeating(std::span<const float> strains, const Range& stress_range, 
 
 }  // namespace
 
+struct DamageCounter::Tables {
+  Tables(const pipeline::Material& m, const pipeline::Fatigue& f) : material(m), settings(f) {
+    if (m.strain_life_table.empty()) {
+      metal.emplace(m, f);
+    } else {
+      measured.emplace(m.strain_life_table);
+    }
+  }
+  template <class Use>
+  auto with_functions(const Use& use) const;
+
+  pipeline::Material material;
+  pipeline::Fatigue settings;
+  std::optional<MetalTables> metal;          // one of the two
+  std::optional<StrainLifeTable> measured;
+};
+
 DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings)
     : tables_(std::make_unique<Tables>(material, settings)) {}
 DamageCounter::~DamageCounter() = default;
@@ -308,17 +334,24 @@ auto DamageCounter::Tables::with_functions(const Use& use) const {
                    return amplitude <= endurance ? 0.0 : damage(amplitude, max, mean);
                  });
     };
+    if (measured) return lasting([&](double amplitude, double, double) { return measured->damage(amplitude); });
     switch (settings.mean_stress) {
       case MeanStress::none:
-        return lasting([&](double amplitude, double, double) { return strain_damage(amplitude); });
+        return lasting([&](double amplitude, double, double) { return metal->strain_damage(amplitude); });
       case MeanStress::morrow:
-        return lasting([&](double amplitude, double, double mean) { return morrow_damage(amplitude, mean); });
+        return lasting(
+            [&](double amplitude, double, double mean) { return metal->morrow_damage(amplitude, mean); });
+      case MeanStress::walker:
+        return lasting([&](double amplitude, double max, double mean) {
+          return metal->walker_damage(amplitude, max, mean);
+        });
       case MeanStress::swt:
         break;
     }
-    return lasting([&](double amplitude, double max, double) { return swt_damage(max * amplitude); });
+    return lasting([&](double amplitude, double max, double) { return metal->swt_damage(max * amplitude); });
   };
-  if (settings.stress == Stress::cyclic) return with_damage([&](double range) { return branch(range); });
+  if (metal && settings.stress == Stress::cyclic)
+    return with_damage([&](double range) { return metal->branch(range); });
   return with_damage([modulus = material.youngs_modulus](double range) { return modulus * range; });
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "fatigue/conductors.h"
 #include "fatigue/stress_path.h"
 #include "fatigue/verdict.h"
 #include "pipeline/readable.h"
@@ -156,6 +157,45 @@ void write_layers(const Context& c) {
   put(c.life, "/layer/damage", damage_at(c, worst));
 }
 
+/// The worst wire of a conductor, when its neighbours have left it their load.
+std::vector<double> sharing_rates_of(const Context& c, std::size_t worst, std::size_t wires) {
+  const DamageCounter& counter = c.counters[c.sites.material().index[worst]];
+  DamageCounter::Workspace workspace;
+  std::vector<float> strains, scaled;
+  for (const Reversal& r : c.sites.reversals_of(worst)) strains.push_back(static_cast<float>(r.strain));
+  return sharing_rates(wires, [&](double factor) {
+    scaled.clear();
+    for (const float strain : strains) scaled.push_back(static_cast<float>(factor * strain));
+    return counter(scaled, workspace);
+  });
+}
+
+void write_scatter(const Context& c) {
+  Conductors conductors = conductors_of(c.damage, c.component, layer_names(c.job.dresspack));
+  std::vector<std::uint32_t> wires;
+  std::vector<double> lives;
+  for (std::size_t k = 0; k < conductors.path.size(); ++k) {
+    Bundle& bundle = conductors.bundle[k];
+    wires.push_back(static_cast<std::uint32_t>(bundle.damage.size()));
+    if (c.job.fatigue.load_sharing)
+      bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
+  }
+  const LifeScatter scatter = life_scatter(conductors, c.job.fatigue);
+  for (const FailureLives& conductor : scatter.conductor) {
+    for (const Percentiles& failure : conductor) lives.insert(lives.end(), failure.begin(), failure.end());
+  }
+  put(c.life, "/conductor/component", conductors.path);
+  put(c.life, "/conductor/wires", wires);
+  put(c.life, "/conductor/worst_site", as_index(conductors.worst));
+  put(c.life, "/conductor/life", lives);
+  const std::array<const char*, percentiles.size()> ends{"p10", "p50", "p90"};
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    c.life.attribute(fmt::format("life_hours_{}", ends[i]), hours(scatter.first_wire[i], c.repeat_seconds()));
+    c.life.attribute(fmt::format("conductor_life_hours_{}", ends[i]),
+                     hours(scatter.first_conductor[i], c.repeat_seconds()));
+  }
+}
+
 std::vector<double> worst_strain(const Context& c) {
   if (c.worst == no_site) return std::vector<double>(c.time.size(), 0.0);
   const auto probed = c.strain.read<std::uint32_t>("/probe/site");
@@ -221,8 +261,9 @@ void write_bound(const Context& c, const std::string& name, const std::function<
 std::vector<std::string> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
   std::set<std::string> warnings;  // sorted and once each
   for (const std::string& name : c.sites.material().values) {
-    if (c.job.fatigue.stress != pipeline::Stress::cyclic) break;
-    const std::string warning = compatibility_warning(pipeline::material_of(c.job, name));
+    const pipeline::Material& material = pipeline::material_of(c.job, name);
+    if (c.job.fatigue.stress != pipeline::Stress::cyclic || !material.strain_life_table.empty()) continue;
+    const std::string warning = compatibility_warning(material);
     if (!warning.empty()) warnings.insert("warning: " + warning);
   }
   const auto torn = std::count_if(worst_cycles.begin(), worst_cycles.end(), [](const DamagingCycle& d) {
@@ -253,6 +294,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_listed_cycles(c);
   write_segments(c);
   write_layers(c);
+  write_scatter(c);
   write_program(c, cycles);
   put(life, "/worst/strain", worst_strain(c));
   const std::string summary = write_worst(c, cycles);

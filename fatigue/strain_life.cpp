@@ -10,6 +10,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+constexpr double swt_walker_exponent = 0.5;  // for which s_max^(1-gamma) s_a^gamma is SWT's sqrt(s_max s_a)
+
 double bounded(double reversals) {
   return reversals > most_reversals ? infinity : std::max(reversals, fewest_reversals);
 }
@@ -51,7 +53,8 @@ StrainLife::StrainLife(const pipeline::Material& m, pipeline::MeanStress mean_st
                      m.fatigue_ductility_exponent),
       swt_(m.fatigue_strength * m.fatigue_strength / m.youngs_modulus, 2 * m.fatigue_strength_exponent,
            m.fatigue_strength * m.fatigue_ductility,
-           m.fatigue_strength_exponent + m.fatigue_ductility_exponent) {}
+           m.fatigue_strength_exponent + m.fatigue_ductility_exponent),
+      walker_power_(-(1 - m.walker_exponent.value_or(swt_walker_exponent)) / m.fatigue_strength_exponent) {}
 
 double StrainLife::reversals(const Load& load) const {
   if (load.strain_amplitude <= endurance_strain_ || load.strain_amplitude == 0) return infinity;
@@ -67,6 +70,10 @@ double StrainLife::reversals(const Load& load) const {
       const MorrowScale scale = morrow_scale(load.stress_mean);
       return bounded(scale.life * coffin_manson_.inverse(load.strain_amplitude / scale.strain));
     }
+    case pipeline::MeanStress::walker:
+      if (load.stress_max <= 0) return infinity;
+      return bounded(walker_stretch(load.stress_max, load.stress_mean) *
+                     coffin_manson_.inverse(load.strain_amplitude));
   }
   assert(false);
   return infinity;
@@ -88,10 +95,34 @@ double StrainLife::modified_morrow_reversals(double strain_amplitude, double str
   return bounded(stretch * coffin_manson_.inverse(strain_amplitude));
 }
 
+double StrainLife::walker_stretch(double stress_max, double stress_mean) const {
+  assert(stress_max > 0);
+  return std::pow((stress_max - stress_mean) / stress_max, walker_power_);
+}
+
 double StrainLife::transition_reversals() const {
   const pipeline::Material& m = material_;
   return std::pow(m.fatigue_ductility * m.youngs_modulus / m.fatigue_strength,
                   1 / (m.fatigue_strength_exponent - m.fatigue_ductility_exponent));
+}
+
+StrainLifeTable::StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points) {
+  assert(points.size() >= 2);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double fall = std::log(points[i + 1].strain_amplitude / points[i].strain_amplitude);
+    const double rise = std::log(points[i + 1].cycles / points[i].cycles);
+    assert(fall < 0 && rise > 0);
+    pieces_.push_back({std::log(points[i].strain_amplitude), std::log(points[i].cycles), rise / fall});
+  }
+}
+
+double StrainLifeTable::cycles(double strain_amplitude) const {
+  if (strain_amplitude <= 0) return infinity;
+  const double log_strain = std::log(strain_amplitude);
+  std::size_t i = 0;
+  while (i + 1 < pieces_.size() && log_strain < pieces_[i + 1].log_strain) ++i;
+  const Piece& piece = pieces_[i];
+  return bounded(2 * std::exp(piece.log_cycles + piece.slope * (log_strain - piece.log_strain))) / 2;
 }
 
 }  // namespace dresslife::fatigue

@@ -4,8 +4,10 @@
 //   Coffin-Manson (8):  eps_a = sf/E (2N)^b + ef (2N)^c
 //   SWT (9):            s_max eps_a = sf^2/E (2N)^(2b) + sf ef (2N)^(b+c);  s_max <= 0: no damage
 //   Morrow (F7):        eps_a = (sf - s_m)/E (2N)^b + ef (2N)^c
-// (numbers as in the thesis by S. Backman, 2018; Morrow 1968; Smith, Watson and Topper 1970). Damage of a
-// cycle: 1/N.
+//   Walker (F12):       eps_a read on (8) gives 2N*; 2N = 2N* (s_a/s_max)^(-(1-gamma)/b), s_a = s_max - s_m;
+//                       s_max <= 0: no damage
+// (numbers as in the thesis by S. Backman, 2018; Morrow 1968; Smith, Watson and Topper 1970; Walker 1970 in
+// the strain-life form of Dowling 2009). Damage of a cycle: 1/N.
 //
 // Lives are solved over 1 <= 2N <= 1e15. A load beyond the curve at 2N = 1 breaks the wire on its first
 // reversal: 2N = 1 and a damage of 2 per cycle, whatever the excess; the curve says nothing there. A life
@@ -66,6 +68,8 @@ class StrainLife {
 
   /// Modified Morrow (Manson and Halford 1981), u^(c/b) on the plastic term too: 2N = u^(-1/b) times (8)'s.
   double modified_morrow_reversals(double strain_amplitude, double stress_mean) const;
+  /// 2N / 2N* of (F12): below 1 for tension. Precondition: s_max > 0.
+  double walker_stretch(double stress_max, double stress_mean) const;
   /// 2N at which elastic and plastic amplitude are equal.
   double transition_reversals() const;
   double fatigue_strength() const { return material_.fatigue_strength; }
@@ -75,6 +79,24 @@ class StrainLife {
   pipeline::MeanStress mean_stress_;
   double endurance_strain_;
   PowerSum coffin_manson_, swt_;
+  double walker_power_;  // -(1-gamma)/b
+};
+
+/// Life from measured points (eps_a, N), straight between them in log eps_a and log N (F13); beyond the first
+/// and the last the end pieces go on, within the same 1 <= 2N <= 1e15. For polymers, which (8) does not fit.
+/// Mean stress and strain are those of the test: no correction applies.
+class StrainLifeTable {
+ public:
+  /// Precondition: at least two points, strains falling, cycles rising.
+  explicit StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points);
+  double cycles(double strain_amplitude) const;  ///< N; infinity where the load does no damage
+  double damage(double strain_amplitude) const { return 1 / cycles(strain_amplitude); }
+
+ private:
+  struct Piece {
+    double log_strain, log_cycles, slope;  // at its larger strain; d ln N / d ln eps
+  };
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace dresslife::fatigue

@@ -89,6 +89,10 @@ Format make_life_format() {
       {"/layer/component", Type::text, {"layer"}, "1", "path of a layer of wires: /site/component without part numbers"},
       {"/layer/worst_site", Type::u32, {"layer"}, "1", "site with the largest damage in the layer"},
       {"/layer/damage", Type::f64, {"layer"}, "1", "its damage per repeat"},
+      {"/conductor/component", Type::text, {"conductor"}, "1", "path of each part that holds wires", false, true},
+      {"/conductor/wires", Type::u32, {"conductor"}, "1", "its wires", false, true},
+      {"/conductor/worst_site", Type::u32, {"conductor"}, "1", "its site with the largest damage", false, true},
+      {"/conductor/life", Type::f64, {"conductor", "3", "3"}, "1", "repeats until its first wire, fatigue.failed_wires_percent of them, and all have broken (rows), in 10, 50 and 90 % of cases (columns)", true, true},
       {"/worst/strain", Type::f64, {"sample"}, "1", "strain history of the worst site: its probe, or straight between its turning points"},
       {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
       {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
@@ -112,6 +116,12 @@ Format make_life_format() {
       {"worst_component", "path of its wire", true},
       {"worst_time", "time at which its most damaging cycle closes, s"},
       {"worst_step", "program line being executed then", true},
+      {"life_hours_p10", "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)", false, true},
+      {"life_hours_p50", "the same of half of them: earlier than life_hours, since any of many wires may be the first", false, true},
+      {"life_hours_p90", "the same of 90 %", false, true},
+      {"conductor_life_hours_p10", "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires broken", false, true},
+      {"conductor_life_hours_p50", "the same of half of them", false, true},
+      {"conductor_life_hours_p90", "the same of 90 %", false, true},
   };
   return format;
 }

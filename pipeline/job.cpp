@@ -108,17 +108,27 @@ void describe(Fields& f, Motion& motion) {
          "CSV with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and tool clamp (s, m)");
 }
 
+void describe(Fields& f, StrainLifePoint& point) {
+  f.number("strain_amplitude", point.strain_amplitude, Need::required, between(1e-9, 10), "half the strain range of the test");
+  f.number("cycles", point.cycles, Need::required, between(0.5, 1e15), "to failure, median");
+}
+
 void describe(Fields& f, Material& material) {
+  f.place(material.where);
   f.text("name", material.name, Need::required, "name, as the wires call it");
   f.text("source", material.source, Need::required, "where the constants come from");
   f.number("youngs_modulus_GPa", material.youngs_modulus, Need::required, above(0), "E");
   f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "nu");
+  f.list("strain_life_table", material.strain_life_table, Need::optional,
+         "measured points, larger strains first, instead of the keys below: for polymers; log-log between them");
+  if (!material.strain_life_table.empty()) return;
   f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0), "sigma_f' of (8)");
   f.number("fatigue_strength_exponent", material.fatigue_strength_exponent, Need::required, between(-1, -1e-3), "b of (8)");
   f.number("fatigue_ductility", material.fatigue_ductility, Need::required, above(0), "epsilon_f' of (8)");
   f.number("fatigue_ductility_exponent", material.fatigue_ductility_exponent, Need::required, between(-2, -1e-2), "c of (8)");
   f.maybe_number("cyclic_strength_MPa", material.cyclic_strength, above(0), "K'; without it sigma_f'/epsilon_f'^n'");
   f.maybe_number("cyclic_hardening_exponent", material.cyclic_hardening_exponent, between(0.01, 1), "n'; without it b/c");
+  f.maybe_number("walker_exponent", material.walker_exponent, between(0, 1), "gamma of mean_stress walker; without it 0.5");
 }
 
 void describe(Fields& f, Component& component) {
@@ -196,13 +206,19 @@ void describe(Fields& f, Strain& strain) {
 
 void describe(Fields& f, Fatigue& fatigue) {
   f.choice("stress", fatigue.stress, {"cyclic", "elastic"}, "Ramberg-Osgood with Masing memory, or E times strain");
-  f.choice("mean_stress", fatigue.mean_stress, {"none", "morrow", "swt"}, "correction of the strain-life curve");
+  f.choice("mean_stress", fatigue.mean_stress, {"none", "morrow", "swt", "walker"}, "correction of the strain-life curve");
   f.choice("counting", fatigue.counting, {"repeating", "half_cycles"}, "rainflow of an endlessly repeated motion, or of one run");
   f.number("endurance_strain", fatigue.endurance_strain, Need::optional, between(0, 0.1), "amplitudes up to this do no damage");
   f.text("material", fatigue.material, Need::optional, "of every wire, instead of its own");
   f.integer("listed_sites", fatigue.listed_sites, Need::optional, between(1, 10000), "worst sites whose cycles are written");
   f.number("operating_hours_per_week", fatigue.operating_hours_per_week, Need::optional, between(0.1, 168),
            "turns hours of motion into months");
+  f.number("scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
+           "standard deviation of log10 of a wire's life; ESTIMATE, as DNV-RP-C203 takes for steel");
+  f.number("failed_wires_percent", fatigue.failed_wires_percent, Need::optional, between(0, 100),
+           "a conductor fails when so many of its wires are broken; 0: with the first");
+  f.boolean("load_sharing", fatigue.load_sharing, Need::optional,
+            "whether the rest of a conductor takes over the load of its broken wires");
 }
 
 void describe(Fields& f, Job& job) {
@@ -357,6 +373,19 @@ void check_dresspack(const Job& job, const Where& where) {
                      "give one word, or one per level, outermost first");
 }
 
+void check_materials(const Job& job) {
+  for (const Material& material : job.dresspack.materials) {
+    const auto& table = material.strain_life_table;
+    if (table.size() == 1)
+      throw InputError(material.where, fmt::format("strain_life_table of '{}' has one point", material.name), "give at least two");
+    for (std::size_t i = 1; i < table.size(); ++i)
+      if (!(table[i].strain_amplitude < table[i - 1].strain_amplitude && table[i].cycles > table[i - 1].cycles))
+        throw InputError(material.where,
+                         fmt::format("point {} of strain_life_table of '{}' is no smaller strain with a longer life", i + 1, material.name),
+                         "order the points by falling strain amplitude and rising cycles");
+  }
+}
+
 void check_simulation(const Simulation& simulation, const Where& where) {
   const double steps = 1 / (simulation.sample_rate * simulation.time_step);
   if (steps < 0.999 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
@@ -371,6 +400,7 @@ void check(const Job& job, const Node& document) {
   check_motion(job.motion, job.robot);
   check_routing(job);
   check_dresspack(job, where("strain"));
+  check_materials(job);
   check_simulation(job.simulation, where("simulation"));
 }
 

@@ -117,6 +117,12 @@ struct Motion {
 
 // ---- dresspack --------------------------------------------------------------------------------------------
 
+/// One measured point of a strain-life curve.
+struct StrainLifePoint {
+  double strain_amplitude = 0;
+  double cycles = 0;
+};
+
 struct Material {
   std::string name, source;
   double youngs_modulus = 0;              ///< E [Pa]
@@ -127,6 +133,9 @@ struct Material {
   double fatigue_ductility_exponent = 0;  ///< c
   std::optional<double> cyclic_strength;  ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
   std::optional<double> cyclic_hardening_exponent;  ///< n'; absent: b / c
+  std::optional<double> walker_exponent;  ///< gamma; absent: 0.5, that of SWT
+  std::vector<StrainLifePoint> strain_life_table;  ///< instead of sigma_f' to n', for polymers; larger strains first
+  Where where;
 };
 
 enum class Hand { right, left };
@@ -207,7 +216,7 @@ struct Strain {
 };
 
 enum class Stress { cyclic, elastic };
-enum class MeanStress { none, morrow, swt };
+enum class MeanStress { none, morrow, swt, walker };
 enum class Counting { repeating, half_cycles };
 
 struct Fatigue {
@@ -218,6 +227,9 @@ struct Fatigue {
   std::string material;                 ///< of every wire instead of its own; empty: its own
   int listed_sites = 20;                ///< worst sites whose cycles are written
   double operating_hours_per_week = 80; ///< turns hours into months
+  double scatter_log10 = 0.2;           ///< standard deviation of log10 of a wire's life
+  double failed_wires_percent = 10;     ///< a conductor fails when so many of its wires have
+  bool load_sharing = false;            ///< the rest of a conductor takes over the load of its broken wires
 };
 
 struct Job {

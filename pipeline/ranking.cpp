@@ -13,6 +13,17 @@
 namespace dresslife::pipeline {
 namespace {
 
+void read_scatter(const FileReader& file, RankingRow& row) {
+  const std::array<const char*, 3> ends{"p10", "p50", "p90"};
+  const auto read = [&](const std::string& name, double& value) {
+    if (file.has_attribute(name)) value = file.number_attribute(name);
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    read(fmt::format("life_hours_{}", ends[i]), row.first_wire_hours[i]);
+    read(fmt::format("conductor_life_hours_{}", ends[i]), row.conductor_hours[i]);
+  }
+}
+
 RankingRow read_row(const JobResult& result) {
   RankingRow row;
   row.job = result.name;
@@ -28,6 +39,7 @@ RankingRow read_row(const JobResult& result) {
     row.life_repeats_all_free = file.number_attribute("life_repeats_all_free");
     row.repeat_seconds = file.number_attribute("repeat_seconds");
     row.damage_per_repeat = file.number_attribute("damage_per_repeat");
+    read_scatter(file, row);
     if (file.number_attribute("worst_site") < 0) return row;
     row.worst_segment_from_tool = static_cast<int>(file.number_attribute("worst_segment_from_tool"));
     row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
@@ -89,7 +101,12 @@ std::string story(const RankingRow& row) {
   if (row.worst_component.empty()) return "no wire was evaluated";
   if (!(row.damage_per_repeat > 0)) return "no damage";
   const std::string during = row.worst_step.empty() ? "" : " during '" + row.worst_step + "'";
-  return fmt::format("{} breaks first, worst at {:.1f} s{}", row.worst_component, row.worst_time, during);
+  const std::string scatter =
+      std::isnan(row.first_wire_hours[0])
+          ? ""
+          : fmt::format("; first break {} .. {} h by scatter", life_text(row.first_wire_hours[0]),
+                        life_text(row.first_wire_hours[2]));
+  return fmt::format("{} breaks first, worst at {:.1f} s{}{}", row.worst_component, row.worst_time, during, scatter);
 }
 
 std::string one_line(std::string text) {
@@ -113,14 +130,15 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
   std::string text =
       "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,life_months,"
       "life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,worst_time_s,worst_step,"
-      "status,message\n";
+      "status,message,life_hours_p10,life_hours_p50,life_hours_p90,conductor_life_hours_p10,"
+      "conductor_life_hours_p50,conductor_life_hours_p90\n";
   for (const RankingRow& row : rows) {
     if (!row.done()) {
-      text += fmt::format("{},,,,,,,,,,,,failed,{}\n", csv_cell(row.job), csv_cell(row.failure));
+      text += fmt::format("{},,,,,,,,,,,,failed,{},,,,,,\n", csv_cell(row.job), csv_cell(row.failure));
       continue;
     }
     const bool evaluated = row.worst_segment_from_tool > 0;
-    const std::array<std::string, 14> cells{row.job,
+    std::vector<std::string> cells{row.job,
                                             shortest_text(row.life_repeats),
                                             shortest_text(row.life_hours),
                                             evaluated ? std::to_string(row.worst_segment_from_tool) : "",
@@ -134,6 +152,8 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
                                             row.worst_step,
                                             "done",
                                             ""};
+    for (const auto* lives : {&row.first_wire_hours, &row.conductor_hours})
+      for (const double life : *lives) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }

@@ -233,6 +233,13 @@ std::string facts(const RankingRow& row) {
   fact("bounds",
        fmt::format("{} (all stick) .. {} (all free)", hours_words(row.hours_of(row.life_repeats_all_stick)),
                    hours_words(row.hours_of(row.life_repeats_all_free))));
+  const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
+    if (!std::isnan(lives[0]))
+      fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks", hours_words(lives[0]),
+                             hours_words(lives[1]), hours_words(lives[2])));
+  };
+  scatter("first broken wire", row.first_wire_hours);
+  scatter("first failed conductor", row.conductor_hours);
   if (damaged(row)) {
     fact("breaks first", escaped(row.worst_component));
     fact("where", place_words(row));

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numeric>
 
+#include "fatigue/scatter.h"
 #include "fatigue/verdict.h"
 #include "tests/fatigue/materials.h"
 
@@ -256,6 +257,38 @@ TEST_CASE("life.h5: the bounds are the lives of their own sites") {
   CHECK(life.number_attribute("life_repeats_all_free") == Approx(free).epsilon(DamageCounter::table_error));
   CHECK(life.number_attribute("life_hours_all_free") ==
         Approx(free * duration / 3600).epsilon(DamageCounter::table_error));
+}
+
+TEST_CASE("life.h5: percentiles of the first wire and of the conductors") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  const Result result = run(folder, example(), job);
+  const FileReader life(result.file, pipeline::life_format());
+  const auto damage = life.read<double>("/damage");
+  CHECK(life.read<std::string>("/conductor/component") == std::vector<std::string>{"cable 1", "cable 2"});
+  CHECK(life.read<std::uint32_t>("/conductor/wires") == std::vector<std::uint32_t>{2, 2});
+  CHECK(life.read<std::uint32_t>("/conductor/worst_site") == std::vector<std::uint32_t>{2, 3});
+  // Four wires; each by its worst segment.
+  const std::vector<double> wires{damage[2], damage[1], damage[3], damage[4]};
+  const double half = life_until(wires, 1, job.fatigue.scatter_log10, 0.5);
+  CHECK(life.number_attribute("life_hours_p50") == Approx(hours(half, duration)).epsilon(same_sum));
+  CHECK(half < life.number_attribute("life_repeats"));
+  const auto lives = life.read<double>("/conductor/life");
+  REQUIRE(lives.size() == 2 * 9);
+  CHECK(lives[9 + 6 + 2] == life_until(std::vector{damage[3], damage[4]}, 2, job.fatigue.scatter_log10, 0.9));
+
+  job.fatigue.scatter_log10 = 0;
+  const Result exact = run(folder, example(), job, "exact.h5");
+  const FileReader sharp(exact.file, pipeline::life_format());
+  for (const char* end : {"p10", "p50", "p90"})
+    CHECK(sharp.number_attribute(fmt::format("life_hours_{}", end)) == sharp.number_attribute("life_hours"));
+  job.fatigue.load_sharing = true;
+  const Result shared = run(folder, example(), job, "shared.h5");
+  const auto together = FileReader(shared.file, pipeline::life_format()).read<double>("/conductor/life");
+  const auto alone = sharp.read<double>("/conductor/life");
+  CHECK(together[9] == Approx(alone[9]).epsilon(same_sum));  // the first wire breaks when it did
+  CHECK(together[9 + 6] < alone[9 + 6]);                     // the last one sooner
+  CHECK(together[9 + 6] > alone[9]);
 }
 
 TEST_CASE("life.h5: the worst strain is its probe, or straight between its reversals") {

@@ -1,0 +1,81 @@
+#include "fatigue/conductors.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace dresslife::fatigue {
+namespace {
+
+constexpr int sharing_draws = 1000;  // a percentile's place in the distribution is then known to 1.6 % or better
+
+std::string parent_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+/// Damage of each wire: (component).
+std::vector<std::size_t> worst_site_of_wires(const SiteDamage& all, const TextColumn& component) {
+  return worst_by_group(all, component.values.size(),
+                        [&](std::size_t site) { return static_cast<std::size_t>(component.index[site]); });
+}
+
+}  // namespace
+
+std::string conductor_of(const std::string& wire, const std::vector<std::string>& layer_names) {
+  const std::string parent = parent_of(wire);
+  const std::string last = parent.substr(parent.rfind('/') + 1);  // npos + 1 is 0
+  const bool layer = std::find(layer_names.begin(), layer_names.end(), last) != layer_names.end();
+  return layer ? parent_of(parent) : parent;
+}
+
+Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
+                         const std::vector<std::string>& layer_names) {
+  Conductors result;
+  std::unordered_map<std::string, std::size_t> known;
+  const std::vector<std::size_t> worst = worst_site_of_wires(all, component);
+  for (std::size_t wire = 0; wire < worst.size(); ++wire) {
+    const std::string path = conductor_of(component.values[wire], layer_names);
+    const auto [entry, fresh] = known.emplace(path, result.path.size());
+    if (fresh) {
+      result.path.push_back(path);
+      result.bundle.emplace_back();
+      result.worst.push_back(worst[wire]);
+    }
+    result.bundle[entry->second].damage.push_back(all.damage[worst[wire]]);
+    std::size_t& leader = result.worst[entry->second];
+    if (all.worse(worst[wire], leader)) leader = worst[wire];
+  }
+  return result;
+}
+
+std::vector<double> sharing_rates(std::size_t wires, const std::function<double(double)>& scaled_damage) {
+  std::vector<double> rates(wires, 1.0);
+  const double alone = scaled_damage(1);
+  if (!(alone > 0)) return rates;
+  for (std::size_t broken = 1; broken < wires; ++broken)
+    rates[broken] = scaled_damage(double(wires) / double(wires - broken)) / alone;
+  return rates;
+}
+
+LifeScatter life_scatter(const Conductors& conductors, const pipeline::Fatigue& settings) {
+  LifeScatter result;
+  std::vector<double> all_wires;
+  for (const Bundle& bundle : conductors.bundle)
+    all_wires.insert(all_wires.end(), bundle.damage.begin(), bundle.damage.end());
+  for (std::size_t i = 0; i < percentiles.size(); ++i)
+    result.first_wire[i] = life_until(all_wires, 1, settings.scatter_log10, percentiles[i]);
+  if (settings.load_sharing) {
+    SharedLives shared = shared_lives(conductors.bundle, settings.failed_wires_percent,
+                                      settings.scatter_log10, sharing_draws);
+    result.conductor = std::move(shared.conductor);
+    result.first_conductor = shared.first_conductor;
+    return result;
+  }
+  for (const Bundle& bundle : conductors.bundle)
+    result.conductor.push_back(conductor_lives(bundle, settings.failed_wires_percent, settings.scatter_log10));
+  result.first_conductor =
+      first_conductor_lives(conductors.bundle, settings.failed_wires_percent, settings.scatter_log10);
+  return result;
+}
+
+}  // namespace dresslife::fatigue

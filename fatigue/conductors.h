@@ -1,0 +1,43 @@
+// The conductors of a dresspack as bundles of wires, and how much longer than its first wire each lasts.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fatigue/scatter.h"
+#include "fatigue/strain_file.h"
+#include "fatigue/verdict.h"
+#include "pipeline/job.h"
+
+namespace dresslife::fatigue {
+
+/// Path of the part that holds this wire: "cable 3/conductor 2/layer 1/wire 17" lies in "cable 3/conductor 2",
+/// "wire 5" in the dresspack, "". Layers are no parts.
+std::string conductor_of(const std::string& wire, const std::vector<std::string>& layer_names);
+
+struct Conductors {
+  std::vector<std::string> path;   ///< (conductor) in order of appearance
+  std::vector<Bundle> bundle;      ///< (conductor)
+  std::vector<std::size_t> worst;  ///< (conductor) its site with the largest damage
+};
+
+/// All wires of a set of sites; component (site) names each one's wire. A wire's damage is that of its worst
+/// site.
+Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
+                         const std::vector<std::string>& layer_names);
+
+/// (F14) With k of n wires broken the rest strain n/(n-k) times as much; rate[k] is the damage then, over the
+/// damage before, of the conductor's worst wire, whose damage under a scaled history is `scaled_damage(factor)`.
+/// An upper bound: bending imposes its strain on every wire alone, only a pull is shared.
+std::vector<double> sharing_rates(std::size_t wires, const std::function<double(double)>& scaled_damage);
+
+/// Percentiles of the life of one kind.
+struct LifeScatter {
+  Percentiles first_wire, first_conductor;  ///< of the whole dresspack
+  std::vector<FailureLives> conductor;      ///< (conductor)
+};
+/// Lives in repeats. Precondition for load_sharing: bundles with rates.
+LifeScatter life_scatter(const Conductors& conductors, const pipeline::Fatigue& settings);
+
+}  // namespace dresslife::fatigue

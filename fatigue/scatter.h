@@ -1,0 +1,71 @@
+// Scatter of life: when the first wires break, and when so many have broken that a conductor fails.
+//
+// Every wire's life is the life of its worst place by the curves, which are medians, times a lognormal factor
+// (F12): log10(life) = log10(median) + s z, z normal, one z per wire. So a wire has broken by time t with
+// probability
+//     p(t) = Phi(log10(t / median) / s)
+// and k of n wires with the upper tail of the Poisson-binomial distribution of their p (F13); percentiles are
+// found by bisection in log t. All lives are in repeats of the motion.
+//
+// Assumptions: wires are independent of each other (one spool's common part of the scatter is left out); the
+// places of one wire are not (one z, since a segment is no piece of metal of its own); a wire counts as broken
+// wherever along the dresspack it breaks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dresslife::fatigue {
+
+/// Shares of all dresspacks that have failed by the life that is told.
+constexpr std::array<double, 3> percentiles{0.1, 0.5, 0.9};
+using Percentiles = std::array<double, percentiles.size()>;
+
+/// When a conductor has failed: its first wire, a share of its wires, or all of them.
+constexpr std::size_t failures = 3;
+using FailureLives = std::array<Percentiles, failures>;
+
+/// Share of wires of this median life that have broken by `time`. s = 0: 0 before, 1 from the median on.
+double broken_share(double time, double median_life, double scatter_log10);
+
+/// P(at least `count` of independent events happen), (event) -> probability. 0 <= count.
+double at_least(std::span<const double> probability, std::size_t count);
+
+/// Wires that must break before a share of `wires` has: at least one.
+std::size_t wires_of_share(double percent, std::size_t wires);
+
+/// Life by which at least `count` of the wires have broken in `share` of all cases. damage (wire): per repeat,
+/// by the median curves. Infinite when fewer wires are damaged at all. Precondition: count >= 1.
+double life_until(std::span<const double> damage, std::size_t count, double scatter_log10, double share);
+
+/// The wires of one conductor.
+struct Bundle {
+  std::vector<double> damage;  ///< (wire) per repeat of its worst place
+  /// (broken) how much faster the rest is damaged when so many have broken; empty: no faster.
+  std::vector<double> rate;
+};
+
+/// Lives of one conductor whose wires do not take over load: (F13).
+FailureLives conductor_lives(const Bundle& bundle, double failed_percent, double scatter_log10);
+
+/// Life by which the first of several conductors has lost `failed_percent` of its wires.
+Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent, double scatter_log10);
+
+/// What happens when the rest of a conductor takes over the load of its broken wires (F14).
+struct SharedLives {
+  std::vector<FailureLives> conductor;  ///< (conductor)
+  Percentiles first_conductor;
+};
+
+/// The same with Bundle::rate, by `draws` draws of all wires with a fixed seed. With k broken, every wire left
+/// is damaged rate[k] times as fast; in the time that runs faster by that factor the wires break as if
+/// nothing were shared, so one sorting of a draw gives all its breaks.
+SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent, double scatter_log10,
+                         int draws);
+
+/// A number from the standard normal distribution, the same for the same pair on every machine.
+double normal_of(std::uint64_t stream, std::uint64_t draw);
+
+}  // namespace dresslife::fatigue
