@@ -169,7 +169,7 @@ TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are to
   check_case({"segments: 20", "segments: 20.5", "20.5",
               "simulation.segments is 20.5 (must be a whole number); give rigid segments of the chain"});
   check_case({"mean_stress: swt", "mean_stress: goodman", "goodman",
-              "fatigue.mean_stress is 'goodman' (must be none | morrow | swt); give correction of the "
+              "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give correction of the "
               "strain-life curve"});
   check_case({"slip: [stick, free]", "slip: [stick, glued]", "glued",
               "strain.slip is 'glued' (must be free | stick); give between a part and its parent; one word, "
