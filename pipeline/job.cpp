@@ -121,7 +121,8 @@ void describe(Fields& f, Material& material) {
   f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "nu");
   f.list("strain_life_table", material.strain_life_table, Need::optional,
          "measured points, larger strains first, instead of the keys below: for polymers; log-log between them");
-  if (!material.strain_life_table.empty()) return;
+  const bool measured = !material.strain_life_table.empty() && material.strain_life_table.front().cycles > 0;
+  if (measured) return;  // the manual's one point is without cycles: there the other keys follow
   f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0), "sigma_f' of (8)");
   f.number("fatigue_strength_exponent", material.fatigue_strength_exponent, Need::required, between(-1, -1e-3), "b of (8)");
   f.number("fatigue_ductility", material.fatigue_ductility, Need::required, above(0), "epsilon_f' of (8)");

@@ -148,3 +148,45 @@ TEST_CASE("thesis materials: aluminium dies first, and elastic stress cuts coppe
           Approx(StrainLife(copper(), MeanStress::none).reversals({amplitude, 0, 0})).epsilon(published));
   }
 }
+
+TEST_CASE("Walker: (8) at zero mean, SWT's amplitude at gamma 1/2, no mean stress effect at gamma 1") {
+  auto m = copper();
+  const StrainLife half(m, MeanStress::walker), none(m, MeanStress::none);
+  CHECK(half.reversals({0.002, 300e6, 0}) == Approx(none.reversals({0.002, 0, 0})).epsilon(round_trip));
+  CHECK(half.reversals({0.002, -1, -300e6}) == infinity);
+  CHECK(half.reversals({0.002, 0, -300e6}) == infinity);
+  m.walker_exponent = 1;
+  CHECK(StrainLife(m, MeanStress::walker).reversals({0.002, 300e6, 100e6}) ==
+        Approx(none.reversals({0.002, 0, 0})).epsilon(round_trip));
+  // Where a wire stays elastic, (8) is sf' (2N)^b = stress amplitude, and Walker's equivalent amplitude
+  // s_max^(1-gamma) s_a^gamma must give the same life through it.
+  for (const double gamma : {0.3, 0.5, 0.8}) {
+    auto elastic = copper();
+    elastic.fatigue_ductility = 1e-9;  // nothing plastic
+    elastic.walker_exponent = gamma;
+    const double max = 150e6, mean = 70e6, amplitude = max - mean;
+    const double equivalent = std::pow(max, 1 - gamma) * std::pow(amplitude, gamma);
+    CHECK(StrainLife(elastic, MeanStress::walker)
+              .reversals({amplitude / elastic.youngs_modulus, max, mean}) ==
+          Approx(std::pow(equivalent / elastic.fatigue_strength, 1 / -0.112)).epsilon(1e-4));  // 1e-9 of ductility
+  }
+}
+
+TEST_CASE("strain-life table: through its points, straight in logarithms, on beyond its ends, and bounded") {
+  const StrainLifeTable table({{0.1, 1e3}, {0.01, 1e5}, {0.005, 1e8}});
+  CHECK(table.cycles(0.1) == Approx(1e3).epsilon(round_trip));
+  CHECK(table.cycles(0.01) == Approx(1e5).epsilon(round_trip));
+  CHECK(table.cycles(0.005) == Approx(1e8).epsilon(round_trip));
+  CHECK(table.cycles(std::sqrt(0.1 * 0.01)) == Approx(1e4).epsilon(round_trip));
+  CHECK(table.cycles(0.2) == Approx(1e3 / 4).epsilon(round_trip));  // slope -2 of the first piece
+  CHECK(table.cycles(0.0025) == Approx(1e11).epsilon(round_trip));  // slope -3/log10(2) of the last
+  CHECK(table.damage(0.01) == Approx(1e-5).epsilon(round_trip));
+  CHECK(table.cycles(100) == 0.5);
+  CHECK(table.cycles(1e-5) == infinity);
+  CHECK(table.damage(0) == 0);
+  // Points of a power law give the power law back between and beyond them.
+  const auto power = [](double strain) { return 2e-3 * std::pow(strain, -4.5); };
+  const StrainLifeTable line({{0.08, power(0.08)}, {0.03, power(0.03)}, {0.004, power(0.004)}});
+  for (const double strain : {0.1, 0.05, 0.02, 0.004, 0.003})
+    CHECK(line.cycles(strain) == Approx(power(strain)).epsilon(round_trip));
+}

@@ -212,6 +212,31 @@ TEST_CASE("job: lists have the length that they must have") {
               "axis"});
 }
 
+TEST_CASE("job: a material may be a table of measured lives instead of a metal's constants") {
+  const std::string polymer =
+      "  materials:\n    - {name: hose, source: made for the tests, youngs_modulus_GPa: 0.4,\n"
+      "       strain_life_table: [{strain_amplitude: 0.05, cycles: 1e3}, {strain_amplitude: 0.01, cycles: 1e6}]}\n"
+      "  components:\n";
+  const std::string text =
+      edited(edited(sample_job, "  components:\n", polymer), "material: copper", "material: hose");
+  const Job job = job_of_text(text);
+  const Material& hose = material_of(job, "hose");
+  CHECK(hose.youngs_modulus == 0.4e9);
+  REQUIRE(hose.strain_life_table.size() == 2);
+  CHECK(hose.strain_life_table[1].strain_amplitude == 0.01);
+  CHECK(hose.strain_life_table[1].cycles == 1e6);
+  const Job again = job_from(parse_yaml(job_text(job), "echo.yaml"));
+  CHECK(job_text(again) == job_text(job));
+  CHECK(material_of(again, "hose").strain_life_table[0].cycles == 1e3);
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& words) {
+    CHECK_THAT(message_of([&] { job_of_text(edited(text, from, to)); }), Catch::Contains(words));
+  };
+  refused("0.01, cycles", "0.06, cycles",
+          "point 2 of strain_life_table of 'hose' is no smaller strain with a longer life; order the points");
+  refused(", {strain_amplitude: 0.01, cycles: 1e6}", "", "strain_life_table of 'hose' has one point; give at least two");
+  refused("youngs_modulus_GPa: 0.4", "youngs_modulus_GPa: 0.4, fatigue_ductility: 2", "fatigue_ductility");
+}
+
 TEST_CASE("job: what contradicts itself is refused") {
   check_case({"lower_deg: -60.1", "lower_deg: 90", "name: two axes",
               "limits of axis_2 are empty (lower >= upper); mend them"});
