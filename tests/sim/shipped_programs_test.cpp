@@ -95,8 +95,10 @@ TEST_CASE("shipped programs: the dresspack goes through all of them on the IRB 6
     INFO(program);
     CHECK(depth < 1e-3);   // what chain.md allows at 5 ms [m]
     CHECK(tension < 500);  // ten times the hose's weight [N]
-    CHECK(bend < 10);      // a 60 mm hose bent to 100 mm has kinked [1/m]
-    CHECK(bend > 2);       // it moves at all
+    // Cells bend such hoses to radii of 250 to 600 mm; only the torture goes below, and it must not kink
+    // [1/m].
+    CHECK(bend < (program == "hard" ? 10 : 4));
+    CHECK(bend > 0.5);  // it moves at all
   }
 }
 
