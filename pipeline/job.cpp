@@ -39,6 +39,10 @@ void describe(Fields& f, Robot& robot) {
   f.text("source", robot.source, Need::required, "where the numbers come from");
   f.vector("base_position_m", robot.base_position, Need::optional, "of the base link in the world");
   f.vector("base_rpy_deg", robot.base_orientation, Need::optional, "roll, pitch, yaw of the base link in the world");
+  f.vector("program_base_m", robot.program_base, Need::optional,
+           "origin of the frame that robot programs are written in, in the base link (Fanuc: at the height of axis 2)");
+  f.vector("flange_position_m", robot.flange_position, Need::optional, "of the flange frame (tool0) in the last link");
+  f.vector("flange_rpy_deg", robot.flange_orientation, Need::optional, "its roll, pitch, yaw; z leaves the flange");
   f.list("joints", robot.joints, Need::required, "the axes, from the base to the flange");
   f.list("links", robot.links, Need::required, "base link first, then the link that each joint moves");
 }

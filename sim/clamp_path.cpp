@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "sim/program/import.h"
+
 namespace dresslife::sim {
 
 Frame clamp_frame(const pipeline::Clamp& clamp) {
@@ -17,7 +19,7 @@ Frame clamp_frame(const pipeline::Clamp& clamp) {
 
 RobotPath::RobotPath(const pipeline::Job& job)
     : kinematics_(job.robot),
-      motion_(job.motion, job.robot),
+      motion_(resolved_motion(job.motion), job.robot),
       base_link_(find_link(job.robot, job.routing.base_clamp->link, job.routing.base_clamp->where)),
       tool_link_(find_link(job.robot, job.routing.tool_clamp->link, job.routing.tool_clamp->where)),
       base_clamp_(clamp_frame(*job.routing.base_clamp)),

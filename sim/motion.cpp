@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "sim/robot.h"
+#include "sim/legs.h"
 
 namespace dresslife::sim {
 namespace {
@@ -38,17 +38,6 @@ VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robo
   return accelerations;
 }
 
-/// A straight leg in joint space, or (length 0) a dwell.
-struct Leg {
-  VectorXd from, direction;  // D: largest component +-1
-  double length = 0;         // of the largest axis [rad]
-  double cruise = 0;         // c [rad/s]
-  double acceleration = 0;   // A along the leg [rad/s2]
-  double zone = 0;           // at its end [rad]
-  double dwell = 0;          // [s]
-  int step = 0;
-};
-
 /// How leg k goes over into leg k + 1.
 struct Corner {
   double limit = 0;                                    // w [rad/s]
@@ -56,94 +45,6 @@ struct Corner {
   double duration = 0;                                 // tau [s]
   double before() const { return in * duration / 2; }  // where the blend begins and ends, from the waypoint
   double after() const { return out * duration / 2; }
-};
-
-// ---- program lines into legs
-// -------------------------------------------------------------------------------
-
-class Expansion {
- public:
-  Expansion(const pipeline::Motion& motion, const pipeline::Robot& robot, const VectorXd& accelerations)
-      : motion_(motion), robot_(robot), accelerations_(accelerations) {
-    if (motion.steps.empty() || motion.steps.front().joints.empty())
-      throw pipeline::InputError(motion.steps.empty() ? motion.where : motion.steps.front().where,
-                                 fmt::format("motion '{}' does not begin with a move", motion.name),
-                                 "begin with the joints_deg at which the robot starts");
-    number(motion.steps, "");
-    int first = 0;
-    expand(motion.steps, first);
-    if (!legs.empty()) legs.back().zone = 0;
-  }
-
-  std::vector<Leg> legs;
-  std::vector<std::string> texts;
-  VectorXd place;  // where the robot is after the legs so far
-
- private:
-  /// Names every line once, depth first, and checks its waypoint.
-  void number(const std::vector<pipeline::MotionStep>& steps, const std::string& block) {
-    for (const pipeline::MotionStep& step : steps) {
-      if (step.repeat > 0) {
-        number(step.steps, step.text.empty() ? block : block + step.text + ": ");
-        continue;
-      }
-      const char* kind = step.joints.empty() ? "dwell" : "move";
-      texts.push_back(block + (step.text.empty() ? fmt::format("{} {}", kind, texts.size() + 1) : step.text));
-      if (!step.joints.empty())
-        check_joint_limits(robot_, step.joints, fmt::format("waypoint '{}'", texts.back()), step.where);
-    }
-  }
-
-  void expand(const std::vector<pipeline::MotionStep>& steps, int& line) {
-    for (const pipeline::MotionStep& step : steps) {
-      if (step.repeat > 0) {
-        const int first = line;
-        for (int k = 0; k < step.repeat; ++k) expand(step.steps, line = first);
-        continue;
-      }
-      if (!step.joints.empty()) add_move(step, line);
-      if (step.dwell > 0) add_dwell(step.dwell, line);
-      ++line;
-    }
-  }
-
-  void add_move(const pipeline::MotionStep& step, int line) {
-    const VectorXd target =
-        Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size()));
-    const double zone = step.zone.value_or(motion_.zone);
-    if (place.size() == 0) place = target;  // the robot starts here
-    const VectorXd way = target - place;
-    const double length = way.lpNorm<Eigen::Infinity>();
-    if (length == 0) {  // a move to where the robot is: at most a stop
-      if (zone == 0 && !legs.empty()) legs.back().zone = 0;
-      return;
-    }
-    Leg leg{place, way / length, length, INFINITY, INFINITY, zone, 0, line};
-    for (long i = 0; i < way.size(); ++i) {
-      const double share = std::abs(leg.direction[i]);
-      if (share == 0) continue;
-      leg.cruise = std::min(leg.cruise, robot_.joints[i].speed / share);
-      leg.acceleration = std::min(leg.acceleration, accelerations_[i] / share);
-    }
-    leg.cruise = step.speed ? std::min(*step.speed, leg.cruise)
-                            : leg.cruise * step.speed_percent.value_or(motion_.speed_percent) / 100;
-    legs.push_back(leg);
-    place = target;
-  }
-
-  void add_dwell(double duration, int line) {
-    if (!legs.empty()) legs.back().zone = 0;
-    Leg leg;
-    leg.from = place;
-    leg.direction = VectorXd::Zero(place.size());
-    leg.dwell = duration;
-    leg.step = line;
-    legs.push_back(leg);
-  }
-
-  const pipeline::Motion& motion_;
-  const pipeline::Robot& robot_;
-  const VectorXd& accelerations_;  // A_i
 };
 
 // ---- speeds at the corners (M4), (M5)
@@ -176,7 +77,7 @@ class CornerSpeeds {
   bool fits(size_t k, const Corner& c) const {  // (M4)
     const double zone = legs_[k].zone;
     return c.before() <= std::min(zone, legs_[k].length / 2) &&
-           c.after() <= std::min(zone, legs_[k + 1].length / 2);
+           c.after() <= std::min(legs_[k].zone_behind, legs_[k + 1].length / 2);
   }
 
   /// The fastest corner up to `limit` that is good, by bisection; a stop when none is found.
@@ -272,7 +173,7 @@ class Pieces {
 
 JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& robot) {
   const VectorXd accelerations = mean_accelerations(motion, robot);
-  Expansion program(motion, robot, accelerations);
+  Legs program = legs_of(motion, robot, accelerations);
   const CornerSpeeds corners(program.legs, accelerations);
   Pieces laid;
   const VectorXd rest = VectorXd::Zero(program.place.size());

@@ -19,8 +19,8 @@
 // and both legs are long enough to change speed; found corner by corner and swept until all legs agree. w = 0
 // (zone 0, a dwell, the ends) is a full stop.
 //
-// Assumption: axis limits only, as a controller without a dynamic model; joint moves only. The ramp fraction
-// is an estimate. (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic
+// Tool paths are chains of short legs, whose corners are blended likewise (legs.h: M6, M7).
+// Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is an estimate. (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic
 // Machines and Robots, 2008, chapters 3 and 5; the unified form here is derived in sim/README.md.)
 #pragma once
 
