@@ -68,6 +68,7 @@ struct Statement {
   std::string text;
   std::vector<Expression> arguments;
   std::vector<Branch> branches;
+  bool keeps_counter = false;  ///< FOR: its variable is the program's, and goes on behind the loop
   Place place;
 };
 

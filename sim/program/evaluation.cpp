@@ -85,13 +85,19 @@ Value* Interpreter::locate(const Expression& expression) {
   charge(1);
   if (expression.kind == Kind::name) return const_cast<Value*>(variable(expression.text));
   if (expression.kind != Kind::field && expression.kind != Kind::element) return nullptr;
+  // Indices first: a function in one may change what a place found earlier lies in.
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 1; expression.kind == Kind::element && i < expression.items.size(); ++i) {
+    const auto index = number(expression.items[i]);
+    if (!index || !(*index >= 1 && *index <= static_cast<double>(ImportLimits::values))) return nullptr;
+    indices.push_back(static_cast<std::size_t>(*index) - 1);
+  }
   Value* whole = locate(expression.items[0]);
   if (!whole) return nullptr;
   if (expression.kind == Kind::field) return const_cast<Value*>(whole->field(expression.text));
-  for (std::size_t i = 1; i < expression.items.size(); ++i) {
-    const auto index = number(expression.items[i]);
-    if (!index || !(*index >= 1) || !(*index <= static_cast<double>(whole->items.size()))) return nullptr;
-    whole = &whole->items[static_cast<std::size_t>(*index) - 1];
+  for (std::size_t index : indices) {
+    if (index >= whole->items.size()) return nullptr;
+    whole = &whole->items[index];
   }
   return whole;
 }

@@ -302,7 +302,7 @@ void Run::execute(const FanucStatement& s) {
   }
   if (at.take_sign('=')) return select(at, false);
   const std::string word = at.word();
-  if (word == "else" && routine().select_open) return select(at, false);
+  if (word == "else" && at.take_sign(',')) return select(at, false);
   if (word != "select") routine().select_open = false;
   if (word == "if") return if_statement(at);
   if (word == "select") return select(at, true);

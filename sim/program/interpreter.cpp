@@ -33,7 +33,9 @@ Interpreter::Interpreter(const Code& code, Dialect& dialect, const ImportOptions
 
 void Interpreter::run(const Routine& routine) {
   try {
-    for (const Statement& statement : code_.data) declare(statement);
+    for (const Statement& statement : code_.data)
+      statement.kind == Kind::declare ? declare(statement)
+                                      : assign(statement.arguments[0], evaluate(statement.arguments[1]));
     locals_.emplace_back();
     routines_.push_back(&routine);
     execute(routine.body);
@@ -232,18 +234,32 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   const auto before = variables.find(statement.name);
   const std::optional<Value> hidden =
       before == variables.end() ? std::nullopt : std::optional(before->second);
+  const auto count = [&](double value) {
+    if (statement.keeps_counter) {
+      Expression counter;
+      counter.kind = Expression::Kind::name;
+      counter.text = statement.name;
+      counter.place = statement.place;
+      assign(counter, number_value(value));
+    } else {
+      variables.insert_or_assign(statement.name, number_value(value));
+    }
+  };
   Flow flow = Flow::next;
-  for (long k = 0; flow == Flow::next; ++k) {
-    const double value = first + static_cast<double>(k) * by;
-    if (by > 0 ? value > last : value < last) break;
+  double value = first;
+  for (long k = 0; flow == Flow::next && (by > 0 ? value <= last : value >= last);
+       value = first + static_cast<double>(++k) * by) {
     charge(1);
-    variables.insert_or_assign(statement.name, number_value(value));
+    count(value);
     flow = execute(statement.branches[0].body);
   }
-  if (hidden)
+  if (statement.keeps_counter) {
+    if (flow == Flow::next) count(value);
+  } else if (hidden) {
     variables.insert_or_assign(statement.name, *hidden);
-  else
+  } else {
     variables.erase(statement.name);
+  }
   return flow == Flow::leave_loop ? Flow::next : flow;
 }
 
@@ -319,6 +335,10 @@ void Interpreter::run_instruction(const Statement& statement) {
 }
 
 void Interpreter::declare(const Statement& statement) {
+  if (!routines_.empty() && statement.arguments[0].kind == Expression::Kind::none)
+    for (const Parameter& parameter :
+         routines_.back()->parameters)  // KRL declares its parameters' types inside
+      if (parameter.name == statement.name) return;
   const RecordType* type = dialect_.type_of(statement.text);
   Value value;
   const Expression& written = statement.arguments[0];

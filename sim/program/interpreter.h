@@ -125,7 +125,8 @@ class Interpreter {
   Program& program_;
   Problems& problems_;
   std::map<std::string, Value, std::less<>> globals_;
-  std::vector<std::map<std::string, Value, std::less<>>> locals_;
+  std::deque<std::map<std::string, Value, std::less<>>>
+      locals_;  // stay where they are while routines are called
   std::vector<const Routine*> routines_;
   Value result_;
   std::deque<RecordType> records_;  // of aggregates with names

@@ -109,7 +109,7 @@ class Krl final : public Dialect {
   void basics(const Statement& statement, Interpreter& run);
   void parameters(bool joint, std::optional<double> speed, Interpreter& run);
   std::optional<double> setting(const std::string& name, Interpreter& run) const;
-  Value numbered(const char* list, double number) const;
+  Value numbered(const char* list, double number, Interpreter& run);
   std::optional<Frame> current(const char* variable, const std::vector<NamedFrame>& given, std::string& name,
                                const Statement& statement, Interpreter& run);
 
@@ -321,8 +321,19 @@ bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& 
 // ---- BAS and the forms that the controller's editor writes
 // ---------------------------------------------------
 
-Value Krl::numbered(const char* list, double number) const {
-  return text_value(fmt::format("{}[{}]", list, static_cast<long>(std::clamp(number, 0.0, 1e6))));
+/// TOOL_DATA[n] or BASE_DATA[n]; its name where no file holds it.
+Value Krl::numbered(const char* list, double number, Interpreter& run) {
+  if (number == 0) return frame_value(Frame{});
+  Expression element, name, index;
+  name.kind = Expression::Kind::name;
+  name.text = lower_case(list);
+  index.kind = Expression::Kind::number;
+  index.number = std::clamp(number, 0.0, 1e6);
+  element.kind = Expression::Kind::element;
+  element.items = {name, index};
+  const Value known = run.evaluate(element);
+  if (known.kind != Value::Kind::unknown) return known;
+  return text_value(fmt::format("{}[{}]", list, static_cast<long>(index.number)));
 }
 
 /// BAS(#PTP_PARAMS, v), BAS(#CP_PARAMS, v): what PDAT_ACT or LDAT_ACT and FDAT_ACT hold, at the speed v.
@@ -353,10 +364,7 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
       run.set(fmt::format("{}[{}]", name, axis), number_value(*number));
   };
   const auto frames = [&](const char* variable, const char* list, double index) {
-    if (index == 0) return run.set(variable, frame_value(Frame{}));
-    const std::string path = fmt::format("{}[{}]", list, static_cast<long>(std::clamp(index, 0.0, 1e6)));
-    const Value* known = run.variable(lower_case(path));
-    run.set(variable, known ? *known : text_value(path));
+    run.set(variable, numbered(list, index, run));
   };
   if (what.text == "#vel_ptp")
     axes("$vel_axis");
@@ -429,11 +437,7 @@ std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
   if (call.text == "sacc_joint" || call.text == "sacc_cp") return part("acc");
   if (call.text == "sapo" || call.text == "sapo_ptp") return part("apo_dist");
   const auto frame = [&](const char* list, const Value& number) {
-    if (!number.is_number()) return Value{};
-    if (number.number == 0) return frame_value(Frame{});
-    const Value name = numbered(list, number.number);
-    const Value* known = run.variable(lower_case(name.text));
-    return known ? *known : name;
+    return number.is_number() ? numbered(list, number.number, run) : Value{};
   };
   if (call.text == "stool2") return frame("TOOL_DATA", part("tool_no"));
   if (call.text == "sbase") return frame("BASE_DATA", values.empty() ? Value{} : values[0]);

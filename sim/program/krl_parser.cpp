@@ -249,6 +249,7 @@ class KrlParser {
 
   void for_statement(Statement& s) {
     s.kind = Kind::count;
+    s.keeps_counter = true;
     s.name = at_.word("the loop's variable");
     at_.need_sign("=");
     s.arguments.push_back(at_.expression(4));

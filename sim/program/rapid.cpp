@@ -470,6 +470,8 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
   if (name == "offs") return offset(call, false, run);
   if (name == "reltool") return offset(call, true, run);
   if (name == "crobt") return last_target_;
+  if (name == "present" && call.items.size() == 1 && call.items[0].kind == Expression::Kind::name)
+    return truth_value(run.variable(call.items[0].text) != nullptr);
   std::vector<Value> values;
   for (const Expression& argument : call.items)
     values.push_back(argument.option.empty() || argument.kind != Expression::Kind::none
