@@ -83,6 +83,7 @@ void add_materials(Node& job) {
   if (!dresspack || !dresspack->is_map()) return;
   std::vector<const Node*> names;
   if (const Node* components = dresspack->find("components")) collect_materials(*components, names);
+  if (const Node* hose = dresspack->find("hose_material")) names.push_back(hose);
   if (const Node* fatigue = job.find("fatigue"))
     if (const Node* material = fatigue->find("material")) names.push_back(material);
   std::vector<Node> wanted;

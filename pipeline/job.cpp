@@ -146,6 +146,11 @@ void describe(Fields& f, Component& component) {
   f.number("lay_angle_deg", component.lay_angle, Need::optional, between(0, 60), "angle to the parent's axis (alpha)");
   f.choice("hand", component.hand, {"right", "left"}, "of the helix: right (Z) or left (S)");
   f.number("phase_deg", component.phase, Need::optional, between(-360, 360), "angle of part 1 at the base clamp");
+  f.maybe_number("friction_coefficient", component.friction, between(0, 1e6),
+                 "Coulomb, of the part on what it lies against; needed where strain.slip is friction");
+  f.maybe_number("radial_line_load_N_per_m", component.radial_line_load, at_least(0),
+                 "presses the part on what it lies against, by jacket and tape; needed where strain.slip is friction");
+  f.number("tension_N", component.tension, Need::optional, at_least(0), "of the part in the dresspack at rest");
   f.text("material", component.material, Need::optional, "of a wire: a name of config/materials; a part with parts has none");
   f.list("components", component.components, Need::optional, "the layers of parts inside");
 }
@@ -162,6 +167,10 @@ void describe(Fields& f, Dresspack& dresspack) {
            "Kelvin-Voigt time of bending and twist, from a decay test");
   f.text("damping_source", dresspack.damping_source, Need::required, "where the damping comes from: life depends on it");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2), "Coulomb, hose against robot");
+  f.text("hose_material", dresspack.hose_material, Need::optional,
+         "of the hose's wall, a name of config/materials; without it the hose's strain is not evaluated");
+  f.number("hose_strain_factor", dresspack.hose_strain_factor, Need::optional, between(1e-3, 100),
+           "strain of the corrugated wall over that of a smooth hose of the same diameter");
   f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only");
   f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
 }
@@ -202,7 +211,9 @@ void describe(Fields& f, Probe& probe) {
 void describe(Fields& f, Strain& strain) {
   f.choice("deformation", strain.deformation, {"rotation_vector", "thesis"}, "how curvature and twist are measured");
   f.choice("kinematics", strain.kinematics, {"exact", "thesis"}, "nested helices: the geometry itself, or (12)..(23)");
-  f.choices("slip", strain.slip, {"free", "stick"}, "between a part and its parent; one word, or one per level, outermost first");
+  f.choices("slip", strain.slip, {"free", "stick", "friction"}, "between a part and its parent; one word, or one per level, outermost first");
+  f.choice("equivalent", strain.equivalent, {"axial", "shear_included"},
+           "strain that is counted: along the fibre, or with the shear of the wire's torsion, signed sqrt(eps^2 + gamma^2/3)");
   f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
             "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1), "turning points of smaller strain ranges are dropped");
@@ -367,12 +378,23 @@ int check_component(const Component& component, const Component* parent) {
   return depth + 1;
 }
 
+/// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
+void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
+  if (slip[std::min(level, slip.size()) - 1] == Slip::friction && !(component.friction && component.radial_line_load))
+    throw InputError(component.where,
+                     fmt::format("'{}' has no {} (strain.slip of its level is friction)", component.name,
+                                 component.friction ? "radial_line_load_N_per_m" : "friction_coefficient"),
+                     "give both, or slip: free or stick");
+  for (const Component& inner : component.components) check_friction(inner, slip, level + 1);
+}
+
 void check_dresspack(const Job& job, const Where& where) {
   Component hose;
   hose.name = "hose";
   hose.radius = job.dresspack.diameter / 2;
   int depth = 0;
   for (const Component& component : job.dresspack.components) depth = std::max(depth, check_component(component, &hose));
+  for (const Component& component : job.dresspack.components) check_friction(component, job.strain.slip, 1);
   if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
     throw InputError(where, fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
                      "give one word, or one per level, outermost first");
@@ -436,6 +458,8 @@ std::string part_text(const Job& job, Part part) {
     case Part::sim:
       copy.dresspack.components.clear();
       copy.dresspack.materials.clear();
+      copy.dresspack.hose_material.clear();
+      copy.dresspack.hose_strain_factor = 1;
       echo.group("motion", copy.motion, Need::required, "");
       echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
       echo.group("dresspack", copy.dresspack, Need::required, "");
@@ -444,6 +468,13 @@ std::string part_text(const Job& job, Part part) {
       break;
     case Part::strain:
       echo.list("components", copy.dresspack.components, Need::optional, "");
+      if (std::count(job.strain.slip.begin(), job.strain.slip.end(), Slip::friction) > 0)  // stiffness of the wires
+        echo.list("materials", copy.dresspack.materials, Need::optional, "");
+      if (!job.dresspack.hose_material.empty()) {
+        echo.text("hose_material", copy.dresspack.hose_material, Need::optional, "");
+        echo.number("hose_strain_factor", copy.dresspack.hose_strain_factor, Need::optional, any_number(), "");
+        echo.number("diameter_mm", copy.dresspack.diameter, Need::optional, any_number(), "");
+      }
       echo.group("strain", copy.strain, Need::optional, "");
       break;
     case Part::fatigue:

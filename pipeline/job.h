@@ -153,6 +153,9 @@ struct Component {
   double lay_angle = 0;         ///< alpha >= 0 [rad]
   Hand hand = Hand::right;
   double phase = 0;             ///< theta_layer: angle of part 1 at the base clamp [rad]
+  std::optional<double> friction;          ///< Coulomb, on what it lies against; needed where slip is `friction`
+  std::optional<double> radial_line_load;  ///< that presses the part on what it lies against [N/m]; likewise
+  double tension = 0;                      ///< of the part in the dresspack at rest [N]
   std::string material;         ///< of a wire; a key of Dresspack::materials; empty for a part with parts
   std::vector<Component> components;
   Where where;
@@ -168,6 +171,8 @@ struct Dresspack {
   double damping_time = 0;          ///< Kelvin-Voigt tau of bending and twist [s]
   std::string damping_source;       ///< where the damping was measured or why it is guessed
   double friction = 0;              ///< Coulomb, hose against robot
+  std::string hose_material;        ///< of the corrugated hose; empty: its strain is not evaluated
+  double hose_strain_factor = 1;    ///< strain of the corrugated wall over that of a smooth hose
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
 };
@@ -202,7 +207,8 @@ struct Simulation {
 
 enum class DeformationMeasure { rotation_vector, thesis };
 enum class Kinematics { exact, thesis };
-enum class Slip { free, stick };
+enum class Slip { free, stick, friction };
+enum class Equivalent { axial, shear_included };
 
 struct Probe {
   int segment_from_tool = 1;
@@ -213,6 +219,7 @@ struct Strain {
   DeformationMeasure deformation = DeformationMeasure::rotation_vector;
   Kinematics kinematics = Kinematics::exact;
   std::vector<Slip> slip{Slip::free};   ///< one for every level, or one per level, outermost first
+  Equivalent equivalent = Equivalent::axial;  ///< which strain of a fibre is counted
   int surface_fibres = 1;               ///< per wire; 0: the wire's axis
   double gate = 5e-4;                   ///< turning points of a smaller strain range are dropped
   std::vector<Probe> probes;

@@ -24,6 +24,7 @@ constexpr std::array units{
     Unit{"m_per_s2", "m/s2", 1},
     Unit{"kg_per_m", "kg/m", 1},
     Unit{"N", "N", 1},
+    Unit{"N_per_m", "N/m", 1},
     Unit{"Nm2", "N m2", 1},
     Unit{"MPa", "MPa", 1e6},
     Unit{"GPa", "GPa", 1e9},

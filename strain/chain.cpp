@@ -21,6 +21,7 @@ SlidingNumbers sliding_numbers(const LayerSlip& slip, const BundleChain& chain, 
   SlidingNumbers slide;
   slide.sliding = slip.sliding;
   slide.helical_level = slip.helical_level;
+  slide.cap = slip.cap;
   if (slip.sliding == Sliding::over_pitch)
     slide.mean_rest_rate = mean_path_rate(rest_at_end(chain, dresspack), place);
   if (slip.sliding == Sliding::along_ancestor) {

@@ -16,6 +16,20 @@ std::string element(const Layer& layer, int number) {
   return (layer.label.empty() ? "" : layer.label + "/") + layer.name + " " + std::to_string(number);
 }
 
+/// E A of a part along its own axis: of its wires alone. A helix of stiffness E A has E A cos^3(alpha) along
+/// its parent: strain and force are cos^2 and cos of those along the parent.
+double axial_stiffness(const pipeline::Dresspack& dresspack, const pipeline::Component& part) {
+  if (part.components.empty()) {
+    for (const pipeline::Material& material : dresspack.materials)
+      if (material.name == part.material) return material.youngs_modulus * pi * part.radius * part.radius;
+    return 0;
+  }
+  double sum = 0;
+  for (const pipeline::Component& inner : part.components)
+    sum += inner.count * axial_stiffness(dresspack, inner) * std::pow(std::cos(inner.lay_angle), 3);
+  return sum;
+}
+
 }  // namespace
 
 double Layer::pitch() const {
@@ -25,7 +39,7 @@ double Layer::pitch() const {
 
 Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics)
     : kinematics_(kinematics) {
-  for (const auto& component : dresspack.components) add(component, dresspack_itself, 1);
+  for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   list_parts(dresspack_itself, dresspack_itself);
 }
 
@@ -51,7 +65,8 @@ void Construction::check(const pipeline::Component& component, int parent_layer,
           "give each its own `layer`, for example 'layer 1'");
 }
 
-void Construction::add(const pipeline::Component& component, int parent_layer, int level) {
+void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Component& component,
+                       int parent_layer, int level) {
   check(component, parent_layer, level);
   Layer layer;
   layer.name = component.name;
@@ -65,10 +80,14 @@ void Construction::add(const pipeline::Component& component, int parent_layer, i
   layer.helix_radius = component.helix_radius;
   layer.lay_angle = component.hand == pipeline::Hand::left ? -component.lay_angle : component.lay_angle;
   layer.phase = component.phase;
+  layer.friction = component.friction.value_or(0);
+  layer.line_load = component.radial_line_load.value_or(0);
+  layer.tension = component.tension;
+  layer.axial_stiffness = axial_stiffness(dresspack, component);
   const int index = static_cast<int>(layers_.size());
   layers_.push_back(layer);
   levels_ = std::max(levels_, level);
-  for (const auto& inner : component.components) add(inner, index, level + 1);
+  for (const auto& inner : component.components) add(dresspack, inner, index, level + 1);
 }
 
 void Construction::list_parts(int parent_layer, int parent_part) {

@@ -29,6 +29,10 @@ struct Layer {
   double helix_radius = 0;        ///< R [m]
   double lay_angle = 0;           ///< negative = left hand [rad]
   double phase = 0;               ///< of part 1 at the base clamp [rad]
+  double friction = 0;            ///< Coulomb, of a part on what it lies against
+  double line_load = 0;           ///< radial, from jacket and tape [N/m]
+  double tension = 0;             ///< of a part at rest [N]
+  double axial_stiffness = 0;     ///< EA of a part, of its wires alone [N]; 0: a material is not known
 
   double pitch() const;  ///< along the parent [m]; infinite when straight
 };
@@ -68,7 +72,8 @@ class Construction {
   std::string wire_path(int layer, int number, int parent) const;
 
  private:
-  void add(const pipeline::Component& component, int parent_layer, int level);
+  void add(const pipeline::Dresspack& dresspack, const pipeline::Component& component, int parent_layer,
+           int level);
   void check(const pipeline::Component& component, int parent_layer, int level) const;
   void list_parts(int parent_layer, int parent_part);
   double lay_angle(const Layer& layer) const;

@@ -31,6 +31,19 @@ double total(const std::vector<double>& lengths) {
   return std::accumulate(lengths.begin(), lengths.end(), 0.0);
 }
 
+/// Share of node `node` in the value at one angle of the waves through a layer's nodes: Dirichlet's kernel.
+double nodal_share(double angle, int node) {
+  const double away = angle - 2 * pi * node / waves_per_layer;
+  return (1 + 2 * std::cos(away) + 2 * std::cos(2 * away)) / waves_per_layer;
+}
+
+/// Shear (fibre null) or bending of the undeformed wire, as the ingredients hold them.
+double rest_ingredient(const WireNode& node, const Fibre* fibre) {
+  if (fibre == nullptr) return node.wire_radius / std::numbers::sqrt3 * node.rest.twist;
+  if (fibre->on_axis) return 0;
+  return fibre_strain(node.rest.bend1, node.rest.bend2, node.wire_radius, fibre->phi_sine, fibre->phi_cosine);
+}
+
 }  // namespace
 
 void SiteRows::clear() {
@@ -54,6 +67,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       surface_fibres_(settings.surface_fibres),
       fibre_count_(static_cast<int>(fibres_.size())),
       gate_(static_cast<float>(settings.gate)),
+      with_shear_(settings.equivalent == pipeline::Equivalent::shear_included),
       means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
       stick_{{construction, plan_slip(construction, {pipeline::Slip::stick}, total(lengths_)), lengths_,
               arcs_, samples},
@@ -118,10 +132,22 @@ void Evaluation::add(const DeformationHistory& block) {
   for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) means->add(block);
 }
 
+bool Evaluation::mixed(const ClampMeans& means) const {
+  return with_shear_ || std::any_of(means.plan().begin(), means.plan().end(),
+                                    [](const LayerSlip& slip) { return slip.friction; });
+}
+
+BundleChain Evaluation::part_chain(int part, std::size_t segment, const ClampMeans& means,
+                                   const std::vector<Fibre>& fibres) const {
+  BundleChain chain = chain_to(construction_, means.plan(), part, arcs_[segment], fibres);
+  means.attach(chain, part);
+  if (held_ && &means == &means_) held_->attach(chain, part);
+  return chain;
+}
+
 BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment,
                                     const ClampMeans& means) const {
-  BundleChain chain = chain_to(construction_, means.plan(), bundle.part, arcs_[segment], fibres_);
-  means.attach(chain, bundle.part);
+  BundleChain chain = part_chain(bundle.part, segment, means, fibres_);
   for (const int layer : bundle.wire_layers)
     for (int node = 0; node < waves_per_layer; ++node) {
       WireNode at = node_at(construction_, means.plan(), chain, layer, 1, bundle.part, arcs_[segment],
@@ -133,62 +159,113 @@ BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment,
   return chain;
 }
 
+/// Up to sixteen wires of one layer. Their turning points fibre by fibre.
+struct Evaluation::Group {
+  std::size_t layer;  ///< in the bundle
+  std::size_t first_wire;
+  MixedLanes mixed;
+  std::vector<LaneScan> scans;                    ///< (fibre)
+  std::vector<std::vector<TurningList>> turning;  ///< (fibre, wire)
+};
+
+MixedLanes Evaluation::mixed_lanes(const BundleChain& chain, std::size_t layer_in_bundle,
+                                   const LayerSlip& slip, const std::vector<double>& angles) const {
+  MixedLanes mixed;
+  constexpr float glued = std::numeric_limits<float>::infinity();
+  mixed.cap = slip.sliding == Sliding::glued ? glued : static_cast<float>(slip.cap.constant);
+  mixed.cap_per_mean = static_cast<float>(slip.cap.per_mean);
+  mixed.scales = construction_.kinematics() == pipeline::Kinematics::exact;
+  mixed.with_shear = with_shear_;
+  mixed.on_axis = surface_fibres_ == 0;
+  mixed.rest.resize(1 + fibre_count_);
+  const WireNode* nodes = chain.nodes.data() + layer_in_bundle * waves_per_layer;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const double angle = angles[lane < static_cast<int>(angles.size()) ? lane : 0];
+    mixed.slip[lane] = 0;
+    mixed.shape[0][lane] = static_cast<float>(std::sin(angle));
+    mixed.shape[1][lane] = static_cast<float>(std::cos(angle));
+    mixed.shape[2][lane] = static_cast<float>(std::sin(2 * angle));
+    mixed.shape[3][lane] = static_cast<float>(std::cos(2 * angle));
+    for (int kind = 0; kind <= fibre_count_; ++kind) {
+      double rest = 0;
+      for (int node = 0; node < waves_per_layer; ++node)
+        rest +=
+            nodal_share(angle, node) * rest_ingredient(nodes[node], kind == 0 ? nullptr : &fibres_[kind - 1]);
+      mixed.rest[kind][lane] = static_cast<float>(rest);
+    }
+  }
+  return mixed;
+}
+
+void Evaluation::run_blocks(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples,
+                            bool is_mixed, bool keep, std::vector<Group>& groups) const {
+  const std::size_t layers = chain.nodes.size() / waves_per_layer;
+  const int kinds = is_mixed ? ingredients(fibre_count_) : fibre_count_;
+  std::vector<float> waves(layers * kinds * waves_per_layer * block_samples);
+  std::vector<float> strains(is_mixed ? fibre_count_ * block_samples * lanes : 0);
+  for (std::size_t first = 0; first < samples; first += block_samples) {
+    const std::size_t count = std::min(block_samples, samples - first);
+    const auto fill = is_mixed ? kernels().ingredient_waves : kernels().layer_waves;
+    fill(pointers(chain), columns, first, count, waves.data(), block_samples);
+    for (Group& group : groups) {
+      const float* of_layer = waves.data() + group.layer * kinds * waves_per_layer * block_samples;
+      if (is_mixed) kernels().mix(group.mixed, of_layer, block_samples, count, fibre_count_, strains.data());
+      for (int f = 0; keep && f < fibre_count_; ++f) {
+        if (is_mixed) {
+          group.scans[f].scan_strains(strains.data() + f * count * lanes, count, group.turning[f]);
+          continue;
+        }
+        Waves of;
+        for (int w = 0; w < waves_per_layer; ++w)
+          of.at[w] = of_layer + (f * waves_per_layer + w) * block_samples;
+        group.scans[f].scan(of, count, group.turning[f]);
+      }
+    }
+  }
+}
+
 void Evaluation::scan_bundle(
     std::size_t b, std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
     std::size_t row, float gate,
     const std::function<void(Site, const Extremes&, const TurningList&)>& found) const {
   const Bundle& bundle = construction_.bundles()[b];
   const BundleChain chain = layer_chain(bundle, segment, means);
-  const DeformationColumns columns = history.columns(row);
-
-  struct Group {  // up to sixteen wires of one layer, one fibre
-    std::size_t wave_row, first_wire;
-    int fibre;
-    LaneScan scan;
-    std::vector<TurningList> turning;
-  };
+  const bool is_mixed = mixed(means);
   std::vector<Group> groups;
   std::size_t wire = first_wire_[b];
+  bool settles = false;
   for (std::size_t k = 0; k < bundle.wire_layers.size(); ++k) {
     const int count = construction_.layers()[bundle.wire_layers[k]].count;
+    const LayerSlip& slip = means.plan()[bundle.wire_layers[k]];
+    settles = settles || slip.friction;
     for (int first = 0; first < count; first += lanes) {
       std::vector<double> angles;
       for (int j = first; j < std::min(count, first + lanes); ++j) angles.push_back(2 * pi * j / count);
-      for (int f = 0; f < fibre_count_; ++f)
-        groups.push_back({(k * fibre_count_ + f) * waves_per_layer, wire + first, f, LaneScan(angles, gate),
-                          std::vector<TurningList>(angles.size())});
+      Group& group = groups.emplace_back(Group{k, wire + first, {}, {}, {}});
+      if (is_mixed) group.mixed = mixed_lanes(chain, k, slip, angles);
+      for (int f = 0; f < fibre_count_; ++f) {
+        group.scans.emplace_back(angles, gate);
+        group.turning.emplace_back(angles.size());
+      }
     }
     wire += count;
   }
-
-  std::vector<float> waves(bundle.wire_layers.size() * fibre_count_ * waves_per_layer * block_samples);
-  for (std::size_t first = 0; first < history.samples(); first += block_samples) {
-    const std::size_t count = std::min(block_samples, history.samples() - first);
-    kernels().layer_waves(pointers(chain), columns, first, count, waves.data(), block_samples);
-    for (Group& group : groups) {
-      Waves of;
-      for (int w = 0; w < waves_per_layer; ++w)
-        of.at[w] = waves.data() + (group.wave_row + w) * block_samples;
-      group.scan.scan(of, count, group.turning);
-    }
+  if (settles) run_blocks(chain, history.columns(row), history.samples(), is_mixed, false, groups);
+  run_blocks(chain, history.columns(row), history.samples(), is_mixed, true, groups);
+  for (Group& group : groups) {
+    for (int f = 0; f < fibre_count_; ++f) group.scans[f].finish(group.turning[f]);
+    for (int lane = 0; lane < group.scans[0].wires(); ++lane)
+      for (int f = 0; f < fibre_count_; ++f)
+        found({group.first_wire + lane, f}, {group.scans[f].lowest(lane), group.scans[f].highest(lane)},
+              group.turning[f][lane]);
   }
-  for (Group& group : groups) group.scan.finish(group.turning);
-  // groups of one run of wires are its fibres: hand out wire by wire, fibre by fibre
-  for (std::size_t g = 0; g < groups.size(); g += fibre_count_)
-    for (int lane = 0; lane < groups[g].scan.wires(); ++lane)
-      for (int f = 0; f < fibre_count_; ++f) {
-        Group& group = groups[g + f];
-        found({group.first_wire + lane, f}, {group.scan.lowest(lane), group.scan.highest(lane)},
-              group.turning[lane]);
-      }
 }
 
 std::vector<double> Evaluation::history_of(Site site, std::size_t segment, const ClampMeans& means,
                                            const DeformationHistory& history, std::size_t row) const {
   const Wire& wire = wires_[site.wire];
   const int part = construction_.bundles()[wire.bundle].part;
-  BundleChain chain = chain_to(construction_, means.plan(), part, arcs_[segment], {fibres_[site.fibre]});
-  means.attach(chain, part);
+  BundleChain chain = part_chain(part, segment, means, {fibres_[site.fibre]});
   chain.nodes.push_back(
       node_at(construction_, means.plan(), chain, wire.layer, wire.number, part, arcs_[segment], 0));
   std::vector<double> sliding;
@@ -197,10 +274,37 @@ std::vector<double> Evaluation::history_of(Site site, std::size_t segment, const
                              2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
     chain.nodes[0].slide.clamp_strain = sliding.data();
   }
-  std::vector<double> strain(padded(history.samples()));
-  kernels().node_strains(pointers(chain), history.columns(row), 0, history.samples(), strain.data(),
-                         strain.size());
-  strain.resize(history.samples());
+  const std::size_t samples = history.samples(), stride = padded(samples);
+  if (mixed(means)) return mixed_history(chain, means.plan()[wire.layer], history.columns(row), samples);
+  std::vector<double> strain(stride);
+  kernels().node_strains(pointers(chain), history.columns(row), 0, samples, strain.data(), stride);
+  strain.resize(samples);
+  return strain;
+}
+
+/// What Kernels::mix does, of one fibre in double precision.
+std::vector<double> Evaluation::mixed_history(const BundleChain& chain, const LayerSlip& slip,
+                                              const DeformationColumns& columns, std::size_t samples) const {
+  const std::size_t stride = padded(samples);
+  std::vector<double> rows(ingredients(1) * stride), strain(samples);
+  kernels().node_ingredients(pointers(chain), columns, 0, samples, rows.data(), stride);
+  const WireNode& node = chain.nodes[0];
+  const Fibre& fibre = chain.fibres[0];
+  const double rest_bending = rest_ingredient(node, &fibre), rest_shear = rest_ingredient(node, nullptr);
+  const bool scales = construction_.kinematics() == pipeline::Kinematics::exact;
+  constexpr double glued = std::numeric_limits<double>::infinity();
+  Slider slider;
+  for (int run = 0; run < (slip.friction ? 2 : 1); ++run)
+    for (std::size_t t = 0; t < samples; ++t) {
+      const double mean = rows[mean_strain * stride + t], away = rows[deviation * stride + t];
+      const double cap = slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, mean);
+      const double axial = mean + slider.next(away, cap);
+      const double scale = scales ? (1 + axial) / (1 + mean + away) : 1;
+      strain[t] = axial + (fibre.on_axis ? 0 : rows[first_bending * stride + t] * scale - rest_bending);
+      if (!with_shear_) continue;
+      const double torsion = rows[shear * stride + t] * scale - rest_shear;
+      strain[t] = std::copysign(std::hypot(strain[t], torsion), strain[t]);
+    }
   return strain;
 }
 
@@ -251,6 +355,10 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   const std::size_t bundles = construction_.bundles().size();
   std::vector<Worst> worst(construction_.layers().size());
   SiteRows rows;
+  held_.reset();
+  if (std::any_of(means_.plan().begin(), means_.plan().end(),
+                  [](const LayerSlip& slip) { return slip.friction; }))
+    held_.emplace(construction_, means_, arcs_[segment], history.columns(row), history.samples());
   for (std::size_t b = 0; b < bundles; ++b) {
     rows.clear();
     scan_bundle(b, segment, means_, history, row, gate_,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "strain/clamp_means.h"
+#include "strain/friction.h"
 #include "strain/reversals.h"
 
 namespace dresslife::strain {
@@ -89,7 +90,18 @@ class Evaluation {
     std::optional<ClampMeans> thin;  ///< the means at the thinned samples
   };
 
+  /// Wires whose strain is put together one by one: of layers with friction, and all when shear counts.
+  bool mixed(const ClampMeans& means) const;
+  MixedLanes mixed_lanes(const BundleChain& chain, std::size_t layer_in_bundle, const LayerSlip& slip,
+                         const std::vector<double>& angles) const;
+  struct Group;
+  /// One run over the motion; turning points are kept when `keep`.
+  void run_blocks(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples,
+                  bool is_mixed, bool keep, std::vector<Group>& groups) const;
+
   void find_probes(const std::vector<pipeline::Probe>& probes);
+  BundleChain part_chain(int part, std::size_t segment, const ClampMeans& means,
+                         const std::vector<Fibre>& fibres) const;
   BundleChain layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means) const;
   /// Calls found(site, extremes, turning points) for every site of a bundle.
   void scan_bundle(std::size_t bundle, std::size_t segment, const ClampMeans& means,
@@ -97,6 +109,8 @@ class Evaluation {
                    const std::function<void(Site, const Extremes&, const TurningList&)>& found) const;
   std::vector<double> history_of(Site site, std::size_t segment, const ClampMeans& means,
                                  const DeformationHistory& history, std::size_t row) const;
+  std::vector<double> mixed_history(const BundleChain& chain, const LayerSlip& slip,
+                                    const DeformationColumns& columns, std::size_t samples) const;
   void append(SiteRows& rows, Site site, std::size_t segment, const TurningList& turning) const;
   /// The worst sites of every wire layer, found on thinned samples.
   std::vector<Worst> worst_of(Bound& bound, std::size_t segment, const DeformationHistory& history,
@@ -111,7 +125,9 @@ class Evaluation {
   std::vector<Fibre> fibres_;
   int surface_fibres_, fibre_count_;
   float gate_;
+  bool with_shear_;
   ClampMeans means_;
+  std::optional<HeldStrains> held_;  ///< of the segment being evaluated, with friction
   Bound stick_, free_;
   std::vector<Wire> wires_;              ///< bundle by bundle
   std::vector<std::size_t> first_wire_;  ///< of each bundle

@@ -202,6 +202,20 @@ Rod<T> slid(const Rod<T>& glued, const T& strain, const Rod<double>& rest, pipel
   return rod;
 }
 
+/// The same when its axial strain changes along it: what friction holds back (W17).
+template <class T>
+Rod<T> slid_unevenly(const Rod<T>& glued, const Series<T>& strain, const Rod<double>& rest,
+                     pipeline::Kinematics kinematics) {
+  Rod<T> rod = glued;
+  rod.stretch = (1.0 + strain) * rest.stretch;
+  if (kinematics == pipeline::Kinematics::thesis) return rod;
+  const Series<T> factor = rod.stretch / glued.stretch;
+  rod.bend1 = glued.bend1 * factor;
+  rod.bend2 = glued.bend2 * factor;
+  rod.twist = glued.twist * factor;
+  return rod;
+}
+
 /// What the fibre at angle phi (from n toward b) on a wire of radius r adds to the axial strain (W12).
 template <class T>
 T fibre_strain(const T& bend1_change, const T& bend2_change, double r, double phi_sine, double phi_cosine) {

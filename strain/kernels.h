@@ -31,6 +31,11 @@ struct SlidingNumbers {
   int helical_level = 0;                 ///< of along_ancestor
   double mean_rest_rate = 1;             ///< mean path rate at rest, over the phase or the ancestor's pitch
   const double* clamp_strain = nullptr;  ///< (sample) of clamp_to_clamp
+  FrictionCap cap;                       ///< with friction
+  /// What friction holds of a part's deviation, (power, sample) with `held_stride`; null: nothing.
+  const double* held = nullptr;
+  std::array<const double*, phases_per_pitch> turned_held{};  ///< of the turned parts
+  std::size_t held_stride = 0;
 };
 
 /// One level of the chain from the dresspack to the bundle's part.
@@ -99,6 +104,22 @@ struct LaneState {
 
 // ---- the set for this machine -----------------------------------------------------------------------------
 
+/// What a wire's strain is made of before friction, one after the other: the mean along its path, the glued
+/// strain's deviation from it, the shear strain gamma/sqrt(3) of its torsion at its surface, and the bending
+/// strain of each fibre. The last two hold what the undeformed wire has too, as glued.
+enum Ingredient { mean_strain, deviation, shear, first_bending };
+constexpr int ingredients(int fibres) { return first_bending + fibres; }
+
+/// Sixteen wires whose strain is put together wire by wire (W17, W18), between two blocks of samples.
+struct MixedLanes {
+  alignas(64) float shape[waves_per_layer - 1][lanes];
+  alignas(64) float slip[lanes];               ///< how far each wire has slid against its parent [strain]
+  std::vector<std::array<float, lanes>> rest;  ///< of shear and of the fibres' bending, (1 + fibres)
+  float cap = 0, cap_per_mean = 0;             ///< cap infinite: glued, 0: free
+  bool scales = true;                          ///< curvature and torsion per path length stay (W11)
+  bool with_shear = false, on_axis = false;
+};
+
 struct Kernels {
   const char* machine;
   /// Strains of every node and fibre at samples [first, first + count), to out[(node * fibres + fibre) *
@@ -109,12 +130,29 @@ struct Kernels {
   /// stride + t].
   void (*layer_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                       float* out, std::size_t stride);
+  /// Mean strain (row 0) and deviation of the last part of a chain as a series in its length (rows 1 ..),
+  /// glued to its parent, to out[row * stride + t]. turn >= 0: of the part moved on by that many sixths of
+  /// the pitch of the ancestor at `turned_level`, its own where that is 0.
+  void (*deviations)(const BundlePointers&, int turn, int turned_level, const DeformationColumns&,
+                     std::size_t first, std::size_t count, double* out, std::size_t stride);
+  /// Ingredients of every node, to out[(node * ingredients + ingredient) * stride + t].
+  void (*node_ingredients)(const BundlePointers&, const DeformationColumns&, std::size_t first,
+                           std::size_t count, double* out, std::size_t stride);
+  /// Waves of the ingredients of every layer, to out[((layer * ingredients + ingredient) * waves_per_layer +
+  /// wave) * stride + t].
+  void (*ingredient_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
+                           std::size_t count, float* out, std::size_t stride);
+  /// Puts the strains of sixteen wires together, fibre by fibre, to out[(fibre * count + t) * lanes + lane].
+  /// waves: of one layer's ingredients.
+  void (*mix)(MixedLanes&, const float* waves, std::size_t stride, std::size_t count, int fibres, float* out);
   /// Path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
   void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                          std::size_t count, double weight, double* sum, std::size_t stride);
   /// The next `count` samples of up to sixteen wires; end[j], where the next turning point of wire j goes,
   /// moves on. It needs room for count + 1 points.
   void (*scan)(LaneState&, const Waves&, std::size_t count, TurningPoint** end);
+  /// The same from the strains themselves, strain[t * lanes + lane].
+  void (*scan_strains)(LaneState&, const float* strain, std::size_t count, TurningPoint** end);
 };
 // count is padded by the callee to a multiple of pack_size: columns and outputs have room for it.
 

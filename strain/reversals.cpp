@@ -68,6 +68,15 @@ void LaneScan::scan(const Waves& waves, std::size_t count, std::span<TurningList
   for (std::size_t wire = 0; wire < out.size(); ++wire) out[wire].set_end(end[wire]);
 }
 
+void LaneScan::scan_strains(const float* strain, std::size_t count, std::span<TurningList> out) {
+  assert(static_cast<int>(out.size()) == state_.used);
+  if (count == 0) return;
+  std::array<TurningPoint*, lanes> end{};
+  for (std::size_t wire = 0; wire < out.size(); ++wire) end[wire] = out[wire].room(count + 1);
+  machine_->scan_strains(state_, strain, count, end.data());
+  for (std::size_t wire = 0; wire < out.size(); ++wire) out[wire].set_end(end[wire]);
+}
+
 void LaneScan::finish(std::span<TurningList> out) {
   for (int wire = 0; wire < state_.used && state_.sample > 1; ++wire) {
     const bool moved = state_.direction[wire] != 0;

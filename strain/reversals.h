@@ -41,6 +41,8 @@ class LaneScan {
 
   /// The next `count` samples; turning points of wire j go to out[j].
   void scan(const Waves& waves, std::size_t count, std::span<TurningList> out);
+  /// The same from the strains themselves, strain[t * lanes + wire].
+  void scan_strains(const float* strain, std::size_t count, std::span<TurningList> out);
   void finish(std::span<TurningList> out);
 
   int wires() const { return state_.used; }

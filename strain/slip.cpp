@@ -5,6 +5,19 @@
 #include <cmath>
 
 namespace dresslife::strain {
+namespace {
+
+/// (W16): friction gathers along a quarter of the length over which the deviation changes sign and back.
+FrictionCap friction_cap(const Layer& layer, double evening_length) {
+  const double sine = std::sin(layer.lay_angle);
+  const double press = layer.helix_radius > 0 ? sine * sine / layer.helix_radius : 0;  // of a tension [1/m]
+  const double reach = layer.friction * evening_length / 4;                            // [m]
+  const double load = layer.line_load + layer.tension * press;
+  if (reach * load == 0) return {0, reach * press};
+  return {reach * load / layer.axial_stiffness, reach * press};
+}
+
+}  // namespace
 
 std::vector<LayerSlip> plan_slip(const Construction& construction, const std::vector<pipeline::Slip>& slip,
                                  double free_length) {
@@ -12,8 +25,9 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
   const auto& layers = construction.layers();
   std::vector<LayerSlip> plan(layers.size());
   std::vector<int> helical_level(layers.size(),
-                                 0);          // of the layer itself or its nearest helical ancestor; 0: none
-  std::vector<double> length(layers.size());  // ideal length between the clamps [m]
+                                 0);           // of the layer itself or its nearest helical ancestor; 0: none
+  std::vector<double> evening(layers.size());  // [m], see below
+  std::vector<double> length(layers.size());   // ideal length between the clamps [m]
   for (std::size_t k = 0; k < layers.size(); ++k) {  // parents come first
     const Layer& layer = layers[k];
     const bool outermost = layer.parent == dresspack_itself;
@@ -23,13 +37,22 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     const bool helical = layer.pitch() < parent_length;
     helical_level[k] = helical ? layer.level : inherited;
     const auto level = std::min<std::size_t>(layer.level, slip.size());
+    // path length over which the strain evens out: of a pitch, of its own or its ancestor's, or all
+    evening[k] = helical          ? layer.pitch() / std::cos(layer.lay_angle)
+                 : inherited == 0 ? length[k]
+                                  : evening[layer.parent] / std::cos(layer.lay_angle);
     if (slip[level - 1] == pipeline::Slip::stick) continue;
     if (helical)
-      plan[k] = {Sliding::over_pitch, 0};
-    else if (inherited > 0)
-      plan[k] = {Sliding::along_ancestor, inherited};
-    else
-      plan[k] = {Sliding::clamp_to_clamp, 0};
+      plan[k].sliding = Sliding::over_pitch;
+    else if (inherited > 0) {
+      plan[k].sliding = Sliding::along_ancestor;
+      plan[k].helical_level = inherited;
+    } else {
+      plan[k].sliding = Sliding::clamp_to_clamp;
+    }
+    if (slip[level - 1] != pipeline::Slip::friction) continue;
+    plan[k].friction = true;
+    plan[k].cap = friction_cap(layer, evening[k]);
   }
   return plan;
 }

@@ -8,6 +8,7 @@
 // - clamp_to_clamp: straight (or a pitch beyond the free length) in straight ancestors: the mean over all
 // segments.
 // - along_ancestor: straight in a helical ancestor: the mean over that ancestor's pitch, its own phase held.
+// `friction` keeps the mean of `free` and lets the deviation from it build up to a cap (strain/friction.h).
 // A component's bending and torsion per path length stay as they are.
 #pragma once
 
@@ -20,9 +21,18 @@ namespace dresslife::strain {
 
 enum class Sliding { glued, over_pitch, clamp_to_clamp, along_ancestor };
 
+/// Largest deviation of the strain from its mean that friction can hold (README W16): constant + per_mean x
+/// mean, not below 0. The mean strain is what tension the part has beyond that at rest.
+struct FrictionCap {
+  double constant = 0, per_mean = 0;
+  bool operator==(const FrictionCap&) const = default;
+};
+
 struct LayerSlip {
   Sliding sliding = Sliding::glued;
   int helical_level = 0;  ///< of along_ancestor: level of the nearest helical ancestor
+  bool friction = false;  ///< slides only when its deviation from the mean reaches the cap
+  FrictionCap cap;
   bool operator==(const LayerSlip&) const = default;
 };
 

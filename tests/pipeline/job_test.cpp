@@ -78,7 +78,7 @@ TEST_CASE("job: unknown keys are refused with the likeliest key") {
   check_case({"fatigue: {", "fatige: {", "fatige: {", "unknown key 'fatige'; did you mean 'fatigue'?"});
   check_case(
       {"gate: 1e-4", "xyzzy: 1", "xyzzy",
-       "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, surface_fibres, gate, probes"});
+       "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, surface_fibres, gate, probes"});
 }
 
 TEST_CASE("job: a key with the wrong unit is answered with the right one") {
@@ -172,7 +172,7 @@ TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are to
               "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give correction of the "
               "strain-life curve"});
   check_case({"slip: [stick, free]", "slip: [stick, glued]", "glued",
-              "strain.slip is 'glued' (must be free | stick); give between a part and its parent; one word, "
+              "strain.slip is 'glued' (must be free | stick | friction); give between a part and its parent; one word, "
               "or one per "
               "level, outermost first"});
   check_case({"slip: [stick, free]", "slip: []", "[], gate",

@@ -1,0 +1,72 @@
+// Friction between a component and what it lies against (README W16, W17).
+//
+// A glued component's strain deviates from its mean over the length within which it evens out
+// (strain/slip.h). Friction holds that deviation up to a cap. Along the component its force changes by at
+// most mu p per length, p the radial line load; from where the deviation is zero to where it is largest is a
+// quarter of the evening length s, so
+//     cap = mu p s / (4 E A),   p = q + T sin^2(alpha) / R,   T = T0 + E A x mean strain, not below 0   (W16)
+// which for a helix, s = 2 pi R / sin(alpha), is Papailiou's (pi/2) k_slip R cos^2(alpha) with
+// k_slip = mu p / (E A cos^2(alpha) sin(alpha)), and holds for straight components as well.
+// The deviation goes through an elastic-perfectly-plastic slider (W17): held = deviation - slip, and the slip
+// gives way when |held| would exceed the cap. E A x held x d(slip) >= 0 is the friction's work per length:
+// a closed loop can only lose energy.
+//
+// Source: K. Papailiou, On the bending stiffness of transmission line conductors, IEEE Trans. Power Delivery
+// 12 (1997); F. Foti and L. Martinelli, J. Sound Vib. 370 (2016).
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "strain/clamp_means.h"
+
+namespace dresslife::strain {
+
+class Slider {
+ public:
+  /// What is held of the next deviation. cap >= 0.
+  double next(double deviation, double cap) {
+    const double held = std::clamp(deviation - slip_, -cap, cap);
+    slip_ = deviation - held;
+    return held;
+  }
+  /// The slope of the held strain along the component: it follows the deviation's while the slider sticks and
+  /// is that of the cap, none, while it slides.
+  static double next_slope(double slope, bool sliding, double& slope_slip) {
+    if (sliding) slope_slip = slope;
+    return slope - slope_slip;
+  }
+  double slip() const { return slip_; }
+
+ private:
+  double slip_ = 0;
+};
+
+inline double cap_at(const FrictionCap& cap, double mean) {
+  return std::max(0.0, cap.constant + cap.per_mean * mean);
+}
+
+/// What friction holds of the strains of one segment's parts, over the whole motion. The sliders start where
+/// one repeat of the motion leaves them: slip settles in the first, and life is counted in many.
+class HeldStrains {
+ public:
+  /// columns: of the segment whose centre lies at `arc` [m].
+  HeldStrains(const Construction& construction, const ClampMeans& means, double arc,
+              const DeformationColumns& columns, std::size_t samples);
+
+  /// Gives each part of `chain`, which ends in `part`, what friction holds of it.
+  void attach(BundleChain& chain, int part) const;
+
+ private:
+  struct Rows {
+    std::vector<double> own;                                   ///< (power, sample)
+    std::array<std::vector<double>, phases_per_pitch> turned;  ///< empty when nobody asks for them
+  };
+
+  const Construction& construction_;
+  std::size_t stride_;
+  std::map<int, Rows> rows_;  ///< by part
+};
+
+}  // namespace dresslife::strain

@@ -1,0 +1,288 @@
+// Slip with friction: its limits, its hysteresis, its energy; and shear in the equivalent strain.
+#include "strain/friction.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "strain/evaluation.h"
+#include "tests/strain/dresspacks.h"
+
+using namespace dresslife::strain;
+using namespace test_dresspacks;
+using dresslife::pipeline::Equivalent;
+using dresslife::pipeline::Kinematics;
+using dresslife::pipeline::Slip;
+using Settings = dresslife::pipeline::Strain;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr std::size_t segments = 3, samples = 301;
+
+DeformationHistory moving() {
+  DeformationHistory history(segments, samples);
+  for (std::size_t i = 0; i < segments; ++i)
+    for (std::size_t t = 0; t < samples; ++t) {
+      const double x = (i + 0.5) / segments, y = 2 * pi * t / (samples - 1.0);
+      history.set(i, t,
+                  {3 * std::sin(2 * pi * x + 2 * y) + 2, 3 * std::cos(3 * x - 3 * y), 4 * std::sin(y + x),
+                   1e-4 * std::sin(5 * y)});
+    }
+  return history;
+}
+
+void rub(std::vector<Component>& components, double friction, double line_load) {
+  for (Component& component : components) {
+    component.friction = friction;
+    component.radial_line_load = line_load;
+    rub(component.components, friction, line_load);
+  }
+}
+
+/// Two cables of the thesis' dresspack, two wire layers, all with the same friction.
+Dresspack rubbing(double friction, double line_load = 20) {
+  Dresspack dresspack = thesis_dresspack();
+  dresspack.components[0].count = 2;
+  dresspack.components[0].components[0].components.resize(2);
+  dresslife::pipeline::Material copper;
+  copper.name = "copper";
+  copper.youngs_modulus = 117e9;
+  dresspack.materials = {copper};
+  rub(dresspack.components, friction, line_load);
+  return dresspack;
+}
+
+struct Results {
+  std::vector<float> strain;
+  std::vector<std::uint32_t> sample;
+  std::vector<std::uint64_t> turning;
+  std::vector<Probe> probes;
+};
+
+Results evaluate(const Dresspack& dresspack, const Settings& settings) {
+  const Construction construction(dresspack, settings.kinematics);
+  const DeformationHistory history = moving();
+  Evaluation evaluation(construction, settings, std::vector<double>(segments, 2.0 / segments), samples);
+  evaluation.add(history);
+  Results results;
+  Sink sink;
+  sink.sites = [&](const SiteRows& rows) {
+    results.strain.insert(results.strain.end(), rows.strain.begin(), rows.strain.end());
+    results.sample.insert(results.sample.end(), rows.sample.begin(), rows.sample.end());
+    results.turning.insert(results.turning.end(), rows.turning.begin(), rows.turning.end());
+  };
+  sink.bound_free = sink.bound_stick = [](const SiteRows&) {};
+  sink.probe = [&](const Probe& probe) { results.probes.push_back(probe); };
+  for (std::size_t i = 0; i < segments; ++i) evaluation.evaluate(i, history, i, sink);
+  return results;
+}
+
+Settings settings_with(std::vector<Slip> slip, Kinematics kinematics = Kinematics::exact) {
+  Settings settings;
+  settings.slip = std::move(slip);
+  settings.kinematics = kinematics;
+  settings.gate = 1e-4;
+  settings.probes = {{1, "signal cable 2/conductor 5/layer 2/wire 9"},
+                     {2, "signal cable 1/conductor 1/layer 1/wire 30"}};
+  return settings;
+}
+
+/// Largest difference of the named wires' histories, over their largest strain.
+double difference(const Results& a, const Results& b) {
+  REQUIRE(a.probes.size() >= 2);
+  double worst = 0, size = 0;
+  // the two that the job names come after the worst of their segments: compare by site
+  for (const Probe& p : a.probes)
+    for (const Probe& q : b.probes)
+      if (p.site == q.site)
+        for (std::size_t t = 0; t < samples; ++t) {
+          worst = std::max(worst, std::abs(p.strain[t] - q.strain[t]));
+          size = std::max(size, std::abs(q.strain[t]));
+        }
+  REQUIRE(size > 1e-4);
+  return worst / size;
+}
+
+constexpr double no_friction = 0, endless_friction = 1e6;
+constexpr double rounding = 1e-9;       // of strains computed from stretches near one
+constexpr double wave_rounding = 2e-6;  // of strains in single precision
+
+}  // namespace
+
+TEST_CASE("endless friction is stick, none is free, on every level and in both kinematics") {
+  for (const Kinematics kinematics : {Kinematics::exact, Kinematics::thesis}) {
+    const Results stick = evaluate(rubbing(0), settings_with({Slip::stick}, kinematics));
+    const Results free = evaluate(rubbing(0), settings_with({Slip::free}, kinematics));
+    const Settings friction = settings_with({Slip::friction}, kinematics);
+    const Results glued = evaluate(rubbing(endless_friction, 1e6), friction);
+    const Results loose = evaluate(rubbing(no_friction), friction);
+    CHECK(difference(glued, stick) < rounding);
+    CHECK(difference(loose, free) < rounding);
+    CHECK(difference(stick, free) > 0.1);
+    // all sites: the same turning points, but for those within rounding of the gate
+    REQUIRE(glued.turning.size() == stick.turning.size());
+    REQUIRE(loose.turning.size() == free.turning.size());
+    for (const auto& [a, b] : {std::pair(&glued, &stick), std::pair(&loose, &free)}) {
+      std::size_t other = 0, at_a = 0, at_b = 0;
+      float worst = 0;
+      for (std::size_t site = 0; site < a->turning.size(); ++site) {
+        if (a->turning[site] != b->turning[site])
+          ++other;
+        else
+          for (std::uint64_t k = 0; k < a->turning[site]; ++k)
+            worst = std::max(worst, std::abs(a->strain[at_a + k] - b->strain[at_b + k]));
+        at_a += a->turning[site];
+        at_b += b->turning[site];
+      }
+      CHECK(worst < wave_rounding);
+      CHECK(other * 1000 < a->turning.size());
+    }
+  }
+}
+
+TEST_CASE("straight wires in a helical conductor, too, stick by endless friction and slide without") {
+  auto straight = [](double friction, double load) {
+    Dresspack dresspack = rubbing(friction, load);
+    for (Component& wire : dresspack.components[0].components[0].components) wire.lay_angle = 0;
+    return dresspack;
+  };
+  const Settings friction = settings_with({Slip::friction});
+  CHECK(difference(evaluate(straight(endless_friction, 1e6), friction),
+                   evaluate(straight(0, 0), settings_with({Slip::stick}))) < rounding);
+  CHECK(difference(evaluate(straight(no_friction, 0), friction),
+                   evaluate(straight(0, 0), settings_with({Slip::free}))) < rounding);
+  // a stuck conductor with sliding wires in it: the turned ancestors are stuck as well
+  Dresspack mixed = straight(no_friction, 0);
+  mixed.components[0].friction = mixed.components[0].components[0].friction = endless_friction;
+  mixed.components[0].radial_line_load = mixed.components[0].components[0].radial_line_load = 1e6;
+  CHECK(difference(evaluate(mixed, friction),
+                   evaluate(straight(0, 0), settings_with({Slip::stick, Slip::stick, Slip::free}))) <
+        rounding);
+}
+
+TEST_CASE("sites and probes agree where friction holds some of the strain") {
+  Settings settings = settings_with({Slip::friction});
+  settings.gate = 0;
+  for (const Equivalent equivalent : {Equivalent::axial, Equivalent::shear_included}) {
+    settings.equivalent = equivalent;
+    const Results results = evaluate(rubbing(0.5, 300), settings);
+    const Results free = evaluate(rubbing(0), settings_with({Slip::free}));
+    CHECK(difference(results, free) > 0.02);
+    std::vector<std::size_t> begin(1, 0);
+    for (const std::uint64_t count : results.turning) begin.push_back(begin.back() + count);
+    // what the waves leave out (W13), and of it what a slider at its cap turns into slip
+    constexpr double wave_tolerance = 1e-3;
+    for (const Probe& probe : results.probes) {
+      const auto [low, high] = std::minmax_element(probe.strain.begin(), probe.strain.end());
+      for (std::size_t k = begin[probe.site]; k < begin[probe.site + 1]; ++k)
+        REQUIRE(std::abs(results.strain[k] - probe.strain[results.sample[k]]) <
+                wave_tolerance * (*high - *low));
+    }
+  }
+}
+
+TEST_CASE("the cap of a helix is Papailiou's") {
+  Dresspack dresspack = rubbing(0.4, 70);
+  dresspack.components[0].components[0].tension = 11;
+  const Construction construction(dresspack, Kinematics::exact);
+  const auto plan = plan_slip(construction, {Slip::friction}, 2.0);
+  const Layer& conductor = construction.layers()[1];
+  const double alpha = 25 * degree, R = 0.002825, sine = std::sin(alpha), cosine = std::cos(alpha);
+  // wires of the two layers: E A cos^3 each
+  const double stiffness = 56 * 117e9 * pi * 75e-6 * 75e-6 * std::pow(std::cos(5 * degree), 3);
+  CHECK(conductor.axial_stiffness == Approx(stiffness));
+  for (const double mean : {0.0, 1e-4}) {
+    const double T = 11 + stiffness * mean;
+    const double k_slip = 0.4 * (70 + T * sine * sine / R) / (stiffness * cosine * cosine * sine);
+    CHECK(cap_at(plan[1].cap, mean) == Approx(pi / 2 * k_slip * R * cosine * cosine));
+  }
+  CHECK(cap_at(plan[1].cap, -1.0) == 0);
+  // a straight cable: friction gathers from the clamps and from the middle, a quarter of its length each
+  CHECK(cap_at(plan[0].cap, 0.0) == Approx(0.4 * 70 * 2.0 / 4 / construction.layers()[0].axial_stiffness));
+}
+
+TEST_CASE("closed loops of a slider lose energy and never gain it") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> part(-1, 1);
+  double most_lost = 0;
+  for (int loop = 0; loop < 500; ++loop) {
+    // any closed path of the deviation, under a cap that changes with it
+    const double cap = 0.3 * std::abs(part(random));
+    std::vector<double> path(40);
+    for (double& value : path) value = part(random);
+    path.push_back(path.front());
+    Slider slider;
+    slider.next(path.front(), cap);
+    double held = slider.next(path.front(), cap), stored = held * held / 2, work = 0, before = path.front();
+    for (std::size_t k = 1; k < path.size(); ++k) {
+      const double now = slider.next(path[k], cap * (1 + 0.5 * part(random)));
+      work += now * (path[k] - before);
+      // what is not stored is lost, step by step: implicit return mapping only ever loses
+      const double lost = work - (now * now / 2 - stored);
+      REQUIRE(lost >= -1e-12);
+      before = path[k];
+    }
+    most_lost = std::max(most_lost, work);
+    CHECK(work - (slider.next(path.back(), cap) * slider.next(path.back(), cap) / 2 - stored) >= -1e-12);
+  }
+  CHECK(most_lost > 0.1);
+  // the triangle of amplitude a > cap: a parallelogram of area 4 cap (a - cap)
+  Slider slider;
+  const double cap = 0.2, amplitude = 1;
+  constexpr int steps = 1000;
+  double work = 0, before = 0, held_before = 0;
+  auto move = [&](double from, double to, bool count) {
+    for (int k = 1; k <= steps; ++k) {
+      const double now = from + (to - from) * k / steps, held = slider.next(now, cap);
+      if (count) work += (held + held_before) / 2 * (now - before);
+      before = now;
+      held_before = held;
+    }
+  };
+  move(0, amplitude, false);
+  move(amplitude, -amplitude, true);
+  move(-amplitude, amplitude, true);
+  constexpr double corners = 1e-3;  // trapezoids cut the corners where it begins to slide
+  CHECK(work == Approx(4 * cap * (amplitude - cap)).epsilon(corners));
+}
+
+TEST_CASE("a motion's slip settles: the strain at its end leads on to that at its start") {
+  // the motion is closed, so a settled slider is where it was: the first sample follows from the last
+  const Results results = evaluate(rubbing(0.5, 300), settings_with({Slip::friction}));
+  for (const Probe& probe : results.probes)
+    CHECK(std::abs(probe.strain.front() - probe.strain.back()) < 1e-12);
+}
+
+TEST_CASE("shear of a wire's torsion: sqrt(3) of a twisted straight wire's, signed as the strain") {
+  Dresspack dresspack;
+  Component wire = wires("", 1, 0.001, 0, 0, Hand::right);
+  wire.helix_radius = 0;
+  dresspack.components = {wire};
+  const Construction construction(dresspack, Kinematics::exact);
+  Settings settings;
+  settings.slip = {Slip::stick};
+  settings.gate = 0;
+  settings.surface_fibres = 0;
+  settings.equivalent = Equivalent::shear_included;
+  DeformationHistory history(1, 3);
+  history.set(0, 1, {0, 0, 2.0, 1e-3});
+  history.set(0, 2, {0, 0, -2.0, -1e-3});
+  Evaluation evaluation(construction, settings, {0.5}, 3);
+  evaluation.add(history);
+  std::vector<double> strain;
+  std::vector<float> turning;
+  Sink sink;
+  sink.sites = [&](const SiteRows& rows) { turning = rows.strain; };
+  sink.bound_free = sink.bound_stick = [](const SiteRows&) {};
+  sink.probe = [&](const Probe& probe) { strain = probe.strain; };
+  evaluation.evaluate(0, history, 0, sink);
+  const double gamma = 0.001 * 2.0, equivalent = std::sqrt(1e-6 + gamma * gamma / 3);
+  REQUIRE(strain.size() == 3);
+  CHECK(strain[1] == Approx(equivalent));
+  CHECK(strain[2] == Approx(-equivalent));
+  REQUIRE(turning.size() == 3);
+  CHECK(turning[1] == Approx(equivalent));
+  CHECK(turning[2] == Approx(-equivalent));
+}
