@@ -138,6 +138,13 @@ int show(const Options& options) {
   return 0;
 }
 
+/// Becomes dresslife-import, which lies beside this program and takes the rest of the command line.
+int import_program(char** arguments) {
+  const std::string program = (fs::read_symlink("/proc/self/exe").parent_path() / "dresslife-import").string();
+  ::execv(program.c_str(), arguments);
+  throw InputError({program}, "cannot be started", "install dresslife's programs into one folder");
+}
+
 void add_common(CLI::App* command, Options& options) {
   command->add_option("-o,--output", options.out, "folder of the results")->type_name("DIR")->capture_default_str();
   command->add_option("--set", options.sets, "override a key in every job; may be repeated")->type_name("KEY.PATH=VALUE")->allow_extra_args(false);
@@ -168,9 +175,12 @@ int main(int argc, char** argv) {
   CLI::App* show_command = app.add_subcommand("show", "print a job with its catalogue entries and defaults written out");
   show_command->add_option("job", options.study, "JOB.yaml")->required()->type_name("");
   show_command->add_option("--set", options.sets, "override a key; may be repeated")->type_name("KEY.PATH=VALUE")->allow_extra_args(false);
+  app.add_subcommand("import", "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help");
   CLI::App* manual_command = app.add_subcommand("manual", "print the reference of all keys or of all files, as Markdown");
   manual_command->add_option("what", options.what, "keys or files")->required()->check(CLI::IsMember({"keys", "files"}))->type_name("");
 
+  if (argc > 1 && std::string_view(argv[1]) == "import")
+    return guarded("dresslife", [&] { return import_program(argv + 1); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

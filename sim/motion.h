@@ -20,8 +20,9 @@
 // (zone 0, a dwell, the ends) is a full stop.
 //
 // Tool paths are chains of short legs, whose corners are blended likewise (legs.h: M6, M7).
-// Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is an estimate. (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic
-// Machines and Robots, 2008, chapters 3 and 5; the unified form here is derived in sim/README.md.)
+// Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is an estimate.
+// (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic Machines and
+// Robots, 2008, chapters 3 and 5; the unified form here is derived in sim/README.md.)
 #pragma once
 
 #include <Eigen/Core>
