@@ -490,6 +490,13 @@ std::vector<std::filesystem::path> files_beside(const Job& job) {
   for (const auto& file : {job.motion.clamp_poses, job.motion.program})
     if (!file.empty()) files.push_back(file);
   for (const ProgramFile& module : job.motion.modules) files.push_back(module.file);
+  const std::filesystem::path& program = job.motion.program;
+  if (program.extension() == ".src" || program.extension() == ".SRC")
+    for (const char* end : {".dat", ".DAT"}) {  // KRL reads a program's data list by itself
+      const std::filesystem::path data = std::filesystem::path(program).replace_extension(end);
+      std::error_code failure;
+      if (std::filesystem::is_regular_file(data, failure)) files.push_back(data);
+    }
   return files;
 }
 

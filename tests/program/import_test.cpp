@@ -150,3 +150,16 @@ TEST_CASE("import: mutated programs never break a reader") {
   CHECK(refused > runs / 4);  // the mutations do hurt
   CHECK(refused < runs);
 }
+
+TEST_CASE("import: the example programs read without a problem") {
+  const std::string folder = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/";
+  // Home twice, two approaches, sixteen spots with their welds, two ways out; start, four times eight, end;
+  // start, twice four, a wait, end.
+  const std::pair<const char*, std::size_t> examples[] = {
+      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}};
+  for (const auto& [name, count] : examples) {
+    pipeline::Motion motion;
+    motion.program = folder + name;
+    CHECK(read_program(motion).instructions.size() == count);
+  }
+}
