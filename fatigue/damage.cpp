@@ -80,9 +80,11 @@ double sum_of_damage(std::span<const DamagingCycle> cycles) {
   return sum;
 }
 
-std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std::size_t samples) {
+std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std::size_t samples,
+                                     Moment moment) {
   std::vector<double> damage(samples, 0.0);
-  for (const DamagingCycle& c : cycles) damage.at(c.cycle.end.sample) += c.damage;
+  for (const DamagingCycle& c : cycles)
+    damage.at((moment == Moment::opens ? c.cycle.begin : c.cycle.end).sample) += c.damage;
   return damage;
 }
 
@@ -90,7 +92,9 @@ std::vector<double> damage_by_step(std::span<const double> damage, std::span<con
                                    std::size_t steps) {
   assert(damage.size() == step.size());
   std::vector<double> sums(steps, 0.0);
-  for (std::size_t t = 0; t < damage.size(); ++t) sums.at(step[t]) += damage[t];
+  for (std::size_t t = 0; t < damage.size(); ++t) {
+    if (step[t] >= 0) sums.at(step[t]) += damage[t];
+  }
   return sums;
 }
 
@@ -300,6 +304,62 @@ double sum_repeating(std::span<const float> strains, const Range& stress_range, 
   return sum(w.period, first_stress, stress_range, damage, w.strain.data(), w.stress.data());
 }
 
+/// Stress at every reversal of a history that starts at rest: MemoryPath without its calls. Alternating
+/// reversals never continue a direction, so that case is left out.
+template <class Range>
+void follow_stress(std::span<const float> strains, const Range& stress_range, std::vector<double>& stress,
+                   std::vector<double>& open, std::vector<double>& response) {
+  stress.resize(strains.size());
+  open.resize(strains.size() + 1);
+  response.resize(strains.size() + 1);
+  std::size_t top = 0;
+  double largest = 0;
+  open[0] = response[0] = 0;
+  for (std::size_t i = 0; i < strains.size(); ++i) {
+    const double strain = strains[i];
+    if (std::fabs(strain) >= largest) {
+      largest = std::fabs(strain);
+      top = 0;
+      open[0] = strain;
+      response[0] = std::copysign(stress_range(2 * largest) / 2, strain);
+    } else {
+      while (top >= 2 && (strain > open[top] ? strain >= open[top - 1] : strain <= open[top - 1])) top -= 2;
+      const double way = strain - open[top];
+      response[top + 1] = response[top] + std::copysign(stress_range(std::fabs(way)), way);
+      open[++top] = strain;
+    }
+    stress[i] = response[top];
+  }
+}
+
+/// count_half_cycles() with damage, over alternating reversals.
+template <class Range, class Damage>
+double sum_half_cycles(std::span<const float> strains, const Range& stress_range, const Damage& damage,
+                       DamageCounter::Workspace& w) {
+  follow_stress(strains, stress_range, w.stress, w.strain, w.period);
+  w.open.resize(strains.size());
+  std::uint32_t* const open = w.open.data();
+  std::size_t first = 0, size = 0;  // of those open
+  double sum = 0;
+  const auto add = [&](double count, std::uint32_t a, std::uint32_t b) {
+    const double amplitude = std::fabs(double(strains[a]) - double(strains[b])) / 2;
+    sum += count * damage(amplitude, std::max(w.stress[a], w.stress[b]), w.stress[a] / 2 + w.stress[b] / 2);
+  };
+  for (std::uint32_t next = 0; next < strains.size(); ++next) {
+    while (size - first >= 2) {
+      const std::uint32_t below = open[size - 2], top = open[size - 1];
+      const float strain = strains[next];
+      if (strain > strains[top] ? strain < strains[below] : strain > strains[below]) break;
+      const bool holds_start = size - first == 2;
+      add(holds_start ? 0.5 : 1, below, top);
+      holds_start ? ++first : size -= 2;
+    }
+    open[size++] = next;
+  }
+  for (std::size_t i = first; i + 1 < size; ++i) add(0.5, open[i], open[i + 1]);
+  return sum;
+}
+
 }  // namespace
 
 struct DamageCounter::Tables {
@@ -357,7 +417,12 @@ auto DamageCounter::Tables::with_functions(const Use& use) const {
 
 double DamageCounter::operator()(std::span<const float> strains, Workspace& workspace) const {
   if (strains.size() < 2) return 0;
-  if (tables_->settings.counting == Counting::half_cycles) {  // for occasional use, not tuned
+  if (tables_->settings.counting == Counting::half_cycles) {
+    if (alternates(strains)) {
+      return tables_->with_functions([&](const auto& stress_range, const auto& damage) {
+        return sum_half_cycles(strains, stress_range, damage, workspace);
+      });
+    }
     std::vector<Reversal> reversals;
     for (const float strain : strains)
       reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});

@@ -33,12 +33,17 @@ std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
 /// (10) over listed cycles.
 double sum_of_damage(std::span<const DamagingCycle> cycles);
 
-/// Damage placed in time, (sample): each cycle's at its end, the reversal at which its whole range has been
-/// run through. (The loop itself closes when the strain next comes back to the cycle's begin.)
-std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std::size_t samples);
+/// The two samples on which a cycle's damage may be put: where its range opens, and where it has been run
+/// through. (The loop itself closes later, when the strain next comes back to the cycle's begin.) Both
+/// placings hold the whole damage; who asks what costs the life puts half of it on each.
+enum class Moment { opens, closes };
+
+/// Damage placed in time, (sample).
+std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std::size_t samples,
+                                     Moment moment = Moment::closes);
 
 /// Damage by program step, (step): sum of `damage` (sample) over the samples of each step.
-/// Precondition: step (sample) lies in [0, steps).
+/// Samples outside any line (-1) count for none. Precondition: step (sample) lies in [-1, steps).
 std::vector<double> damage_by_step(std::span<const double> damage, std::span<const std::int32_t> step,
                                    std::size_t steps);
 
@@ -52,6 +57,7 @@ class DamageCounter {
   /// Memory that one thread reuses between histories.
   struct Workspace {
     std::vector<double> period, strain, stress;
+    std::vector<std::uint32_t> open;
   };
   /// Damage per repeat of the history with these reversal strains. Relative difference from the sum over
   /// evaluate_cycles(): below `table_error` for b <= -0.05.

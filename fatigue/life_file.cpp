@@ -134,9 +134,9 @@ void write_segments(const Context& c) {
   put(c.life, "/segment/damage", damage_at(c, worst));
   c.life.set_axis("sample", c.time.size());
   for (const std::size_t site : worst) {
-    put(c.life, "/damage_rate",
-        site == no_site ? std::vector<double>(c.time.size(), 0.0)
-                        : damage_over_time(c.cycles_of(site), c.time.size()));
+    const auto cycles = site == no_site ? std::vector<DamagingCycle>{} : c.cycles_of(site);
+    put(c.life, "/damage_rate", damage_over_time(cycles, c.time.size(), Moment::closes));
+    put(c.life, "/damage_rate_opened", damage_over_time(cycles, c.time.size(), Moment::opens));
   }
 }
 
@@ -210,8 +210,11 @@ void write_program(const Context& c, const std::vector<DamagingCycle>& cycles) {
   put(c.life, "/time", c.time);
   put(c.life, "/program/step", c.step);
   put(c.life, "/program/text", c.step_text);
-  put(c.life, "/program/damage",
-      damage_by_step(damage_over_time(cycles, c.time.size()), c.step, c.step_text.size()));
+  const auto by_step = [&](Moment moment) {
+    return damage_by_step(damage_over_time(cycles, c.time.size(), moment), c.step, c.step_text.size());
+  };
+  put(c.life, "/program/damage", by_step(Moment::closes));
+  put(c.life, "/program/damage_opened", by_step(Moment::opens));
 }
 
 /// The worst site's life, place and moment. Returns the summary for the terminal.

@@ -83,6 +83,7 @@ Format make_life_format() {
       {"/cycles/end", Type::u32, {"cycle"}, "1", "sample at which its range is reached"},
       {"/cycles/damage", Type::f64, {"cycle"}, "1", "its share of the damage per repeat"},
       {"/damage_rate", Type::f64, {"segment", "sample"}, "1", "damage of each segment's worst site, on the sample at which its cycles close"},
+      {"/damage_rate_opened", Type::f64, {"segment", "sample"}, "1", "the same damage on the sample at which its cycles open", false, true},
       {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
       {"/segment/worst_site", Type::u32, {"segment"}, "1", "site with the largest damage in each segment; 4294967295: none"},
       {"/segment/damage", Type::f64, {"segment"}, "1", "its damage per repeat"},
@@ -98,6 +99,7 @@ Format make_life_format() {
       {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
       {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
       {"/program/damage", Type::f64, {"line"}, "1", "damage of the worst site by the program line that closes the cycles"},
+      {"/program/damage_opened", Type::f64, {"line"}, "1", "the same damage by the program line that opens the cycles", false, true},
   };
   format.datasets[1].deflate = format.datasets[2].deflate = format.datasets[4].deflate = true;
   format.attributes = {

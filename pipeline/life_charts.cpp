@@ -188,6 +188,7 @@ LifeSummary read_life(const std::filesystem::path& life_file) {
   life.step = file.read<std::int32_t>("/program/step");
   life.step_text = file.read<std::string>("/program/text");
   life.step_damage = file.read<double>("/program/damage");
+  if (file.has("/program/damage_opened")) life.step_opened = file.read<double>("/program/damage_opened");
   life.segment_length = file.read<double>("/segment/length");
   life.segment_damage = file.read<double>("/segment/damage");
   life.layer = file.read<std::string>("/layer/component");

@@ -21,7 +21,8 @@ struct LifeSummary {
   std::vector<double> damage_rate;     ///< (sample) of the worst segment; empty: no wire was evaluated
   std::vector<std::int32_t> step;      ///< (sample) program line, -1: none
   std::vector<std::string> step_text;  ///< (line)
-  std::vector<double> step_damage;     ///< (line) of the worst wire, per repeat
+  std::vector<double> step_damage;     ///< (line) of the worst wire, per repeat, by the line that closes a cycle
+  std::vector<double> step_opened;     ///< (line) the same by the line that opens it; empty: not told
   std::vector<double> segment_length;  ///< (segment) from the base [m]
   std::vector<double> segment_damage;  ///< (segment) of its worst wire, per repeat
   std::vector<std::string> layer;      ///< (layer) path of a layer of wires

@@ -186,18 +186,20 @@ std::string program_table(const LifeSummary& life) {
     }
     rows += fmt::format(
         "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td "
-        "class=\"number\">{}</td></tr>\n",
+        "class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
         line + 1, escaped(life.step_text[line]), times,
         costliest ? fmt::format("{:.1f} .. {:.1f} s", costliest->begin, costliest->end) : "",
-        meter(life.step_damage[line] / total, largest / total), printed(life.step_damage[line]));
+        meter(life.step_damage[line] / total, largest / total),
+        life.step_opened.empty() ? "" : fmt::format("{:.1f} %", 100 * life.step_opened[line] / total),
+        printed(life.step_damage[line]));
   }
   if (rows.empty()) return "";
   return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">A cycle of strain counts for the line in "
          "which its range is "
-         "reached.</p>\n<div class=\"wide\"><table>\n<thead><tr><th "
+         "reached; the share of those that open in a line stands beside it.</p>\n<div class=\"wide\"><table>\n<thead><tr><th "
          "class=\"number\">line</th><th>program</th>"
          "<th class=\"number\">runs</th><th>costliest at</th><th>share of the damage</th><th "
-         "class=\"number\">damage per repeat</th></tr>"
+         "class=\"number\">opened here</th><th class=\"number\">damage per repeat</th></tr>"
          "</thead>\n<tbody>\n" +
          rows + "</tbody></table></div>\n";
 }

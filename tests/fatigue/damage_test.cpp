@@ -275,6 +275,10 @@ TEST_CASE("damage placed in time and by step sums to the whole") {
     const auto by_step = damage_by_step(in_time, step, steps);
     REQUIRE(by_step.size() == steps);
     CHECK(std::accumulate(by_step.begin(), by_step.end(), 0.0) == Approx(total).epsilon(same_sum));
+    const auto opened = damage_over_time(cycles, samples, Moment::opens);
+    CHECK(std::accumulate(opened.begin(), opened.end(), 0.0) == Approx(total).epsilon(same_sum));
+    step.assign(samples, -1);  // outside any line
+    CHECK(damage_by_step(in_time, step, steps) == std::vector<double>(steps, 0.0));
   }
 }
 
@@ -289,6 +293,8 @@ TEST_CASE("damage stands where its cycle ends, in the original order of time") {
   CHECK((cycles[1].cycle.begin.sample == 3 && cycles[1].cycle.end.sample == 0));
   const auto in_time = damage_over_time(cycles, 5);
   CHECK(in_time == std::vector<double>{cycles[1].damage, 0, cycles[0].damage, 0, 0});
+  CHECK(damage_over_time(cycles, 5, Moment::opens) ==
+        std::vector<double>{0, cycles[0].damage, 0, cycles[1].damage, 0});
 }
 
 TEST_CASE("histories without cycles do no damage") {

@@ -235,10 +235,16 @@ TEST_CASE("life.h5: cycles, time, steps, segments and layers add up") {
     life.read_rows("/damage_rate", segment, 1, rate);
     REQUIRE(rate.size() == samples);
     CHECK(sum(rate) == Approx(segment_damage[segment]).epsilon(same_sum));
+    life.read_rows("/damage_rate_opened", segment, 1, rate);
+    CHECK(sum(rate) == Approx(segment_damage[segment]).epsilon(same_sum));
   }
   const auto by_step = life.read<double>("/program/damage");
   CHECK(by_step == std::vector<double>{0, sum(by_step), 0});  // both cycles end during the second line
   CHECK(sum(by_step) == Approx(damage[3]).epsilon(same_sum));
+  // The inner cycle 0.002-0.008 opens at sample 30, the large one at 20 or, after the turn of the repeat, 60.
+  const auto opened = life.read<double>("/program/damage_opened");
+  CHECK(sum(opened) == Approx(damage[3]).epsilon(same_sum));
+  CHECK(opened[0] == Approx(cycle_damage[0] + cycle_damage[1]).epsilon(same_sum));
 
   CHECK(life.read<std::string>("/layer/component") ==
         std::vector<std::string>{"cable/layer 1/wire", "cable/layer 2/wire"});
