@@ -23,6 +23,7 @@ struct Context {
   const pipeline::Job& job;
   FileWriter& life;
   SiteSet sites;
+  std::size_t threads;
   TextColumn component;
   std::vector<double> time, segment_length;
   std::vector<std::int32_t> step;
@@ -31,11 +32,13 @@ struct Context {
   SiteDamage damage;
   std::size_t worst = no_site;
 
-  Context(const FileReader& strain_file, const pipeline::Job& the_job, FileWriter& life_file)
+  Context(const FileReader& strain_file, const pipeline::Job& the_job, FileWriter& life_file,
+          std::size_t thread_count)
       : strain(strain_file),
         job(the_job),
         life(life_file),
         sites(strain, ""),
+        threads(thread_count),
         component(read_column(strain, "/site/component")),
         time(strain.read<double>("/time")),
         segment_length(strain.read<double>("/segment/length")),
@@ -255,7 +258,7 @@ void write_bound(const Context& c, const std::string& name, const std::function<
     throw pipeline::InputError(c.strain.where(), fmt::format("/bound_{} holds no sites", name),
                                "make the file anew with dresslife-strain");
   }
-  const SiteDamage damage = damage_of(sites, counters_for(sites, c.job), progress);
+  const SiteDamage damage = damage_of(sites, counters_for(sites, c.job), c.threads, progress);
   const double repeats = life_in_repeats(sites.size() == 0 ? 0 : damage.damage[damage.worst()]);
   c.life.attribute("life_repeats_all_" + name, repeats);
   c.life.attribute("life_hours_all_" + name, hours(repeats, c.repeat_seconds()));
@@ -284,11 +287,11 @@ std::vector<std::string> warnings_of(const Context& c, const std::vector<Damagin
 }  // namespace
 
 Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter& life,
-                 const std::function<void(double)>& progress) {
-  Context c(strain, job, life);
+                 std::size_t threads, const std::function<void(double)>& progress) {
+  Context c(strain, job, life, threads);
   check_steps(c);
   // The three sets are about equally large.
-  c.damage = damage_of(c.sites, c.counters, [&](double share) { progress(share / 3); });
+  c.damage = damage_of(c.sites, c.counters, threads, [&](double share) { progress(share / 3); });
   c.worst = c.damage.worst();
   write_bound(c, "stick", [&](double share) { progress((1 + share) / 3); });
   write_bound(c, "free", [&](double share) { progress((2 + share) / 3); });

@@ -20,6 +20,6 @@ struct Notes {
 /// and one row of samples; it does not grow with the length of the motion otherwise.
 /// @throws pipeline::InputError when the strain file contradicts itself.
 Notes write_life(const pipeline::FileReader& strain, const pipeline::Job& job, pipeline::FileWriter& life,
-                 const std::function<void(double)>& progress);
+                 std::size_t threads, const std::function<void(double)>& progress);
 
 }  // namespace dresslife::fatigue

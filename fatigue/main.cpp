@@ -1,6 +1,7 @@
 // dresslife-fatigue: strain.h5 in, life.h5 out.
 #include "fatigue/life_file.h"
 #include "pipeline/stage.h"
+#include "pipeline/threads.h"
 
 int main(int argc, char** argv) {
   using namespace dresslife;
@@ -17,7 +18,7 @@ int main(int argc, char** argv) {
             pipeline::job_of(call, strain, {pipeline::Part::sim, pipeline::Part::strain});
         pipeline::FileWriter life(call.output, pipeline::life_format());
         const fatigue::Notes notes =
-            fatigue::write_life(strain, job, life, [&](double share) { progress.show(share); });
+            fatigue::write_life(strain, job, life, pipeline::thread_count(), [&](double share) { progress.show(share); });
         for (const std::string& warning : notes.warnings) progress.note(warning);
         pipeline::stamp(life, call, job, strain.text_attribute("history"));
         life.commit();

@@ -67,17 +67,33 @@ void SiteSet::check(std::size_t segments) const {
   }
 }
 
-void SiteSet::for_each(const std::function<void(std::size_t, std::span<const float>)>& visit) const {
+std::vector<std::size_t> SiteSet::Block::cuts(std::size_t parts) const {
+  std::vector<std::size_t> sites;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::uint64_t from = offset.front() + (offset.back() - offset.front()) * part / parts;
+    sites.push_back(begin + (std::lower_bound(offset.begin(), offset.end(), from) - offset.begin()));
+  }
+  sites.front() = begin;
+  sites.push_back(end);
+  return sites;
+}
+
+void SiteSet::for_each_block(const std::function<void(const Block&)>& visit) const {
   std::vector<float> strains;
   for (std::size_t site = 0; site < size();) {
     const std::uint64_t begin = offset_[site];
     const auto after = std::upper_bound(offset_.begin() + site + 1, offset_.end(), begin + block_reversals);
     const std::size_t end = std::max<std::size_t>(after - offset_.begin() - 1, site + 1);
     file_.read_rows(group_ + "/reversal/strain", begin, offset_[end] - begin, strains);
-    for (; site < end; ++site) {
-      visit(site, std::span(strains).subspan(offset_[site] - begin, offset_[site + 1] - offset_[site]));
-    }
+    visit({site, end, strains, std::span(offset_).subspan(site, end - site + 1)});
+    site = end;
   }
+}
+
+void SiteSet::for_each(const std::function<void(std::size_t, std::span<const float>)>& visit) const {
+  for_each_block([&](const Block& block) {
+    for (std::size_t site = block.begin; site < block.end; ++site) visit(site, block.strains_of(site));
+  });
 }
 
 std::vector<Reversal> SiteSet::reversals_of(std::size_t site) const {

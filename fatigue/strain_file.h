@@ -33,8 +33,21 @@ class SiteSet {
   const TextColumn& material() const { return material_; }
   std::size_t reversals() const { return offset_.back(); }
 
-  /// Calls `visit(site, strains)` for every site in order; strains are its reversals'. Reads blocks of
-  /// about `block_reversals`, or one site where that has more.
+  /// Several sites in a row with the strains of all their reversals.
+  struct Block {
+    std::size_t begin = 0, end = 0;  ///< sites
+    std::span<const float> strains;
+    std::span<const std::uint64_t> offset;  ///< (sites + 1), of the file
+    std::span<const float> strains_of(std::size_t site) const {
+      return strains.subspan(offset[site - begin] - offset[0], offset[site - begin + 1] - offset[site - begin]);
+    }
+    /// `parts` + 1 sites that cut the block into parts of about equally many reversals.
+    std::vector<std::size_t> cuts(std::size_t parts) const;
+  };
+  /// Calls `visit` for blocks that cover all sites in order, of about `block_reversals`, or one site where
+  /// that has more.
+  void for_each_block(const std::function<void(const Block&)>& visit) const;
+  /// Calls `visit(site, strains)` for every site in order; strains are its reversals'.
   void for_each(const std::function<void(std::size_t, std::span<const float>)>& visit) const;
   static constexpr std::size_t block_reversals = 1 << 20;
 

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <numeric>
 
+#include "pipeline/threads.h"
+
 namespace dresslife::fatigue {
 namespace {
 
@@ -20,6 +22,12 @@ std::string without_number(const std::string& part) {
   const bool numbered = space != std::string::npos && space + 1 < part.size() &&
                         part.find_first_not_of("0123456789", space + 1) == std::string::npos;
   return numbered ? part.substr(0, space) : part;
+}
+
+float range_of(std::span<const float> strains) {
+  float low = strains.empty() ? 0 : strains[0], high = low;
+  for (const float strain : strains) low = std::min(low, strain), high = std::max(high, strain);
+  return high - low;
 }
 
 }  // namespace
@@ -42,18 +50,22 @@ std::vector<DamageCounter> counters_for(const SiteSet& sites, const pipeline::Jo
   return counters;
 }
 
-SiteDamage damage_of(const SiteSet& sites, const std::vector<DamageCounter>& counters,
+SiteDamage damage_of(const SiteSet& sites, const std::vector<DamageCounter>& counters, std::size_t threads,
                      const std::function<void(double)>& progress) {
   SiteDamage all;
-  all.damage.reserve(sites.size());
-  all.range.reserve(sites.size());
-  DamageCounter::Workspace workspace;
-  sites.for_each([&](std::size_t site, std::span<const float> strains) {
-    all.damage.push_back(counters[sites.material().index[site]](strains, workspace));
-    float low = strains.empty() ? 0 : strains[0], high = low;
-    for (const float strain : strains) low = std::min(low, strain), high = std::max(high, strain);
-    all.range.push_back(high - low);
-    if (site % 1024 == 0) progress(double(site) / sites.size());
+  all.damage.resize(sites.size());
+  all.range.resize(sites.size());
+  std::vector<DamageCounter::Workspace> workspaces(threads);
+  sites.for_each_block([&](const SiteSet::Block& block) {
+    const std::vector<std::size_t> cuts = block.cuts(threads);
+    pipeline::in_parallel(threads, [&](std::size_t part) {
+      for (std::size_t site = cuts[part]; site < cuts[part + 1]; ++site) {
+        const std::span<const float> strains = block.strains_of(site);
+        all.damage[site] = counters[sites.material().index[site]](strains, workspaces[part]);
+        all.range[site] = range_of(strains);
+      }
+    });
+    progress(double(block.end) / sites.size());
   });
   return all;
 }

@@ -28,8 +28,9 @@ struct SiteDamage {
 /// A counter for each material of a set, in the order of its materials.
 std::vector<DamageCounter> counters_for(const SiteSet& sites, const pipeline::Job& job);
 
-/// Damage of all sites. progress is told the share done.
-SiteDamage damage_of(const SiteSet& sites, const std::vector<DamageCounter>& counters,
+/// Damage of all sites, on `threads` threads: each site's is worked out alone, so that any number gives the
+/// same. progress is told the share done.
+SiteDamage damage_of(const SiteSet& sites, const std::vector<DamageCounter>& counters, std::size_t threads,
                      const std::function<void(double)>& progress);
 
 /// The worst site of each group, (group); no_site where a group is empty. group_of(site) < groups.

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <thread>
 
@@ -71,12 +72,20 @@ int publish(const Study& study, const StudyPlaces& places, const std::map<std::s
   return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); }));
 }
 
+/// A study with fewer jobs than cores lets each stage use several.
+void share_cores(int at_a_time, std::size_t jobs) {
+  const std::size_t each = static_cast<std::size_t>(at_a_time) / std::max<std::size_t>(jobs, 1);
+  constexpr int keep = 0;  // what the user has set
+  ::setenv("DRESSLIFE_THREADS", std::to_string(std::max<std::size_t>(each, 1)).c_str(), keep);
+}
+
 int run(const Options& options) {
   const Study study = read_study(options.study, options.sets);
   const StudyPlaces places = places_of(study, options);
   const Lock lock(places.folder);
   write_build_graph(study, places);
   Progress progress(study.name, options.quiet);
+  share_cores(options.jobs, study.jobs.size());
   const BuildResult built = run_build_graph(places, options.jobs, false, [&](const BuildEvent& event) {
     progress.show(fmt::format("{}/{}  {}", event.finished, event.total, event.what));
   });

@@ -148,12 +148,12 @@ struct Result {
 };
 
 Result run(const Folder& folder, const StrainFile& f, const pipeline::Job& job = test_job(),
-           const std::string& name = "life.h5") {
+           const std::string& name = "life.h5", std::size_t threads = 1) {
   const auto strain_path = folder.path / "strain.h5", life_path = folder.path / name;
   write_strain(strain_path, f);
   const FileReader strain(strain_path, pipeline::strain_format());
   FileWriter life(life_path, pipeline::life_format());
-  Result result{write_life(strain, job, life, [](double) {}), life_path};
+  Result result{write_life(strain, job, life, threads, [](double) {}), life_path};
   life.attribute("job", "made by a test");
   life.attribute("history", "");
   life.attribute("input_sha256", "");
@@ -373,6 +373,11 @@ TEST_CASE("life.h5: the same input gives the same bytes") {
   const auto again = bytes(run(folder, example(), test_job(), "again.h5").file);
   const bool same = once == again;  // not compared inside CHECK, which would print both
   CHECK(same);
+  for (const std::size_t threads : {2, 3, 8}) {  // more than there are sites, too
+    const auto shared = bytes(run(folder, example(), test_job(), "shared.h5", threads).file);
+    const bool also = once == shared;
+    CHECK(also);
+  }
 }
 
 TEST_CASE("life.h5: strain files that contradict themselves are refused, and nothing is left behind") {
@@ -411,7 +416,9 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
   const std::size_t each = 999, count = 2 * SiteSet::block_reversals / each + 7;
   for (std::size_t site = 0; site < count; ++site) {
     Site& made = f.sites.emplace_back(swing(0, "cable 1", 0));
-    made.strain.assign(site % 3 == 0 ? each : site % 3, static_cast<float>(site));
+    made.strain.resize(site % 3 == 0 ? each : site % 3);
+    for (std::size_t i = 0; i < made.strain.size(); ++i)
+      made.strain[i] = (i % 2 == 0 ? 1e-5f : -1e-5f) * static_cast<float>(1 + site % 1009);
     made.sample.assign(made.strain.size(), 0);
   }
   f.sites[count / 2].strain.assign(SiteSet::block_reversals + 5, 0.5f);  // one that fills more than a block
@@ -429,4 +436,15 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
   });
   CHECK(visited == count);
   CHECK(all_equal);
+
+  // Every site is evaluated once, whoever does it.
+  const std::vector<DamageCounter> counters = counters_for(sites, test_job());
+  const SiteDamage alone = damage_of(sites, counters, 1, [](double) {});
+  CHECK(alone.damage[3 * 336] > 10 * alone.damage[3 * 100]);
+  CHECK(alone.damage[3 * 100] > 0);
+  for (const std::size_t threads : {2, 5}) {
+    const SiteDamage shared = damage_of(sites, counters, threads, [](double) {});
+    const bool same = shared.damage == alone.damage && shared.range == alone.range;
+    CHECK(same);
+  }
 }

@@ -214,11 +214,11 @@ TEST_CASE("job: lists have the length that they must have") {
 
 TEST_CASE("job: a material may be a table of measured lives instead of a metal's constants") {
   const std::string polymer =
-      "  materials:\n    - {name: hose, source: made for the tests, youngs_modulus_GPa: 0.4,\n"
+      "  damping_source: guessed\n  materials:\n    - {name: hose, source: made for the tests, youngs_modulus_GPa: 0.4,\n"
       "       strain_life_table: [{strain_amplitude: 0.05, cycles: 1e3}, {strain_amplitude: 0.01, cycles: 1e6}]}\n"
       "  components:\n";
   const std::string text =
-      edited(edited(sample_job, "  components:\n", polymer), "material: copper", "material: hose");
+      edited(edited(sample_job, "  damping_source: guessed\n  components:\n", polymer), "material: copper", "material: hose");
   const Job job = job_of_text(text);
   const Material& hose = material_of(job, "hose");
   CHECK(hose.youngs_modulus == 0.4e9);
