@@ -21,14 +21,16 @@ fs::path shipped_catalogue() {
   return DRESSLIFE_CONFIG_DIR;
 }
 
-std::vector<fs::path> search_folders(const std::string& folder, const Where& named_at) {
+std::vector<fs::path> search_folders(const std::string& folder, const Where& named_at, const Where& job) {
   std::vector<fs::path> folders;
   std::error_code failure;
-  fs::path here = fs::absolute(folder_of(named_at) / "any", failure).lexically_normal().parent_path();
-  for (; !here.empty(); here = here.parent_path()) {
-    for (const fs::path& candidate : {here / folder, here / "config" / folder})
-      if (fs::is_directory(candidate, failure)) folders.push_back(candidate);
-    if (here == here.root_path()) break;
+  for (const Where& origin : {named_at, job}) {
+    fs::path here = fs::absolute(folder_of(origin) / "any", failure).lexically_normal().parent_path();
+    for (; !here.empty(); here = here.parent_path()) {
+      for (const fs::path& candidate : {here / folder, here / "config" / folder})
+        if (fs::is_directory(candidate, failure)) folders.push_back(candidate);
+      if (here == here.root_path()) break;
+    }
   }
   folders.push_back(shipped_catalogue() / folder);
   return folders;
@@ -48,17 +50,17 @@ void merge(Node& base, const Node& over) {
   }
 }
 
-void resolve(Node& entry, const std::string& folder, int depth = 0) {
+void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0) {
   if (depth > 16) throw InputError(entry.where, "'from' goes in a circle", "let one entry stand alone");
   if (entry.is_scalar()) {
-    entry = catalogue_entry(folder, entry.text, entry.where);
-    resolve(entry, folder, depth + 1);
+    entry = catalogue_entry(folder, entry.text, entry.where, job);
+    resolve(entry, folder, job, depth + 1);
     return;
   }
   const Node* from = entry.is_map() ? entry.find("from") : nullptr;
   if (!from) return;
-  Node base = catalogue_entry(folder, from->text, from->where);
-  resolve(base, folder, depth + 1);
+  Node base = catalogue_entry(folder, from->text, from->where, job);
+  resolve(base, folder, job, depth + 1);
   Node over = entry;
   std::erase_if(over.entries, [](const Entry& e) { return e.key == "from"; });
   merge(base, over);
@@ -97,8 +99,8 @@ void add_materials(Node& job) {
       return known && known->text == name.text;
     });
     if (there || !name.is_scalar()) continue;
-    Node material = catalogue_entry("materials", name.text, name.where);
-    resolve(material, "materials");
+    Node material = catalogue_entry("materials", name.text, name.where, job.where);
+    resolve(material, "materials", job.where);
     const Node* own_name = material.find("name");
     if (!own_name || own_name->text != name.text)
       throw InputError(material.where, fmt::format("the material is not named '{}' as its file is", name.text),
@@ -137,11 +139,11 @@ void place_at(Node& node, const Where& where) {
 
 }  // namespace
 
-Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at) {
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at, const Where& job) {
   if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
     return read_yaml((folder_of(named_at) / name).lexically_normal());
   std::vector<std::string> names;
-  for (const fs::path& place : search_folders(folder, named_at)) {
+  for (const fs::path& place : search_folders(folder, named_at, job)) {
     std::error_code failure;
     if (const fs::path file = place / (name + ".yaml"); fs::is_regular_file(file, failure))
       return read_yaml(file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file));
@@ -163,7 +165,7 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
     // A catalogue entry is looked up as soon as a path leads into it.
     if (begin > 0 && path.find('.') == begin - 1 && word != "from")
-      if (const char* folder = shelf_of(path.substr(0, begin - 1))) resolve(*node, folder);
+      if (const char* folder = shelf_of(path.substr(0, begin - 1))) resolve(*node, folder, job.where);
     node = step_into(*node, word, where, path);
     begin = dot + 1;
   }
@@ -183,7 +185,7 @@ void apply_set(Node& job, const std::string& set) {
 /// Looks up all that the job names; afterwards the tree stands for itself.
 void resolve_job(Node& job) {
   for (const Shelf& shelf : shelves)
-    if (Node* entry = job.find(shelf.key)) resolve(*entry, shelf.folder);
+    if (Node* entry = job.find(shelf.key)) resolve(*entry, shelf.folder, job.where);
   add_materials(job);
 }
 

@@ -273,9 +273,10 @@ std::vector<std::filesystem::path> files_beside(const Job& job);
 const Material& material_of(const Job& job, const std::string& name);
 
 /// Folders of the catalogue: "robots", "programs", "dresspacks", "materials". A name is looked up beside the file
-/// that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml), then in the catalogue that comes
+/// that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml; the working folder for --set), then in
+/// the same way beside the job (a study or --set may change a job of another place), then in the catalogue that comes
 /// with dresslife (the environment variable DRESSLIFE_CONFIG names another). Errors: InputError with the near names.
-Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at);
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at, const Where& job);
 
 /// Sets the value at a key path (`simulation.segments`, `dresspack.components.1.count`); where: who asks for it.
 void set_value(Node& job, const std::string& path, Node value, const Where& where);

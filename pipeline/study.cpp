@@ -117,7 +117,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
   study.name = folder_name(name && name->is_scalar() && !name->text.empty() ? name->text : file.stem().string());
 
   const Node& written = *document.find("base");
-  const Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where) : written;
+  const Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where) : written;
   std::set<std::string> names;
   for (const Variant& variant : all_combinations(named_changes(document.find("jobs")), document.find("vary"))) {
     study.jobs.push_back(make_job(base, variant, study.name, sets));

@@ -107,6 +107,21 @@ jobs:
   CHECK(status.out.find("too short") != std::string::npos);
 }
 
+TEST_CASE("names in a study and in --set are looked up beside the job too") {
+  Scratch scratch;
+  write_small_job(scratch);
+  fs::create_directories(scratch / "elsewhere/materials");
+  fs::rename(scratch / "poses.csv", scratch / "elsewhere/poses.csv");
+  std::string copper = content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/materials/copper.yaml");
+  scratch.write("elsewhere/materials/our_copper.yaml", replaced(copper, "name: copper", "name: our_copper"));
+  scratch.write("elsewhere/job.yaml", content(scratch / "job.yaml"));
+  scratch.write("study.yaml", "base: elsewhere/job.yaml\njobs: {ours: {fatigue.material: our_copper}}\n");
+  const Outcome study = run(scratch, "dresslife", "run study.yaml");
+  INFO(study.out << study.err);
+  CHECK(study.status == 0);
+  CHECK(run(scratch, "dresslife", "show elsewhere/job.yaml --set fatigue.material=our_copper").status == 0);
+}
+
 TEST_CASE("status tells to do, done and stale") {
   Scratch scratch;
   write_small_job(scratch);
