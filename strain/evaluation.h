@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -78,11 +79,13 @@ class Evaluation {
     float range() const { return high - low; }
     float size() const { return std::max(std::abs(low), std::abs(high)); }
   };
-  /// The sites of one wire layer of the construction, over all its bundles, that see most.
+  /// The sites of one wire layer of the construction, over all its bundles, that see most, by each of several
+  /// measures. Which of them lives shortest depends on the material and the mean-stress correction.
   struct Worst {
-    Site by_range, by_size;
-    float range = -1, size = -1;
-    void consider(Site site, const Extremes& extremes);
+    enum By { range, size, tension, range_times_tension, cycles, measures };
+    std::array<Site, measures> site;
+    std::array<float, measures> value{-1, -1, -1, -1, -1};
+    void consider(Site at, const Extremes& extremes, const TurningList& turning);
   };
   /// One way of sliding and what it needs.
   struct Bound {

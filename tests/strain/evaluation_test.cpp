@@ -330,8 +330,8 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
     CHECK(*high - *low == Approx(largest_range(free.sites, segment)).epsilon(1e-3));
   }
   for (const Results* results : {&free, &stick}) {
-    CHECK(results->stick.segment.size() >= 5 * few_segments);  // five layers, one or two wires of each
-    CHECK(results->free.segment.size() <= 10 * few_segments);
+    CHECK(results->stick.segment.size() >= 5 * few_segments);  // five layers, one to five wires of each
+    CHECK(results->free.segment.size() <= 25 * few_segments);
     REQUIRE(results->probes.size() == few_segments + 1);
     CHECK(results->sites.component[results->probes.back().site] ==
           "signal cable 3/conductor 2/layer 1/wire 17");
