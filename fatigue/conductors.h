@@ -27,7 +27,7 @@ struct Conductors {
 Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
                          const std::vector<std::string>& layer_names);
 
-/// (F14) With k of n wires broken the rest strain n/(n-k) times as much; rate[k] is the damage then, over the
+/// (F16) With k of n wires broken the rest strain n/(n-k) times as much; rate[k] is the damage then, over the
 /// damage before, of the conductor's worst wire, whose damage under a scaled history is `scaled_damage(factor)`.
 /// An upper bound: bending imposes its strain on every wire alone, only a pull is shared.
 std::vector<double> sharing_rates(std::size_t wires, const std::function<double(double)>& scaled_damage);

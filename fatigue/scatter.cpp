@@ -78,7 +78,7 @@ void draw_breaks(const Bundle& bundle, std::uint64_t first_stream, std::uint64_t
   std::sort(breaks.begin(), breaks.end());
   if (bundle.rate.empty()) return;
   double before = 0, life = 0;
-  for (std::size_t k = 0; k < breaks.size(); ++k) {  // (F14)
+  for (std::size_t k = 0; k < breaks.size(); ++k) {  // (F16)
     const double next = breaks[k];
     life += (next - before) / bundle.rate[k];
     before = next;

@@ -1,10 +1,10 @@
 // Scatter of life: when the first wires break, and when so many have broken that a conductor fails.
 //
 // Every wire's life is the life of its worst place by the curves, which are medians, times a lognormal factor
-// (F12): log10(life) = log10(median) + s z, z normal, one z per wire. So a wire has broken by time t with
+// (F14): log10(life) = log10(median) + s z, z normal, one z per wire. So a wire has broken by time t with
 // probability
 //     p(t) = Phi(log10(t / median) / s)
-// and k of n wires with the upper tail of the Poisson-binomial distribution of their p (F13); percentiles are
+// and k of n wires with the upper tail of the Poisson-binomial distribution of their p (F15); percentiles are
 // found by bisection in log t. All lives are in repeats of the motion.
 //
 // Assumptions: wires are independent of each other (one spool's common part of the scatter is left out); the
@@ -47,13 +47,13 @@ struct Bundle {
   std::vector<double> rate;
 };
 
-/// Lives of one conductor whose wires do not take over load: (F13).
+/// Lives of one conductor whose wires do not take over load: (F15).
 FailureLives conductor_lives(const Bundle& bundle, double failed_percent, double scatter_log10);
 
 /// Life by which the first of several conductors has lost `failed_percent` of its wires.
 Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent, double scatter_log10);
 
-/// What happens when the rest of a conductor takes over the load of its broken wires (F14).
+/// What happens when the rest of a conductor takes over the load of its broken wires (F16).
 struct SharedLives {
   std::vector<FailureLives> conductor;  ///< (conductor)
   Percentiles first_conductor;

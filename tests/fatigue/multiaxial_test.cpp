@@ -1,0 +1,82 @@
+// Strain with shear: closed forms of single loads, and what turning the axes must not change.
+#include "fatigue/multiaxial.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "tests/fatigue/materials.h"
+
+using namespace dresslife;
+using namespace dresslife::fatigue;
+using namespace dresslife::fatigue_tests;
+
+namespace {
+
+constexpr double rounding = 1e-9;  // relative; a cosine's rounding times the slope of the life curve
+constexpr double pi = std::numbers::pi;
+
+std::vector<double> swing(double amplitude, double phase, int samples = 400) {
+  std::vector<double> history;
+  for (int t = 0; t <= samples; ++t) history.push_back(amplitude * std::sin(2 * pi * t / samples + phase));
+  return history;
+}
+
+double damage_of_history(const std::vector<double>& history, const pipeline::Material& m) {
+  return sum_of_damage(evaluate_cycles(find_reversals(history), m, {}));
+}
+
+}  // namespace
+
+TEST_CASE("equivalent strain: its two parts alone, together, and its sign") {
+  const std::vector<double> strain{0.01, -0.01, 0, 0.003, -0.003}, shear{0, 0, 0.01, 0.004, 0.004};
+  const auto equivalent = equivalent_strain(strain, shear);
+  CHECK(equivalent[0] == 0.01);
+  CHECK(equivalent[1] == -0.01);
+  CHECK(equivalent[2] == Approx(0.01 / std::sqrt(3)).epsilon(rounding));
+  CHECK(equivalent[3] == Approx(std::sqrt(9e-6 + 16e-6 / 3)).epsilon(rounding));
+  CHECK(equivalent[4] == -equivalent[3]);
+}
+
+TEST_CASE("critical plane: pure strain breaks across the axis, as without planes") {
+  auto m = copper();
+  m.poisson_ratio = 0.34;
+  const auto strain = swing(0.004, 0.3);
+  const CriticalPlane plane = critical_plane(strain, std::vector<double>(strain.size(), 0.0), m, {});
+  CHECK(plane.theta == Approx(0).margin(1e-15));
+  CHECK(plane.damage == Approx(damage_of_history(strain, m)).epsilon(rounding));
+}
+
+TEST_CASE("critical plane: pure shear opens the planes at 45 degrees with half the shear") {
+  auto m = copper();
+  m.poisson_ratio = 0.34;
+  const auto shear = swing(0.012, 0);
+  const CriticalPlane plane = critical_plane(std::vector<double>(shear.size(), 0.0), shear, m, {});
+  CHECK(std::fabs(plane.theta) == Approx(pi / 4).epsilon(rounding));
+  CHECK(plane.damage == Approx(damage_of_history(swing(0.006, 0), m)).epsilon(rounding));
+}
+
+TEST_CASE("critical plane: in phase, its normal is the principal direction") {
+  // tan 2 theta = gamma / ((1 + nu) eps); here 2 theta = 60 degrees, a whole number of 5-degree planes.
+  auto m = copper();
+  m.poisson_ratio = 0.34;
+  const double eps = 0.003, gamma = std::sqrt(3) * (1 + m.poisson_ratio) * eps;
+  const CriticalPlane plane = critical_plane(swing(eps, 0.2), swing(gamma, 0.2), m, {});
+  CHECK(plane.theta == Approx(pi / 6).epsilon(rounding));
+  const double principal = eps * (1 - m.poisson_ratio) / 2 + std::hypot(eps * (1 + m.poisson_ratio), gamma) / 2;
+  CHECK(plane.damage == Approx(damage_of_history(swing(principal, 0.2), m)).epsilon(rounding));
+  // The mirrored shear breaks the mirrored plane.
+  const CriticalPlane mirrored = critical_plane(swing(eps, 0.2), swing(-gamma, 0.2), m, {});
+  CHECK(mirrored.theta == Approx(-pi / 6).epsilon(rounding));
+  CHECK(mirrored.damage == Approx(plane.damage).epsilon(rounding));
+}
+
+TEST_CASE("critical plane: out of phase no plane sees both loads at once") {
+  auto m = copper();
+  m.poisson_ratio = 0.34;
+  const double in_phase = critical_plane(swing(0.003, 0), swing(0.006, 0), m, {}).damage;
+  const double shifted = critical_plane(swing(0.003, 0), swing(0.006, pi / 2), m, {}).damage;
+  const double strain_alone = critical_plane(swing(0.003, 0), swing(0, 0), m, {}).damage;
+  CHECK(shifted < in_phase);
+  CHECK(shifted >= strain_alone * (1 - rounding));
+}
