@@ -148,6 +148,13 @@ void FieldReader::maybe_number(Key key, std::optional<double>& value, Range rang
     value = number_of(*node, key, range, meaning) * unit_of_key(key).to_si;
 }
 
+void FieldReader::number_or_auto(Key key, double& value, bool& automatic, Range range, std::string_view meaning) {
+  const Node* node = take(key, Need::optional, meaning);
+  if (!node) return;
+  automatic = node->is_scalar() && node->text == "auto";
+  if (!automatic) value = number_of(*node, key, range, meaning) * unit_of_key(key).to_si;
+}
+
 void FieldReader::integer(Key key, int& value, Need need, Range range, std::string_view meaning) {
   const Node* node = take(key, need, meaning);
   if (!node) return;
@@ -286,6 +293,9 @@ void FieldEcho::number(Key key, double& value, Need, Range, std::string_view) {
 void FieldEcho::maybe_number(Key key, std::optional<double>& value, Range, std::string_view) {
   if (value) put(key, scalar(text_in_unit(*value, unit_of_key(key))));
 }
+void FieldEcho::number_or_auto(Key key, double& value, bool& automatic, Range, std::string_view) {
+  put(key, scalar(automatic ? "auto" : text_in_unit(value, unit_of_key(key))));
+}
 void FieldEcho::integer(Key key, int& value, Need, Range, std::string_view) {
   put(key, scalar(std::to_string(value)));
 }
@@ -382,6 +392,9 @@ void FieldManual::number(Key key, double& value, Need need, Range range, std::st
 }
 void FieldManual::maybe_number(Key key, std::optional<double>&, Range range, std::string_view meaning) {
   row(key, range.text(), "none", meaning);
+}
+void FieldManual::number_or_auto(Key key, double& value, bool& automatic, Range range, std::string_view meaning) {
+  row(key, range.text() + " \\| auto", automatic ? "auto" : text_in_unit(value, unit_of_key(key)), meaning);
 }
 void FieldManual::integer(Key key, int& value, Need need, Range range, std::string_view meaning) {
   row(key, "whole, " + range.text(), default_or(need, std::to_string(value)), meaning);

@@ -48,6 +48,8 @@ class Fields {
   virtual void text(Key key, std::string& value, Need need, std::string_view meaning) = 0;
   virtual void number(Key key, double& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) = 0;
+  /// A number, or the word auto; optional.
+  virtual void number_or_auto(Key key, double& value, bool& automatic, Range range, std::string_view meaning) = 0;
   virtual void integer(Key key, int& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void boolean(Key key, bool& value, Need need, std::string_view meaning) = 0;
   virtual void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) = 0;
@@ -116,6 +118,7 @@ class FieldReader final : public Fields {
   void text(Key, std::string&, Need, std::string_view) override;
   void number(Key, double&, Need, Range, std::string_view) override;
   void maybe_number(Key, std::optional<double>&, Range, std::string_view) override;
+  void number_or_auto(Key, double&, bool&, Range, std::string_view) override;
   void integer(Key, int&, Need, Range, std::string_view) override;
   void boolean(Key, bool&, Need, std::string_view) override;
   void vector(Key, Eigen::Vector3d&, Need, std::string_view) override;
@@ -158,6 +161,7 @@ class FieldEcho final : public Fields {
   void text(Key, std::string&, Need, std::string_view) override;
   void number(Key, double&, Need, Range, std::string_view) override;
   void maybe_number(Key, std::optional<double>&, Range, std::string_view) override;
+  void number_or_auto(Key, double&, bool&, Range, std::string_view) override;
   void integer(Key, int&, Need, Range, std::string_view) override;
   void boolean(Key, bool&, Need, std::string_view) override;
   void vector(Key, Eigen::Vector3d&, Need, std::string_view) override;
@@ -189,6 +193,7 @@ class FieldManual final : public Fields {
   void text(Key, std::string&, Need, std::string_view) override;
   void number(Key, double&, Need, Range, std::string_view) override;
   void maybe_number(Key, std::optional<double>&, Range, std::string_view) override;
+  void number_or_auto(Key, double&, bool&, Range, std::string_view) override;
   void integer(Key, int&, Need, Range, std::string_view) override;
   void boolean(Key, bool&, Need, std::string_view) override;
   void vector(Key, Eigen::Vector3d&, Need, std::string_view) override;

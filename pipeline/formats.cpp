@@ -24,6 +24,29 @@ void add_site_set(std::vector<Dataset>& datasets, const std::string& group, cons
   datasets.push_back({group + "/reversal/sample", Type::u32, {reversal}, "1", "sample of the turning point"});
 }
 
+/// What a cell designer asks of the motion: one table, and along the dresspack. Absent in older files.
+void add_checks(std::vector<Dataset>& datasets) {
+  const auto add = [&](const char* path, Type type, const char* axis, const char* unit, const char* meaning) {
+    datasets.push_back({path, type, {axis}, unit, meaning, true, true});
+  };
+  const char *line = "check", *link = "segment+1";
+  add("/check/name", Type::text, line, "1", "what is checked");
+  add("/check/value", Type::f64, line, "see /check/unit", "its worst value; inf: a bend radius without any bend");
+  add("/check/unit", Type::text, line, "1", "unit of value and limit");
+  add("/check/limit", Type::f64, line, "see /check/unit", "what is warned of; inf: no limit");
+  add("/check/warning", Type::i32, line, "1", "1: the limit is broken");
+  add("/check/time", Type::f64, line, "s", "when the value stood");
+  add("/check/step", Type::i32, line, "1", "index of the program line being executed then");
+  add("/check/position", Type::f64, line, "m", "where, from the base clamp along the dresspack; -1: of the whole");
+  add("/check/curvature", Type::f64, link, "1/m", "largest bending curvature of each link, every step counted; link j lies j lengths from the base");
+  add("/check/curvature_time", Type::f64, link, "s", "when");
+  add("/check/twist", Type::f64, link, "rad/m", "largest twist by size, with its sign");
+  add("/check/twist_time", Type::f64, link, "s", "when");
+  add("/check/tension", Type::f64, link, "N", "largest pull");
+  add("/check/tension_time", Type::f64, link, "s", "when");
+  add("/check/net_twist", Type::f64, "sample", "rad", "twist of the whole dresspack, whole turns counted");
+}
+
 Format make_motion_format() {
   Format format{"dresslife-motion", 1, "dresslife-sim", "how the dresspack moves", {}, {}};
   format.datasets = {
@@ -41,6 +64,13 @@ Format make_motion_format() {
       {"/contact/max_depth", Type::f64, {"sample"}, "m", "deepest penetration since the sample before; 0 without contact"},
       {"/energy", Type::f64, {"sample", "3"}, "J", "kinetic, elastic, gravitational"},
       {"/tension", Type::f64, {"sample", "segment"}, "N", "axial force in each segment"},
+  };
+  add_checks(format.datasets);
+  format.attributes = {
+      {"repeats", "repeats of the motion that were run; the last one is in the file", false, true},
+      {"repeat_distance", "how far from where it began the dresspack ended it, m; absent where the motion does not return", false, true},
+      {"time_step", "integration step of the last repeat, s", false, true},
+      {"curvature_error", "estimated relative rms error that the step leaves in the curvature of the liveliest seconds", false, true},
   };
   return format;
 }

@@ -9,6 +9,7 @@
 #include "pipeline/document.h"
 #include "pipeline/errors.h"
 #include "pipeline/life_charts.h"
+#include "pipeline/motion_checks.h"
 #include "pipeline/plot.h"
 #include "pipeline/readable.h"
 #include "pipeline/scene.h"
@@ -297,10 +298,19 @@ std::string scene(const RankingRow& row) {
                scene_picture(motion, row.worst_time, row.worst_segment_from_tool));
 }
 
+/// What a cell designer asks; none when the motion file has been cleared away.
+std::string checks(const RankingRow& row) {
+  const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(motion, ignored)) return "";
+  const std::string table = check_table(motion);
+  return table.empty() ? "" : "<h3>Checks of the motion</h3>\n" + table;
+}
+
 std::string job_section(const RankingRow& row, std::size_t rank) {
   std::string body;
   try {
-    body = facts(row) + scene(row) + charts(row);
+    body = facts(row) + scene(row) + checks(row) + charts(row);
   } catch (const InputError& problem) {
     body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
   }

@@ -1,4 +1,6 @@
 // dresslife-sim: a job in, motion.h5 out.
+#include <optional>
+
 #include "pipeline/stage.h"
 #include "sim/motion_file.h"
 #include "sim/simulate.h"
@@ -16,11 +18,22 @@ int main(int argc, char** argv) {
                              [](const pipeline::StageCall& call, pipeline::Progress& progress) {
                                const pipeline::Job job = pipeline::read_job(call.input, call.sets);
                                const sim::Simulation simulation(job);
-                               pipeline::FileWriter file(call.output, pipeline::motion_format());
-                               sim::MotionFile motion(file, simulation.description());
-                               simulation.run([&](const sim::Sample& sample) { motion.add(sample); },
-                                              [&](double share) { progress.show(share); });
-                               pipeline::stamp(file, call, job, "");
-                               file.commit();
+                               std::optional<pipeline::FileWriter> file;
+                               std::optional<sim::MotionFile> motion;
+                               const auto begin = [&](int) {  // a repeat that does not count leaves nothing
+                                 motion.reset();
+                                 file.reset();
+                                 file.emplace(call.output, pipeline::motion_format());
+                                 motion.emplace(*file, simulation.description());
+                               };
+                               begin(1);
+                               const sim::RunSummary summary =
+                                   simulation.run({[&](const sim::Sample& sample) { motion->add(sample); },
+                                                   begin, [&](double share) { progress.show(share); }});
+                               motion->finish(simulation, summary);
+                               for (const std::string& line : sim::remarks(simulation, summary))
+                                 progress.note(line);
+                               pipeline::stamp(*file, call, job, "");
+                               file->commit();
                              });
 }

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
 
 namespace dresslife::sim {
 namespace {
@@ -51,6 +52,52 @@ void MotionFile::add(const Sample& sample) {
   rows("/contact/max_depth", std::array{sample.max_depth});
   rows("/energy", std::array{sample.energy.kinetic, sample.energy.elastic, sample.energy.gravitational});
   rows("/tension", sample.tension);
+  rows("/check/net_twist", std::array{sample.net_twist});
+}
+
+void MotionFile::finish(const Simulation& simulation, const RunSummary& summary) {
+  file_.attribute("repeats", summary.repeats);
+  if (summary.returns) file_.attribute("repeat_distance", summary.distance);
+  file_.attribute("time_step", summary.time_step);
+  if (std::isfinite(summary.curvature_error)) file_.attribute("curvature_error", summary.curvature_error);
+  add_extremes("/check/curvature", summary.curvature);
+  add_extremes("/check/twist", summary.twist);
+  add_extremes("/check/tension", summary.tension);
+  add_checks(simulation, summary.checks);
+}
+
+void MotionFile::add_extremes(const std::string& group, const std::vector<Extreme>& extremes) {
+  std::vector<double> values, times;
+  for (const Extreme& extreme : extremes) {
+    values.push_back(extreme.value);
+    times.push_back(extreme.time);
+  }
+  file_.append(group, std::span<const double>(values));
+  file_.append(group + "_time", std::span<const double>(times));
+}
+
+void MotionFile::add_checks(const Simulation& simulation, const std::vector<Check>& checks) {
+  std::vector<std::string> names, units;
+  std::vector<double> values, limits, times, positions;
+  std::vector<std::int32_t> warnings, steps;
+  for (const Check& check : checks) {
+    names.push_back(check.name);
+    units.push_back(check.unit);
+    values.push_back(check.value);
+    limits.push_back(check.limit);
+    warnings.push_back(check.warning);
+    times.push_back(check.time);
+    steps.push_back(simulation.path().step(check.time));
+    positions.push_back(check.position);
+  }
+  file_.append("/check/name", std::span<const std::string>(names));
+  file_.append("/check/unit", std::span<const std::string>(units));
+  file_.append("/check/value", std::span<const double>(values));
+  file_.append("/check/limit", std::span<const double>(limits));
+  file_.append("/check/warning", std::span<const std::int32_t>(warnings));
+  file_.append("/check/time", std::span<const double>(times));
+  file_.append("/check/step", std::span<const std::int32_t>(steps));
+  file_.append("/check/position", std::span<const double>(positions));
 }
 
 void MotionFile::add_robot(const Pose& pose) {

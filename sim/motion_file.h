@@ -1,6 +1,7 @@
 // Samples of a run into motion.h5 (the format's table is in pipeline/formats.cpp).
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "pipeline/files.h"
@@ -14,9 +15,13 @@ class MotionFile {
   MotionFile(pipeline::FileWriter& file, const RunDescription& description);
 
   void add(const Sample& sample);
+  /// After the last sample: checks, and what the run says of itself.
+  void finish(const Simulation& simulation, const RunSummary& summary);
 
  private:
   void add_robot(const Pose& pose);
+  void add_extremes(const std::string& group, const std::vector<Extreme>& extremes);
+  void add_checks(const Simulation& simulation, const std::vector<Check>& checks);
 
   pipeline::FileWriter& file_;
   const RunDescription description_;

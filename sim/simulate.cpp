@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/mounting.h"
+#include "sim/periodic.h"
 
 namespace dresslife::sim {
 namespace {
@@ -30,9 +31,7 @@ std::unique_ptr<ClampPath> path_of(const pipeline::Job& job) {
   return std::make_unique<RobotPath>(job);
 }
 
-int steps_per_sample(const pipeline::Simulation& settings) {
-  return std::max(1, static_cast<int>(std::lround(1 / (settings.sample_rate * settings.time_step))));
-}
+constexpr double same_step = 1e-9;  // [s]
 
 /// Intervals that cover the motion; a duration that is a whole number of them up to rounding takes no further
 /// one.
@@ -42,6 +41,7 @@ int intervals(double duration, double rate) { return static_cast<int>(std::ceil(
 
 Simulation::Simulation(const pipeline::Job& job)
     : job_(job), rod_(properties_of(job_)), path_(path_of(job_)) {
+  if (job_.simulation.choose_time_step) job_.simulation.time_step = first_step(job_.simulation.sample_rate);
   robot_ = dynamic_cast<RobotPath*>(path_.get());
   description_.samples = intervals(path_->duration(), job_.simulation.sample_rate) + 1;
   description_.segment_length.assign(rod_.segments(), rod_.segment_length());
@@ -93,35 +93,129 @@ void Simulation::check_step(const StepReport& report, const RodState& state, dou
       "give it more free length, or keep the motion from winding it around the robot");
 }
 
-void Simulation::run(const std::function<void(const Sample&)>& take,
-                     const std::function<void(double)>& progress) const {
-  const int per_sample = steps_per_sample(job_.simulation);
+std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {
+  pipeline::Job job = job_;
+  job.simulation.time_step = step;
+  return make_world(job, rod_, robot_, state, pose);
+}
+
+int Simulation::steps_per_sample(double step) const {
+  return std::max(1, static_cast<int>(std::lround(1 / (job_.simulation.sample_rate * step))));
+}
+
+struct Simulation::Repeat {
+  Repeat(const Simulation& s, double step)
+      : checks(s.rod_),
+        error(
+            s.rod_, *s.path_,
+            [&s](const RodState& state, const Pose& pose, double h) { return s.world_at(state, pose, h); },
+            step, (s.description_.samples - 1) * s.steps_per_sample(step)) {}
+  MotionChecks checks;
+  StepError error;
+};
+
+RunSummary Simulation::run(const RunSinks& sinks) const {
+  const pipeline::Simulation& settings = job_.simulation;
+  RunSummary summary;
+  summary.returns = returns(*path_);
+  summary.time_step = settings.time_step;
+  bool choose = settings.choose_time_step;
+  std::unique_ptr<World> world = world_at(start_, path_->at(0), summary.time_step);
+  for (summary.repeats = 1;; ++summary.repeats) {  // (R8)
+    const RodState begin = world->state();
+    if (summary.repeats > 1 && sinks.begin) sinks.begin(summary.repeats);
+    Repeat repeat(*this, summary.time_step);
+    run_once(*world, repeat, sinks);
+    summary.distance = state_distance(rod_, begin, world->state());
+    summary.periodic = summary.returns && summary.distance <= settings.periodic_tolerance;
+    if (choose) {  // (R11) once, after the first repeat
+      choose = false;
+      const double step = chosen_step(summary.time_step, repeat.error.estimate(),
+                                      settings.curvature_error / 100, settings.sample_rate);
+      if (std::abs(step - summary.time_step) > same_step) {
+        summary.time_step = step;
+        world = world_at(summary.returns ? world->state() : start_, path_->at(0), step);
+        continue;
+      }
+    }
+    if (summary.returns && !summary.periodic && summary.repeats < settings.most_repeats) continue;
+    summary.curvature_error = repeat.error.estimate();
+    summary.curvature = repeat.checks.curvature();
+    summary.twist = repeat.checks.twist();
+    summary.tension = repeat.checks.tension();
+    summary.checks = repeat.checks.table();
+    return summary;
+  }
+}
+
+void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) const {
+  const double step = world.time_step();
+  const int per_sample = steps_per_sample(step);
+  MotionChecks& checks = repeat.checks;
   Pose pose = path_->at(0);
-  const std::unique_ptr<World> world = make_world(job_, rod_, robot_, start_, pose);
   std::vector<double> tension(rod_.segments());
   StepReport since;
   const auto hand_over = [&](int sample) {
     const double time = sample / job_.simulation.sample_rate;
-    const RodState& state = world->state();
+    const RodState& state = world.state();
     const std::vector<double> pull = rod_.tensions(state);
     for (int i = 0; i < rod_.segments(); ++i) tension[i] = (pull[i] + pull[i + 1]) / 2;
-    take(
-        {time, path_->step(time), state, pose, rod_.energy(state), tension, since.touching, since.max_depth});
+    sinks.take({time, path_->step(time), state, pose, rod_.energy(state), tension, since.touching,
+                since.max_depth, checks.net_twist()});
     since = {};
-    if (progress) progress((sample + 1.0) / description_.samples);
+    if (sinks.progress) sinks.progress((sample + 1.0) / description_.samples);
   };
+  checks.see(world.state(), {}, 0);
+  repeat.error.see(0, world.state());
   hand_over(0);
   for (int sample = 1; sample < description_.samples; ++sample) {  // (R6)
     for (int k = 1; k <= per_sample; ++k) {
-      const double time = ((sample - 1.0) * per_sample + k) * job_.simulation.time_step;
+      const int count = (sample - 1) * per_sample + k;
+      const double time = count * step;
       pose = path_->at(time);
-      const StepReport report = world->advance(pose.clamps, pose.links);
-      check_step(report, world->state(), time);
+      const StepReport report = world.advance(pose.clamps, pose.links);
+      check_step(report, world.state(), time);
+      checks.see(world.state(), world.contacts(), time);
+      repeat.error.see(count, world.state());
       since.touching = std::max(since.touching, report.touching);
       since.max_depth = std::max(since.max_depth, report.max_depth);
     }
     hand_over(sample);
   }
+}
+
+// ---- what a person should be told -------------------------------------------------------------------------
+
+namespace {
+
+std::string in_words(double value, const std::string& unit) {
+  if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
+  if (unit == "rad/m") return fmt::format("{:.0f} deg/m", value * 180 / EIGEN_PI);
+  return fmt::format("{:.3g} {}", value, unit);
+}
+
+}  // namespace
+
+std::vector<std::string> remarks(const Simulation& simulation, const RunSummary& summary) {
+  std::vector<std::string> lines;
+  const double off = 1e3 * summary.distance;
+  const double tolerance = 1e3 * simulation.job().simulation.periodic_tolerance;
+  if (summary.returns && !summary.periodic)
+    lines.push_back(
+        fmt::format("warning: after {} repeats the motion still begins {:.1f} mm from where it began the "
+                    "repeat before (simulation.periodic_tolerance_mm is {:.3g}): friction leaves the "
+                    "dresspack several places; the last repeat is evaluated",
+                    summary.repeats, off, tolerance));
+  else if (summary.repeats > 1)
+    lines.push_back(fmt::format(
+        "note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
+        summary.repeats, off));
+  for (const Check& check : summary.checks)
+    if (check.warning)
+      lines.push_back(fmt::format("warning: {}: {} (limit {}) {}", check.name,
+                                  in_words(check.value, check.unit), in_words(check.limit, check.unit),
+                                  simulation.moment(check.time)));
+  return lines;
 }
 
 }  // namespace dresslife::sim

@@ -1,8 +1,9 @@
 // The run of one job: from the dresspack at rest in its clamps, step by step through the motion, to samples.
 //
 // (R6) From rest in its mounting (mounting.h), time goes on in steps h, clamps and links follow the motion,
-// and every 1/(rate h)-th state is a sample: t = k/rate, k = 0, 1, ... until the motion has ended. Memory
-// does not grow with the motion's length.
+// and every 1/(rate h)-th state is a sample: t = k/rate, k = 0, 1, ... until the motion has ended. A motion
+// that returns is repeated until two successive repeats begin alike (R8, periodic.h); the last one counts.
+// Memory does not grow with the motion's length.
 #pragma once
 
 #include <functional>
@@ -11,10 +12,14 @@
 #include <vector>
 
 #include "pipeline/job.h"
+#include "sim/checks.h"
 #include "sim/clamp_path.h"
+#include "sim/step_choice.h"
 #include "sim/world.h"
 
 namespace dresslife::sim {
+
+class Simulation;
 
 /// What holds for all samples of a run.
 struct RunDescription {
@@ -35,6 +40,31 @@ struct Sample {
   const std::vector<double>& tension;  ///< (segment) mean pull of the links at its ends [N]
   int contacts = 0;                    ///< most at a time since the sample before
   double max_depth = 0;                ///< deepest since the sample before [m]
+  double net_twist = 0;                ///< turns of all links about the tangent [rad]
+};
+
+/// What a run says of itself.
+struct RunSummary {
+  int repeats = 1;        ///< of the motion that were run; the last is the result
+  bool returns = false;   ///< the motion ends where it begins
+  bool periodic = false;  ///< the last repeat began and ended alike
+  double distance = 0;    ///< between the states at the last repeat's begin and end (R8) [m]
+  double time_step = 0;   ///< [s]
+  /// Estimated error that the step leaves in the curvature of the last repeat's liveliest seconds (R10),
+  /// relative; not a number where half the step breaks down.
+  double curvature_error = 0;
+  std::vector<Extreme> curvature, twist, tension;  ///< (link) of the last repeat, as in MotionChecks
+  std::vector<Check> checks;                       ///< of the last repeat
+};
+
+/// What a person should be told of a run: repeats, and a line for every check that warns.
+std::vector<std::string> remarks(const Simulation& simulation, const RunSummary& summary);
+
+/// What a run hands its results to; only `take` is needed.
+struct RunSinks {
+  std::function<void(const Sample&)> take;    ///< every sample of every repeat
+  std::function<void(int)> begin = {};        ///< repeat 2, 3, ... begins: samples taken so far do not count
+  std::function<void(double)> progress = {};  ///< share of the repeat that is done, 0..1
 };
 
 class Simulation {
@@ -49,18 +79,23 @@ class Simulation {
   const RodState& start() const { return start_; }
   const ClampPath& path() const { return *path_; }
   const Rod& rod() const { return rod_; }
+  /// As given; simulation.time_step is the step that the run begins with.
+  const pipeline::Job& job() const { return job_; }
+  std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"
 
-  /// Runs the whole motion and hands every sample to `take`; `progress`, if any, gets the share done, 0..1.
-  /// Throws InputError when the dresspack is drawn taut or the state is no longer finite.
-  void run(const std::function<void(const Sample&)>& take,
-           const std::function<void(double)>& progress = {}) const;
+  /// Runs the motion, as often as it takes. Throws InputError when the dresspack is drawn taut or the state
+  /// is no longer finite.
+  RunSummary run(const RunSinks& sinks) const;
 
  private:
+  struct Repeat;  // what looks on while a repeat runs
+  std::unique_ptr<World> world_at(const RodState& state, const Pose& pose, double step) const;
+  void run_once(World& world, Repeat& repeat, const RunSinks& sinks) const;
+  int steps_per_sample(double step) const;
   void check_reach() const;
-  std::string moment(double time) const;
   void check_step(const StepReport& report, const RodState& state, double time) const;
 
-  const pipeline::Job job_;
+  pipeline::Job job_;  // its time step is the first one if the run is to choose
   Rod rod_;
   std::unique_ptr<ClampPath> path_;
   RobotPath* robot_ = nullptr;  // path_, if it is one

@@ -348,13 +348,29 @@ TEST_CASE("job: a wire's material is its own unless the fatigue settings name on
   CHECK(material_of(other, "copper").youngs_modulus == 71e9);
 }
 
+TEST_CASE("job: the time step is a number or left to the run") {
+  CHECK_FALSE(job_of_text(sample_job).simulation.choose_time_step);
+  const Job chosen = job_of_text(sample_job, {"simulation.time_step_ms=auto"});
+  CHECK(chosen.simulation.choose_time_step);
+  const std::string text = job_text(chosen);
+  CHECK(text.find("time_step_ms: auto\n") != std::string::npos);
+  CHECK(job_of_text(text).simulation.choose_time_step);
+  const Job fixed = job_of_text(text, {"simulation.time_step_ms=2"});
+  CHECK_FALSE(fixed.simulation.choose_time_step);
+  CHECK(fixed.simulation.time_step == Approx(0.002));
+  const std::string message =
+      message_of([] { job_of_text(sample_job, {"simulation.time_step_ms=fast"}); });
+  CHECK(message.find("time_step_ms") != std::string::npos);
+  CHECK(message.find("fast") != std::string::npos);
+}
+
 TEST_CASE("job: the manual lists every key once with unit, range, default and meaning") {
   const std::string manual = job_manual();
   CHECK(manual.find("### job\n") == 0);
   CHECK(manual.find(
             "| `free_length_m` | m | > 0 | required | free length of dresspack between the clamps |\n") !=
         std::string::npos);
-  CHECK(manual.find("| `time_step_ms` | ms | 0.01 .. 20 | 5 | fixed integration step |\n") !=
+  CHECK(manual.find("| `time_step_ms` | ms | 0.01 .. 20 \\| auto | 5 | integration step; auto: ") !=
         std::string::npos);
   CHECK(manual.find("| `hand` |  | right \\| left | right | of the helix: right (Z) or left (S) |\n") !=
         std::string::npos);

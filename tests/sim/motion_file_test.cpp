@@ -1,5 +1,6 @@
 #include "sim/motion_file.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/pipeline/scratch.h"
@@ -11,13 +12,15 @@ namespace {
 TEST_CASE("motion file: what the run hands over can be read back") {
   const pipeline::Scratch scratch;
   const auto name = scratch / "motion.h5";
-  const Simulation simulation(simple_job());
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  const Simulation simulation(job);
   std::vector<double> times, positions, clamps, joints;
   std::vector<std::int32_t> steps;
   {
     pipeline::FileWriter file(name, pipeline::motion_format());
     MotionFile motion(file, simulation.description());
-    simulation.run([&](const Sample& sample) {
+    const RunSummary summary = simulation.run({[&](const Sample& sample) {
       motion.add(sample);
       times.push_back(sample.time);
       steps.push_back(sample.step);
@@ -26,7 +29,8 @@ TEST_CASE("motion file: what the run hands over can be read back") {
         clamps.insert(clamps.end(),
                       {f.orientation.w(), f.orientation.x(), f.orientation.y(), f.orientation.z()});
       joints.push_back(sample.pose.joints[0]);
-    });
+    }});
+    motion.finish(simulation, summary);
     file.attribute("job", "");
     file.attribute("history", "");
     file.attribute("input_sha256", "");
@@ -48,6 +52,18 @@ TEST_CASE("motion file: what the run hands over can be read back") {
   CHECK(file.rows("/energy") == times.size());
   CHECK(file.rows("/tension") == times.size());
   CHECK(file.rows("/contact/max_depth") == times.size());
+  CHECK(file.rows("/check/net_twist") == times.size());
+  CHECK(file.rows("/check/curvature") == 21);
+  CHECK(file.number_attribute("repeats") == 1);
+  CHECK(file.number_attribute("repeat_distance") > 0);
+  const auto names = file.read<std::string>("/check/name"), units = file.read<std::string>("/check/unit");
+  const auto values = file.read<double>("/check/value"), curvature = file.read<double>("/check/curvature");
+  const auto check_steps = file.read<std::int32_t>("/check/step");
+  REQUIRE(names.front() == "smallest bend radius");
+  CHECK(units.front() == "m");
+  CHECK(values.front() == 1 / *std::max_element(curvature.begin(), curvature.end()));
+  CHECK(check_steps.size() == names.size());
+  CHECK(file.read<std::int32_t>("/check/warning").size() == names.size());
 }
 
 }  // namespace

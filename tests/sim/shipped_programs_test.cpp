@@ -85,13 +85,13 @@ TEST_CASE("shipped programs: the dresspack goes through all of them on the IRB 6
   for (const std::string& program : programs) {
     const Simulation simulation(job_of(program));
     double depth = 0, tension = 0, bend = 0;
-    simulation.run([&](const Sample& sample) {
+    simulation.run({[&](const Sample& sample) {
       depth = std::max(depth, sample.max_depth);
       for (const double pull : sample.tension) tension = std::max(tension, std::abs(pull));
       for (int link = 0; link < simulation.rod().links(); ++link)
         bend = std::max(bend, simulation.rod().link_state(sample.state, link).turn.head<2>().norm() /
                                   simulation.rod().bending_length(link));
-    });
+    }});
     INFO(program);
     CHECK(depth < 1e-3);   // what chain.md allows at 5 ms [m]
     CHECK(tension < 500);  // ten times the hose's weight [N]
@@ -105,7 +105,7 @@ TEST_CASE("shipped programs: the dresspack goes through all of them on the IRB 6
 TEST_CASE("shipped programs: the IRB 6700 carries the same dresspack through the calm program") {
   const Simulation simulation(job_of("spot_robot_2", "abb_irb6700_235_265"));
   double depth = 0;
-  simulation.run([&](const Sample& sample) { depth = std::max(depth, sample.max_depth); });
+  simulation.run({[&](const Sample& sample) { depth = std::max(depth, sample.max_depth); }});
   CHECK(depth < 1e-3);
 }
 

@@ -24,9 +24,11 @@ struct Row {
 
 std::vector<Row> run(const Simulation& simulation) {
   std::vector<Row> rows;
-  simulation.run([&](const Sample& s) {
-    rows.push_back({s.time, s.max_depth, s.step, s.contacts, s.state, s.pose, s.energy, s.tension});
-  });
+  simulation.run(
+      {[&](const Sample& s) {
+         rows.push_back({s.time, s.max_depth, s.step, s.contacts, s.state, s.pose, s.energy, s.tension});
+       },
+       [&](int) { rows.clear(); }});
   return rows;
 }
 
@@ -179,7 +181,7 @@ TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
   job.simulation.floor = false;
   const Simulation simulation(job);
   int samples = 0;
-  CHECK_THROWS_WITH(simulation.run([&](const Sample&) { ++samples; }),
+  CHECK_THROWS_WITH(simulation.run({[&](const Sample&) { ++samples; }}),
                     Catch::Matchers::Contains("job.yaml:8:3: error: dresspack is drawn taut at ") &&
                         Catch::Matchers::Contains("program step 2 'wind up': ") &&
                         Catch::Matchers::Contains("mm are missing"));
@@ -197,7 +199,7 @@ TEST_CASE("simulate: a state that is not finite stops the run") {
   const Simulation simulation(job);
   std::filesystem::remove(file);
   CHECK_THROWS_WITH(
-      simulation.run([](const Sample&) {}),
+      simulation.run({[](const Sample&) {}}),
       "job.yaml: error: the simulation broke down at 0.005 s, program step 1 'clamp poses of "
       "dresslife_simulate_far.csv' (the state is not finite); choose a smaller simulation.time_step_ms, "
       "or check the dresspack's stiffness and mass");

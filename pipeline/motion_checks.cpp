@@ -1,0 +1,62 @@
+#include "pipeline/motion_checks.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "pipeline/files.h"
+#include "pipeline/plot.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// As cell designers say it: mm, deg/m, turns.
+std::string in_words(double value, const std::string& unit) {
+  if (std::isinf(value)) return "";
+  if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
+  if (unit == "rad/m") return fmt::format("{:.0f} deg/m", value * 180 / std::numbers::pi);
+  if (unit == "rad") return fmt::format("{:.2f} turns", value / (2 * std::numbers::pi));
+  return fmt::format("{:.0f} {}", value, unit);
+}
+
+std::string repeats_words(const FileReader& file) {
+  if (!file.has_attribute("repeats")) return "";
+  const double repeats = file.number_attribute("repeats");
+  if (!file.has_attribute("repeat_distance"))
+    return "The motion does not end where it begins and was run once.";
+  return fmt::format("Repeat {:.0f} of the motion; the dresspack ended it {:.2g} mm from where it began it.",
+                     repeats, 1e3 * file.number_attribute("repeat_distance"));
+}
+
+}  // namespace
+
+std::string check_table(const std::filesystem::path& motion_file) {
+  const FileReader file(motion_file, motion_format());
+  if (!file.has("/check/name")) return "";
+  const auto names = file.read<std::string>("/check/name"), units = file.read<std::string>("/check/unit");
+  const auto texts = file.read<std::string>("/program/text");
+  const auto values = file.read<double>("/check/value"), limits = file.read<double>("/check/limit");
+  const auto times = file.read<double>("/check/time"), positions = file.read<double>("/check/position");
+  const auto steps = file.read<std::int32_t>("/check/step"),
+             warnings = file.read<std::int32_t>("/check/warning");
+  const auto lengths = file.read<double>("/segment/length");
+  const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  std::string rows;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool known = steps[i] >= 0 && steps[i] < static_cast<std::int32_t>(texts.size());
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=\"number{}\">{}</td><td class=\"number\">{}</td><td "
+        "class=\"number\">{}</td><td class=\"number\">{:.1f} s</td><td>{}</td></tr>\n",
+        escaped(names[i]), warnings[i] ? " failed" : "", in_words(values[i], units[i]),
+        in_words(limits[i], units[i]), positions[i] < 0 ? "" : fmt::format("{:.2f} m", length - positions[i]),
+        times[i], known ? escaped(texts[static_cast<std::size_t>(steps[i])]) : "");
+  }
+  return fmt::format(
+      "<p class=\"soft\">{}</p>\n<div class=\"wide\"><table>\n<thead><tr><th>check</th><th "
+      "class=\"number\">worst</th><th class=\"number\">limit</th><th class=\"number\">from the tool</th>"
+      "<th class=\"number\">when</th><th>program</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+      repeats_words(file), rows);
+}
+
+}  // namespace dresslife::pipeline

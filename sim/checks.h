@@ -1,0 +1,66 @@
+// What a cell designer asks of a motion: how tightly the dresspack bends and twists, how hard it pulls and
+// touches, and whether it is too short or too long; where, when, and during which line of the program.
+//
+// (R9) Every step, at link j, s = j l from the base clamp: bend radius 1/|kappa|, kappa and twist = the
+// link's turn over its compliance length (S5); tension (S9). Net twist is the sum of all links' turns about
+// the tangent, so whole turns count; what is left of it after a repeat is its end minus its begin. Slack is
+// the free length minus the straight distance of the clamps.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/clamp_path.h"
+#include "sim/contact.h"
+#include "sim/rod.h"
+
+namespace dresslife::sim {
+
+/// Limits that are warned of. Bend radius: the usual rule of cable makers for moved cables. Twist: what
+/// makers of cables for torsion promise. Slack: below the first it has no length left to bend, above the
+/// second more hangs loose than the motion ever needs; both of the free length, both ESTIMATES.
+inline constexpr double least_bend_diameters = 10;
+inline constexpr double most_twist = EIGEN_PI;  // [rad/m]
+inline constexpr double least_slack_share = 0.02, most_slack_share = 1.0 / 3;
+
+/// An extreme value and the moment and place at which it stood.
+struct Extreme {
+  double value = 0;
+  double time = 0;  ///< [s]
+  int place = -1;   ///< link or segment; -1: of the whole dresspack
+  bool seen = false;
+  void see(double candidate, bool larger, double when, int where);
+};
+
+/// One line of the table. Quantities without a limit have an infinite one.
+struct Check {
+  std::string name, unit;  ///< SI
+  double value = 0, limit = 0;
+  bool warning = false;
+  double time = 0;       ///< [s]
+  double position = -1;  ///< from the base clamp along the dresspack [m]; -1: of the whole
+};
+
+class MotionChecks {
+ public:
+  explicit MotionChecks(const Rod& rod);
+
+  /// Looks at the state at one time; the first call of a repeat is at its begin.
+  void see(const RodState& state, const std::vector<Contact>& contacts, double time);
+
+  double net_twist() const { return net_twist_; }                       ///< of the last state seen [rad]
+  const std::vector<Extreme>& curvature() const { return curvature_; }  ///< (link) largest [1/m]
+  const std::vector<Extreme>& twist() const { return twist_; }          ///< (link) largest by size [rad/m]
+  const std::vector<Extreme>& tension() const { return tension_; }      ///< (link) largest pull [N]
+
+  std::vector<Check> table() const;
+
+ private:
+  const Rod& rod_;
+  std::vector<Extreme> curvature_, twist_, tension_;
+  Extreme least_slack_, most_slack_, most_net_twist_, depth_, force_;
+  bool begun_ = false;
+  double net_twist_ = 0, net_twist_at_begin_ = 0, end_ = 0;
+};
+
+}  // namespace dresslife::sim

@@ -1,0 +1,70 @@
+#include "pipeline/motion_checks.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "pipeline/files.h"
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// One sample of two segments of half a metre; with two checks, or as an older version wrote it.
+void write_motion(const std::filesystem::path& name, bool checked, bool returns = true) {
+  FileWriter file(name, motion_format());
+  file.set_axis("segment", 2);
+  file.set_axis("clamp", 2);
+  for (const char* dataset : {"/time", "/contact/max_depth"}) file.append(dataset, std::vector<double>{0});
+  file.append("/segment/position", std::vector<double>(6));
+  file.append("/segment/orientation", std::vector<double>(8));
+  file.append("/segment/length", std::vector<double>{0.5, 0.5});
+  file.append("/clamp/position", std::vector<double>(6));
+  file.append("/clamp/orientation", std::vector<double>(8));
+  for (const char* dataset : {"/program/step", "/contact/count"})
+    file.append(dataset, std::vector<std::int32_t>{0});
+  file.append("/program/text", std::vector<std::string>{"home", "reach <far>"});
+  file.append("/energy", std::vector<double>(3));
+  file.append("/tension", std::vector<double>(2));
+  if (checked) {
+    file.append("/check/name", std::vector<std::string>{"smallest bend radius", "largest net twist"});
+    file.append("/check/unit", std::vector<std::string>{"m", "rad"});
+    file.append("/check/value", std::vector<double>{0.25, 3.14159265358979});
+    file.append("/check/limit", std::vector<double>{0.4, std::numeric_limits<double>::infinity()});
+    file.append("/check/warning", std::vector<std::int32_t>{1, 0});
+    file.append("/check/time", std::vector<double>{1.25, 2});
+    file.append("/check/step", std::vector<std::int32_t>{1, 0});
+    file.append("/check/position", std::vector<double>{0.9, -1});
+    file.attribute("repeats", 3.0);
+    if (returns) file.attribute("repeat_distance", 2e-4);
+  }
+  for (const char* attribute : {"job", "history", "input_sha256"}) file.attribute(attribute, "");
+  file.commit();
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_CASE("motion checks: a table in the units of cell designers") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5", true);
+  const std::string table = check_table(scratch / "motion.h5");
+  CHECK(contains(table, "Repeat 3 of the motion; the dresspack ended it 0.2 mm from where it began it."));
+  CHECK(contains(table,
+                 "<td>smallest bend radius</td><td class=\"number failed\">250.0 mm</td><td "
+                 "class=\"number\">400.0 mm</td><td class=\"number\">0.10 m</td>"));
+  CHECK(contains(table, "reach &lt;far&gt;"));
+  CHECK(contains(table,
+                 "<td>largest net twist</td><td class=\"number\">0.50 turns</td><td class=\"number\"></td>"));
+  write_motion(scratch / "once.h5", true, false);
+  CHECK(contains(check_table(scratch / "once.h5"), "was run once"));
+}
+
+TEST_CASE("motion checks: a file without them has no table") {
+  const Scratch scratch;
+  write_motion(scratch / "old.h5", false);
+  CHECK(check_table(scratch / "old.h5").empty());
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline
