@@ -79,11 +79,14 @@ void Simulation::check_reach() const {
       "give it more free length, with slack to bend, or move a clamp");
 }
 
-void Simulation::check_step(const StepReport& report, const RodState& state, double time) const {
+void Simulation::check_step(const StepReport& report, double time) const {
   if (!report.finite)
     throw InputError({job_.routing.where.file},
                      fmt::format("the simulation broke down {} (the state is not finite)", moment(time)),
                      "choose a smaller simulation.time_step_ms, or check the dresspack's stiffness and mass");
+}
+
+void Simulation::check_taut(const RodState& state, double time) const {
   const double elongation = rod_.mean_elongation(state);
   if (elongation <= longest_elongation) return;
   throw InputError(
@@ -174,12 +177,13 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
       const double time = count * step;
       pose = path_->at(time);
       const StepReport report = world.advance(pose.clamps, pose.links);
-      check_step(report, world.state(), time);
+      check_step(report, time);
       checks.see(world.state(), world.contacts(), time);
       repeat.error.see(count, world.state());
       since.touching = std::max(since.touching, report.touching);
       since.max_depth = std::max(since.max_depth, report.max_depth);
     }
+    check_taut(world.state(), sample / job_.simulation.sample_rate);
     hand_over(sample);
   }
 }

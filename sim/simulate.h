@@ -93,7 +93,8 @@ class Simulation {
   void run_once(World& world, Repeat& repeat, const RunSinks& sinks) const;
   int steps_per_sample(double step) const;
   void check_reach() const;
-  void check_step(const StepReport& report, const RodState& state, double time) const;
+  void check_step(const StepReport& report, double time) const;
+  void check_taut(const RodState& state, double time) const;
 
   pipeline::Job job_;  // its time step is the first one if the run is to choose
   Rod rod_;
