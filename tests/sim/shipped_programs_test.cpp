@@ -83,7 +83,9 @@ TEST_CASE("shipped programs: robot 1 turns the wrist more than robot 2, easy lea
 
 TEST_CASE("shipped programs: the dresspack goes through all of them on the IRB 6640") {
   for (const std::string& program : programs) {
-    const Simulation simulation(job_of(program));
+    pipeline::Job job = job_of(program);
+    job.simulation.most_repeats = 1;  // the first repeat is the roughest
+    const Simulation simulation(job);
     double depth = 0, tension = 0, bend = 0;
     simulation.run({[&](const Sample& sample) {
       depth = std::max(depth, sample.max_depth);
