@@ -6,7 +6,8 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr int sharing_draws = 1000;  // a percentile's place in the distribution is then known to 1.6 % or better
+constexpr int sharing_draws =
+    1000;  // a percentile's place in the distribution is then known to 1.6 % or better
 
 std::string parent_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
@@ -65,14 +66,15 @@ LifeScatter life_scatter(const Conductors& conductors, const pipeline::Fatigue& 
   for (std::size_t i = 0; i < percentiles.size(); ++i)
     result.first_wire[i] = life_until(all_wires, 1, settings.scatter_log10, percentiles[i]);
   if (settings.load_sharing) {
-    SharedLives shared = shared_lives(conductors.bundle, settings.failed_wires_percent,
-                                      settings.scatter_log10, sharing_draws);
+    SharedLives shared =
+        shared_lives(conductors.bundle, settings.failed_wires_percent, settings.scatter_log10, sharing_draws);
     result.conductor = std::move(shared.conductor);
     result.first_conductor = shared.first_conductor;
     return result;
   }
   for (const Bundle& bundle : conductors.bundle)
-    result.conductor.push_back(conductor_lives(bundle, settings.failed_wires_percent, settings.scatter_log10));
+    result.conductor.push_back(
+        conductor_lives(bundle, settings.failed_wires_percent, settings.scatter_log10));
   result.first_conductor =
       first_conductor_lives(conductors.bundle, settings.failed_wires_percent, settings.scatter_log10);
   return result;

@@ -12,8 +12,8 @@
 
 namespace dresslife::fatigue {
 
-/// Path of the part that holds this wire: "cable 3/conductor 2/layer 1/wire 17" lies in "cable 3/conductor 2",
-/// "wire 5" in the dresspack, "". Layers are no parts.
+/// Path of the part that holds this wire: "cable 3/conductor 2/layer 1/wire 17" lies in "cable 3/conductor
+/// 2", "wire 5" in the dresspack, "". Layers are no parts.
 std::string conductor_of(const std::string& wire, const std::vector<std::string>& layer_names);
 
 struct Conductors {
@@ -28,8 +28,9 @@ Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
                          const std::vector<std::string>& layer_names);
 
 /// (F16) With k of n wires broken the rest strain n/(n-k) times as much; rate[k] is the damage then, over the
-/// damage before, of the conductor's worst wire, whose damage under a scaled history is `scaled_damage(factor)`.
-/// An upper bound: bending imposes its strain on every wire alone, only a pull is shared.
+/// damage before, of the conductor's worst wire, whose damage under a scaled history is
+/// `scaled_damage(factor)`. An upper bound: bending imposes its strain on every wire alone, only a pull is
+/// shared.
 std::vector<double> sharing_rates(std::size_t wires, const std::function<double(double)>& scaled_damage);
 
 /// Percentiles of the life of one kind.

@@ -187,7 +187,8 @@ struct MetalTables {
 double MetalTables::walker_damage(double amplitude, double stress_max, double stress_mean) const {
   if (stress_max <= 0) return 0;
   const double stretch = life.walker_stretch(stress_max, stress_mean);
-  if (stretch < 1 / life_room || stretch > life_room) return life.damage({amplitude, stress_max, stress_mean});
+  if (stretch < 1 / life_room || stretch > life_room)
+    return life.damage({amplitude, stress_max, stress_mean});
   const double damage = strain_damage(amplitude) / stretch;
   return damage < 2 / most_reversals ? 0 : std::min(damage, 2 / fewest_reversals);
 }
@@ -375,7 +376,7 @@ struct DamageCounter::Tables {
 
   pipeline::Material material;
   pipeline::Fatigue settings;
-  std::optional<MetalTables> metal;          // one of the two
+  std::optional<MetalTables> metal;  // one of the two
   std::optional<StrainLifeTable> measured;
 };
 
@@ -394,7 +395,8 @@ auto DamageCounter::Tables::with_functions(const Use& use) const {
                    return amplitude <= endurance ? 0.0 : damage(amplitude, max, mean);
                  });
     };
-    if (measured) return lasting([&](double amplitude, double, double) { return measured->damage(amplitude); });
+    if (measured)
+      return lasting([&](double amplitude, double, double) { return measured->damage(amplitude); });
     switch (settings.mean_stress) {
       case MeanStress::none:
         return lasting([&](double amplitude, double, double) { return metal->strain_damage(amplitude); });

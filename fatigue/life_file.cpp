@@ -286,8 +286,8 @@ std::vector<std::string> warnings_of(const Context& c, const std::vector<Damagin
 
 }  // namespace
 
-Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter& life,
-                 std::size_t threads, const std::function<void(double)>& progress) {
+Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter& life, std::size_t threads,
+                 const std::function<void(double)>& progress) {
   Context c(strain, job, life, threads);
   check_steps(c);
   // The three sets are about equally large.

@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
         const pipeline::Job job =
             pipeline::job_of(call, strain, {pipeline::Part::sim, pipeline::Part::strain});
         pipeline::FileWriter life(call.output, pipeline::life_format());
-        const fatigue::Notes notes =
-            fatigue::write_life(strain, job, life, pipeline::thread_count(), [&](double share) { progress.show(share); });
+        const fatigue::Notes notes = fatigue::write_life(strain, job, life, pipeline::thread_count(),
+                                                         [&](double share) { progress.show(share); });
         for (const std::string& warning : notes.warnings) progress.note(warning);
         pipeline::stamp(life, call, job, strain.text_attribute("history"));
         life.commit();

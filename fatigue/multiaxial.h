@@ -1,10 +1,11 @@
-// Strain and shear together: a wire's surface is stretched along its axis by eps and sheared by gamma = r dtau.
+// Strain and shear together: a wire's surface is stretched along its axis by eps and sheared by gamma = r
+// dtau.
 //
 // Equivalent strain (von Mises), (F17): eps_eq = sqrt(eps^2 + gamma^2 / 3), with the sign of eps. Exact when
 // the two grow in proportion; it loses the sign where shear leads.
 //
-// Critical plane (Smith, Watson and Topper's parameter on a plane, Socie 1987), (F18): on the plane whose normal
-// lies at angle theta to the axis, with nu the ratio of lateral contraction,
+// Critical plane (Smith, Watson and Topper's parameter on a plane, Socie 1987), (F18): on the plane whose
+// normal lies at angle theta to the axis, with nu the ratio of lateral contraction,
 //     eps_n(t) = eps (cos^2 theta - nu sin^2 theta) + gamma sin theta cos theta
 // is a strain history like any other: it is counted, given a stress and damaged as (9). The plane with the
 // largest damage decides. Assumption beyond those of damage.h: the stress across the plane follows its own
@@ -27,7 +28,7 @@ std::vector<double> plane_strain(std::span<const double> strain, std::span<const
                                  double poisson_ratio, double theta);
 
 struct CriticalPlane {
-  double theta = 0;  ///< of its normal to the axis, in [-pi/2, pi/2) [rad]
+  double theta = 0;   ///< of its normal to the axis, in [-pi/2, pi/2) [rad]
   double damage = 0;  ///< per repeat
 };
 

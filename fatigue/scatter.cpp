@@ -11,7 +11,7 @@ namespace dresslife::fatigue {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double farthest = 9;         // standard deviations: beyond lies 1e-19 of all wires
+constexpr double farthest = 9;          // standard deviations: beyond lies 1e-19 of all wires
 constexpr double log_accuracy = 1e-10;  // of ln life
 
 std::vector<double> medians(std::span<const double> damage) {
@@ -120,9 +120,8 @@ double life_until(std::span<const double> damage, std::size_t count, double scat
   if (lives.size() < count) return infinity;
   if (scatter_log10 == 0) return lives[count - 1];
   const double spread = std::pow(10, farthest * scatter_log10);
-  return bisect(lives.front() / spread, lives[count - 1] * spread, share, [&](double time) {
-    return at_least(shares_at(time, lives, scatter_log10), count);
-  });
+  return bisect(lives.front() / spread, lives[count - 1] * spread, share,
+                [&](double time) { return at_least(shares_at(time, lives, scatter_log10), count); });
 }
 
 FailureLives conductor_lives(const Bundle& bundle, double failed_percent, double scatter_log10) {

@@ -8,8 +8,8 @@
 // found by bisection in log t. All lives are in repeats of the motion.
 //
 // Assumptions: wires are independent of each other (one spool's common part of the scatter is left out); the
-// places of one wire are not (one z, since a segment is no piece of metal of its own); a wire counts as broken
-// wherever along the dresspack it breaks.
+// places of one wire are not (one z, since a segment is no piece of metal of its own); a wire counts as
+// broken wherever along the dresspack it breaks.
 #pragma once
 
 #include <array>
@@ -36,8 +36,8 @@ double at_least(std::span<const double> probability, std::size_t count);
 /// Wires that must break before a share of `wires` has: at least one.
 std::size_t wires_of_share(double percent, std::size_t wires);
 
-/// Life by which at least `count` of the wires have broken in `share` of all cases. damage (wire): per repeat,
-/// by the median curves. Infinite when fewer wires are damaged at all. Precondition: count >= 1.
+/// Life by which at least `count` of the wires have broken in `share` of all cases. damage (wire): per
+/// repeat, by the median curves. Infinite when fewer wires are damaged at all. Precondition: count >= 1.
 double life_until(std::span<const double> damage, std::size_t count, double scatter_log10, double share);
 
 /// The wires of one conductor.
@@ -51,7 +51,8 @@ struct Bundle {
 FailureLives conductor_lives(const Bundle& bundle, double failed_percent, double scatter_log10);
 
 /// Life by which the first of several conductors has lost `failed_percent` of its wires.
-Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent, double scatter_log10);
+Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent,
+                                  double scatter_log10);
 
 /// What happens when the rest of a conductor takes over the load of its broken wires (F16).
 struct SharedLives {
@@ -59,8 +60,8 @@ struct SharedLives {
   Percentiles first_conductor;
 };
 
-/// The same with Bundle::rate, by `draws` draws of all wires with a fixed seed. With k broken, every wire left
-/// is damaged rate[k] times as fast; in the time that runs faster by that factor the wires break as if
+/// The same with Bundle::rate, by `draws` draws of all wires with a fixed seed. With k broken, every wire
+/// left is damaged rate[k] times as fast; in the time that runs faster by that factor the wires break as if
 /// nothing were shared, so one sorting of a draw gives all its breaks.
 SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent, double scatter_log10,
                          int draws);

@@ -20,7 +20,8 @@ std::size_t thread_count() {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   constexpr std::size_t most = 1024;
   if (error != std::errc{} || end != text.data() + text.size() || count < 1 || count > most)
-    throw InputError(Where{"DRESSLIFE_THREADS"}, fmt::format("is '{}' (must be a whole number, 1 .. {})", text, most),
+    throw InputError(Where{"DRESSLIFE_THREADS"},
+                     fmt::format("is '{}' (must be a whole number, 1 .. {})", text, most),
                      "set it to the threads that each stage may use, or unset it");
   return count;
 }

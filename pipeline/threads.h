@@ -7,8 +7,9 @@
 
 namespace dresslife::pipeline {
 
-/// How many threads a stage may use: the environment variable DRESSLIFE_THREADS, which the study runner sets to
-/// its cores shared among its jobs; without it all of the machine. Errors: InputError when it is no number.
+/// How many threads a stage may use: the environment variable DRESSLIFE_THREADS, which the study runner sets
+/// to its cores shared among its jobs; without it all of the machine. Errors: InputError when it is no
+/// number.
 std::size_t thread_count();
 
 /// Calls work(part) for every part below `parts` at the same time, the first on the caller's own thread, and

@@ -328,8 +328,7 @@ TEST_CASE("damage sums, life, hours and months") {
 }
 
 TEST_CASE("an absurd strain breaks the wire at once, and no more than at once") {
-  for (const auto mean_stress :
-       {MeanStress::none, MeanStress::morrow, MeanStress::swt, MeanStress::walker}) {
+  for (const auto mean_stress : {MeanStress::none, MeanStress::morrow, MeanStress::swt, MeanStress::walker}) {
     pipeline::Fatigue settings;
     settings.mean_stress = mean_stress;
     const DamageCounter counter(aluminium(), settings);

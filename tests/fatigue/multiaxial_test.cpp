@@ -63,7 +63,8 @@ TEST_CASE("critical plane: in phase, its normal is the principal direction") {
   const double eps = 0.003, gamma = std::sqrt(3) * (1 + m.poisson_ratio) * eps;
   const CriticalPlane plane = critical_plane(swing(eps, 0.2), swing(gamma, 0.2), m, {});
   CHECK(plane.theta == Approx(pi / 6).epsilon(rounding));
-  const double principal = eps * (1 - m.poisson_ratio) / 2 + std::hypot(eps * (1 + m.poisson_ratio), gamma) / 2;
+  const double principal =
+      eps * (1 - m.poisson_ratio) / 2 + std::hypot(eps * (1 + m.poisson_ratio), gamma) / 2;
   CHECK(plane.damage == Approx(damage_of_history(swing(principal, 0.2), m)).epsilon(rounding));
   // The mirrored shear breaks the mirrored plane.
   const CriticalPlane mirrored = critical_plane(swing(eps, 0.2), swing(-gamma, 0.2), m, {});

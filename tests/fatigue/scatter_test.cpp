@@ -14,7 +14,8 @@ using namespace dresslife::fatigue;
 namespace {
 
 constexpr double rounding = 1e-12;  // relative: some hundred sums and products of doubles
-constexpr double bisected = 1e-8;   // relative: lives are found to 1e-10, shares grow at most 100 times as fast
+constexpr double bisected =
+    1e-8;  // relative: lives are found to 1e-10, shares grow at most 100 times as fast
 constexpr double one_deviation = 0.8413447460685429;  // Phi(1)
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -122,7 +123,8 @@ TEST_CASE("scatter: drawing agrees with the closed form where nothing is shared"
   const std::vector<Bundle> bundles{wires({100, 120, 150, 200, 400}), wires({90, 300, 310, 320})};
   const SharedLives drawn = shared_lives(bundles, 40, 0.2, draws);
   for (std::size_t i = 0; i < percentiles.size(); ++i) {
-    const double q = percentiles[i], place = 4.5 * std::sqrt(q * (1 - q) / draws);  // 4.5 deviations of a count
+    const double q = percentiles[i],
+                 place = 4.5 * std::sqrt(q * (1 - q) / draws);  // 4.5 deviations of a count
     for (std::size_t k = 0; k < bundles.size(); ++k) {
       const std::size_t n = bundles[k].damage.size();
       const std::size_t counts[]{1, 2, n};
@@ -134,7 +136,8 @@ TEST_CASE("scatter: drawing agrees with the closed form where nothing is shared"
       }
     }
     const Percentiles first = first_conductor_lives(bundles, 40, 0.2);
-    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) < 0.2 * place / 0.1);  // density >= 0.1 / s
+    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) <
+          0.2 * place / 0.1);  // density >= 0.1 / s
   }
 }
 

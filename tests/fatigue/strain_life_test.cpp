@@ -166,9 +166,10 @@ TEST_CASE("Walker: (8) at zero mean, SWT's amplitude at gamma 1/2, no mean stres
     elastic.walker_exponent = gamma;
     const double max = 150e6, mean = 70e6, amplitude = max - mean;
     const double equivalent = std::pow(max, 1 - gamma) * std::pow(amplitude, gamma);
-    CHECK(StrainLife(elastic, MeanStress::walker)
-              .reversals({amplitude / elastic.youngs_modulus, max, mean}) ==
-          Approx(std::pow(equivalent / elastic.fatigue_strength, 1 / -0.112)).epsilon(1e-4));  // 1e-9 of ductility
+    CHECK(
+        StrainLife(elastic, MeanStress::walker).reversals({amplitude / elastic.youngs_modulus, max, mean}) ==
+        Approx(std::pow(equivalent / elastic.fatigue_strength, 1 / -0.112))
+            .epsilon(1e-4));  // 1e-9 of ductility
   }
 }
 
