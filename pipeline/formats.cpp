@@ -62,6 +62,11 @@ Format make_motion_format() {
       {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
       {"/contact/count", Type::i32, {"sample"}, "1", "contacts of the dresspack, most at a time since the sample before"},
       {"/contact/max_depth", Type::f64, {"sample"}, "m", "deepest penetration since the sample before; 0 without contact"},
+      {"/contact/force", Type::f32, {"sample", "segment"}, "N", "largest normal force on each segment since the sample before", false, true, true},
+      {"/contact/obstacle", Type::i32, {"sample", "segment"}, "1", "what pressed it then: index into the attribute `obstacles` of /contact/work; -1: nothing", false, true, true},
+      {"/contact/rubbing", Type::f32, {"sample", "segment"}, "J", "work of friction on each segment since the sample before", false, true, true},
+      {"/contact/work", Type::f64, {"segment", "obstacle"}, "J", "work of friction over the motion; attribute `obstacles` names the robot's links, floor, dresspack (itself), cell", false, true},
+      {"/contact/largest_force", Type::f64, {"segment", "obstacle"}, "N", "largest normal force over the motion", false, true},
       {"/energy", Type::f64, {"sample", "3"}, "J", "kinetic, elastic, gravitational"},
       {"/tension", Type::f64, {"sample", "segment"}, "N", "axial force in each segment"},
   };

@@ -29,9 +29,30 @@ void describe(Fields& f, Capsule& capsule) {
   f.number("radius_mm", capsule.radius, Need::required, above(0), "radius of the capsule");
 }
 
+void describe(Fields& f, Box& box) {
+  f.vector("position_m", box.position, Need::optional, "of the box's centre");
+  f.vector("rpy_deg", box.orientation, Need::optional, "roll, pitch, yaw of the box");
+  f.vector("sides_m", box.sides, Need::required, "its full lengths along its own axes");
+}
+
+void describe(Fields& f, MeshFile& mesh) {
+  f.path("file", mesh.file, Need::required, "triangles as STL or OBJ");
+  f.number("scale", mesh.scale, Need::optional, above(0), "metres per unit of the file: 0.001 for millimetres");
+  f.vector("position_m", mesh.position, Need::optional, "of the file's origin");
+  f.vector("rpy_deg", mesh.orientation, Need::optional, "roll, pitch, yaw of the file's axes");
+}
+
+void describe(Fields& f, Cell& cell) {
+  f.list("capsules", cell.capsules, Need::optional, "posts, pipes and round edges, in the world's frame");
+  f.list("boxes", cell.boxes, Need::optional, "tables and cabinets, in the world's frame");
+  f.list("meshes", cell.meshes, Need::optional, "fixtures, in the world's frame");
+}
+
 void describe(Fields& f, Link& link) {
   f.text("name", link.name, Need::required, "name of the link, by which clamps refer to it");
   f.list("capsules", link.capsules, Need::optional, "shape of the link for contact with the dresspack");
+  f.list("boxes", link.boxes, Need::optional, "more of its shape, in the link's frame");
+  f.list("meshes", link.meshes, Need::optional, "more of its shape, in the link's frame");
 }
 
 void describe(Fields& f, Robot& robot) {
@@ -203,6 +224,7 @@ void describe(Fields& f, Simulation& simulation) {
            "of motion.h5; a whole number of steps lies between samples");
   f.vector("gravity_m_per_s2", simulation.gravity, Need::optional, "acceleration of free fall in the world");
   f.boolean("contact", simulation.contact, Need::optional, "whether the dresspack touches the robot's links");
+  f.boolean("self_contact", simulation.self_contact, Need::optional, "whether the dresspack touches itself");
   f.boolean("floor", simulation.floor, Need::optional, "whether the plane z = 0 is a floor");
   f.number("periodic_tolerance_mm", simulation.periodic_tolerance, Need::optional, above(0),
            "a motion that returns is repeated until the dresspack begins two repeats this much alike; the last one counts");
@@ -250,6 +272,7 @@ void describe(Fields& f, Job& job) {
           "a name of config/robots, a file, or the entry itself", !job.robot.joints.empty());
   f.group("dresspack", job.dresspack, Need::required, "a name of config/dresspacks, a file, or the entry itself");
   f.group("routing", job.routing, Need::required, "clamps and free length");
+  f.group("cell", job.cell, Need::optional, "what stands still around the robot: obstacles of the dresspack");
   f.group("simulation", job.simulation, Need::optional, "settings of dresslife-sim");
   f.group("strain", job.strain, Need::optional, "settings of dresslife-strain");
   f.group("fatigue", job.fatigue, Need::optional, "settings of dresslife-fatigue");
@@ -428,9 +451,16 @@ void check_simulation(const Simulation& simulation, const Where& where) {
                      "choose both so that it is a whole number");
 }
 
+void check_boxes(const std::vector<Box>& boxes, const Where& where) {
+  for (const Box& box : boxes)
+    if (!(box.sides.minCoeff() > 0)) throw InputError(where, "a box has a side of length 0 or less", "mend its sides_m");
+}
+
 void check(const Job& job, const Node& document) {
   auto where = [&](const char* key) { return document.find(key) ? document.find(key)->where : document.where; };
   if (job.motion.clamp_poses.empty()) check_robot(job.robot, where("robot"));
+  for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
+  check_boxes(job.cell.boxes, where("cell"));
   check_motion(job.motion, job.robot);
   check_routing(job);
   check_dresspack(job, where("strain"));
@@ -471,6 +501,7 @@ std::string part_text(const Job& job, Part part) {
       echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
       echo.group("dresspack", copy.dresspack, Need::required, "");
       echo.group("routing", copy.routing, Need::required, "");
+      echo.group("cell", copy.cell, Need::optional, "");
       echo.group("simulation", copy.simulation, Need::optional, "");
       break;
     case Part::strain:
@@ -504,6 +535,9 @@ std::vector<std::filesystem::path> files_beside(const Job& job) {
       std::error_code failure;
       if (std::filesystem::is_regular_file(data, failure)) files.push_back(data);
     }
+  for (const Link& link : job.robot.links)
+    for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);
+  for (const MeshFile& mesh : job.cell.meshes) files.push_back(mesh.file);
   return files;
 }
 

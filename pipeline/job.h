@@ -35,9 +35,31 @@ struct Capsule {
   double radius = 0;                                        ///< [m]
 };
 
+struct Box {
+  Vector3d position = Vector3d::Zero();     ///< of its centre, in the link's frame [m]
+  Vector3d orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
+  Vector3d sides = Vector3d::Zero();        ///< full lengths along its own axes [m]
+};
+
+struct MeshFile {
+  std::filesystem::path file;               ///< STL or OBJ
+  double scale = 1;                         ///< metres per unit of the file
+  Vector3d position = Vector3d::Zero();     ///< of the file's origin, in the link's frame [m]
+  Vector3d orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
+};
+
 struct Link {
   std::string name;  ///< link k > 0 is moved by joint k - 1 (counted from 0); link 0 is the base
   std::vector<Capsule> capsules;
+  std::vector<Box> boxes{};
+  std::vector<MeshFile> meshes{};
+};
+
+/// What stands still around the robot, in the world's frame.
+struct Cell {
+  std::vector<Capsule> capsules;
+  std::vector<Box> boxes;
+  std::vector<MeshFile> meshes;
 };
 
 struct Robot {
@@ -204,6 +226,7 @@ struct Simulation {
   double sample_rate = 25;              ///< of motion.h5 [Hz]; 1/rate is a multiple of the step
   Vector3d gravity{0, 0, -9.81};        ///< [m/s2]
   bool contact = true;                  ///< with the robot's links
+  bool self_contact = true;             ///< of the dresspack with itself
   bool floor = true;                    ///< contact with the plane z = 0 too
   double periodic_tolerance = 1e-3;     ///< a motion is repeated until repeats begin this much alike [m]
   int most_repeats = 8;                 ///< of the motion, also when they do not
@@ -251,6 +274,7 @@ struct Job {
   Motion motion;
   Dresspack dresspack;
   Routing routing;
+  Cell cell;
   Simulation simulation;
   Strain strain;
   Fatigue fatigue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace dresslife::sim {
 namespace {
@@ -21,7 +22,11 @@ double dot(const Twist6& a, const Twist6& b) {
   return sum;
 }
 
-// Row of J: velocity of the segment's matter at the contact along an axis.
+void add(Twist6& sum, double factor, const Twist6& x) {
+  for (int k = 0; k < 6; ++k) sum.value[k] += factor * x.value[k];
+}
+
+// Row of J: velocity of a segment's matter at the contact along an axis.
 Twist6 direction_at(const Vector3& arm, const Vector3& axis) {
   const Vector3 turn = arm.cross(axis);
   return {{axis.x(), axis.y(), axis.z(), turn.x(), turn.y(), turn.z()}};
@@ -33,7 +38,38 @@ std::pair<Vector3, Vector3> tangents(const Vector3& normal) {
   return {first, normal.cross(first)};
 }
 
+auto place_of(const Contact& contact) {
+  return std::tuple(contact.segment, contact.other, contact.obstacle);
+}
+
 }  // namespace
+
+Vector3 relative_velocity(const RodState& state, std::span<const Twist6> change, const Contact& contact) {
+  const auto matter = [&](int i) {
+    const Vector3 spin = state.angular_velocity[i] + change[i].angular();
+    return Vector3(state.velocity[i] + change[i].linear() + spin.cross(contact.point - state.position[i]));
+  };
+  const Vector3 velocity = matter(contact.segment) - contact.obstacle_velocity;
+  return contact.other < 0 ? velocity : Vector3(velocity - matter(contact.other));
+}
+
+void ContactSolver::set_up(const RodState& state, std::span<const Twist6> change,
+                           const std::vector<Contact>& contacts, double h) {
+  const size_t rows = 3 * contacts.size();
+  direction_.resize(rows), opposite_.assign(rows, Twist6{}), velocity_.resize(rows), answer_.assign(rows, 0.0);
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    const auto [first, second] = tangents(c.normal);
+    const Vector3 velocity = relative_velocity(state, change, c);
+    const Vector3 axes[3] = {c.normal, first, second};
+    for (int q = 0; q < 3; ++q) {
+      direction_[3 * k + q] = direction_at(c.point - state.position[c.segment], axes[q]);
+      if (c.other >= 0) opposite_[3 * k + q] = direction_at(c.point - state.position[c.other], -axes[q]);
+      velocity_[3 * k + q] = velocity.dot(axes[q]);
+    }
+    velocity_[3 * k] -= c.depth > 0 ? std::min(overlap_share * c.depth / h, push_speed) : c.depth / h;
+  }
+}
 
 // (J A^-1 J^T), row by row.
 void ContactSolver::condense(const RodSolver& solver, const std::vector<Contact>& contacts) {
@@ -41,60 +77,90 @@ void ContactSolver::condense(const RodSolver& solver, const std::vector<Contact>
   effective_.resize(static_cast<size_t>(rows) * rows);
   response_.resize(solver.velocity_change().size());
   int first = contacts.front().segment;
-  for (const Contact& contact : contacts) first = std::min(first, contact.segment);
+  for (const Contact& c : contacts) {
+    first = std::min(first, c.segment);
+    if (c.other >= 0) first = std::min(first, c.other);
+  }
   for (int row = 0; row < rows; ++row) {
-    solver.unit_response(contacts[row / 3].segment, direction_[row].value, first, response_);
-    for (int other = 0; other < rows; ++other)
-      effective_[static_cast<size_t>(other) * rows + row] =
-          dot(direction_[other], response_[contacts[other / 3].segment]);
+    const Contact& c = contacts[row / 3];
+    solver.unit_response(c.segment, direction_[row], c.other, opposite_[row], first, response_);
+    for (int k = 0; k < rows; ++k) {
+      const Contact& at = contacts[k / 3];
+      double change = dot(direction_[k], response_[at.segment]);
+      if (at.other >= 0) change += dot(opposite_[k], response_[at.other]);
+      effective_[static_cast<size_t>(k) * rows + row] = change;
+    }
   }
 }
 
-// Projected Gauss-Seidel on (S10). velocity_ holds w for the present answer; a changed impulse changes it by
-// a column of the (symmetric) condensed matrix, and idle contacts cost nothing.
+// velocity_ holds w for the present answer; a changed impulse changes it by a column of the (symmetric) condensed
+// matrix, and idle contacts cost nothing.
+void ContactSolver::change_answer(int row, double change) {
+  const int rows = static_cast<int>(direction_.size());
+  const double* column = &effective_[static_cast<size_t>(row) * rows];
+  answer_[row] += change;
+  for (int k = 0; k < rows; ++k) velocity_[k] += change * column[k];
+}
+
+double ContactSolver::press(int row, double h) {
+  const double soft = softness / h, mass = effective_[static_cast<size_t>(row) * direction_.size() + row] + soft;
+  const double next = std::max(0.0, answer_[row] - (velocity_[row] + soft * answer_[row]) / mass);
+  const double change = next - answer_[row];
+  if (change != 0) change_answer(row, change);
+  return std::abs(change);
+}
+
+// Both tangents at `row` and row + 1. What would stop the sliding, p - B^-1 w, if friction can give it; else p - w/b,
+// b the largest eigenvalue of the 2x2 matrix B, drawn back to the circle: that stands still only where p and w point
+// oppositely.
+double ContactSolver::rub(int row, double limit) {
+  const size_t rows = direction_.size();
+  double* p = &answer_[row];
+  const double* w = &velocity_[row];
+  if (limit == 0 && p[0] == 0 && p[1] == 0) return 0;
+  const double a = effective_[row * rows + row], b = effective_[row * rows + row + 1],
+               d = effective_[(row + 1) * rows + row + 1], determinant = a * d - b * b;
+  double next[2] = {p[0] - (d * w[0] - b * w[1]) / determinant, p[1] - (a * w[1] - b * w[0]) / determinant};
+  if (!(std::hypot(next[0], next[1]) <= limit)) {
+    const double largest = (a + d) / 2 + std::hypot((a - d) / 2, b);
+    for (int k = 0; k < 2; ++k) next[k] = p[k] - w[k] / largest;
+    const double length = std::hypot(next[0], next[1]), share = length > limit ? limit / length : 1;
+    for (double& part : next) part *= share;
+  }
+  const double change[2] = {next[0] - p[0], next[1] - p[1]};
+  for (int k = 0; k < 2; ++k)
+    if (change[k] != 0) change_answer(row + k, change[k]);
+  return std::hypot(change[0], change[1]);
+}
+
 void ContactSolver::iterate(double friction, double h) {
   const int rows = static_cast<int>(direction_.size());
-  const auto change_answer = [&](int row, double change) {
-    const double* column = &effective_[static_cast<size_t>(row) * rows];
-    for (int k = 0; k < rows; ++k) velocity_[k] += change * column[k];
-  };
-  for (int row = 0; row < rows; ++row)
-    if (answer_[row] != 0) change_answer(row, answer_[row]);
+  for (int row = 0; row < rows; ++row) {
+    const double start = answer_[row];
+    if (start != 0) answer_[row] = 0, change_answer(row, start);
+  }
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double largest = 0;
-    for (int row = 0; row < rows; ++row) {
-      const bool normal = row % 3 == 0;
-      const double soft = normal ? softness / h : 0,
-                   mass = effective_[static_cast<size_t>(row) * rows + row] + soft;
-      const double wanted = answer_[row] - (velocity_[row] + soft * answer_[row]) / mass;
-      const double limit = normal ? 0 : friction * answer_[row - row % 3];
-      const double next = normal ? std::max(0.0, wanted) : std::clamp(wanted, -limit, limit);
-      const double change = next - answer_[row];
-      if (change == 0) continue;
-      answer_[row] = next;
-      change_answer(row, change);
-      largest = std::max(largest, std::abs(change));
+    for (int row = 0; row < rows; row += 3) {
+      largest = std::max(largest, press(row, h));
+      largest = std::max(largest, rub(row + 1, friction * answer_[row]));
     }
     if (largest < smallest_change) break;
   }
 }
 
 // The impulses of the step before, where the same segment touched the same obstacle, are a good first answer.
-// Both lists are in order of segment.
+// Both lists are in order of place_of().
 void ContactSolver::start_from_last_step(const std::vector<Contact>& contacts, double h) {
   size_t k = 0;
   for (size_t c = 0; c < contacts.size(); ++c) {
-    while (k < last_.size() && last_[k].segment < contacts[c].segment) ++k;
-    size_t match = k;
-    while (match < last_.size() && last_[match].segment == contacts[c].segment &&
-           last_[match].obstacle != contacts[c].obstacle)
-      ++match;
-    if (match >= last_.size() || last_[match].segment != contacts[c].segment) continue;
+    while (k < last_.size() && place_of(last_[k]) < place_of(contacts[c])) ++k;
+    if (k == last_.size() || place_of(last_[k]) != place_of(contacts[c])) continue;
     const auto [first, second] = tangents(contacts[c].normal);
-    answer_[3 * c] = h * last_[match].normal_force;
-    answer_[3 * c + 1] = h * last_[match].friction_force.dot(first);
-    answer_[3 * c + 2] = h * last_[match].friction_force.dot(second);
-    if (match == k) ++k;
+    answer_[3 * c] = h * last_[k].normal_force;
+    answer_[3 * c + 1] = h * last_[k].friction_force.dot(first);
+    answer_[3 * c + 2] = h * last_[k].friction_force.dot(second);
+    ++k;
   }
 }
 
@@ -104,39 +170,26 @@ void ContactSolver::solve(const RodState& state, double friction, double h, RodS
     last_.clear();
     return;
   }
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Contact& a, const Contact& b) { return place_of(a) < place_of(b); });
   const std::span<const Twist6> change = solver.velocity_change();
-  const int rows = 3 * static_cast<int>(contacts.size());
-  direction_.resize(rows), velocity_.resize(rows), answer_.assign(rows, 0.0);
-  for (size_t k = 0; k < contacts.size(); ++k) {
-    const Contact& c = contacts[k];
-    const auto [first, second] = tangents(c.normal);
-    const Vector3 arm = c.point - state.position[c.segment];
-    const Vector3 spin = state.angular_velocity[c.segment] + change[c.segment].angular();
-    const Vector3 velocity =
-        state.velocity[c.segment] + change[c.segment].linear() + spin.cross(arm) - c.obstacle_velocity;
-    const Vector3 axes[3] = {c.normal, first, second};
-    for (int q = 0; q < 3; ++q) {
-      direction_[3 * k + q] = direction_at(arm, axes[q]);
-      velocity_[3 * k + q] = velocity.dot(axes[q]);
-    }
-    velocity_[3 * k] -= c.depth > 0 ? std::min(overlap_share * c.depth / h, push_speed) : c.depth / h;
-  }
+  set_up(state, change, contacts, h);
   start_from_last_step(contacts, h);
   condense(solver, contacts);
   iterate(friction, h);
   impulse_.assign(change.size(), Twist6{});
-  for (int row = 0; row < rows; ++row)
-    for (int k = 0; k < 6; ++k)
-      impulse_[contacts[row / 3].segment].value[k] += direction_[row].value[k] * answer_[row];
+  for (size_t row = 0; row < direction_.size(); ++row) {
+    const Contact& c = contacts[row / 3];
+    add(impulse_[c.segment], answer_[row], direction_[row]);
+    if (c.other >= 0) add(impulse_[c.other], answer_[row], opposite_[row]);
+  }
   solver.apply_impulses(impulse_);
   for (size_t k = 0; k < contacts.size(); ++k) {
     Contact& c = contacts[k];
     const auto [first, second] = tangents(c.normal);
     c.normal_force = answer_[3 * k] / h;
     c.friction_force = (answer_[3 * k + 1] * first + answer_[3 * k + 2] * second) / h;
-    const Vector3 spin = state.angular_velocity[c.segment] + change[c.segment].angular();
-    const Vector3 velocity = state.velocity[c.segment] + change[c.segment].linear() +
-                             spin.cross(c.point - state.position[c.segment]) - c.obstacle_velocity;
+    const Vector3 velocity = relative_velocity(state, change, c);
     c.sliding_speed = (velocity - velocity.dot(c.normal) * c.normal).norm();
   }
   last_ = contacts;

@@ -1,8 +1,10 @@
-// Contact of the hose with obstacles: Coulomb friction on the effective mass of the whole chain.
+// Contact of the hose with obstacles and with itself: Coulomb friction on the effective mass of the whole chain.
 //
 // With J the contact directions and A the step matrix (S3), the impulses p solve
-// (S10) w = J (v + dv) - v_obstacle - b/h + (J A^-1 J^T) p,   0 <= p_n  perp  w_n >= 0,   |p_t| <= mu p_n
-// by projected Gauss-Seidel, so a touching segment feels the mass and stiffness of its neighbours.
+// (S10) w = J (v + dv) - v_obstacle - b/h + (J A^-1 J^T) p,   0 <= p_n  perp  w_n >= 0,
+//       |p_t| <= mu p_n, and where the hose slides p_t = -mu p_n w_t/|w_t|
+// by projected Gauss-Seidel, so a touching segment feels the mass and stiffness of its neighbours. A row of J has
+// one block, or two of opposite sense where two segments touch: what one is given the other loses.
 #pragma once
 
 #include <vector>
@@ -11,19 +13,24 @@
 
 namespace dresslife::sim {
 
+/// Obstacles that are not links of the robot.
+inline constexpr int floor_obstacle = -1, hose_obstacle = -3, cell_obstacle = -4;
+
 struct Contact {
   int segment = 0;
-  int obstacle = 0;                             ///< robot link; floor_obstacle for the floor
+  int other = -1;                               ///< segment that is touched; -1: an obstacle is
+  int obstacle = 0;                             ///< robot link, or one of the above
   Vector3 point = Vector3::Zero();              ///< world [m]
-  Vector3 normal = Vector3::UnitZ();            ///< unit, from the obstacle to the hose
+  Vector3 normal = Vector3::UnitZ();            ///< unit, from the obstacle (the other segment) to the segment
   double depth = 0;                             ///< > 0: overlap, < 0: still apart [m]
   Vector3 obstacle_velocity = Vector3::Zero();  ///< of the obstacle's matter at the point [m/s]
   double normal_force = 0;                      ///< mean over the step [N]
-  Vector3 friction_force = Vector3::Zero();     ///< on the hose [N]
+  Vector3 friction_force = Vector3::Zero();     ///< on the segment [N]
   double sliding_speed = 0;                     ///< after the step [m/s]
 };
 
-inline constexpr int floor_obstacle = -1;
+/// Velocity after the step, as far as it is known, of the hose's matter at a contact relative to what it touches.
+Vector3 relative_velocity(const RodState& state, std::span<const Twist6> change, const Contact& contact);
 
 class ContactSolver {
  public:
@@ -33,13 +40,19 @@ class ContactSolver {
              std::vector<Contact>& contacts);
 
  private:
+  void set_up(const RodState& state, std::span<const Twist6> change, const std::vector<Contact>& contacts,
+              double h);
   void condense(const RodSolver& solver, const std::vector<Contact>& contacts);
   void start_from_last_step(const std::vector<Contact>& contacts, double h);
   void iterate(double friction, double h);
+  double press(int row, double h);
+  double rub(int row, double limit);
+  void change_answer(int row, double change);
 
-  std::vector<Twist6> direction_, response_, impulse_;  // (row): contact's normal and two tangents in turn
-  std::vector<double> effective_, velocity_, answer_;   // (row, row), (row), (row)
-  std::vector<Contact> last_;                           // of the step before
+  std::vector<Twist6> direction_, opposite_;  // (row): contact's normal and two tangents in turn; other's
+  std::vector<Twist6> response_, impulse_;    // (segment)
+  std::vector<double> effective_, velocity_, answer_;  // (row, row), (row), (row)
+  std::vector<Contact> last_;                          // of the step before
 };
 
 }  // namespace dresslife::sim

@@ -50,6 +50,7 @@ void MotionFile::add(const Sample& sample) {
   file_.append("/program/step", std::span<const std::int32_t>(std::array<std::int32_t, 1>{sample.step}));
   file_.append("/contact/count", std::span<const std::int32_t>(std::array<std::int32_t, 1>{sample.contacts}));
   rows("/contact/max_depth", std::array{sample.max_depth});
+  add_touch(sample.touch);
   rows("/energy", std::array{sample.energy.kinetic, sample.energy.elastic, sample.energy.gravitational});
   rows("/tension", sample.tension);
   rows("/check/net_twist", std::array{sample.net_twist});
@@ -64,6 +65,7 @@ void MotionFile::finish(const Simulation& simulation, const RunSummary& summary)
   add_extremes("/check/twist", summary.twist);
   add_extremes("/check/tension", summary.tension);
   add_checks(simulation, summary.checks);
+  add_touch_of_motion();
 }
 
 void MotionFile::add_extremes(const std::string& group, const std::vector<Extreme>& extremes) {
@@ -98,6 +100,20 @@ void MotionFile::add_checks(const Simulation& simulation, const std::vector<Chec
   file_.append("/check/time", std::span<const double>(times));
   file_.append("/check/step", std::span<const std::int32_t>(steps));
   file_.append("/check/position", std::span<const double>(positions));
+}
+
+void MotionFile::add_touch(const Touch& touch) {
+  file_.append("/contact/force", std::span<const double>(touch.sample_force()));
+  file_.append("/contact/rubbing", std::span<const double>(touch.sample_work()));
+  file_.append("/contact/obstacle", std::span<const std::int32_t>(touch.sample_obstacle()));
+  obstacles_ = touch.obstacles(), work_ = touch.work(), largest_force_ = touch.largest_force();
+}
+
+void MotionFile::add_touch_of_motion() {
+  file_.set_axis("obstacle", obstacles_.size());
+  file_.append("/contact/work", std::span<const double>(work_));
+  file_.append("/contact/largest_force", std::span<const double>(largest_force_));
+  file_.dataset_attribute("/contact/work", "obstacles", fmt::format("{}", fmt::join(obstacles_, ",")));
 }
 
 void MotionFile::add_robot(const Pose& pose) {

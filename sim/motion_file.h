@@ -20,12 +20,16 @@ class MotionFile {
 
  private:
   void add_robot(const Pose& pose);
+  void add_touch(const Touch& touch);
+  void add_touch_of_motion();
   void add_extremes(const std::string& group, const std::vector<Extreme>& extremes);
   void add_checks(const Simulation& simulation, const std::vector<Check>& checks);
 
   pipeline::FileWriter& file_;
   const RunDescription description_;
   bool links_named_ = false;
+  std::vector<std::string> obstacles_;
+  std::vector<double> work_, largest_force_;  // (segment, obstacle) so far
   std::vector<double> positions_, orientations_, poses_;
 };
 

@@ -25,6 +25,25 @@ struct Held {
   bool found = false;
 };
 
+Frame frame_of(const Vector3& position, const Vector3& orientation) {
+  return {position, from_roll_pitch_yaw(orientation)};
+}
+
+/// shapes: a pipeline::Link or pipeline::Cell.
+template <class Shapes>
+void add_shapes(World& world, int link, const Shapes& shapes) {
+  for (const pipeline::Capsule& capsule : shapes.capsules)
+    world.add(link, CapsuleShape{capsule.from, capsule.to, capsule.radius});
+  for (const pipeline::Box& box : shapes.boxes)
+    world.add(link, BoxShape{frame_of(box.position, box.orientation), box.sides});
+  for (const pipeline::MeshFile& file : shapes.meshes) {
+    std::vector<Triangle> triangles = read_triangles(file.file);
+    for (Triangle& triangle : triangles)
+      for (Vector3& corner : triangle) corner *= file.scale;
+    world.add(link, std::make_shared<const Mesh>(std::move(triangles)), frame_of(file.position, file.orientation));
+  }
+}
+
 class Mounting {
  public:
   Mounting(const pipeline::Job& job, const Rod& rod, const ClampPath& path, RobotPath* robot)
@@ -123,15 +142,17 @@ std::unique_ptr<World> make_world(const pipeline::Job& job, const Rod& rod, cons
   settings.time_step = job.simulation.time_step;
   settings.friction = job.dresspack.friction;
   settings.floor = job.simulation.floor;
+  settings.self_contact = job.simulation.self_contact;
   if (robot) {
     settings.base_link = robot->base_link();
     settings.tool_link = robot->tool_link();
   }
   auto world = std::make_unique<World>(rod, settings, state, pose.links);
-  if (!robot || !job.simulation.contact) return world;
+  if (!job.simulation.contact) return world;
+  add_shapes(*world, cell_obstacle, job.cell);
+  if (!robot) return world;
   for (size_t link = 0; link < job.robot.links.size(); ++link)
-    for (const pipeline::Capsule& capsule : job.robot.links[link].capsules)
-      world->add(static_cast<int>(link), CapsuleShape{capsule.from, capsule.to, capsule.radius});
+    add_shapes(*world, static_cast<int>(link), job.robot.links[link]);
   return world;
 }
 

@@ -393,21 +393,20 @@ bool RodSolver::solve(const RodState& state, const ClampFrames& end, double h, s
   return not_positive == 0;
 }
 
-void RodSolver::unit_response(int segment, const double (&e)[6], int first, std::span<Twist6> x) const {
+void RodSolver::unit_response(int segment, const Twist6& e, int other, const Twist6& e_other, int first,
+                              std::span<Twist6> x) const {
   const auto& block = system_->block;
-  const int n = rod_.segments();
-  std::copy_n(e, 6, x[segment].value);
-  for (int i = segment; i < n; ++i) {
+  const int n = rod_.segments(), foremost = other < 0 ? segment : std::min(segment, other);
+  for (int i = first; i < n; ++i) std::fill_n(x[i].value, 6, 0.0);
+  x[segment] = e;
+  if (other >= 0) x[other] = e_other;
+  for (int i = foremost; i < n; ++i) {
     double* value = x[i].value;
     solve_lower(block[i].diagonal, value);
     scale_by_pivots(block[i].diagonal, value);
-    if (i + 1 < n) {
-      std::fill_n(x[i + 1].value, 6, 0.0);
-      carry_down(block[i].upper, value, x[i + 1].value);
-    }
+    if (i + 1 < n) carry_down(block[i].upper, value, x[i + 1].value);
   }
   for (int i = n - 1; i >= first; --i) {
-    if (i < segment) std::fill_n(x[i].value, 6, 0.0);
     if (i + 1 < n) carry_up(block[i].diagonal, block[i].upper, x[i + 1].value, x[i].value);
     solve_lower_transposed(block[i].diagonal, x[i].value);
   }

@@ -145,9 +145,10 @@ class RodSolver {
   bool solve(const RodState& state, const ClampFrames& end, double h, std::span<const Load> loads = {});
   std::span<const Twist6> velocity_change() const;
 
-  /// x = A^-1 (e in block `segment`, 0 elsewhere), for blocks >= first only; A is the matrix of the last
-  /// solve().
-  void unit_response(int segment, const double (&e)[6], int first, std::span<Twist6> x) const;
+  /// x = A^-1 (e in block `segment`, e_other in block `other` unless that is < 0, 0 elsewhere), for blocks >=
+  /// first only; A is the matrix of the last solve().
+  void unit_response(int segment, const Twist6& e, int other, const Twist6& e_other, int first,
+                     std::span<Twist6> x) const;
   /// Adds the answer A^-1 p to generalised impulses p to the velocity changes; p is overwritten. [N s, N m s]
   void apply_impulses(std::span<Twist6> impulses);
 

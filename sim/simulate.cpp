@@ -158,14 +158,16 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
   Pose pose = path_->at(0);
   std::vector<double> tension(rod_.segments());
   StepReport since;
+  Touch touch(rod_.segments(), description_.link_names);
   const auto hand_over = [&](int sample) {
     const double time = sample / job_.simulation.sample_rate;
     const RodState& state = world.state();
     const std::vector<double> pull = rod_.tensions(state);
     for (int i = 0; i < rod_.segments(); ++i) tension[i] = (pull[i] + pull[i + 1]) / 2;
     sinks.take({time, path_->step(time), state, pose, rod_.energy(state), tension, since.touching,
-                since.max_depth, checks.net_twist()});
+                since.max_depth, checks.net_twist(), touch});
     since = {};
+    touch.begin_sample();
     if (sinks.progress) sinks.progress((sample + 1.0) / description_.samples);
   };
   checks.see(world.state(), {}, 0);
@@ -179,6 +181,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
       const StepReport report = world.advance(pose.clamps, pose.links);
       check_step(report, time);
       checks.see(world.state(), world.contacts(), time);
+      touch.add(world.contacts(), step);
       repeat.error.see(count, world.state());
       since.touching = std::max(since.touching, report.touching);
       since.max_depth = std::max(since.max_depth, report.max_depth);

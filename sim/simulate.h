@@ -15,6 +15,7 @@
 #include "sim/checks.h"
 #include "sim/clamp_path.h"
 #include "sim/step_choice.h"
+#include "sim/touch.h"
 #include "sim/world.h"
 
 namespace dresslife::sim {
@@ -41,6 +42,7 @@ struct Sample {
   int contacts = 0;                    ///< most at a time since the sample before
   double max_depth = 0;                ///< deepest since the sample before [m]
   double net_twist = 0;                ///< turns of all links about the tangent [rad]
+  const Touch& touch;                  ///< forces and rubbing since the sample before and the repeat's begin
 };
 
 /// What a run says of itself.

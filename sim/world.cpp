@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <mutex>
 
+#include "sim/self_contact.h"
+
 namespace dresslife::sim {
 namespace {
 
@@ -47,7 +49,14 @@ int tag_of(dGeomID geom) { return static_cast<int>(reinterpret_cast<std::intptr_
 struct Shape {
   dGeomID geom;
   int link;
-  Frame local;  // in the link's frame
+  Frame local;   // in the link's frame
+  double reach;  // of the shape about its own origin [m]
+};
+
+struct MeshShape {
+  std::shared_ptr<const Mesh> mesh;
+  int link;
+  Frame local;
 };
 
 }  // namespace
@@ -72,17 +81,22 @@ struct World::Parts {
   std::vector<dGeomID> capsules;  // of the segments, `margin` larger than the hose
   dGeomID end_sphere = nullptr;
   std::vector<Shape> shapes;
-  double margin = 0;
+  std::vector<MeshShape> meshes;
+  double margin = least_margin;
 
   void build();
   void build_hose();
-  void add_shape(dGeomID geom, int link, const Frame& local);
+  void add_shape(dGeomID geom, int link, const Frame& local, double reach);
   void push_state();
   void pull_state();
   void choose_margin(const ClampFrames& clamps, std::span<const Frame> next);
   void find_contacts(std::span<const Frame> next);
+  void drop_distant_contacts();
   void collide(dGeomID a, dGeomID b);
+  void collide(int segment, size_t mesh, const Frame& frame);
+  Frame placed(int link, const Frame& local, std::span<const Frame> frames) const;
   void add_contact(int segment, int shape, const dContactGeom& geometry);
+  void keep(int shape, const Contact& contact);
   bool held_by_clamp(int segment, int link) const;
   Vector3 obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const;
   void push_bodies();
@@ -127,13 +141,12 @@ void World::Parts::build() {
     bodies.push_back(body);
   }
   push_state();
-  if (settings.floor) add_shape(dCreatePlane(nullptr, 0, 0, 1, 0), floor_obstacle, Frame{});
+  if (settings.floor) add_shape(dCreatePlane(nullptr, 0, 0, 1, 0), floor_obstacle, Frame{}, 0);
 }
 
 void World::Parts::build_hose() {
   hose = dSimpleSpaceCreate(nullptr);
   obstacles = dSimpleSpaceCreate(nullptr);
-  margin = least_margin;
   const double radius = rod.properties().diameter / 2 + margin;
   for (int i = 0; i < rod.segments(); ++i) {
     const dGeomID capsule = dCreateCapsule(hose, radius, rod.segment_length());
@@ -144,26 +157,32 @@ void World::Parts::build_hose() {
   end_sphere = dCreateSphere(nullptr, radius);
 }
 
-void World::Parts::add_shape(dGeomID geom, int link, const Frame& local) {
-  assert(link == floor_obstacle || (link >= 0 && link < static_cast<int>(links.size())));
+void World::Parts::add_shape(dGeomID geom, int link, const Frame& local, double reach) {
+  assert(link < static_cast<int>(links.size()));
   if (hose == nullptr) build_hose();
   dGeomSetData(geom, tag(static_cast<int>(shapes.size())));
   dSpaceAdd(obstacles, geom);
-  if (link != floor_obstacle) place(geom, links[link] * local);
-  shapes.push_back({geom, link, local});
+  if (link != floor_obstacle) place(geom, placed(link, local, links));
+  shapes.push_back({geom, link, local, reach});
 }
 
 void World::add(int link, const CapsuleShape& shape) {
   const double length = (shape.to - shape.from).norm();
   if (length < 1e-9)
-    parts_->add_shape(dCreateSphere(nullptr, shape.radius), link, {shape.from, Quaternion::Identity()});
+    parts_->add_shape(dCreateSphere(nullptr, shape.radius), link, {shape.from, Quaternion::Identity()}, 0);
   else
-    parts_->add_shape(dCreateCapsule(nullptr, shape.radius, length), link, along(shape.from, shape.to));
+    parts_->add_shape(dCreateCapsule(nullptr, shape.radius, length), link, along(shape.from, shape.to),
+                      length / 2 + shape.radius);
 }
 
 void World::add(int link, const BoxShape& shape) {
   parts_->add_shape(dCreateBox(nullptr, shape.sides.x(), shape.sides.y(), shape.sides.z()), link,
-                    shape.frame);
+                    shape.frame, shape.sides.norm() / 2);
+}
+
+void World::add(int link, std::shared_ptr<const Mesh> mesh, const Frame& local) {
+  assert(link < static_cast<int>(parts_->links.size()));
+  parts_->meshes.push_back({std::move(mesh), link, local});
 }
 
 // ---- collision --------------------------------------------------------------------------------------------
@@ -174,29 +193,34 @@ void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Fram
   for (const Vector3& v : state.velocity) speed2 = std::max(speed2, v.squaredNorm());
   const double h = settings.time_step;
   speed2 = std::max(speed2, (clamps.tool.position - state.clamps.tool.position).squaredNorm() / (h * h));
-  double obstacle = 0;
-  for (const Shape& shape : shapes) {
-    if (shape.link == floor_obstacle) continue;
-    const Frame then = next[shape.link] * shape.local, now = links[shape.link] * shape.local;
-    obstacle = std::max(obstacle, (then.position - now.position).norm());
-  }
+  double obstacle = settings.self_contact ? std::sqrt(speed2) * h : 0;
+  const auto consider = [&](int link, const Frame& local, double reach) {
+    const Frame then = next[link] * local, now = links[link] * local;
+    const double turn = then.orientation.angularDistance(now.orientation);
+    obstacle = std::max(obstacle, (then.position - now.position).norm() + turn * reach);
+  };
+  for (const Shape& shape : shapes)
+    if (shape.link >= 0) consider(shape.link, shape.local, shape.reach);
+  for (const MeshShape& shape : meshes)
+    if (shape.link >= 0) consider(shape.link, shape.local, shape.mesh->radius());
   const double wanted = std::max(least_margin, margin_steps * (std::sqrt(speed2) * h + obstacle));
   if (wanted <= margin && wanted > 0.4 * margin) return;
   margin = 1.5 * wanted;
+  if (hose == nullptr) return;
   const double radius = rod.properties().diameter / 2 + margin;
   for (const dGeomID capsule : capsules) dGeomCapsuleSetParams(capsule, radius, rod.segment_length());
   dGeomSphereSetRadius(end_sphere, radius);
 }
 
 bool World::Parts::held_by_clamp(int segment, int link) const {
-  if (link == floor_obstacle) return false;
+  if (link < 0) return false;
   const double l = rod.segment_length(), diameter = rod.properties().diameter;
   return (link == settings.base_link && segment * l < diameter) ||
          (link == settings.tool_link && (rod.segments() - 1 - segment) * l < diameter);
 }
 
 Vector3 World::Parts::obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const {
-  if (link == floor_obstacle) return Vector3::Zero();
+  if (link < 0) return Vector3::Zero();
   const Vector3 local = links[link].orientation.conjugate() * (point - links[link].position);
   return (next[link].point(local) - point) / settings.time_step;
 }
@@ -213,9 +237,39 @@ void World::Parts::add_contact(int segment, int shape, const dContactGeom& geome
   // On the hose's own surface, whatever the margin: from the nearest point of its axis against the normal.
   const double s = std::clamp((where - centre).dot(t), -l / 2, l / 2);
   contact.point = centre + s * t - (rod.properties().diameter / 2) * contact.normal;
+  keep(shape, contact);
+}
+
+void World::Parts::keep(int shape, const Contact& contact) {
   for (const auto& [other, known] : found)  // the same place through another shape of the segment
-    if (other == shape && known.segment == segment && (known.point - contact.point).norm() < l / 8) return;
+    if (other == shape && known.segment == contact.segment && known.normal.dot(contact.normal) > 0.99 &&
+        (known.point - contact.point).norm() < rod.segment_length() / 8)
+      return;
   found.emplace_back(shape, contact);
+}
+
+Frame World::Parts::placed(int link, const Frame& local, std::span<const Frame> frames) const {
+  return link < 0 ? local : frames[link] * local;
+}
+
+// A segment whose axis crosses the surface lies in it with all its thickness.
+void World::Parts::collide(int segment, size_t mesh, const Frame& frame) {
+  const MeshShape& shape = meshes[mesh];
+  if (held_by_clamp(segment, shape.link)) return;
+  const double l = rod.segment_length(), radius = rod.properties().diameter / 2, reach = radius + margin;
+  const Quaternion back = frame.orientation.conjugate();
+  const Vector3 centre = back * (state.position[segment] - frame.position);
+  if (centre.norm() > shape.mesh->radius() + l / 2 + reach) return;
+  const Vector3 arm = (l / 2) * (back * tangent(state.orientation[segment]));
+  for (const Mesh::Touching& touching : shape.mesh->near(centre - arm, centre + arm, reach)) {
+    Contact contact;
+    contact.segment = segment;
+    contact.obstacle = shape.link;
+    contact.normal = frame.orientation * touching.normal;
+    contact.depth = touching.distance > 0 ? radius - touching.distance : 2 * radius;
+    contact.point = frame.point(touching.on_axis) - radius * contact.normal;
+    keep(static_cast<int>(shapes.size() + mesh), contact);
+  }
 }
 
 void World::Parts::collide(dGeomID a, dGeomID b) {
@@ -241,21 +295,30 @@ void World::Parts::find_contacts(std::span<const Frame> next) {
   found.clear();
   contacts.clear();
   const auto near = [](void* parts, dGeomID a, dGeomID b) { static_cast<Parts*>(parts)->collide(a, b); };
-  dSpaceCollide2(reinterpret_cast<dGeomID>(hose), reinterpret_cast<dGeomID>(obstacles), this, near);
+  if (hose != nullptr)
+    dSpaceCollide2(reinterpret_cast<dGeomID>(hose), reinterpret_cast<dGeomID>(obstacles), this, near);
+  for (size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+    const Frame frame = placed(meshes[mesh].link, meshes[mesh].local, links);
+    for (int i = 0; i < rod.segments(); ++i) collide(i, mesh, frame);
+  }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return std::pair(a.second.segment, a.first) < std::pair(b.second.segment, b.first);
   });
-  const std::span<const Twist6> change = solver.velocity_change();
   for (auto& [shape, contact] : found) {
-    const int i = contact.segment;
     contact.obstacle_velocity = obstacle_velocity(contact.obstacle, contact.point, next);
-    const Vector3 spin = state.angular_velocity[i] + change[i].angular();
-    const Vector3 velocity = state.velocity[i] + change[i].linear() +
-                             spin.cross(contact.point - state.position[i]) - contact.obstacle_velocity;
-    // Those that cannot close within the step would only add idle rows to the contact problem.
-    const double reach = least_margin + 2 * settings.time_step * std::abs(velocity.dot(contact.normal));
-    if (-contact.depth < reach) contacts.push_back(contact);
+    contacts.push_back(contact);
   }
+  if (settings.self_contact) find_self_contacts(rod, state, margin, contacts);
+  drop_distant_contacts();
+}
+
+// Those that cannot close within the step would only add idle rows to the contact problem.
+void World::Parts::drop_distant_contacts() {
+  const std::span<const Twist6> change = solver.velocity_change();
+  std::erase_if(contacts, [&](const Contact& contact) {
+    const double speed = std::abs(relative_velocity(state, change, contact).dot(contact.normal));
+    return -contact.depth >= least_margin + 2 * settings.time_step * speed;
+  });
 }
 
 // ---- stepping ---------------------------------------------------------------------------------------------
@@ -313,7 +376,7 @@ StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> link
   report.finite = p.solver.solve(p.state, clamps, h, loads);
   if (!report.finite) return report;
   p.contacts.clear();
-  if (p.hose != nullptr) {
+  if (p.hose != nullptr || p.settings.self_contact || !p.meshes.empty()) {
     p.choose_margin(clamps, next);
     p.find_contacts(next);
     p.contact_solver.solve(p.state, p.settings.friction, h, p.solver, p.contacts);
@@ -325,7 +388,7 @@ StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> link
   p.solver.finish(p.state);
   for (size_t k = 0; k < p.links.size(); ++k) p.links[k] = next[k];
   for (const Shape& shape : p.shapes)
-    if (shape.link != floor_obstacle) place(shape.geom, p.links[shape.link] * shape.local);
+    if (shape.link >= 0) place(shape.geom, p.links[shape.link] * shape.local);
   for (const Contact& contact : p.contacts) {
     report.max_depth = std::max(report.max_depth, contact.depth);
     if (contact.depth > 0 || contact.normal_force > 0) ++report.touching;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/contact.h"
+#include "sim/mesh.h"
 #include "sim/rod.h"
 
 namespace dresslife::sim {
@@ -21,6 +22,7 @@ struct WorldSettings {
   double time_step = 0.005;  ///< [s]
   double friction = 0.3;     ///< Coulomb, hose against obstacles
   bool floor = false;        ///< plane z = 0
+  bool self_contact = false;  ///< whether the hose feels itself
   /// Link to which each end is clamped: contacts of the hose's first or last piece, one diameter long beyond
   /// the clamp, with that link do not push (the clamp holds it there). no_link: none.
   int base_link = no_link, tool_link = no_link;
@@ -56,6 +58,8 @@ class World {
 
   void add(int link, const CapsuleShape& shape);
   void add(int link, const BoxShape& shape);
+  /// A mesh, in the frame `local` of the link. link: of the robot, or cell_obstacle for what stands still in the world.
+  void add(int link, std::shared_ptr<const Mesh> mesh, const Frame& local = {});
 
   /// One time step, at whose end the clamps and links are as given.
   StepReport advance(const ClampFrames& clamps, std::span<const Frame> links = {});

@@ -52,6 +52,10 @@ TEST_CASE("motion file: what the run hands over can be read back") {
   CHECK(file.rows("/energy") == times.size());
   CHECK(file.rows("/tension") == times.size());
   CHECK(file.rows("/contact/max_depth") == times.size());
+  CHECK(file.rows("/contact/force") == times.size());
+  CHECK(file.rows("/contact/rubbing") == times.size());
+  CHECK(file.read<double>("/contact/work") == std::vector<double>(20 * 5));  // it hangs free
+  CHECK(file.dataset_attribute("/contact/work", "obstacles") == "bench,spindle,floor,dresspack,cell");
   CHECK(file.rows("/check/net_twist") == times.size());
   CHECK(file.rows("/check/curvature") == 21);
   CHECK(file.number_attribute("repeats") == 1);
