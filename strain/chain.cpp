@@ -71,7 +71,10 @@ WireNode node_at(const Construction& construction, const std::vector<LayerSlip>&
   node.rest = wire_state(rest, node.place);
   node.inverse_rest_stretch = 1 / node.rest.stretch;
   node.slide = sliding_numbers(plan[layer], chain, dresspack, node.place);
-  node.wire_radius = construction.layers()[layer].part_radius;
+  const Layer& of = construction.layers()[layer];
+  node.shear_radius = of.part_radius;
+  node.wire_radius = of.is_hose ? 0 : of.part_radius;
+  node.strain_factor = of.strain_factor;
   return node;
 }
 

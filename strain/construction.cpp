@@ -40,6 +40,16 @@ double Layer::pitch() const {
 Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics)
     : kinematics_(kinematics) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
+  if (!dresspack.hose_material.empty()) {
+    pipeline::Component wall;
+    wall.name = "hose";
+    wall.count = hose_places;
+    wall.radius = wall.helix_radius = dresspack.diameter / 2;
+    wall.material = dresspack.hose_material;
+    add(dresspack, wall, dresspack_itself, 1);
+    layers_.back().is_hose = true;
+    layers_.back().strain_factor = dresspack.hose_strain_factor;
+  }
   list_parts(dresspack_itself, dresspack_itself);
 }
 

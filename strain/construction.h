@@ -15,6 +15,7 @@
 namespace dresslife::strain {
 
 constexpr int dresspack_itself = -1;  ///< as the parent of a part or layer
+constexpr int hose_places = 16;       ///< around the hose's wall, evenly spaced
 constexpr int highest_level = 6;      ///< of nesting; Series::capacity must exceed it by two
 
 struct Layer {
@@ -29,6 +30,8 @@ struct Layer {
   double helix_radius = 0;        ///< R [m]
   double lay_angle = 0;           ///< negative = left hand [rad]
   double phase = 0;               ///< of part 1 at the base clamp [rad]
+  bool is_hose = false;           ///< places around the hose's wall instead of wires
+  double strain_factor = 1;       ///< of the corrugated wall over a smooth one
   double friction = 0;            ///< Coulomb, of a part on what it lies against
   double line_load = 0;           ///< radial, from jacket and tape [N/m]
   double tension = 0;             ///< of a part at rest [N]

@@ -39,7 +39,7 @@ double nodal_share(double angle, int node) {
 
 /// Shear (fibre null) or bending of the undeformed wire, as the ingredients hold them.
 double rest_ingredient(const WireNode& node, const Fibre* fibre) {
-  if (fibre == nullptr) return node.wire_radius / std::numbers::sqrt3 * node.rest.twist;
+  if (fibre == nullptr) return node.strain_factor * node.shear_radius / std::numbers::sqrt3 * node.rest.twist;
   if (fibre->on_axis) return 0;
   return fibre_strain(node.rest.bend1, node.rest.bend2, node.wire_radius, fibre->phi_sine, fibre->phi_cosine);
 }
@@ -329,7 +329,7 @@ void Evaluation::append(SiteRows& rows, Site site, std::size_t segment, const Tu
               construction_.phase(in.layer, in.number, in.parent, arcs_[segment]));
   }
   put_level(layer, construction_.phase(wire.layer, wire.number, part, arcs_[segment]));
-  const bool on_axis = surface_fibres_ == 0;
+  const bool on_axis = surface_fibres_ == 0 || layer.is_hose;
   rows.fibre.insert(rows.fibre.end(),
                     {on_axis ? 0 : layer.part_radius, fibre_angle(site.fibre, surface_fibres_)});
   rows.turning.push_back(turning.size());

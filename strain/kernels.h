@@ -55,7 +55,9 @@ struct WireNode {
   double inverse_rest_stretch = 1;  ///< 1 / stretch at rest
   WireState<double> rest;
   SlidingNumbers slide;
-  double wire_radius = 0;  ///< of its fibres [m]
+  double wire_radius = 0;   ///< of its fibres [m]; 0 for the hose's wall, which bends with the dresspack only
+  double shear_radius = 0;  ///< at which torsion shears it [m]
+  double strain_factor = 1;  ///< of a corrugated wall
 };
 
 struct Fibre {

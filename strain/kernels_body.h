@@ -134,6 +134,7 @@ inline void strains_of_node(const BundlePointers& chain, const Rod<Pack>& parent
       bend2 *= factor;
     }
   }
+  axial *= node.strain_factor;
   bend1 -= node.rest.bend1;
   bend2 -= node.rest.bend2;
   for (int f = 0; f < chain.fibre_count; ++f) {
@@ -169,8 +170,8 @@ inline void ingredients_of_node(const BundlePointers& chain, const Descent& desc
   const WireState<Pack> wire = wire_state(descent.rods[chain.step_count], node.place);
   const Pack glued = wire.stretch * node.inverse_rest_stretch - 1.0;
   out[mean_strain] = sliding;
-  out[deviation] = glued - sliding;
-  out[shear] = (inverse_root_3 * node.wire_radius) * wire.twist;
+  out[deviation] = node.strain_factor * glued - sliding;
+  out[shear] = (inverse_root_3 * node.strain_factor * node.shear_radius) * wire.twist;
   for (int f = 0; f < chain.fibre_count; ++f) {
     const Fibre& fibre = chain.fibres[f];
     out[first_bending + f] = fibre.on_axis ? Pack{}

@@ -286,3 +286,45 @@ TEST_CASE("shear of a wire's torsion: sqrt(3) of a twisted straight wire's, sign
   CHECK(turning[1] == Approx(equivalent));
   CHECK(turning[2] == Approx(-equivalent));
 }
+
+TEST_CASE("the hose's wall: stretch, bending and twist of a tube, times its corrugation's factor") {
+  Dresspack dresspack = thesis_dresspack();
+  dresspack.components[0].count = 1;
+  dresspack.diameter = 0.06;
+  dresspack.hose_material = "polyamide";
+  dresspack.hose_strain_factor = 0.5;
+  const double R = 0.03, curvature = 4, twist = 3, stretch = 1e-3;
+  for (const Equivalent equivalent : {Equivalent::axial, Equivalent::shear_included}) {
+    const Construction construction(dresspack, Kinematics::exact);
+    Settings settings;
+    settings.slip = {Slip::free};
+    settings.gate = 0;
+    settings.equivalent = equivalent;
+    DeformationHistory history(1, 2);
+    history.set(0, 1, {curvature, 0, twist, stretch});
+    Evaluation evaluation(construction, settings, {0.5}, 2);
+    evaluation.add(history);
+    int places = 0;
+    float highest = 0;
+    Sink sink;
+    sink.sites = [&](const SiteRows& rows) {
+      std::size_t first = 0;
+      for (std::size_t site = 0; site < rows.segment.size(); first += rows.turning[site++])
+        if (rows.material[site] == "polyamide") {
+          CHECK(rows.component[site] == "hose " + std::to_string(++places));
+          CHECK(rows.fibre[2 * site] == 0);
+          highest = std::max(highest, rows.strain[first + rows.turning[site] - 1]);
+        }
+    };
+    sink.bound_free = sink.bound_stick = [](const SiteRows&) {};
+    sink.probe = [](const Probe&) {};
+    evaluation.evaluate(0, history, 0, sink);
+    CHECK(places == hose_places);
+    const double along = 1 + stretch + R * curvature, fibre = 0.5 * (std::hypot(along, R * twist) - 1);
+    const double gamma = 0.5 * R * twist * (1 + stretch) / std::hypot(along, R * twist);
+    const double expected =
+        equivalent == Equivalent::axial ? fibre : std::sqrt(fibre * fibre + gamma * gamma / 3);
+    constexpr double third_harmonic = 1e-3;  // of the shear, where the fibre leans
+    CHECK(highest == Approx(expected).epsilon(third_harmonic));
+  }
+}
