@@ -252,13 +252,20 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
                      step ? ", worst during '" + *step + "'" : "");
 }
 
-void write_bound(const Context& c, const std::string& name, const std::function<void(double)>& progress) {
+/// Whether the job itself lets every level slip this way: then its own sites, which are all wires and not only the
+/// likely worst ones, are the bound.
+bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
+  return std::all_of(job.strain.slip.begin(), job.strain.slip.end(), [&](pipeline::Slip own) { return own == slip; });
+}
+
+void write_bound(const Context& c, const std::string& name, pipeline::Slip slip, const std::function<void(double)>& progress) {
   const SiteSet sites(c.strain, "/bound_" + name);
   if (sites.size() == 0 && c.sites.size() > 0) {
     throw pipeline::InputError(c.strain.where(), fmt::format("/bound_{} holds no sites", name),
                                "make the file anew with dresslife-strain");
   }
-  const SiteDamage damage = damage_of(sites, counters_for(sites, c.job), c.threads, progress);
+  const SiteDamage damage =
+      is_own_slip(c.job, slip) ? c.damage : damage_of(sites, counters_for(sites, c.job), c.threads, progress);
   const double repeats = life_in_repeats(sites.size() == 0 ? 0 : damage.damage[damage.worst()]);
   c.life.attribute("life_repeats_all_" + name, repeats);
   c.life.attribute("life_hours_all_" + name, hours(repeats, c.repeat_seconds()));
@@ -293,8 +300,8 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   // The three sets are about equally large.
   c.damage = damage_of(c.sites, c.counters, threads, [&](double share) { progress(share / 3); });
   c.worst = c.damage.worst();
-  write_bound(c, "stick", [&](double share) { progress((1 + share) / 3); });
-  write_bound(c, "free", [&](double share) { progress((2 + share) / 3); });
+  write_bound(c, "stick", pipeline::Slip::stick, [&](double share) { progress((1 + share) / 3); });
+  write_bound(c, "free", pipeline::Slip::free, [&](double share) { progress((2 + share) / 3); });
   const auto cycles = c.worst == no_site ? std::vector<DamagingCycle>{} : c.cycles_of(c.worst);
   write_sites(c);
   write_listed_cycles(c);

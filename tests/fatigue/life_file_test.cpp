@@ -255,7 +255,9 @@ TEST_CASE("life.h5: cycles, time, steps, segments and layers add up") {
 TEST_CASE("life.h5: the bounds are the lives of their own sites") {
   const Folder folder;
   const StrainFile f = example();
-  const Result result = run(folder, f);
+  pipeline::Job mixed = test_job();
+  mixed.strain.slip = {pipeline::Slip::stick, pipeline::Slip::free};
+  const Result result = run(folder, f, mixed);
   const FileReader life(result.file, pipeline::life_format());
   const double stick = 1 / exact_damage(f.stick[0], test_job()),
                free = 1 / exact_damage(f.free[1], test_job());
@@ -263,6 +265,20 @@ TEST_CASE("life.h5: the bounds are the lives of their own sites") {
   CHECK(life.number_attribute("life_repeats_all_free") == Approx(free).epsilon(DamageCounter::table_error));
   CHECK(life.number_attribute("life_hours_all_free") ==
         Approx(free * duration / 3600).epsilon(DamageCounter::table_error));
+}
+
+TEST_CASE("life.h5: a job that slips as a bound does is that bound, with all its wires") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  job.strain.slip = {pipeline::Slip::free};
+  const Result slipping = run(folder, example(), job);
+  const FileReader free(slipping.file, pipeline::life_format());
+  CHECK(free.number_attribute("life_repeats_all_free") == free.number_attribute("life_repeats"));
+  CHECK(free.number_attribute("life_repeats_all_stick") != free.number_attribute("life_repeats"));
+  job.strain.slip = {pipeline::Slip::stick};
+  const Result glued = run(folder, example(), job, "glued.h5");
+  const FileReader stick(glued.file, pipeline::life_format());
+  CHECK(stick.number_attribute("life_repeats_all_stick") == stick.number_attribute("life_repeats"));
 }
 
 TEST_CASE("life.h5: percentiles of the first wire and of the conductors") {
