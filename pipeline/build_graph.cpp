@@ -19,14 +19,16 @@ namespace fs = std::filesystem;
 struct StageEdge {
   const char* stage;
   Part part;
-  const char* input;   ///< in the job's folder
+  const char* input;  ///< in the job's folder
   const char* output;
 };
 constexpr std::array edges{StageEdge{"sim", Part::sim, "job.yaml", "motion.h5"},
                            StageEdge{"strain", Part::strain, "motion.h5", "strain.h5"},
                            StageEdge{"fatigue", Part::fatigue, "strain.h5", "life.h5"}};
 
-fs::path settings_file(const StageEdge& edge) { return fs::path(".stage") / (std::string(edge.stage) + ".yaml"); }
+fs::path settings_file(const StageEdge& edge) {
+  return fs::path(".stage") / (std::string(edge.stage) + ".yaml");
+}
 fs::path log_file(const StageEdge& edge) { return fs::path(".stage") / (std::string(edge.stage) + ".log"); }
 std::string program_name(const StageEdge& edge) { return std::string("dresslife-") + edge.stage; }
 fs::path fingerprint(const StageEdge& edge) { return fs::path(".programs") / program_name(edge); }
@@ -60,9 +62,11 @@ std::string rules(const StudyPlaces& places) {
   for (const StageEdge& edge : edges) {
     // The stage before is checked against the same job, so the settings come from job.yaml at every stage.
     const std::string job = edge.part == Part::sim ? "" : " --job $job/job.yaml";
-    text += fmt::format("rule {}\n  command = {} $job/{}{} -o $out --quiet > $job/{} 2>&1\n  description = {} $job\n  restat = 1\n\n",
-                        edge.stage, ninja_text(shell_word(places.programs / program_name(edge))), edge.input, job,
-                        log_file(edge).string(), edge.stage);
+    text += fmt::format(
+        "rule {}\n  command = {} $job/{}{} -o $out --quiet > $job/{} 2>&1\n  description = {} $job\n  restat "
+        "= 1\n\n",
+        edge.stage, ninja_text(shell_word(places.programs / program_name(edge))), edge.input, job,
+        log_file(edge).string(), edge.stage);
   }
   return text;
 }
@@ -76,7 +80,8 @@ std::string job_edges(const StudyJob& job) {
       for (const fs::path& beside : files_beside(job.job)) inputs += " " + ninja_word(beside);
     else
       inputs = ninja_word(folder / edge.input) + " " + inputs;
-    text += fmt::format("build {}: {} {}\n  job = {}\n", ninja_word(folder / edge.output), edge.stage, inputs, job.name);
+    text += fmt::format("build {}: {} {}\n  job = {}\n", ninja_word(folder / edge.output), edge.stage, inputs,
+                        job.name);
   }
   return text + "\n";
 }
@@ -85,7 +90,8 @@ void write_job(const StudyJob& job, const StudyPlaces& places) {
   const fs::path folder = places.job(job.name);
   fs::create_directories(folder / ".stage");
   write_text_if_changed(folder / "job.yaml", job_text(job.job));
-  for (const StageEdge& edge : edges) write_text_if_changed(folder / settings_file(edge), part_text(job.job, edge.part));
+  for (const StageEdge& edge : edges)
+    write_text_if_changed(folder / settings_file(edge), part_text(job.job, edge.part));
 }
 
 /// First line of a stage's log that tells an error, else its last line.
@@ -107,7 +113,8 @@ void note_failure(const std::string& output, const StudyPlaces& places, BuildRes
   const fs::path path(output);
   for (const StageEdge& edge : edges)
     if (path.filename() == edge.output)
-      result.failures[path.parent_path().string()] = failure_line(places.folder / path.parent_path() / log_file(edge));
+      result.failures[path.parent_path().string()] =
+          failure_line(places.folder / path.parent_path() / log_file(edge));
 }
 
 class LineReader {
@@ -143,7 +150,8 @@ void write_build_graph(const Study& study, const StudyPlaces& places) {
   for (const StageEdge& edge : edges) {
     const fs::path program = places.programs / program_name(edge);
     if (::access(program.c_str(), X_OK) != 0)
-      throw InputError({program.string()}, "is not there (the stages stand beside dresslife)", "build it: scripts/build");
+      throw InputError({program.string()}, "is not there (the stages stand beside dresslife)",
+                       "build it: scripts/build");
     write_text_if_changed(places.folder / fingerprint(edge), sha256_of_file(program) + "\n");
   }
   std::string graph = rules(places);
@@ -155,9 +163,11 @@ void write_build_graph(const Study& study, const StudyPlaces& places) {
   write_text_if_changed(places.folder / "build.ninja", graph);
 }
 
-BuildResult run_build_graph(const StudyPlaces& places, int parallel, bool dry, const std::function<void(const BuildEvent&)>& on_event) {
+BuildResult run_build_graph(const StudyPlaces& places, int parallel, bool dry,
+                            const std::function<void(const BuildEvent&)>& on_event) {
   // A line "@finished/total description" per edge, whatever the terminal.
-  const std::string command = fmt::format("NINJA_STATUS='@%f/%t ' ninja -C {} -k 0 -j {}{} 2>&1", shell_word(places.folder), parallel, dry ? " -n" : "");
+  const std::string command = fmt::format("NINJA_STATUS='@%f/%t ' ninja -C {} -k 0 -j {}{} 2>&1",
+                                          shell_word(places.folder), parallel, dry ? " -n" : "");
   BuildResult result;
   LineReader ninja(command);
   std::string said;
@@ -176,9 +186,11 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel, bool dry, c
     }
   }
   const int status = ninja.finish();
-  if (status == 127) throw InputError({"ninja"}, "is not installed", "install it: apt-get install ninja-build");
+  if (status == 127)
+    throw InputError({"ninja"}, "is not installed", "install it: apt-get install ninja-build");
   if (status != 0 && result.failures.empty())
-    throw InputError({(places.folder / "build.ninja").string()}, fmt::format("ninja stopped ({})", said.empty() ? "no reason told" : said), "run again");
+    throw InputError({(places.folder / "build.ninja").string()},
+                     fmt::format("ninja stopped ({})", said.empty() ? "no reason told" : said), "run again");
   return result;
 }
 
@@ -187,7 +199,9 @@ std::string pending_state(const StudyJob& job, const StudyPlaces& places) {
   std::error_code ignored;
   for (const StageEdge& edge : edges) {
     const fs::path log = folder / log_file(edge), settings = folder / settings_file(edge);
-    if (!fs::is_regular_file(log, ignored) || fs::last_write_time(log, ignored) < fs::last_write_time(settings, ignored)) continue;
+    if (!fs::is_regular_file(log, ignored) ||
+        fs::last_write_time(log, ignored) < fs::last_write_time(settings, ignored))
+      continue;
     const std::string line = failure_line(log);
     if (line.find(": error: ") != std::string::npos) return "failed   " + line;
   }
@@ -203,7 +217,8 @@ void join_logs(const Study& study, const StudyPlaces& places) {
     for (const StageEdge& edge : edges) {
       const fs::path log = places.job(job.name) / log_file(edge);
       std::error_code ignored;
-      if (fs::is_regular_file(log, ignored)) text += fmt::format("== {}\n{}", program_name(edge), read_text(log));
+      if (fs::is_regular_file(log, ignored))
+        text += fmt::format("== {}\n{}", program_name(edge), read_text(log));
     }
     write_text_if_changed(places.job(job.name) / "log", text);
   }

@@ -1,4 +1,5 @@
-// Catalogue entries by name, `from: NAME`, and --set: everything that turns a written job into one whole tree.
+// Catalogue entries by name, `from: NAME`, and --set: everything that turns a written job into one whole
+// tree.
 #include <algorithm>
 #include <cstdlib>
 
@@ -103,11 +104,13 @@ void add_materials(Node& job) {
     resolve(material, "materials", job.where);
     const Node* own_name = material.find("name");
     if (!own_name || own_name->text != name.text)
-      throw InputError(material.where, fmt::format("the material is not named '{}' as its file is", name.text),
+      throw InputError(material.where,
+                       fmt::format("the material is not named '{}' as its file is", name.text),
                        fmt::format("write 'name: {}'", name.text));
     materials.items.push_back(std::move(material));
   }
-  if (materials.items.empty()) std::erase_if(dresspack->entries, [](const Entry& e) { return e.key == "materials"; });
+  if (materials.items.empty())
+    std::erase_if(dresspack->entries, [](const Entry& e) { return e.key == "materials"; });
 }
 
 Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
@@ -120,7 +123,8 @@ Node* step_into(Node& node, const std::string& word, const Where& where, const s
     return &node.items[number - 1];
   }
   if (node.is_scalar())
-    throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path), "shorten the path");
+    throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path),
+                     "shorten the path");
   if (Node* found = node.find(word)) return found;
   Node& added = node[word];
   node.entries.back().where = added.where = where;
@@ -139,7 +143,8 @@ void place_at(Node& node, const Where& where) {
 
 }  // namespace
 
-Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at, const Where& job) {
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
+                     const Where& job) {
   if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
     return read_yaml((folder_of(named_at) / name).lexically_normal());
   std::vector<std::string> names;

@@ -30,7 +30,8 @@ class Converter {
     Node node;
     node.where = place(from.Mark(), file_);
     if (++nodes_ > most_nodes || depth > deepest_level)
-      throw InputError(node.where, "document is too large or too deep (aliases of aliases?)", "write it out plainly");
+      throw InputError(node.where, "document is too large or too deep (aliases of aliases?)",
+                       "write it out plainly");
     if (from.IsScalar()) {
       node.kind = Node::Kind::scalar;
       node.text = from.Scalar();
@@ -50,7 +51,8 @@ class Converter {
     const Where where = place(key.Mark(), file_);
     if (!key.IsScalar()) throw InputError(where, "a key must be a word", "write 'key: value'");
     if (key.Scalar() == "<<")
-      throw InputError(where, "merge keys (<<) are not supported", "write 'from: NAME' to start from a catalogue entry");
+      throw InputError(where, "merge keys (<<) are not supported",
+                       "write 'from: NAME' to start from a catalogue entry");
     if (map.find(key.Scalar()))
       throw InputError(where, fmt::format("duplicate key '{}'", key.Scalar()), "keep one of the two");
     Node converted = convert(value, depth + 1);
@@ -66,26 +68,31 @@ class Converter {
 /// Walks a stream of documents and keeps only where it is.
 class Walker : public YAML::EventHandler {
  public:
-  YAML::Mark begin;                             ///< of the document
-  YAML::Mark last = YAML::Mark::null_mark();    ///< of the latest key or value
+  YAML::Mark begin;                           ///< of the document
+  YAML::Mark last = YAML::Mark::null_mark();  ///< of the latest key or value
 
   void OnDocumentStart(const YAML::Mark& mark) override { begin = mark; }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { last = mark; }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { last = mark; }
-  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override { last = mark; }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
+    last = mark;
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
     last = mark;
   }
   void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
     last = mark;
   }
   void OnMapEnd() override {}
 };
 
-/// Refuses what the library lets pass: further documents, a stray ',' (to it an endless stream of empty documents) and
-/// a quote that is never closed, which it only notices in text that does not end in a line feed.
+/// Refuses what the library lets pass: further documents, a stray ',' (to it an endless stream of empty
+/// documents) and a quote that is never closed, which it only notices in text that does not end in a line
+/// feed.
 void check_stream(const std::string& text, const std::string& file) {
   std::istringstream stream(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
   YAML::Parser parser(stream);
@@ -95,12 +102,14 @@ void check_stream(const std::string& text, const std::string& file) {
     const YAML::Mark first = walker.begin;
     if (!parser.HandleNextDocument(walker)) return;
     const Where where = place(walker.begin, file);
-    if (walker.begin.pos == first.pos) throw InputError(where, "is not YAML (no value begins like this)", "mend the line");
+    if (walker.begin.pos == first.pos)
+      throw InputError(where, "is not YAML (no value begins like this)", "mend the line");
     throw InputError(where, "a second document begins here", "keep one document per file");
   } catch (const YAML::Exception& problem) {
     if (problem.msg != YAML::ErrorMsg::EOF_IN_SCALAR) throw;
     throw InputError(walker.last.is_null() ? Where{file, 1, 1} : place(walker.last, file),
-                     "is not YAML (a quote that opens here or in the lines below is never closed)", "close it");
+                     "is not YAML (a quote that opens here or in the lines below is never closed)",
+                     "close it");
   }
 }
 
@@ -110,7 +119,9 @@ bool all_scalars(const Node& list) {
 
 void emit(YAML::Emitter& out, const Node& node) {
   switch (node.kind) {
-    case Node::Kind::null: out << YAML::Null; break;
+    case Node::Kind::null:
+      out << YAML::Null;
+      break;
     case Node::Kind::scalar:
       if (node.quoted) out << YAML::DoubleQuoted;
       out << node.text;
@@ -148,7 +159,8 @@ bool same_bytes(const std::filesystem::path& one, const std::filesystem::path& o
   while (a && b) {
     a.read(block_a.data(), block_a.size());
     b.read(block_b.data(), block_b.size());
-    if (a.gcount() != b.gcount() || std::memcmp(block_a.data(), block_b.data(), a.gcount()) != 0) return false;
+    if (a.gcount() != b.gcount() || std::memcmp(block_a.data(), block_b.data(), a.gcount()) != 0)
+      return false;
   }
   return a.eof() && b.eof();
 }
@@ -191,7 +203,8 @@ Node parse_yaml(const std::string& text, const std::string& file) {
     check_stream(text, file);
     document = YAML::Load(text);
   } catch (const YAML::Exception& problem) {
-    throw InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg), "mend the line");
+    throw InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg),
+                     "mend the line");
   }
   Node root = Converter(file).convert(document);
   if (root.where.line <= 0) root.where = {file, 1, 1};
@@ -215,7 +228,8 @@ std::string read_text(const std::filesystem::path& file) {
     throw InputError({file.string()}, "is a folder, not a file", "name a file");
   std::ifstream in(file, std::ios::binary);
   if (!in)
-    throw InputError({file.string()}, fmt::format("cannot be read ({})", std::strerror(errno)), "check the path");
+    throw InputError({file.string()}, fmt::format("cannot be read ({})", std::strerror(errno)),
+                     "check the path");
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();

@@ -1,5 +1,5 @@
-// A YAML document as a tree in which every key and value knows its file, line and column. The YAML library stays
-// behind this header; duplicate keys, merge keys and oversized documents are refused while reading.
+// A YAML document as a tree in which every key and value knows its file, line and column. The YAML library
+// stays behind this header; duplicate keys, merge keys and oversized documents are refused while reading.
 #pragma once
 
 #include <filesystem>
@@ -52,10 +52,12 @@ std::filesystem::path folder_of(const Where& where);
 /// The whole of a text file. Errors: InputError when it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 
-/// Writes a whole text file under its final name or not at all; leaves it untouched when it holds just that text.
+/// Writes a whole text file under its final name or not at all; leaves it untouched when it holds just that
+/// text.
 void write_text_if_changed(const std::filesystem::path& file, const std::string& text);
 
-/// Makes `.part` the final file: synced, then renamed; when the final file holds the same bytes, `.part` goes.
+/// Makes `.part` the final file: synced, then renamed; when the final file holds the same bytes, `.part`
+/// goes.
 void keep_if_changed(const std::filesystem::path& part, const std::filesystem::path& final_name);
 
 }  // namespace dresslife::pipeline

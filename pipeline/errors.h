@@ -1,5 +1,6 @@
 // What can go wrong, in two kinds: InputError is the user's to mend (exit status 1) and always worded
-// `file:line:column: error: what (why) what to do`; everything else that is thrown is our fault (exit status 3).
+// `file:line:column: error: what (why) what to do`; everything else that is thrown is our fault (exit status
+// 3).
 #pragma once
 
 #include <fmt/format.h>

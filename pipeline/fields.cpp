@@ -83,7 +83,8 @@ const Node* FieldReader::take(Key key, Need need, std::string_view meaning) {
   level.known.emplace_back(key);
   const Node* node = level.map->find(key);
   if (node && node->kind == Node::Kind::null)
-    throw InputError(node->where, fmt::format("{} has no value", name_of(key)), fmt::format("give {}", meaning));
+    throw InputError(node->where, fmt::format("{} has no value", name_of(key)),
+                     fmt::format("give {}", meaning));
   if (!node && need == Need::required && level.missing.empty()) {
     level.missing = fmt::format("{} is missing", name_of(key));
     level.missing_remedy = fmt::format("add '{}: ...': {}", key, meaning);
@@ -112,7 +113,8 @@ void FieldReader::close(const Level& level) const {
 }
 
 double FieldReader::number_of(const Node& node, Key key, Range range, std::string_view meaning) const {
-  const std::optional<double> value = node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
+  const std::optional<double> value =
+      node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
   if (!value) {
     const std::string unit = unit_note(key);
     throw InputError(node.where,
@@ -125,8 +127,10 @@ double FieldReader::number_of(const Node& node, Key key, Range range, std::strin
     throw InputError(node.where, fmt::format("{} is {} (must be finite)", name_of(key), node.text),
                      fmt::format("give {}", meaning));
   if (!range.holds(*value))
-    throw InputError(node.where, fmt::format("{} is {} (must be {}{})", name_of(key), node.text, range.text(), unit_note(key)),
-                     fmt::format("give {}", meaning));
+    throw InputError(
+        node.where,
+        fmt::format("{} is {} (must be {}{})", name_of(key), node.text, range.text(), unit_note(key)),
+        fmt::format("give {}", meaning));
   return *value;
 }
 
@@ -134,7 +138,8 @@ void FieldReader::text(Key key, std::string& value, Need need, std::string_view 
   const Node* node = take(key, need, meaning);
   if (!node) return;
   if (!node->is_scalar() || node->text.empty())
-    throw InputError(node->where, fmt::format("{} must be text", name_of(key)), fmt::format("give {}", meaning));
+    throw InputError(node->where, fmt::format("{} must be text", name_of(key)),
+                     fmt::format("give {}", meaning));
   value = node->text;
 }
 
@@ -148,7 +153,8 @@ void FieldReader::maybe_number(Key key, std::optional<double>& value, Range rang
     value = number_of(*node, key, range, meaning) * unit_of_key(key).to_si;
 }
 
-void FieldReader::number_or_auto(Key key, double& value, bool& automatic, Range range, std::string_view meaning) {
+void FieldReader::number_or_auto(Key key, double& value, bool& automatic, Range range,
+                                 std::string_view meaning) {
   const Node* node = take(key, Need::optional, meaning);
   if (!node) return;
   automatic = node->is_scalar() && node->text == "auto";
@@ -218,7 +224,8 @@ void FieldReader::choose(Key key, int& index, const Words& words, std::string_vi
   if (const Node* node = take(key, Need::optional, meaning)) index = word_of(*node, key, words, meaning);
 }
 
-void FieldReader::choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view meaning) {
+void FieldReader::choose_some(Key key, std::vector<int>& indices, const Words& words,
+                              std::string_view meaning) {
   const Node* node = take(key, Need::optional, meaning);
   if (!node) return;
   indices.clear();
@@ -227,7 +234,8 @@ void FieldReader::choose_some(Key key, std::vector<int>& indices, const Words& w
     return;
   }
   if (node->items.empty())
-    throw InputError(node->where, fmt::format("{} is an empty list", name_of(key)), fmt::format("give {}", meaning));
+    throw InputError(node->where, fmt::format("{} is an empty list", name_of(key)),
+                     fmt::format("give {}", meaning));
   for (const Node& item : node->items) indices.push_back(word_of(item, key, words, meaning));
 }
 
@@ -253,7 +261,8 @@ void FieldReader::leave() {
 std::size_t FieldReader::enter_list(Key key, std::size_t, Need need, std::string_view meaning, const char*) {
   const Node* node = take(key, need, meaning);
   if (node && !node->is_list())
-    throw InputError(node->where, fmt::format("{} must be a list", name_of(key)), fmt::format("give {}", meaning));
+    throw InputError(node->where, fmt::format("{} must be a list", name_of(key)),
+                     fmt::format("give {}", meaning));
   Level level;
   level.path = name_of(key);
   level.list = node;
@@ -268,7 +277,8 @@ void FieldReader::enter_item(std::size_t index) {
   level.path = fmt::format("{}[{}]", list.path, index + 1);
   level.map = &node;
   if (!node.is_map())
-    throw InputError(node.where, fmt::format("{} must be a map of settings", level.path), "write {key: value, ...}");
+    throw InputError(node.where, fmt::format("{} must be a map of settings", level.path),
+                     "write {key: value, ...}");
   levels_.push_back(std::move(level));
 }
 
@@ -299,7 +309,9 @@ void FieldEcho::number_or_auto(Key key, double& value, bool& automatic, Range, s
 void FieldEcho::integer(Key key, int& value, Need, Range, std::string_view) {
   put(key, scalar(std::to_string(value)));
 }
-void FieldEcho::boolean(Key key, bool& value, Need, std::string_view) { put(key, scalar(value ? "true" : "false")); }
+void FieldEcho::boolean(Key key, bool& value, Need, std::string_view) {
+  put(key, scalar(value ? "true" : "false"));
+}
 void FieldEcho::vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) {
   std::vector<double> values(value.begin(), value.end());
   numbers(key, values, need, meaning);
@@ -370,18 +382,21 @@ std::string FieldManual::finish() {
   done_[0] = open_[0];
   std::string text;
   for (const Table& table : done_)
-    text += fmt::format("### {}\n\n| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n{}\n", table.path,
-                        table.rows);
+    text += fmt::format("### {}\n\n| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n{}\n",
+                        table.path, table.rows);
   return text;
 }
 
-void FieldManual::row(Key key, const std::string& allowed, const std::string& fallback, std::string_view meaning) {
+void FieldManual::row(Key key, const std::string& allowed, const std::string& fallback,
+                      std::string_view meaning) {
   open_.back().rows +=
       fmt::format("| `{}` | {} | {} | {} | {} |\n", key, unit_of_key(key).name, allowed, fallback, meaning);
 }
 
 namespace {
-std::string default_or(Need need, const std::string& fallback) { return need == Need::required ? "required" : fallback; }
+std::string default_or(Need need, const std::string& fallback) {
+  return need == Need::required ? "required" : fallback;
+}
 }  // namespace
 
 void FieldManual::text(Key key, std::string& value, Need need, std::string_view meaning) {
@@ -393,7 +408,8 @@ void FieldManual::number(Key key, double& value, Need need, Range range, std::st
 void FieldManual::maybe_number(Key key, std::optional<double>&, Range range, std::string_view meaning) {
   row(key, range.text(), "none", meaning);
 }
-void FieldManual::number_or_auto(Key key, double& value, bool& automatic, Range range, std::string_view meaning) {
+void FieldManual::number_or_auto(Key key, double& value, bool& automatic, Range range,
+                                 std::string_view meaning) {
   row(key, range.text() + " \\| auto", automatic ? "auto" : text_in_unit(value, unit_of_key(key)), meaning);
 }
 void FieldManual::integer(Key key, int& value, Need need, Range range, std::string_view meaning) {
@@ -418,7 +434,8 @@ void FieldManual::path(Key key, std::filesystem::path&, Need need, std::string_v
 void FieldManual::choose(Key key, int& index, const Words& words, std::string_view meaning) {
   row(key, fmt::format("{}", fmt::join(words, " \\| ")), std::string(words[index]), meaning);
 }
-void FieldManual::choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view meaning) {
+void FieldManual::choose_some(Key key, std::vector<int>& indices, const Words& words,
+                              std::string_view meaning) {
   row(key, fmt::format("{}; one, or a list", fmt::join(words, " \\| ")),
       indices.empty() ? "none" : std::string(words[indices[0]]), meaning);
 }
@@ -443,7 +460,8 @@ void FieldManual::leave() {
   slots_.pop_back();
   open_.pop_back();
 }
-std::size_t FieldManual::enter_list(Key key, std::size_t, Need need, std::string_view meaning, const char* type) {
+std::size_t FieldManual::enter_list(Key key, std::size_t, Need need, std::string_view meaning,
+                                    const char* type) {
   row(key, "list of maps", default_or(need, "none"), meaning);
   if (open(key, "[]", type)) return 1;
   open_.push_back({"", "", ""});

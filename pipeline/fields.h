@@ -4,10 +4,10 @@
 //     f.number("diameter_mm", hose.diameter, Need::required, above(0), "outer diameter");
 //   }
 //
-// The unit is the end of the key (units.h). What a struct holds before it is described is its default. Three visitors
-// walk the same describe(): read_fields() from a document, echo_fields() to one, field_manual() to Markdown.
-// A key that nobody describes, a missing or non-finite value and a value outside its range are InputErrors that name
-// the place, the reason and the remedy.
+// The unit is the end of the key (units.h). What a struct holds before it is described is its default. Three
+// visitors walk the same describe(): read_fields() from a document, echo_fields() to one, field_manual() to
+// Markdown. A key that nobody describes, a missing or non-finite value and a value outside its range are
+// InputErrors that name the place, the reason and the remedy.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,7 +49,8 @@ class Fields {
   virtual void number(Key key, double& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) = 0;
   /// A number, or the word auto; optional.
-  virtual void number_or_auto(Key key, double& value, bool& automatic, Range range, std::string_view meaning) = 0;
+  virtual void number_or_auto(Key key, double& value, bool& automatic, Range range,
+                              std::string_view meaning) = 0;
   virtual void integer(Key key, int& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void boolean(Key key, bool& value, Need need, std::string_view meaning) = 0;
   virtual void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) = 0;
@@ -100,14 +101,14 @@ class Fields {
 
  protected:
   virtual void choose(Key key, int& index, const Words& words, std::string_view meaning) = 0;
-  virtual void choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view meaning) = 0;
+  virtual void choose_some(Key key, std::vector<int>& indices, const Words& words,
+                           std::string_view meaning) = 0;
   virtual bool enter(Key key, Need need, bool present, std::string_view meaning, const char* type) = 0;
   virtual void leave() = 0;
   virtual std::size_t enter_list(Key key, std::size_t count, Need need, std::string_view meaning,
                                  const char* type) = 0;
   virtual void enter_item(std::size_t index) = 0;
   virtual void leave_list() = 0;
-
 };
 
 class FieldReader final : public Fields {

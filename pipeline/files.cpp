@@ -44,42 +44,65 @@ void silence_library() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 std::size_t size_of(Type type) {
   switch (type) {
-    case Type::f64: case Type::u64: return 8;
-    case Type::f32: case Type::i32: case Type::u32: return 4;
-    case Type::text: break;
+    case Type::f64:
+    case Type::u64:
+      return 8;
+    case Type::f32:
+    case Type::i32:
+    case Type::u32:
+      return 4;
+    case Type::text:
+      break;
   }
   return 0;
 }
 
 hid_t file_type(Type type) {
   switch (type) {
-    case Type::f64: return H5T_IEEE_F64LE;
-    case Type::f32: return H5T_IEEE_F32LE;
-    case Type::i32: return H5T_STD_I32LE;
-    case Type::u32: return H5T_STD_U32LE;
-    case Type::u64: return H5T_STD_U64LE;
-    case Type::text: break;
+    case Type::f64:
+      return H5T_IEEE_F64LE;
+    case Type::f32:
+      return H5T_IEEE_F32LE;
+    case Type::i32:
+      return H5T_STD_I32LE;
+    case Type::u32:
+      return H5T_STD_U32LE;
+    case Type::u64:
+      return H5T_STD_U64LE;
+    case Type::text:
+      break;
   }
   return -1;
 }
 
 hid_t memory_type(Type type) {
   switch (type) {
-    case Type::f64: return H5T_NATIVE_DOUBLE;
-    case Type::f32: return H5T_NATIVE_FLOAT;
-    case Type::i32: return H5T_NATIVE_INT32;
-    case Type::u32: return H5T_NATIVE_UINT32;
-    case Type::u64: return H5T_NATIVE_UINT64;
-    case Type::text: break;
+    case Type::f64:
+      return H5T_NATIVE_DOUBLE;
+    case Type::f32:
+      return H5T_NATIVE_FLOAT;
+    case Type::i32:
+      return H5T_NATIVE_INT32;
+    case Type::u32:
+      return H5T_NATIVE_UINT32;
+    case Type::u64:
+      return H5T_NATIVE_UINT64;
+    case Type::text:
+      break;
   }
   return -1;
 }
 
-template <class T> constexpr Type type_of = Type::f64;
-template <> constexpr Type type_of<float> = Type::f32;
-template <> constexpr Type type_of<std::int32_t> = Type::i32;
-template <> constexpr Type type_of<std::uint32_t> = Type::u32;
-template <> constexpr Type type_of<std::uint64_t> = Type::u64;
+template <class T>
+constexpr Type type_of = Type::f64;
+template <>
+constexpr Type type_of<float> = Type::f32;
+template <>
+constexpr Type type_of<std::int32_t> = Type::i32;
+template <>
+constexpr Type type_of<std::uint32_t> = Type::u32;
+template <>
+constexpr Type type_of<std::uint64_t> = Type::u64;
 
 Handle text_type(std::size_t bytes) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -132,7 +155,8 @@ struct FileWriter::Impl {
   bool committed = false;
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError({final_name.string()}, "cannot be written (" + what + ")", "check the folder and the space on the disk");
+    throw InputError({final_name.string()}, "cannot be written (" + what + ")",
+                     "check the folder and the space on the disk");
   }
 
   std::size_t axis_length(const std::string& text) const {
@@ -166,13 +190,15 @@ struct FileWriter::Impl {
   void create(const std::string& path, Open& made) {
     const auto& shape = made.description->shape;
     std::vector<hsize_t> lengths(shape.size()), most(shape.size()), chunk(shape.size());
-    made.chunk_rows = std::max<std::size_t>(1, chunk_bytes / std::max<std::size_t>(1, made.row_values * made.value_bytes));
+    made.chunk_rows =
+        std::max<std::size_t>(1, chunk_bytes / std::max<std::size_t>(1, made.row_values * made.value_bytes));
     for (std::size_t i = 0; i < shape.size(); ++i) {
       lengths[i] = i ? axis_length(shape[i]) : 0;
       most[i] = i ? lengths[i] : H5S_UNLIMITED;
       chunk[i] = i ? std::max<hsize_t>(1, lengths[i]) : made.chunk_rows;
     }
-    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), lengths.data(), most.data()), H5Sclose);
+    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), lengths.data(), most.data()),
+                       H5Sclose);
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_chunk(creation, static_cast<int>(shape.size()), chunk.data());
     H5Pset_obj_track_times(creation, false);
@@ -181,11 +207,14 @@ struct FileWriter::Impl {
       H5Pset_deflate(creation, 1);
     }
     make_groups(path);
-    made.id = Handle(H5Dcreate2(file, path.c_str(), made.file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
-    if (!made.id.valid() || !write_text_attribute(made.id, "unit", made.description->unit)) fail("dataset " + path);
+    made.id = Handle(
+        H5Dcreate2(file, path.c_str(), made.file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+    if (!made.id.valid() || !write_text_attribute(made.id, "unit", made.description->unit))
+      fail("dataset " + path);
   }
 
-  /// The groups above a dataset. (Left to the library they would carry the time of day: other bytes in every run.)
+  /// The groups above a dataset. (Left to the library they would carry the time of day: other bytes in every
+  /// run.)
   void make_groups(const std::string& path) {
     const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
     H5Pset_obj_track_times(creation, false);
@@ -215,8 +244,10 @@ struct FileWriter::Impl {
     if (H5Dset_extent(target.id, length.data()) < 0) fail("dataset " + target.description->path);
     const Handle file_space(H5Dget_space(target.id), H5Sclose);
     H5Sselect_hyperslab(file_space, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr);
-    const Handle memory_space(H5Screate_simple(static_cast<int>(shape.size()), count.data(), nullptr), H5Sclose);
-    if (H5Dwrite(target.id, target.memory_type, memory_space, file_space, H5P_DEFAULT, target.buffer.data()) < 0)
+    const Handle memory_space(H5Screate_simple(static_cast<int>(shape.size()), count.data(), nullptr),
+                              H5Sclose);
+    if (H5Dwrite(target.id, target.memory_type, memory_space, file_space, H5P_DEFAULT, target.buffer.data()) <
+        0)
       fail("dataset " + target.description->path);
     target.rows += rows;
     target.buffer.clear();
@@ -236,12 +267,23 @@ struct FileWriter::Impl {
       }
     };
     switch (target.description->type) {
-      case Type::f64: convert(double{}); break;
-      case Type::f32: convert(float{}); break;
-      case Type::i32: convert(std::int32_t{}); break;
-      case Type::u32: convert(std::uint32_t{}); break;
-      case Type::u64: convert(std::uint64_t{}); break;
-      case Type::text: break;
+      case Type::f64:
+        convert(double{});
+        break;
+      case Type::f32:
+        convert(float{});
+        break;
+      case Type::i32:
+        convert(std::int32_t{});
+        break;
+      case Type::u32:
+        convert(std::uint32_t{});
+        break;
+      case Type::u64:
+        convert(std::uint64_t{});
+        break;
+      case Type::text:
+        break;
     }
   }
 
@@ -262,13 +304,15 @@ struct FileWriter::Impl {
     for (const Dataset& description : format->datasets) {
       const auto found = open.find(description.path);
       if (found == open.end()) {
-        if (!description.may_be_absent) throw std::logic_error("dataset " + description.path + " was never written");
+        if (!description.may_be_absent)
+          throw std::logic_error("dataset " + description.path + " was never written");
         continue;
       }
       const Axis axis(description.shape[0]);
       const auto [entry, fresh] = seen.emplace(axis.name, found->second.rows - axis.plus);
       if (!axis.fixed && !fresh && entry->second + axis.plus != found->second.rows)
-        throw std::logic_error(fmt::format("{} has {} rows, others of its axis {}", description.path, found->second.rows, entry->second));
+        throw std::logic_error(fmt::format("{} has {} rows, others of its axis {}", description.path,
+                                           found->second.rows, entry->second));
     }
   }
 };
@@ -288,7 +332,8 @@ FileWriter::FileWriter(std::filesystem::path file, const Format& format) : impl_
   if (!impl_->file.valid()) impl_->fail("the file cannot be created");
   attribute("format", format.name);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle version(H5Acreate2(impl_->file, "format_version", H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle version(
+      H5Acreate2(impl_->file, "format_version", H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   H5Awrite(version, H5T_NATIVE_INT, &format.version);
 }
 
@@ -301,13 +346,17 @@ FileWriter::~FileWriter() {
 }
 
 void FileWriter::set_axis(const std::string& axis, std::size_t length) { impl_->axes[axis] = length; }
-void FileWriter::set_text_width(const std::string& dataset, std::size_t bytes) { impl_->text_widths[dataset] = bytes; }
+void FileWriter::set_text_width(const std::string& dataset, std::size_t bytes) {
+  impl_->text_widths[dataset] = bytes;
+}
 void FileWriter::append(const std::string& d, std::span<const double> rows) { impl_->append(d, rows); }
 void FileWriter::append(const std::string& d, std::span<const float> rows) { impl_->append(d, rows); }
 void FileWriter::append(const std::string& d, std::span<const std::int32_t> rows) { impl_->append(d, rows); }
 void FileWriter::append(const std::string& d, std::span<const std::uint32_t> rows) { impl_->append(d, rows); }
 void FileWriter::append(const std::string& d, std::span<const std::uint64_t> rows) { impl_->append(d, rows); }
-void FileWriter::append(const std::string& d, std::span<const std::string> rows) { impl_->append_text(d, rows); }
+void FileWriter::append(const std::string& d, std::span<const std::string> rows) {
+  impl_->append_text(d, rows);
+}
 
 void FileWriter::attribute(const std::string& name, const std::string& value) {
   if (!write_text_attribute(impl_->file, name, value)) impl_->fail("attribute " + name);
@@ -315,11 +364,13 @@ void FileWriter::attribute(const std::string& name, const std::string& value) {
 
 void FileWriter::attribute(const std::string& name, double value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle made(H5Acreate2(impl_->file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle made(H5Acreate2(impl_->file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
   if (!made.valid() || H5Awrite(made, H5T_NATIVE_DOUBLE, &value) < 0) impl_->fail("attribute " + name);
 }
 
-void FileWriter::dataset_attribute(const std::string& dataset, const std::string& name, const std::string& value) {
+void FileWriter::dataset_attribute(const std::string& dataset, const std::string& name,
+                                   const std::string& value) {
   if (!write_text_attribute(impl_->dataset(dataset).id, name, value)) impl_->fail("attribute " + name);
 }
 
@@ -364,7 +415,8 @@ struct FileReader::Impl {
     if (H5Tget_class(type) != H5T_STRING) fail(fmt::format("attribute '{}' is not text", attribute));
     if (H5Tis_variable_str(type) > 0) {
       char* words = nullptr;
-      if (H5Aread(id, type, &words) < 0 || !words) fail(fmt::format("attribute '{}' cannot be read", attribute));
+      if (H5Aread(id, type, &words) < 0 || !words)
+        fail(fmt::format("attribute '{}' cannot be read", attribute));
       std::string text(words);
       H5free_memory(words);
       return text;
@@ -381,10 +433,13 @@ struct FileReader::Impl {
     if (written != format->name) fail(fmt::format("holds '{}' ('{}' is expected)", written, format->name));
     const Handle id(H5Aopen(file, "format_version", H5P_DEFAULT), H5Aclose);
     int version = 0;
-    if (!id.valid() || H5Aread(id, H5T_NATIVE_INT, &version) < 0) fail("attribute 'format_version' is missing");
+    if (!id.valid() || H5Aread(id, H5T_NATIVE_INT, &version) < 0)
+      fail("attribute 'format_version' is missing");
     if (version > format->version)
-      throw InputError({name.string()}, fmt::format("has format version {} (this program reads up to {})", version, format->version),
-                       "update dresslife");
+      throw InputError(
+          {name.string()},
+          fmt::format("has format version {} (this program reads up to {})", version, format->version),
+          "update dresslife");
   }
 
   void open_dataset(const Dataset& description) {
@@ -410,13 +465,14 @@ struct FileReader::Impl {
     const Handle type(H5Dget_type(made.id), H5Tclose);
     const H5T_class_t found = H5Tget_class(type);
     const Type wanted = made.description->type;
-    const bool fits = wanted == Type::text ? found == H5T_STRING
+    const bool fits = wanted == Type::text                         ? found == H5T_STRING
                       : wanted == Type::f64 || wanted == Type::f32 ? found == H5T_FLOAT
                                                                    : found == H5T_INTEGER;
     if (!fits) fail(fmt::format("dataset {} has the wrong type", made.description->path));
     const std::string unit = text_of(made.id, "unit");
     if (unit != made.description->unit)
-      fail(fmt::format("dataset {} has unit '{}' (must be '{}')", made.description->path, unit, made.description->unit));
+      fail(fmt::format("dataset {} has unit '{}' (must be '{}')", made.description->path, unit,
+                       made.description->unit));
   }
 
   void check_shape(Open& made) {
@@ -431,25 +487,28 @@ struct FileReader::Impl {
       if (i) made.row_values *= made.lengths[i];
       const Axis axis(shape[i]);
       if (axis.fixed ? made.lengths[i] != axis.fixed : made.lengths[i] < axis.plus)
-        fail(fmt::format("dataset {} has length {} (must be {})", made.description->path, made.lengths[i], shape[i]));
+        fail(fmt::format("dataset {} has length {} (must be {})", made.description->path, made.lengths[i],
+                         shape[i]));
       if (axis.fixed) continue;
       const auto [entry, fresh] = axes.emplace(axis.name, made.lengths[i] - axis.plus);
       if (!fresh && entry->second + axis.plus != made.lengths[i])
-        fail(fmt::format("dataset {} has {} values along '{}' (others have {})", made.description->path, made.lengths[i],
-                         shape[i], entry->second + axis.plus));
+        fail(fmt::format("dataset {} has {} values along '{}' (others have {})", made.description->path,
+                         made.lengths[i], shape[i], entry->second + axis.plus));
     }
   }
 
   /// Selects rows [first, first + count) and reads them.
   void read(const Open& from, std::size_t first, std::size_t count, hid_t type, void* out) const {
-    if (first + count > from.lengths[0]) throw std::logic_error("rows beyond the end of " + from.description->path);
+    if (first + count > from.lengths[0])
+      throw std::logic_error("rows beyond the end of " + from.description->path);
     std::vector<hsize_t> begin(from.lengths.size(), 0), length = from.lengths;
     begin[0] = first;
     length[0] = count;
     if (count == 0 || from.row_values == 0) return;
     const Handle file_space(H5Dget_space(from.id), H5Sclose);
     H5Sselect_hyperslab(file_space, H5S_SELECT_SET, begin.data(), nullptr, length.data(), nullptr);
-    const Handle memory_space(H5Screate_simple(static_cast<int>(length.size()), length.data(), nullptr), H5Sclose);
+    const Handle memory_space(H5Screate_simple(static_cast<int>(length.size()), length.data(), nullptr),
+                              H5Sclose);
     if (H5Dread(from.id, type, memory_space, file_space, H5P_DEFAULT, out) < 0)
       fail(fmt::format("dataset {} cannot be read (the file is damaged)", from.description->path));
   }
@@ -462,18 +521,21 @@ struct FileReader::Impl {
     if constexpr (std::is_floating_point_v<T>) {
       for (std::size_t i = 0; i < out.size(); ++i)
         if (std::isnan(out[i]) || (std::isinf(out[i]) && !from.description->may_be_infinite))
-          fail(fmt::format("dataset {} holds a non-finite number in row {}", path, first + i / from.row_values));
+          fail(fmt::format("dataset {} holds a non-finite number in row {}", path,
+                           first + i / from.row_values));
     }
   }
 };
 
-FileReader::FileReader(const std::filesystem::path& file, const Format& format, Scope scope) : impl_(std::make_unique<Impl>()) {
+FileReader::FileReader(const std::filesystem::path& file, const Format& format, Scope scope)
+    : impl_(std::make_unique<Impl>()) {
   silence_library();
   impl_->name = file;
   impl_->format = &format;
   std::error_code failure;
   if (!std::filesystem::is_regular_file(file, failure))
-    throw InputError({file.string()}, "is not there", fmt::format("check the path, or make it with {}", format.made_by));
+    throw InputError({file.string()}, "is not there",
+                     fmt::format("check the path, or make it with {}", format.made_by));
   impl_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("is not an HDF5 file, or is cut off");
   impl_->check_format();
@@ -487,31 +549,41 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
 FileReader::~FileReader() = default;
 
 bool FileReader::has(const std::string& dataset) const { return impl_->open.count(dataset) > 0; }
-bool FileReader::has_attribute(const std::string& name) const { return H5Aexists(impl_->file, name.c_str()) > 0; }
+bool FileReader::has_attribute(const std::string& name) const {
+  return H5Aexists(impl_->file, name.c_str()) > 0;
+}
 std::size_t FileReader::length(const std::string& axis) const {
   const auto found = impl_->axes.find(axis);
   return found == impl_->axes.end() ? 0 : found->second;
 }
 std::size_t FileReader::rows(const std::string& dataset) const { return impl_->dataset(dataset).lengths[0]; }
-std::size_t FileReader::row_size(const std::string& dataset) const { return impl_->dataset(dataset).row_values; }
-
-void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count, std::vector<double>& out) const {
-  impl_->read_values(d, first, count, out);
-}
-void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count, std::vector<float>& out) const {
-  impl_->read_values(d, first, count, out);
-}
-void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count, std::vector<std::int32_t>& out) const {
-  impl_->read_values(d, first, count, out);
-}
-void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count, std::vector<std::uint32_t>& out) const {
-  impl_->read_values(d, first, count, out);
-}
-void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count, std::vector<std::uint64_t>& out) const {
-  impl_->read_values(d, first, count, out);
+std::size_t FileReader::row_size(const std::string& dataset) const {
+  return impl_->dataset(dataset).row_values;
 }
 
-void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count, std::vector<std::string>& out) const {
+void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
+                           std::vector<double>& out) const {
+  impl_->read_values(d, first, count, out);
+}
+void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
+                           std::vector<float>& out) const {
+  impl_->read_values(d, first, count, out);
+}
+void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
+                           std::vector<std::int32_t>& out) const {
+  impl_->read_values(d, first, count, out);
+}
+void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
+                           std::vector<std::uint32_t>& out) const {
+  impl_->read_values(d, first, count, out);
+}
+void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
+                           std::vector<std::uint64_t>& out) const {
+  impl_->read_values(d, first, count, out);
+}
+
+void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
+                           std::vector<std::string>& out) const {
   const Impl::Open& from = impl_->dataset(d);
   const Handle type(H5Dget_type(from.id), H5Tclose);
   const std::size_t values = count * from.row_values;
@@ -535,7 +607,9 @@ void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t 
   }
 }
 
-std::string FileReader::text_attribute(const std::string& name) const { return impl_->text_of(impl_->file, name); }
+std::string FileReader::text_attribute(const std::string& name) const {
+  return impl_->text_of(impl_->file, name);
+}
 
 double FileReader::number_attribute(const std::string& name) const {
   const Handle id(H5Aopen(impl_->file, name.c_str(), H5P_DEFAULT), H5Aclose);

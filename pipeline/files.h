@@ -1,5 +1,5 @@
-// The HDF5 files that pass between the stages. Each format is one table, from which the writer creates, the reader
-// checks and the manual is printed. The HDF5 library stays behind this header.
+// The HDF5 files that pass between the stages. Each format is one table, from which the writer creates, the
+// reader checks and the manual is printed. The HDF5 library stays behind this header.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace dresslife::pipeline {
 
 enum class Type { f64, f32, i32, u32, u64, text };
 
-/// One dataset of a format. Its shape names axes ("sample", "segment", "site") or gives a number ("3"); the first
-/// axis grows by append(). Datasets that name an axis agree on its length; "+1" after a name adds one.
+/// One dataset of a format. Its shape names axes ("sample", "segment", "site") or gives a number ("3"); the
+/// first axis grows by append(). Datasets that name an axis agree on its length; "+1" after a name adds one.
 struct Dataset {
   std::string path;
   Type type = Type::f64;
@@ -37,7 +37,7 @@ struct AttributeInfo {
 };
 
 struct Format {
-  std::string name;     ///< value of the root attribute `format`
+  std::string name;  ///< value of the root attribute `format`
   int version = 1;
   std::string made_by;  ///< program, for remedies
   std::string purpose;
@@ -86,8 +86,8 @@ class FileWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Opens a file and checks it against its format: name, version, datasets, ranks, lengths and units. Reads check for
-/// non-finite values. Errors: InputError, one line.
+/// Opens a file and checks it against its format: name, version, datasets, ranks, lengths and units. Reads
+/// check for non-finite values. Errors: InputError, one line.
 class FileReader {
  public:
   enum class Scope { everything, attributes };
@@ -98,10 +98,10 @@ class FileReader {
   FileReader& operator=(const FileReader&) = delete;
 
   bool has(const std::string& dataset) const;
-  bool has_attribute(const std::string& name) const;          ///< of the root
-  std::size_t length(const std::string& axis) const;          ///< of a named axis; 0 when no dataset has it
+  bool has_attribute(const std::string& name) const;  ///< of the root
+  std::size_t length(const std::string& axis) const;  ///< of a named axis; 0 when no dataset has it
   std::size_t rows(const std::string& dataset) const;
-  std::size_t row_size(const std::string& dataset) const;     ///< values per row
+  std::size_t row_size(const std::string& dataset) const;  ///< values per row
 
   template <class T>
   std::vector<T> read(const std::string& dataset) const {
@@ -109,12 +109,18 @@ class FileReader {
     read_rows(dataset, 0, rows(dataset), values);
     return values;
   }
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<double>& out) const;
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<float>& out) const;
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::int32_t>& out) const;
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::uint32_t>& out) const;
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::uint64_t>& out) const;
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::string>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
+                 std::vector<double>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
+                 std::vector<float>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
+                 std::vector<std::int32_t>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
+                 std::vector<std::uint32_t>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
+                 std::vector<std::uint64_t>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
+                 std::vector<std::string>& out) const;
 
   std::string text_attribute(const std::string& name) const;
   double number_attribute(const std::string& name) const;

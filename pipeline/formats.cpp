@@ -7,18 +7,35 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A set of sites with their turning points; strain.h5 holds three: the job's own under "" and the two bounds.
+/// A set of sites with their turning points; strain.h5 holds three: the job's own under "" and the two
+/// bounds.
 void add_site_set(std::vector<Dataset>& datasets, const std::string& group, const std::string& of) {
   const std::string site = of + "site", reversal = of + "reversal";
-  datasets.push_back({group + "/site/segment", Type::i32, {site}, "1", "segment of the site, counted from the base, 0 first"});
-  datasets.push_back({group + "/site/component", Type::text, {site}, "1", "path of the wire, outermost part first"});
-  datasets.push_back({group + "/site/helix", Type::f64, {site, "level", "3"}, "m, rad, rad",
-                      "helix radius, lay angle (negative: left hand), phase at the segment's centre; outermost level first"});
-  datasets.push_back({group + "/site/fibre", Type::f64, {site, "2"}, "m, rad",
-                      "radius and angle of the fibre on the wire, from the inward normal; 0 0: the wire's axis"});
+  datasets.push_back({group + "/site/segment",
+                      Type::i32,
+                      {site},
+                      "1",
+                      "segment of the site, counted from the base, 0 first"});
+  datasets.push_back(
+      {group + "/site/component", Type::text, {site}, "1", "path of the wire, outermost part first"});
+  datasets.push_back({group + "/site/helix",
+                      Type::f64,
+                      {site, "level", "3"},
+                      "m, rad, rad",
+                      "helix radius, lay angle (negative: left hand), phase at the segment's centre; "
+                      "outermost level first"});
+  datasets.push_back(
+      {group + "/site/fibre",
+       Type::f64,
+       {site, "2"},
+       "m, rad",
+       "radius and angle of the fibre on the wire, from the inward normal; 0 0: the wire's axis"});
   datasets.push_back({group + "/site/material", Type::text, {site}, "1", "material of the wire"});
   for (auto table = datasets.end() - 5; table != datasets.end(); ++table) table->deflate = true;
-  datasets.push_back({group + "/reversal/offset", Type::u64, {site + "+1"}, "1",
+  datasets.push_back({group + "/reversal/offset",
+                      Type::u64,
+                      {site + "+1"},
+                      "1",
                       "turning points of site k are [offset k, offset k+1)"});
   datasets.push_back({group + "/reversal/strain", Type::f32, {reversal}, "1", "strain at the turning point"});
   datasets.push_back({group + "/reversal/sample", Type::u32, {reversal}, "1", "sample of the turning point"});
@@ -31,14 +48,17 @@ void add_checks(std::vector<Dataset>& datasets) {
   };
   const char *line = "check", *link = "segment+1";
   add("/check/name", Type::text, line, "1", "what is checked");
-  add("/check/value", Type::f64, line, "see /check/unit", "its worst value; inf: a bend radius without any bend");
+  add("/check/value", Type::f64, line, "see /check/unit",
+      "its worst value; inf: a bend radius without any bend");
   add("/check/unit", Type::text, line, "1", "unit of value and limit");
   add("/check/limit", Type::f64, line, "see /check/unit", "what is warned of; inf: no limit");
   add("/check/warning", Type::i32, line, "1", "1: the limit is broken");
   add("/check/time", Type::f64, line, "s", "when the value stood");
   add("/check/step", Type::i32, line, "1", "index of the program line being executed then");
-  add("/check/position", Type::f64, line, "m", "where, from the base clamp along the dresspack; -1: of the whole");
-  add("/check/curvature", Type::f64, link, "1/m", "largest bending curvature of each link, every step counted; link j lies j lengths from the base");
+  add("/check/position", Type::f64, line, "m",
+      "where, from the base clamp along the dresspack; -1: of the whole");
+  add("/check/curvature", Type::f64, link, "1/m",
+      "largest bending curvature of each link, every step counted; link j lies j lengths from the base");
   add("/check/curvature_time", Type::f64, link, "s", "when");
   add("/check/twist", Type::f64, link, "rad/m", "largest twist by size, with its sign");
   add("/check/twist_time", Type::f64, link, "s", "when");
@@ -52,30 +72,94 @@ Format make_motion_format() {
   format.datasets = {
       {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
       {"/segment/position", Type::f64, {"sample", "segment", "3"}, "m", "segment centres in the world"},
-      {"/segment/orientation", Type::f64, {"sample", "segment", "4"}, "1", "unit quaternion w x y z, body to world; body z is the tangent toward the tool"},
+      {"/segment/orientation",
+       Type::f64,
+       {"sample", "segment", "4"},
+       "1",
+       "unit quaternion w x y z, body to world; body z is the tangent toward the tool"},
       {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
-      {"/clamp/position", Type::f64, {"sample", "clamp", "3"}, "m", "clamps in the world: base side first, tool side last"},
-      {"/clamp/orientation", Type::f64, {"sample", "clamp", "4"}, "1", "unit quaternion w x y z of the clamps"},
+      {"/clamp/position",
+       Type::f64,
+       {"sample", "clamp", "3"},
+       "m",
+       "clamps in the world: base side first, tool side last"},
+      {"/clamp/orientation",
+       Type::f64,
+       {"sample", "clamp", "4"},
+       "1",
+       "unit quaternion w x y z of the clamps"},
       {"/robot/joint_position", Type::f64, {"sample", "joint"}, "rad", "joint angles", false, true},
-      {"/robot/link_pose", Type::f64, {"sample", "link", "7"}, "m, 1", "position and quaternion w x y z of each link; attribute `links` names them, comma-separated", false, true},
+      {"/robot/link_pose",
+       Type::f64,
+       {"sample", "link", "7"},
+       "m, 1",
+       "position and quaternion w x y z of each link; attribute `links` names them, comma-separated",
+       false,
+       true},
       {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
       {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
-      {"/contact/count", Type::i32, {"sample"}, "1", "contacts of the dresspack, most at a time since the sample before"},
-      {"/contact/max_depth", Type::f64, {"sample"}, "m", "deepest penetration since the sample before; 0 without contact"},
-      {"/contact/force", Type::f32, {"sample", "segment"}, "N", "largest normal force on each segment since the sample before", false, true, true},
-      {"/contact/obstacle", Type::i32, {"sample", "segment"}, "1", "what pressed it then: index into the attribute `obstacles` of /contact/work; -1: nothing", false, true, true},
-      {"/contact/rubbing", Type::f32, {"sample", "segment"}, "J", "work of friction on each segment since the sample before", false, true, true},
-      {"/contact/work", Type::f64, {"segment", "obstacle"}, "J", "work of friction over the motion; attribute `obstacles` names the robot's links, floor, dresspack (itself), cell", false, true},
-      {"/contact/largest_force", Type::f64, {"segment", "obstacle"}, "N", "largest normal force over the motion", false, true},
+      {"/contact/count",
+       Type::i32,
+       {"sample"},
+       "1",
+       "contacts of the dresspack, most at a time since the sample before"},
+      {"/contact/max_depth",
+       Type::f64,
+       {"sample"},
+       "m",
+       "deepest penetration since the sample before; 0 without contact"},
+      {"/contact/force",
+       Type::f32,
+       {"sample", "segment"},
+       "N",
+       "largest normal force on each segment since the sample before",
+       false,
+       true,
+       true},
+      {"/contact/obstacle",
+       Type::i32,
+       {"sample", "segment"},
+       "1",
+       "what pressed it then: index into the attribute `obstacles` of /contact/work; -1: nothing",
+       false,
+       true,
+       true},
+      {"/contact/rubbing",
+       Type::f32,
+       {"sample", "segment"},
+       "J",
+       "work of friction on each segment since the sample before",
+       false,
+       true,
+       true},
+      {"/contact/work",
+       Type::f64,
+       {"segment", "obstacle"},
+       "J",
+       "work of friction over the motion; attribute `obstacles` names the robot's links, floor, dresspack "
+       "(itself), cell",
+       false,
+       true},
+      {"/contact/largest_force",
+       Type::f64,
+       {"segment", "obstacle"},
+       "N",
+       "largest normal force over the motion",
+       false,
+       true},
       {"/energy", Type::f64, {"sample", "3"}, "J", "kinetic, elastic, gravitational"},
       {"/tension", Type::f64, {"sample", "segment"}, "N", "axial force in each segment"},
   };
   add_checks(format.datasets);
   format.attributes = {
       {"repeats", "repeats of the motion that were run; the last one is in the file", false, true},
-      {"repeat_distance", "how far from where it began the dresspack ended it, m; absent where the motion does not return", false, true},
+      {"repeat_distance",
+       "how far from where it began the dresspack ended it, m; absent where the motion does not return",
+       false, true},
       {"time_step", "integration step of the last repeat, s", false, true},
-      {"curvature_error", "estimated relative rms error that the step leaves in the curvature of the liveliest seconds", false, true},
+      {"curvature_error",
+       "estimated relative rms error that the step leaves in the curvature of the liveliest seconds", false,
+       true},
   };
   return format;
 }
@@ -87,7 +171,11 @@ Format make_strain_format() {
       {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
       {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
       {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
-      {"/deformation/curvature", Type::f64, {"sample", "segment", "2"}, "1/m", "about d1 and d2 of the segment"},
+      {"/deformation/curvature",
+       Type::f64,
+       {"sample", "segment", "2"},
+       "1/m",
+       "about d1 and d2 of the segment"},
       {"/deformation/twist", Type::f64, {"sample", "segment"}, "rad/m", "about the tangent"},
       {"/deformation/elongation", Type::f64, {"sample", "segment"}, "1", "relative change of length"},
   };
@@ -95,7 +183,8 @@ Format make_strain_format() {
   add_site_set(format.datasets, "/bound_stick", "stick_");
   add_site_set(format.datasets, "/bound_free", "free_");
   format.datasets.push_back({"/probe/site", Type::u32, {"probe"}, "1", "site of each probe"});
-  format.datasets.push_back({"/probe/strain", Type::f64, {"probe", "sample"}, "1", "whole strain history of each probe"});
+  format.datasets.push_back(
+      {"/probe/strain", Type::f64, {"probe", "sample"}, "1", "whole strain history of each probe"});
   return format;
 }
 
@@ -105,7 +194,11 @@ Format make_life_format() {
   format.datasets = {
       {"/site/segment", Type::i32, {site}, "1", "segment of the site, counted from the base, 0 first"},
       {"/site/component", Type::text, {site}, "1", "path of the wire, outermost part first"},
-      {"/site/helix", Type::f64, {site, "level", "3"}, "m, rad, rad", "helix radius, lay angle (negative: left hand), phase at the segment's centre; outermost level first"},
+      {"/site/helix",
+       Type::f64,
+       {site, "level", "3"},
+       "m, rad, rad",
+       "helix radius, lay angle (negative: left hand), phase at the segment's centre; outermost level first"},
       {"/site/fibre", Type::f64, {site, "2"}, "m, rad", "radius and angle of the fibre on the wire"},
       {"/site/material", Type::text, {site}, "1", "material of the wire"},
       {"/damage", Type::f64, {site}, "1", "damage per repeat of the motion"},
@@ -117,24 +210,75 @@ Format make_life_format() {
       {"/cycles/begin", Type::u32, {"cycle"}, "1", "sample at which the cycle opens"},
       {"/cycles/end", Type::u32, {"cycle"}, "1", "sample at which its range is reached"},
       {"/cycles/damage", Type::f64, {"cycle"}, "1", "its share of the damage per repeat"},
-      {"/damage_rate", Type::f64, {"segment", "sample"}, "1", "damage of each segment's worst site, on the sample at which its cycles close"},
-      {"/damage_rate_opened", Type::f64, {"segment", "sample"}, "1", "the same damage on the sample at which its cycles open", false, true},
+      {"/damage_rate",
+       Type::f64,
+       {"segment", "sample"},
+       "1",
+       "damage of each segment's worst site, on the sample at which its cycles close"},
+      {"/damage_rate_opened",
+       Type::f64,
+       {"segment", "sample"},
+       "1",
+       "the same damage on the sample at which its cycles open",
+       false,
+       true},
       {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
-      {"/segment/worst_site", Type::u32, {"segment"}, "1", "site with the largest damage in each segment; 4294967295: none"},
+      {"/segment/worst_site",
+       Type::u32,
+       {"segment"},
+       "1",
+       "site with the largest damage in each segment; 4294967295: none"},
       {"/segment/damage", Type::f64, {"segment"}, "1", "its damage per repeat"},
-      {"/layer/component", Type::text, {"layer"}, "1", "path of a layer of wires: /site/component without part numbers"},
+      {"/layer/component",
+       Type::text,
+       {"layer"},
+       "1",
+       "path of a layer of wires: /site/component without part numbers"},
       {"/layer/worst_site", Type::u32, {"layer"}, "1", "site with the largest damage in the layer"},
       {"/layer/damage", Type::f64, {"layer"}, "1", "its damage per repeat"},
-      {"/conductor/component", Type::text, {"conductor"}, "1", "path of each part that holds wires", false, true},
+      {"/conductor/component",
+       Type::text,
+       {"conductor"},
+       "1",
+       "path of each part that holds wires",
+       false,
+       true},
       {"/conductor/wires", Type::u32, {"conductor"}, "1", "its wires", false, true},
-      {"/conductor/worst_site", Type::u32, {"conductor"}, "1", "its site with the largest damage", false, true},
-      {"/conductor/life", Type::f64, {"conductor", "3", "3"}, "1", "repeats until its first wire, fatigue.failed_wires_percent of them, and all have broken (rows), in 10, 50 and 90 % of cases (columns)", true, true},
-      {"/worst/strain", Type::f64, {"sample"}, "1", "strain history of the worst site: its probe, or straight between its turning points"},
+      {"/conductor/worst_site",
+       Type::u32,
+       {"conductor"},
+       "1",
+       "its site with the largest damage",
+       false,
+       true},
+      {"/conductor/life",
+       Type::f64,
+       {"conductor", "3", "3"},
+       "1",
+       "repeats until its first wire, fatigue.failed_wires_percent of them, and all have broken (rows), in "
+       "10, 50 and 90 % of cases (columns)",
+       true,
+       true},
+      {"/worst/strain",
+       Type::f64,
+       {"sample"},
+       "1",
+       "strain history of the worst site: its probe, or straight between its turning points"},
       {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
       {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
       {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
-      {"/program/damage", Type::f64, {"line"}, "1", "damage of the worst site by the program line that closes the cycles"},
-      {"/program/damage_opened", Type::f64, {"line"}, "1", "the same damage by the program line that opens the cycles", false, true},
+      {"/program/damage",
+       Type::f64,
+       {"line"},
+       "1",
+       "damage of the worst site by the program line that closes the cycles"},
+      {"/program/damage_opened",
+       Type::f64,
+       {"line"},
+       "1",
+       "the same damage by the program line that opens the cycles",
+       false,
+       true},
   };
   format.datasets[1].deflate = format.datasets[2].deflate = format.datasets[4].deflate = true;
   format.attributes = {
@@ -153,10 +297,16 @@ Format make_life_format() {
       {"worst_component", "path of its wire", true},
       {"worst_time", "time at which its most damaging cycle closes, s"},
       {"worst_step", "program line being executed then", true},
-      {"life_hours_p10", "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)", false, true},
-      {"life_hours_p50", "the same of half of them: earlier than life_hours, since any of many wires may be the first", false, true},
+      {"life_hours_p10", "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)", false,
+       true},
+      {"life_hours_p50",
+       "the same of half of them: earlier than life_hours, since any of many wires may be the first", false,
+       true},
       {"life_hours_p90", "the same of 90 %", false, true},
-      {"conductor_life_hours_p10", "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires broken", false, true},
+      {"conductor_life_hours_p10",
+       "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires "
+       "broken",
+       false, true},
       {"conductor_life_hours_p50", "the same of half of them", false, true},
       {"conductor_life_hours_p90", "the same of 90 %", false, true},
   };
@@ -171,12 +321,18 @@ std::string shape_text(const Dataset& dataset) {
 
 const char* type_text(Type type) {
   switch (type) {
-    case Type::f64: return "float64";
-    case Type::f32: return "float32";
-    case Type::i32: return "int32";
-    case Type::u32: return "uint32";
-    case Type::u64: return "uint64";
-    case Type::text: return "text";
+    case Type::f64:
+      return "float64";
+    case Type::f32:
+      return "float32";
+    case Type::i32:
+      return "int32";
+    case Type::u32:
+      return "uint32";
+    case Type::u64:
+      return "uint64";
+    case Type::text:
+      return "text";
   }
   return "";
 }
@@ -184,7 +340,8 @@ const char* type_text(Type type) {
 }  // namespace
 
 const Dataset& Format::find(std::string_view path) const {
-  const auto found = std::find_if(datasets.begin(), datasets.end(), [&](const Dataset& d) { return d.path == path; });
+  const auto found =
+      std::find_if(datasets.begin(), datasets.end(), [&](const Dataset& d) { return d.path == path; });
   if (found == datasets.end()) throw std::logic_error(fmt::format("{} has no dataset {}", name, path));
   return *found;
 }
@@ -205,11 +362,13 @@ const Format& life_format() {
 std::string file_manual() {
   std::string text;
   for (const Format* format : {&motion_format(), &strain_format(), &life_format()}) {
-    text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version, format->purpose, format->made_by);
+    text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version,
+                        format->purpose, format->made_by);
     text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
     for (const Dataset& dataset : format->datasets)
-      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", dataset.path, type_text(dataset.type), shape_text(dataset),
-                          dataset.unit, dataset.meaning, dataset.may_be_absent ? " (may be absent)" : "");
+      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", dataset.path, type_text(dataset.type),
+                          shape_text(dataset), dataset.unit, dataset.meaning,
+                          dataset.may_be_absent ? " (may be absent)" : "");
     if (!format->attributes.empty()) {
       text += "\n| root attribute | meaning |\n|---|---|\n";
       for (const AttributeInfo& attribute : format->attributes)

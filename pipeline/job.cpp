@@ -14,8 +14,10 @@ void resolve_job(Node& job);  // catalogue.cpp
 
 void describe(Fields& f, Joint& joint) {
   f.text("name", joint.name, Need::required, "name of the joint");
-  f.vector("origin_m", joint.origin, Need::required, "origin of the joint frame in the frame of the link before");
-  f.vector("rpy_deg", joint.orientation, Need::optional, "roll, pitch, yaw of the joint frame, fixed axes x, y, z");
+  f.vector("origin_m", joint.origin, Need::required,
+           "origin of the joint frame in the frame of the link before");
+  f.vector("rpy_deg", joint.orientation, Need::optional,
+           "roll, pitch, yaw of the joint frame, fixed axes x, y, z");
   f.vector("axis", joint.axis, Need::required, "axis of rotation in the joint frame");
   f.number("lower_deg", joint.lower, Need::required, any_number(), "lowest angle");
   f.number("upper_deg", joint.upper, Need::required, any_number(), "highest angle");
@@ -37,7 +39,8 @@ void describe(Fields& f, Box& box) {
 
 void describe(Fields& f, MeshFile& mesh) {
   f.path("file", mesh.file, Need::required, "triangles as STL or OBJ");
-  f.number("scale", mesh.scale, Need::optional, above(0), "metres per unit of the file: 0.001 for millimetres");
+  f.number("scale", mesh.scale, Need::optional, above(0),
+           "metres per unit of the file: 0.001 for millimetres");
   f.vector("position_m", mesh.position, Need::optional, "of the file's origin");
   f.vector("rpy_deg", mesh.orientation, Need::optional, "roll, pitch, yaw of the file's axes");
 }
@@ -59,11 +62,15 @@ void describe(Fields& f, Robot& robot) {
   f.text("name", robot.name, Need::required, "type designation");
   f.text("source", robot.source, Need::required, "where the numbers come from");
   f.vector("base_position_m", robot.base_position, Need::optional, "of the base link in the world");
-  f.vector("base_rpy_deg", robot.base_orientation, Need::optional, "roll, pitch, yaw of the base link in the world");
+  f.vector("base_rpy_deg", robot.base_orientation, Need::optional,
+           "roll, pitch, yaw of the base link in the world");
   f.vector("program_base_m", robot.program_base, Need::optional,
-           "origin of the frame that robot programs are written in, in the base link (Fanuc: at the height of axis 2)");
-  f.vector("flange_position_m", robot.flange_position, Need::optional, "of the flange frame (tool0) in the last link");
-  f.vector("flange_rpy_deg", robot.flange_orientation, Need::optional, "its roll, pitch, yaw; z leaves the flange");
+           "origin of the frame that robot programs are written in, in the base link (Fanuc: at the height "
+           "of axis 2)");
+  f.vector("flange_position_m", robot.flange_position, Need::optional,
+           "of the flange frame (tool0) in the last link");
+  f.vector("flange_rpy_deg", robot.flange_orientation, Need::optional,
+           "its roll, pitch, yaw; z leaves the flange");
   f.list("joints", robot.joints, Need::required, "the axes, from the base to the flange");
   f.list("links", robot.links, Need::required, "base link first, then the link that each joint moves");
 }
@@ -73,26 +80,36 @@ void describe(Fields& f, MotionStep& step) {
   f.text("text", step.text, Need::optional, "what the step is, for reports");
   f.choice("path", step.path, {"joint", "linear", "circular"}, "how a move gets to its target");
   f.numbers("joints_deg", step.joints, Need::optional, "target of a joint move, one angle per axis");
-  f.numbers("position_mm", step.position, Need::optional, "target of the tool in the work object: x, y, z, instead of joints_deg");
+  f.numbers("position_mm", step.position, Need::optional,
+            "target of the tool in the work object: x, y, z, instead of joints_deg");
   f.numbers("quaternion", step.quaternion, Need::optional, "orientation of the tool there: w, x, y, z");
   f.numbers("via_position_mm", step.via_position, Need::optional, "of a circular move: a point on the way");
-  f.text("configuration", step.configuration, Need::optional,
-         "which arm reaches the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0; without it the nearest");
+  f.text(
+      "configuration", step.configuration, Need::optional,
+      "which arm reaches the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0; without it the nearest");
   f.numbers("external_axes", step.external_axes, Need::optional, "targets of external axes, as programmed");
   f.text("tool", step.tool, Need::optional, "a name of tools; without it the flange");
-  f.text("work_object", step.work_object, Need::optional, "a name of work_objects; without it the robot's base frame");
-  f.maybe_number("speed_percent", step.speed_percent, between(0.1, 100), "speed of the move, of each axis' highest");
-  f.maybe_number("speed_deg_per_s", step.speed, above(0), "speed of the axis that moves farthest, instead of a percentage");
+  f.text("work_object", step.work_object, Need::optional,
+         "a name of work_objects; without it the robot's base frame");
+  f.maybe_number("speed_percent", step.speed_percent, between(0.1, 100),
+                 "speed of the move, of each axis' highest");
+  f.maybe_number("speed_deg_per_s", step.speed, above(0),
+                 "speed of the axis that moves farthest, instead of a percentage");
   f.maybe_number("speed_mm_per_s", step.tool_speed, above(0), "highest speed of the tool");
-  f.maybe_number("turn_deg_per_s", step.turn_speed, above(0), "highest speed of the tool's rotation on a path");
+  f.maybe_number("turn_deg_per_s", step.turn_speed, above(0),
+                 "highest speed of the tool's rotation on a path");
   f.maybe_number("duration_s", step.duration, above(0), "of the whole move, instead of a speed");
-  f.maybe_number("acceleration_percent", step.acceleration_percent, between(1, 150), "of this move, besides the program's");
-  f.maybe_number("zone_mm", step.tool_zone, at_least(0), "the tool leaves its path this near to the target; 0: stop");
+  f.maybe_number("acceleration_percent", step.acceleration_percent, between(1, 150),
+                 "of this move, besides the program's");
+  f.maybe_number("zone_mm", step.tool_zone, at_least(0),
+                 "the tool leaves its path this near to the target; 0: stop");
   f.maybe_number("zone_percent", step.stop_zone, between(0, 100),
                  "the next move begins at this share of the way in which the robot would stop");
-  f.maybe_number("zone_deg", step.zone, at_least(0), "the next move begins when every axis is this near; 0: stop");
+  f.maybe_number("zone_deg", step.zone, at_least(0),
+                 "the next move begins when every axis is this near; 0: stop");
   f.number("dwell_s", step.dwell, Need::optional, at_least(0), "standstill instead of a move");
-  f.integer("repeat", step.repeat, Need::optional, at_least(0), "how often the block of `steps` runs; 0: not a block");
+  f.integer("repeat", step.repeat, Need::optional, at_least(0),
+            "how often the block of `steps` runs; 0: not a block");
   f.list("steps", step.steps, Need::optional, "the block");
 }
 
@@ -100,7 +117,8 @@ void describe(Fields& f, MotionFrame& frame) {
   f.text("name", frame.name, Need::required, "name of the tool or work object");
   f.vector("position_mm", frame.position, Need::optional, "of its origin");
   f.numbers("quaternion", frame.quaternion, Need::optional, "its orientation: w, x, y, z");
-  f.boolean("stationary", frame.stationary, Need::optional, "the tool stands still and the robot carries the work object");
+  f.boolean("stationary", frame.stationary, Need::optional,
+            "the tool stands still and the robot carries the work object");
 }
 
 void describe(Fields& f, BranchAssumption& assumption) {
@@ -116,25 +134,35 @@ void describe(Fields& f, Motion& motion) {
   f.place(motion.where);
   f.text("name", motion.name, Need::optional, "name of the program");
   f.text("source", motion.source, Need::optional, "who wrote it");
-  f.number("speed_percent", motion.speed_percent, Need::optional, between(0.1, 100), "speed of moves that name none");
+  f.number("speed_percent", motion.speed_percent, Need::optional, between(0.1, 100),
+           "speed of moves that name none");
   f.number("acceleration_percent", motion.acceleration_percent, Need::optional, between(1, 100),
            "of each axis' highest acceleration, for all moves");
-  f.number("zone_deg", motion.zone, Need::optional, at_least(0), "zone of moves that name none; 0: stop at each target");
-  f.list("steps", motion.steps, Need::optional, "the program; it starts at rest at the target of the first step");
-  f.list("tools", motion.tools, Need::optional, "tools, in the flange's frame; also those that a program names but does not hold");
-  f.list("work_objects", motion.work_objects, Need::optional, "work objects, in the robot's base frame; likewise");
+  f.number("zone_deg", motion.zone, Need::optional, at_least(0),
+           "zone of moves that name none; 0: stop at each target");
+  f.list("steps", motion.steps, Need::optional,
+         "the program; it starts at rest at the target of the first step");
+  f.list("tools", motion.tools, Need::optional,
+         "tools, in the flange's frame; also those that a program names but does not hold");
+  f.list("work_objects", motion.work_objects, Need::optional,
+         "work objects, in the robot's base frame; likewise");
   f.path("program", motion.program, Need::optional,
-         "a robot program instead of steps: RAPID (.mod, .prg, .sys), KRL (.src), Fanuc (.ls), joints (.csv), ROS (.yaml, .json)");
-  f.list("modules", motion.modules, Need::optional, "further files of the program: modules, .dat files, called programs");
+         "a robot program instead of steps: RAPID (.mod, .prg, .sys), KRL (.src), Fanuc (.ls), joints "
+         "(.csv), ROS (.yaml, .json)");
+  f.list("modules", motion.modules, Need::optional,
+         "further files of the program: modules, .dat files, called programs");
   f.text("routine", motion.routine, Need::optional, "of the program to run; without it main, or the first");
   f.list("assume", motion.assume, Need::optional, "how branches of the program go that hang on inputs");
-  f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0), "dwell of a spot weld of the program");
+  f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0),
+           "dwell of a spot weld of the program");
   f.path("clamp_poses", motion.clamp_poses, Need::optional,
-         "CSV with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and tool clamp (s, m)");
+         "CSV with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and tool "
+         "clamp (s, m)");
 }
 
 void describe(Fields& f, StrainLifePoint& point) {
-  f.number("strain_amplitude", point.strain_amplitude, Need::required, between(1e-9, 10), "half the strain range of the test");
+  f.number("strain_amplitude", point.strain_amplitude, Need::required, between(1e-9, 10),
+           "half the strain range of the test");
   f.number("cycles", point.cycles, Need::required, between(0.5, 1e15), "to failure, median");
 }
 
@@ -144,35 +172,48 @@ void describe(Fields& f, Material& material) {
   f.text("source", material.source, Need::required, "where the constants come from");
   f.number("youngs_modulus_GPa", material.youngs_modulus, Need::required, above(0), "E");
   f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "nu");
-  f.list("strain_life_table", material.strain_life_table, Need::optional,
-         "measured points, larger strains first, instead of the keys below: for polymers; log-log between them");
+  f.list(
+      "strain_life_table", material.strain_life_table, Need::optional,
+      "measured points, larger strains first, instead of the keys below: for polymers; log-log between them");
   const bool measured = !material.strain_life_table.empty() && material.strain_life_table.front().cycles > 0;
   if (measured) return;  // the manual's one point is without cycles: there the other keys follow
   f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0), "sigma_f' of (8)");
-  f.number("fatigue_strength_exponent", material.fatigue_strength_exponent, Need::required, between(-1, -1e-3), "b of (8)");
+  f.number("fatigue_strength_exponent", material.fatigue_strength_exponent, Need::required,
+           between(-1, -1e-3), "b of (8)");
   f.number("fatigue_ductility", material.fatigue_ductility, Need::required, above(0), "epsilon_f' of (8)");
-  f.number("fatigue_ductility_exponent", material.fatigue_ductility_exponent, Need::required, between(-2, -1e-2), "c of (8)");
-  f.maybe_number("cyclic_strength_MPa", material.cyclic_strength, above(0), "K'; without it sigma_f'/epsilon_f'^n'");
-  f.maybe_number("cyclic_hardening_exponent", material.cyclic_hardening_exponent, between(0.01, 1), "n'; without it b/c");
-  f.maybe_number("walker_exponent", material.walker_exponent, between(0, 1), "gamma of mean_stress walker; without it 0.5");
+  f.number("fatigue_ductility_exponent", material.fatigue_ductility_exponent, Need::required,
+           between(-2, -1e-2), "c of (8)");
+  f.maybe_number("cyclic_strength_MPa", material.cyclic_strength, above(0),
+                 "K'; without it sigma_f'/epsilon_f'^n'");
+  f.maybe_number("cyclic_hardening_exponent", material.cyclic_hardening_exponent, between(0.01, 1),
+                 "n'; without it b/c");
+  f.maybe_number("walker_exponent", material.walker_exponent, between(0, 1),
+                 "gamma of mean_stress walker; without it 0.5");
 }
 
 void describe(Fields& f, Component& component) {
   f.place(component.where);
   f.text("name", component.name, Need::required, "what the part is; equal parts are numbered from 1");
-  f.text("layer", component.layer, Need::optional, "name of the layer, where layers of equal parts lie over each other");
+  f.text("layer", component.layer, Need::optional,
+         "name of the layer, where layers of equal parts lie over each other");
   f.integer("count", component.count, Need::optional, between(1, 1000), "equal parts in the layer (K)");
   f.number("radius_mm", component.radius, Need::required, above(0), "of the part");
-  f.number("helix_radius_mm", component.helix_radius, Need::required, at_least(0), "from the parent's axis to the part's (R)");
-  f.number("lay_angle_deg", component.lay_angle, Need::optional, between(0, 60), "angle to the parent's axis (alpha)");
+  f.number("helix_radius_mm", component.helix_radius, Need::required, at_least(0),
+           "from the parent's axis to the part's (R)");
+  f.number("lay_angle_deg", component.lay_angle, Need::optional, between(0, 60),
+           "angle to the parent's axis (alpha)");
   f.choice("hand", component.hand, {"right", "left"}, "of the helix: right (Z) or left (S)");
-  f.number("phase_deg", component.phase, Need::optional, between(-360, 360), "angle of part 1 at the base clamp");
+  f.number("phase_deg", component.phase, Need::optional, between(-360, 360),
+           "angle of part 1 at the base clamp");
   f.maybe_number("friction_coefficient", component.friction, between(0, 1e6),
                  "Coulomb, of the part on what it lies against; needed where strain.slip is friction");
-  f.maybe_number("radial_line_load_N_per_m", component.radial_line_load, at_least(0),
-                 "presses the part on what it lies against, by jacket and tape; needed where strain.slip is friction");
-  f.number("tension_N", component.tension, Need::optional, at_least(0), "of the part in the dresspack at rest");
-  f.text("material", component.material, Need::optional, "of a wire: a name of config/materials; a part with parts has none");
+  f.maybe_number(
+      "radial_line_load_N_per_m", component.radial_line_load, at_least(0),
+      "presses the part on what it lies against, by jacket and tape; needed where strain.slip is friction");
+  f.number("tension_N", component.tension, Need::optional, at_least(0),
+           "of the part in the dresspack at rest");
+  f.text("material", component.material, Need::optional,
+         "of a wire: a name of config/materials; a part with parts has none");
   f.list("components", component.components, Need::optional, "the layers of parts inside");
 }
 
@@ -181,13 +222,17 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.text("source", dresspack.source, Need::required, "where the numbers come from");
   f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
   f.number("mass_kg_per_m", dresspack.mass_per_length, Need::required, above(0), "of the filled hose");
-  f.number("bending_stiffness_Nm2", dresspack.bending_stiffness, Need::required, above(0), "EI of the filled hose");
-  f.number("torsional_stiffness_Nm2", dresspack.torsional_stiffness, Need::required, above(0), "GJ of the filled hose");
+  f.number("bending_stiffness_Nm2", dresspack.bending_stiffness, Need::required, above(0),
+           "EI of the filled hose");
+  f.number("torsional_stiffness_Nm2", dresspack.torsional_stiffness, Need::required, above(0),
+           "GJ of the filled hose");
   f.number("axial_stiffness_N", dresspack.axial_stiffness, Need::required, above(0), "EA of the filled hose");
   f.number("damping_time_ms", dresspack.damping_time, Need::required, at_least(0),
            "Kelvin-Voigt time of bending and twist, from a decay test");
-  f.text("damping_source", dresspack.damping_source, Need::required, "where the damping comes from: life depends on it");
-  f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2), "Coulomb, hose against robot");
+  f.text("damping_source", dresspack.damping_source, Need::required,
+         "where the damping comes from: life depends on it");
+  f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
+           "Coulomb, hose against robot");
   f.text("hose_material", dresspack.hose_material, Need::optional,
          "of the hose's wall, a name of config/materials; without it the hose's strain is not evaluated");
   f.number("hose_strain_factor", dresspack.hose_strain_factor, Need::optional, between(1e-3, 100),
@@ -200,14 +245,16 @@ void describe(Fields& f, Clamp& clamp) {
   f.place(clamp.where);
   f.text("link", clamp.link, Need::required, "link of the robot that carries the clamp");
   f.vector("position_m", clamp.position, Need::required, "of the clamp in the link's frame");
-  f.vector("direction", clamp.direction, Need::required, "of the dresspack there, from base to tool, in the link's frame");
+  f.vector("direction", clamp.direction, Need::required,
+           "of the dresspack there, from base to tool, in the link's frame");
   f.maybe_number("roll_deg", clamp.roll, between(-360, 360),
                  "about the direction; without it 0 at the base clamp and free of twist at the tool clamp");
 }
 
 void describe(Fields& f, Routing& routing) {
   f.place(routing.where);
-  f.number("free_length_m", routing.free_length, Need::required, above(0), "free length of dresspack between the clamps");
+  f.number("free_length_m", routing.free_length, Need::required, above(0),
+           "free length of dresspack between the clamps");
   f.maybe_group("base_clamp", routing.base_clamp, "the clamp nearer to the robot's base");
   f.maybe_group("tool_clamp", routing.tool_clamp, "the clamp nearer to the tool");
   f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
@@ -216,10 +263,12 @@ void describe(Fields& f, Routing& routing) {
 
 void describe(Fields& f, Simulation& simulation) {
   f.integer("segments", simulation.segments, Need::optional, between(4, 2000), "rigid segments of the chain");
-  f.number_or_auto("time_step_ms", simulation.time_step, simulation.choose_time_step, between(0.01, 20),
-                   "integration step; auto: the first repeat chooses the one that keeps to curvature_error_percent");
-  f.number("curvature_error_percent", simulation.curvature_error, Need::optional, above(0),
-           "largest estimated rms error of the curvature that a chosen step may leave in the liveliest seconds");
+  f.number_or_auto(
+      "time_step_ms", simulation.time_step, simulation.choose_time_step, between(0.01, 20),
+      "integration step; auto: the first repeat chooses the one that keeps to curvature_error_percent");
+  f.number(
+      "curvature_error_percent", simulation.curvature_error, Need::optional, above(0),
+      "largest estimated rms error of the curvature that a chosen step may leave in the liveliest seconds");
   f.number("sample_rate_Hz", simulation.sample_rate, Need::optional, between(0.1, 10000),
            "of motion.h5; a whole number of steps lies between samples");
   f.vector("gravity_m_per_s2", simulation.gravity, Need::optional, "acceleration of free fall in the world");
@@ -227,34 +276,47 @@ void describe(Fields& f, Simulation& simulation) {
   f.boolean("self_contact", simulation.self_contact, Need::optional, "whether the dresspack touches itself");
   f.boolean("floor", simulation.floor, Need::optional, "whether the plane z = 0 is a floor");
   f.number("periodic_tolerance_mm", simulation.periodic_tolerance, Need::optional, above(0),
-           "a motion that returns is repeated until the dresspack begins two repeats this much alike; the last one counts");
-  f.integer("most_repeats", simulation.most_repeats, Need::optional, between(1, 1000), "of the motion, also when they do not begin alike");
+           "a motion that returns is repeated until the dresspack begins two repeats this much alike; the "
+           "last one counts");
+  f.integer("most_repeats", simulation.most_repeats, Need::optional, between(1, 1000),
+            "of the motion, also when they do not begin alike");
 }
 
 void describe(Fields& f, Probe& probe) {
-  f.integer("segment_from_tool", probe.segment_from_tool, Need::required, at_least(1), "segment, counted from the tool");
+  f.integer("segment_from_tool", probe.segment_from_tool, Need::required, at_least(1),
+            "segment, counted from the tool");
   f.text("component", probe.component, Need::required, "path of a wire, as in /site/component");
 }
 
 void describe(Fields& f, Strain& strain) {
-  f.choice("deformation", strain.deformation, {"rotation_vector", "thesis"}, "how curvature and twist are measured");
-  f.choice("kinematics", strain.kinematics, {"exact", "thesis"}, "nested helices: the geometry itself, or (12)..(23)");
-  f.choices("slip", strain.slip, {"free", "stick", "friction"}, "between a part and its parent; one word, or one per level, outermost first");
+  f.choice("deformation", strain.deformation, {"rotation_vector", "thesis"},
+           "how curvature and twist are measured");
+  f.choice("kinematics", strain.kinematics, {"exact", "thesis"},
+           "nested helices: the geometry itself, or (12)..(23)");
+  f.choices("slip", strain.slip, {"free", "stick", "friction"},
+            "between a part and its parent; one word, or one per level, outermost first");
   f.choice("equivalent", strain.equivalent, {"axial", "shear_included"},
-           "strain that is counted: along the fibre, or with the shear of the wire's torsion, signed sqrt(eps^2 + gamma^2/3)");
+           "strain that is counted: along the fibre, or with the shear of the wire's torsion, signed "
+           "sqrt(eps^2 + gamma^2/3)");
   f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
             "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
-  f.number("gate", strain.gate, Need::optional, between(0, 0.1), "turning points of smaller strain ranges are dropped");
+  f.number("gate", strain.gate, Need::optional, between(0, 0.1),
+           "turning points of smaller strain ranges are dropped");
   f.list("probes", strain.probes, Need::optional, "wires whose whole strain history is kept");
 }
 
 void describe(Fields& f, Fatigue& fatigue) {
-  f.choice("stress", fatigue.stress, {"cyclic", "elastic"}, "Ramberg-Osgood with Masing memory, or E times strain");
-  f.choice("mean_stress", fatigue.mean_stress, {"none", "morrow", "swt", "walker"}, "correction of the strain-life curve");
-  f.choice("counting", fatigue.counting, {"repeating", "half_cycles"}, "rainflow of an endlessly repeated motion, or of one run");
-  f.number("endurance_strain", fatigue.endurance_strain, Need::optional, between(0, 0.1), "amplitudes up to this do no damage");
+  f.choice("stress", fatigue.stress, {"cyclic", "elastic"},
+           "Ramberg-Osgood with Masing memory, or E times strain");
+  f.choice("mean_stress", fatigue.mean_stress, {"none", "morrow", "swt", "walker"},
+           "correction of the strain-life curve");
+  f.choice("counting", fatigue.counting, {"repeating", "half_cycles"},
+           "rainflow of an endlessly repeated motion, or of one run");
+  f.number("endurance_strain", fatigue.endurance_strain, Need::optional, between(0, 0.1),
+           "amplitudes up to this do no damage");
   f.text("material", fatigue.material, Need::optional, "of every wire, instead of its own");
-  f.integer("listed_sites", fatigue.listed_sites, Need::optional, between(1, 10000), "worst sites whose cycles are written");
+  f.integer("listed_sites", fatigue.listed_sites, Need::optional, between(1, 10000),
+            "worst sites whose cycles are written");
   f.number("operating_hours_per_week", fatigue.operating_hours_per_week, Need::optional, between(0.1, 168),
            "turns hours of motion into months");
   f.number("scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
@@ -270,7 +332,8 @@ void describe(Fields& f, Job& job) {
   f.group("motion", job.motion, Need::required, "a name of config/programs, a file, or the entry itself");
   f.group("robot", job.robot, job.motion.clamp_poses.empty() ? Need::required : Need::optional,
           "a name of config/robots, a file, or the entry itself", !job.robot.joints.empty());
-  f.group("dresspack", job.dresspack, Need::required, "a name of config/dresspacks, a file, or the entry itself");
+  f.group("dresspack", job.dresspack, Need::required,
+          "a name of config/dresspacks, a file, or the entry itself");
   f.group("routing", job.routing, Need::required, "clamps and free length");
   f.group("cell", job.cell, Need::optional, "what stands still around the robot: obstacles of the dresspack");
   f.group("simulation", job.simulation, Need::optional, "settings of dresslife-sim");
@@ -284,14 +347,16 @@ namespace {
 
 void check_robot(const Robot& robot, const Where& where) {
   if (robot.links.size() != robot.joints.size() + 1)
-    throw InputError(where, fmt::format("robot has {} joints and {} links (must be one link more)", robot.joints.size(),
-                                        robot.links.size()),
+    throw InputError(where,
+                     fmt::format("robot has {} joints and {} links (must be one link more)",
+                                 robot.joints.size(), robot.links.size()),
                      "list the base link and one link per joint");
   for (const Joint& joint : robot.joints) {
     if (!(joint.axis.norm() > 1e-9))
       throw InputError(where, fmt::format("axis of {} is zero", joint.name), "give its direction");
     if (!(joint.lower < joint.upper))
-      throw InputError(where, fmt::format("limits of {} are empty (lower >= upper)", joint.name), "mend them");
+      throw InputError(where, fmt::format("limits of {} are empty (lower >= upper)", joint.name),
+                       "mend them");
   }
 }
 
@@ -299,33 +364,44 @@ void check_limit(const MotionStep& step, const Joint& joint, double angle) {
   constexpr double slack = 1e-9;  // rounding of degrees to radians
   constexpr double degrees = 180 / std::numbers::pi;
   if (angle >= joint.lower - slack && angle <= joint.upper + slack) return;
-  throw InputError(step.where, fmt::format("target of {} is {:.6g} deg (limits {:.6g} .. {:.6g} deg)", joint.name, angle * degrees,
-                                           joint.lower * degrees, joint.upper * degrees),
+  throw InputError(step.where,
+                   fmt::format("target of {} is {:.6g} deg (limits {:.6g} .. {:.6g} deg)", joint.name,
+                               angle * degrees, joint.lower * degrees, joint.upper * degrees),
                    "choose a target within the limits");
 }
 
-void check_pose(const std::vector<double>& position, const std::vector<double>& quaternion, const Where& where) {
-  if (position.size() != 3) throw InputError(where, fmt::format("position_mm has {} numbers", position.size()), "give x, y, z");
+void check_pose(const std::vector<double>& position, const std::vector<double>& quaternion,
+                const Where& where) {
+  if (position.size() != 3)
+    throw InputError(where, fmt::format("position_mm has {} numbers", position.size()), "give x, y, z");
   double squares = 0;
   for (double part : quaternion) squares += part * part;
   constexpr double rounding = 1e-3;  // of quaternions written with four decimals
   if (quaternion.size() != 4 || std::abs(std::sqrt(squares) - 1) > rounding)
-    throw InputError(where, "quaternion is not four numbers w, x, y, z of length 1", "give the orientation of the pose");
+    throw InputError(where, "quaternion is not four numbers w, x, y, z of length 1",
+                     "give the orientation of the pose");
 }
 
 void check_move(const MotionStep& step, const Robot& robot) {
   const Where& where = step.where;
   if (!step.joints.empty() && step.joints.size() != robot.joints.size())
-    throw InputError(where, fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(), robot.joints.size()),
+    throw InputError(where,
+                     fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(),
+                                 robot.joints.size()),
                      "give one angle per axis");
-  for (std::size_t axis = 0; axis < step.joints.size(); ++axis) check_limit(step, robot.joints[axis], step.joints[axis]);
+  for (std::size_t axis = 0; axis < step.joints.size(); ++axis)
+    check_limit(step, robot.joints[axis], step.joints[axis]);
   if (!step.joints.empty() && !step.position.empty())
     throw InputError(where, "both joints_deg and position_mm are given", "keep one of the two");
   if (!step.position.empty()) check_pose(step.position, step.quaternion, where);
-  if ((step.path == PathKind::circular) != !step.via_position.empty() || (!step.via_position.empty() && step.via_position.size() != 3))
-    throw InputError(where, "via_position_mm belongs to a circular move, which must have it", "give x, y, z, or change the path");
+  if ((step.path == PathKind::circular) != !step.via_position.empty() ||
+      (!step.via_position.empty() && step.via_position.size() != 3))
+    throw InputError(where, "via_position_mm belongs to a circular move, which must have it",
+                     "give x, y, z, or change the path");
   if (step.speed.has_value() + step.speed_percent.has_value() + step.duration.has_value() > 1)
-    throw InputError(where, step.duration ? "duration_s is given beside a speed" : "both speed_percent and speed_deg_per_s are given",
+    throw InputError(where,
+                     step.duration ? "duration_s is given beside a speed"
+                                   : "both speed_percent and speed_deg_per_s are given",
                      "keep one of the two");
   if (step.zone.has_value() + step.tool_zone.has_value() + step.stop_zone.has_value() > 1)
     throw InputError(where, "more than one of zone_deg, zone_mm, zone_percent is given", "keep one of them");
@@ -334,12 +410,14 @@ void check_move(const MotionStep& step, const Robot& robot) {
 void check_step(const MotionStep& step, const Robot& robot) {
   const bool move = step.is_move(), dwell = step.dwell > 0, block = step.repeat > 0 || !step.steps.empty();
   if (move + dwell + block != 1)
-    throw InputError(step.where, "a step must be one of: joints_deg or position_mm (a move), dwell_s, repeat with steps",
+    throw InputError(step.where,
+                     "a step must be one of: joints_deg or position_mm (a move), dwell_s, repeat with steps",
                      "split it into steps");
   if (block && (step.repeat < 1 || step.steps.empty()))
     throw InputError(step.where, "a block needs both repeat (at least 1) and steps", "give both");
   if (move) check_move(step, robot);
-  if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone || step.stop_zone || step.duration))
+  if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone ||
+                step.stop_zone || step.duration))
     throw InputError(step.where, "speed and zone belong to a move", "take them out of this step");
   for (const MotionStep& inner : step.steps) check_step(inner, robot);
 }
@@ -351,24 +429,28 @@ void check_frames(const Motion& motion) {
 
 void check_motion(const Motion& motion, const Robot& robot) {
   if (!motion.clamp_poses.empty() + !motion.steps.empty() + !motion.program.empty() != 1)
-    throw InputError(motion.where, "motion must have one of steps, program or clamp_poses", "give one of the three");
+    throw InputError(motion.where, "motion must have one of steps, program or clamp_poses",
+                     "give one of the three");
   check_frames(motion);
   for (const MotionStep& step : motion.steps) check_step(step, robot);
   if (!motion.steps.empty() && !motion.steps.front().is_move())
-    throw InputError(motion.steps.front().where, "the program must begin with a move (where the robot starts)",
-                     "begin with joints_deg");
+    throw InputError(motion.steps.front().where,
+                     "the program must begin with a move (where the robot starts)", "begin with joints_deg");
 }
 
-void check_clamp(const std::optional<Clamp>& clamp, const char* name, const Routing& routing, const Robot& robot) {
+void check_clamp(const std::optional<Clamp>& clamp, const char* name, const Routing& routing,
+                 const Robot& robot) {
   if (!clamp)
     throw InputError(routing.where, fmt::format("routing.{} is missing", name),
                      "give link, position_m and direction of the clamp");
   if (!(clamp->direction.norm() > 1e-9))
-    throw InputError(clamp->where, fmt::format("routing.{}.direction is zero", name), "give where the dresspack points");
+    throw InputError(clamp->where, fmt::format("routing.{}.direction is zero", name),
+                     "give where the dresspack points");
   std::vector<std::string> names;
   for (const Link& link : robot.links) names.push_back(link.name);
   if (std::find(names.begin(), names.end(), clamp->link) == names.end())
-    throw InputError(clamp->where, fmt::format("routing.{}.link '{}' is not a link of the robot", name, clamp->link),
+    throw InputError(clamp->where,
+                     fmt::format("routing.{}.link '{}' is not a link of the robot", name, clamp->link),
                      fmt::format("one of: {}", fmt::join(names, ", ")));
 }
 
@@ -378,38 +460,48 @@ void check_routing(const Job& job) {
     check_clamp(routing.base_clamp, "base_clamp", routing, job.robot);
     check_clamp(routing.tool_clamp, "tool_clamp", routing, job.robot);
   } else if (routing.base_clamp || routing.tool_clamp) {
-    throw InputError(routing.where, "clamps are given although motion.clamp_poses brings their poses", "keep one of the two");
+    throw InputError(routing.where, "clamps are given although motion.clamp_poses brings their poses",
+                     "keep one of the two");
   }
   if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != job.robot.joints.size())
-    throw InputError(routing.where, fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)",
-                                                routing.mounting_pose.size(), job.robot.joints.size()),
+    throw InputError(routing.where,
+                     fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)",
+                                 routing.mounting_pose.size(), job.robot.joints.size()),
                      "give one angle per axis");
 }
 
 int check_component(const Component& component, const Component* parent) {
   const Where& where = component.where;
   if (component.components.empty() == component.material.empty())
-    throw InputError(where, fmt::format("'{}' must have either a material (a wire) or components", component.name),
+    throw InputError(where,
+                     fmt::format("'{}' must have either a material (a wire) or components", component.name),
                      "give one of the two");
   if (component.count > 1 && component.helix_radius == 0)
-    throw InputError(where, fmt::format("{} parts '{}' lie on the axis (helix_radius_mm is 0)", component.count, component.name),
-                     "give their distance from the axis");
+    throw InputError(
+        where,
+        fmt::format("{} parts '{}' lie on the axis (helix_radius_mm is 0)", component.count, component.name),
+        "give their distance from the axis");
   if (component.helix_radius == 0 && component.lay_angle != 0)
-    throw InputError(where, fmt::format("'{}' on the axis has a lay angle", component.name), "set lay_angle_deg to 0");
+    throw InputError(where, fmt::format("'{}' on the axis has a lay angle", component.name),
+                     "set lay_angle_deg to 0");
   if (component.name.find('/') != std::string::npos || component.layer.find('/') != std::string::npos)
     throw InputError(where, fmt::format("name '{}' holds a '/'", component.name), "choose another name");
   if (parent && component.helix_radius + component.radius > parent->radius * 1.02)
-    throw InputError(where, fmt::format("'{}' reaches {:.4g} mm from the axis of '{}', whose radius is {:.4g} mm", component.name,
-                                        1e3 * (component.helix_radius + component.radius), parent->name, 1e3 * parent->radius),
-                     "check helix_radius_mm and radius_mm");
+    throw InputError(
+        where,
+        fmt::format("'{}' reaches {:.4g} mm from the axis of '{}', whose radius is {:.4g} mm", component.name,
+                    1e3 * (component.helix_radius + component.radius), parent->name, 1e3 * parent->radius),
+        "check helix_radius_mm and radius_mm");
   int depth = 0;
-  for (const Component& inner : component.components) depth = std::max(depth, check_component(inner, &component));
+  for (const Component& inner : component.components)
+    depth = std::max(depth, check_component(inner, &component));
   return depth + 1;
 }
 
 /// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
 void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
-  if (slip[std::min(level, slip.size()) - 1] == Slip::friction && !(component.friction && component.radial_line_load))
+  if (slip[std::min(level, slip.size()) - 1] == Slip::friction &&
+      !(component.friction && component.radial_line_load))
     throw InputError(component.where,
                      fmt::format("'{}' has no {} (strain.slip of its level is friction)", component.name,
                                  component.friction ? "radial_line_load_N_per_m" : "friction_coefficient"),
@@ -422,23 +514,30 @@ void check_dresspack(const Job& job, const Where& where) {
   hose.name = "hose";
   hose.radius = job.dresspack.diameter / 2;
   int depth = 0;
-  for (const Component& component : job.dresspack.components) depth = std::max(depth, check_component(component, &hose));
+  for (const Component& component : job.dresspack.components)
+    depth = std::max(depth, check_component(component, &hose));
   for (const Component& component : job.dresspack.components) check_friction(component, job.strain.slip, 1);
   if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
-    throw InputError(where, fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
-                     "give one word, or one per level, outermost first");
+    throw InputError(
+        where,
+        fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
+        "give one word, or one per level, outermost first");
 }
 
 void check_materials(const Job& job) {
   for (const Material& material : job.dresspack.materials) {
     const auto& table = material.strain_life_table;
     if (table.size() == 1)
-      throw InputError(material.where, fmt::format("strain_life_table of '{}' has one point", material.name), "give at least two");
+      throw InputError(material.where, fmt::format("strain_life_table of '{}' has one point", material.name),
+                       "give at least two");
     for (std::size_t i = 1; i < table.size(); ++i)
-      if (!(table[i].strain_amplitude < table[i - 1].strain_amplitude && table[i].cycles > table[i - 1].cycles))
-        throw InputError(material.where,
-                         fmt::format("point {} of strain_life_table of '{}' is no smaller strain with a longer life", i + 1, material.name),
-                         "order the points by falling strain amplitude and rising cycles");
+      if (!(table[i].strain_amplitude < table[i - 1].strain_amplitude &&
+            table[i].cycles > table[i - 1].cycles))
+        throw InputError(
+            material.where,
+            fmt::format("point {} of strain_life_table of '{}' is no smaller strain with a longer life",
+                        i + 1, material.name),
+            "order the points by falling strain amplitude and rising cycles");
   }
 }
 
@@ -446,18 +545,22 @@ void check_simulation(const Simulation& simulation, const Where& where) {
   if (simulation.choose_time_step) return;  // the choice fits the rate
   const double steps = 1 / (simulation.sample_rate * simulation.time_step);
   if (steps < 0.999 || std::abs(steps - std::round(steps)) > 1e-6 * steps)
-    throw InputError(where, fmt::format("simulation.sample_rate_Hz {} leaves {:.6g} steps of {} ms between samples",
-                                        simulation.sample_rate, steps, 1e3 * simulation.time_step),
+    throw InputError(where,
+                     fmt::format("simulation.sample_rate_Hz {} leaves {:.6g} steps of {} ms between samples",
+                                 simulation.sample_rate, steps, 1e3 * simulation.time_step),
                      "choose both so that it is a whole number");
 }
 
 void check_boxes(const std::vector<Box>& boxes, const Where& where) {
   for (const Box& box : boxes)
-    if (!(box.sides.minCoeff() > 0)) throw InputError(where, "a box has a side of length 0 or less", "mend its sides_m");
+    if (!(box.sides.minCoeff() > 0))
+      throw InputError(where, "a box has a side of length 0 or less", "mend its sides_m");
 }
 
 void check(const Job& job, const Node& document) {
-  auto where = [&](const char* key) { return document.find(key) ? document.find(key)->where : document.where; };
+  auto where = [&](const char* key) {
+    return document.find(key) ? document.find(key)->where : document.where;
+  };
   if (job.motion.clamp_poses.empty()) check_robot(job.robot, where("robot"));
   for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
   check_boxes(job.cell.boxes, where("cell"));
@@ -473,7 +576,8 @@ void check(const Job& job, const Node& document) {
 // ---- reading and writing jobs -----------------------------------------------------------------------------
 
 Job job_from(Node document, const std::vector<std::string>& sets) {
-  if (!document.is_map()) throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
+  if (!document.is_map())
+    throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
   for (const std::string& set : sets) apply_set(document, set);
   resolve_job(document);
   Job job;
@@ -506,11 +610,13 @@ std::string part_text(const Job& job, Part part) {
       break;
     case Part::strain:
       echo.list("components", copy.dresspack.components, Need::optional, "");
-      if (std::count(job.strain.slip.begin(), job.strain.slip.end(), Slip::friction) > 0)  // stiffness of the wires
+      if (std::count(job.strain.slip.begin(), job.strain.slip.end(), Slip::friction) >
+          0)  // stiffness of the wires
         echo.list("materials", copy.dresspack.materials, Need::optional, "");
       if (!job.dresspack.hose_material.empty()) {
         echo.text("hose_material", copy.dresspack.hose_material, Need::optional, "");
-        echo.number("hose_strain_factor", copy.dresspack.hose_strain_factor, Need::optional, any_number(), "");
+        echo.number("hose_strain_factor", copy.dresspack.hose_strain_factor, Need::optional, any_number(),
+                    "");
         echo.number("diameter_mm", copy.dresspack.diameter, Need::optional, any_number(), "");
       }
       echo.group("strain", copy.strain, Need::optional, "");

@@ -1,9 +1,10 @@
 // What a user describes: robot, motion, dresspack, routing and the settings of each stage.
 //
-// Every struct below has one describe() in job.cpp that lists its keys once: name with unit, range, default and
-// meaning. That list reads, checks, echoes and documents the key (see fields.h). All values here are SI; the unit
-// in a YAML key is the unit of the file. Robot, motion, dresspack and material are catalogue entries: a job
-// names a file of config/ or holds the entry itself, and `from: NAME` starts from a catalogue entry.
+// Every struct below has one describe() in job.cpp that lists its keys once: name with unit, range, default
+// and meaning. That list reads, checks, echoes and documents the key (see fields.h). All values here are SI;
+// the unit in a YAML key is the unit of the file. Robot, motion, dresspack and material are catalogue
+// entries: a job names a file of config/ or holds the entry itself, and `from: NAME` starts from a catalogue
+// entry.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,12 +23,12 @@ using Eigen::Vector3d;
 
 struct Joint {
   std::string name;
-  Vector3d origin = Vector3d::Zero();        ///< in the frame of the link before [m]
-  Vector3d orientation = Vector3d::Zero();   ///< roll, pitch, yaw of the joint frame, fixed axes x, y, z [rad]
-  Vector3d axis = Vector3d::UnitZ();         ///< in the joint frame
-  double lower = 0, upper = 0;               ///< [rad]
-  double speed = 0;                          ///< largest [rad/s]
-  double acceleration = 0;                   ///< largest [rad/s2]
+  Vector3d origin = Vector3d::Zero();       ///< in the frame of the link before [m]
+  Vector3d orientation = Vector3d::Zero();  ///< roll, pitch, yaw of the joint frame, fixed axes x, y, z [rad]
+  Vector3d axis = Vector3d::UnitZ();        ///< in the joint frame
+  double lower = 0, upper = 0;              ///< [rad]
+  double speed = 0;                         ///< largest [rad/s]
+  double acceleration = 0;                  ///< largest [rad/s2]
 };
 
 struct Capsule {
@@ -66,41 +67,42 @@ struct Robot {
   std::string name, source;
   Vector3d base_position = Vector3d::Zero();     ///< of link 0 in the world [m]
   Vector3d base_orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
-  Vector3d program_base = Vector3d::Zero();      ///< origin of the frame programs are written in, in link 0 [m]
-  Vector3d flange_position = Vector3d::Zero();   ///< of the flange frame in the last link [m]
+  Vector3d program_base = Vector3d::Zero();  ///< origin of the frame programs are written in, in link 0 [m]
+  Vector3d flange_position = Vector3d::Zero();     ///< of the flange frame in the last link [m]
   Vector3d flange_orientation = Vector3d::Zero();  ///< roll, pitch, yaw; its z axis leaves the flange [rad]
-  std::vector<Joint> joints;                     ///< serial, from the base
-  std::vector<Link> links;                       ///< joints + 1
+  std::vector<Joint> joints;                       ///< serial, from the base
+  std::vector<Link> links;                         ///< joints + 1
 };
 
 // ---- motion -----------------------------------------------------------------------------------------------
 
 enum class PathKind { joint, linear, circular };
 
-/// One line of a robot program: a move, a dwell, or a block repeated `repeat` times. A move leads to joint angles or
-/// to a pose of the tool in the work object.
+/// One line of a robot program: a move, a dwell, or a block repeated `repeat` times. A move leads to joint
+/// angles or to a pose of the tool in the work object.
 struct MotionStep {
-  PathKind path = PathKind::joint;      ///< how a move gets there; linear and circular: by a pose
-  std::vector<double> joints;           ///< target of a joint move [rad]; empty: a pose, or not a move
-  std::vector<double> position;         ///< target of the tool: x, y, z [m]; empty: none
-  std::vector<double> quaternion;       ///< of the tool: w, x, y, z
-  std::vector<double> via_position;     ///< of a circular move: a point on the way [m]
-  std::string configuration;            ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty: the nearest
-  std::vector<double> external_axes;    ///< as programmed
-  std::string tool, work_object;        ///< names in Motion; empty: flange, robot base
-  std::optional<double> speed_percent;  ///< of each axis' largest speed [%]
-  std::optional<double> speed;          ///< of the fastest axis [rad/s]
-  std::optional<double> tool_speed;     ///< largest of the tool's origin [m/s]
-  std::optional<double> turn_speed;     ///< largest of the tool's rotation [rad/s]
-  std::optional<double> duration;       ///< of the whole move [s]
+  PathKind path = PathKind::joint;    ///< how a move gets there; linear and circular: by a pose
+  std::vector<double> joints;         ///< target of a joint move [rad]; empty: a pose, or not a move
+  std::vector<double> position;       ///< target of the tool: x, y, z [m]; empty: none
+  std::vector<double> quaternion;     ///< of the tool: w, x, y, z
+  std::vector<double> via_position;   ///< of a circular move: a point on the way [m]
+  std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty: the nearest
+  std::vector<double> external_axes;  ///< as programmed
+  std::string tool, work_object;      ///< names in Motion; empty: flange, robot base
+  std::optional<double> speed_percent;         ///< of each axis' largest speed [%]
+  std::optional<double> speed;                 ///< of the fastest axis [rad/s]
+  std::optional<double> tool_speed;            ///< largest of the tool's origin [m/s]
+  std::optional<double> turn_speed;            ///< largest of the tool's rotation [rad/s]
+  std::optional<double> duration;              ///< of the whole move [s]
   std::optional<double> acceleration_percent;  ///< of each axis' largest acceleration, besides Motion's [%]
-  std::optional<double> zone;           ///< blending begins this far from the target, largest axis [rad]; 0 = stop
-  std::optional<double> tool_zone;      ///< blending begins this far from the target, tool [m]; 0 = stop
-  std::optional<double> stop_zone;      ///< blending begins at this share of the way in which the robot would stop [%]
-  double dwell = 0;                     ///< [s]
-  int repeat = 0;                       ///< 0: not a block
-  std::vector<MotionStep> steps;        ///< of a block
-  std::string text;                     ///< what the step is, for reports
+  std::optional<double> zone;  ///< blending begins this far from the target, largest axis [rad]; 0 = stop
+  std::optional<double> tool_zone;  ///< blending begins this far from the target, tool [m]; 0 = stop
+  std::optional<double>
+      stop_zone;     ///< blending begins at this share of the way in which the robot would stop [%]
+  double dwell = 0;  ///< [s]
+  int repeat = 0;    ///< 0: not a block
+  std::vector<MotionStep> steps;  ///< of a block
+  std::string text;               ///< what the step is, for reports
   Where where;
 
   bool is_move() const { return !joints.empty() || !position.empty(); }
@@ -109,7 +111,7 @@ struct MotionStep {
 /// A tool in the flange's frame, or a work object in the frame of the robot's base.
 struct MotionFrame {
   std::string name;
-  Vector3d position = Vector3d::Zero();       ///< [m]
+  Vector3d position = Vector3d::Zero();  ///< [m]
   std::vector<double> quaternion{1, 0, 0, 0};
   bool stationary = false;  ///< a tool that stands in the base frame while the flange carries the work object
 };
@@ -126,16 +128,16 @@ struct ProgramFile {
 
 struct Motion {
   std::string name, source;
-  double speed_percent = 100;      ///< default of the moves [%]
+  double speed_percent = 100;  ///< default of the moves [%]
   double acceleration_percent = 100;
-  double zone = 0;                 ///< default of the moves [rad]
+  double zone = 0;  ///< default of the moves [rad]
   std::vector<MotionFrame> tools, work_objects;
-  std::vector<MotionStep> steps;   ///< the first is a move: the robot starts there, at rest
-  std::filesystem::path program;   ///< a robot program instead of steps (sim/program); empty: none
+  std::vector<MotionStep> steps;     ///< the first is a move: the robot starts there, at rest
+  std::filesystem::path program;     ///< a robot program instead of steps (sim/program); empty: none
   std::vector<ProgramFile> modules;  ///< more files of the program
-  std::string routine;             ///< of the program; empty: its start
+  std::string routine;               ///< of the program; empty: its start
   std::vector<BranchAssumption> assume;
-  double spot_time = 1;            ///< dwell of a spot weld in a program [s]
+  double spot_time = 1;               ///< dwell of a spot weld in a program [s]
   std::filesystem::path clamp_poses;  ///< CSV with both clamps' poses instead of steps; empty: none
   Where where;
 };
@@ -150,16 +152,17 @@ struct StrainLifePoint {
 
 struct Material {
   std::string name, source;
-  double youngs_modulus = 0;              ///< E [Pa]
+  double youngs_modulus = 0;  ///< E [Pa]
   double poisson_ratio = 0;
-  double fatigue_strength = 0;            ///< sigma_f' [Pa]
-  double fatigue_strength_exponent = 0;   ///< b
-  double fatigue_ductility = 0;           ///< epsilon_f'
-  double fatigue_ductility_exponent = 0;  ///< c
-  std::optional<double> cyclic_strength;  ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
+  double fatigue_strength = 0;                      ///< sigma_f' [Pa]
+  double fatigue_strength_exponent = 0;             ///< b
+  double fatigue_ductility = 0;                     ///< epsilon_f'
+  double fatigue_ductility_exponent = 0;            ///< c
+  std::optional<double> cyclic_strength;            ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
   std::optional<double> cyclic_hardening_exponent;  ///< n'; absent: b / c
-  std::optional<double> walker_exponent;  ///< gamma; absent: 0.5, that of SWT
-  std::vector<StrainLifePoint> strain_life_table;  ///< instead of sigma_f' to n', for polymers; larger strains first
+  std::optional<double> walker_exponent;            ///< gamma; absent: 0.5, that of SWT
+  std::vector<StrainLifePoint>
+      strain_life_table;  ///< instead of sigma_f' to n', for polymers; larger strains first
   Where where;
 };
 
@@ -167,34 +170,34 @@ enum class Hand { right, left };
 
 /// K equal parts on one helix, each of which may hold further layers of parts (physics.md 1).
 struct Component {
-  std::string name;             ///< "signal cable"; parts are numbered "signal cable 1", ...
-  std::string layer;            ///< set where several layers of parts share a name: "layer 1"; else empty
-  int count = 1;                ///< K
-  double radius = 0;            ///< of the part [m]
-  double helix_radius = 0;      ///< R, from the parent's axis to the part's [m]
-  double lay_angle = 0;         ///< alpha >= 0 [rad]
+  std::string name;         ///< "signal cable"; parts are numbered "signal cable 1", ...
+  std::string layer;        ///< set where several layers of parts share a name: "layer 1"; else empty
+  int count = 1;            ///< K
+  double radius = 0;        ///< of the part [m]
+  double helix_radius = 0;  ///< R, from the parent's axis to the part's [m]
+  double lay_angle = 0;     ///< alpha >= 0 [rad]
   Hand hand = Hand::right;
-  double phase = 0;             ///< theta_layer: angle of part 1 at the base clamp [rad]
-  std::optional<double> friction;          ///< Coulomb, on what it lies against; needed where slip is `friction`
+  double phase = 0;                ///< theta_layer: angle of part 1 at the base clamp [rad]
+  std::optional<double> friction;  ///< Coulomb, on what it lies against; needed where slip is `friction`
   std::optional<double> radial_line_load;  ///< that presses the part on what it lies against [N/m]; likewise
   double tension = 0;                      ///< of the part in the dresspack at rest [N]
-  std::string material;         ///< of a wire; a key of Dresspack::materials; empty for a part with parts
+  std::string material;  ///< of a wire; a key of Dresspack::materials; empty for a part with parts
   std::vector<Component> components;
   Where where;
 };
 
 struct Dresspack {
   std::string name, source;
-  double diameter = 0;              ///< outer, of the hose [m]
-  double mass_per_length = 0;       ///< of the filled hose [kg/m]
-  double bending_stiffness = 0;     ///< EI [N m2]
-  double torsional_stiffness = 0;   ///< GJ [N m2]
-  double axial_stiffness = 0;       ///< EA [N]
-  double damping_time = 0;          ///< Kelvin-Voigt tau of bending and twist [s]
-  std::string damping_source;       ///< where the damping was measured or why it is guessed
-  double friction = 0;              ///< Coulomb, hose against robot
-  std::string hose_material;        ///< of the corrugated hose; empty: its strain is not evaluated
-  double hose_strain_factor = 1;    ///< strain of the corrugated wall over that of a smooth hose
+  double diameter = 0;             ///< outer, of the hose [m]
+  double mass_per_length = 0;      ///< of the filled hose [kg/m]
+  double bending_stiffness = 0;    ///< EI [N m2]
+  double torsional_stiffness = 0;  ///< GJ [N m2]
+  double axial_stiffness = 0;      ///< EA [N]
+  double damping_time = 0;         ///< Kelvin-Voigt tau of bending and twist [s]
+  std::string damping_source;      ///< where the damping was measured or why it is guessed
+  double friction = 0;             ///< Coulomb, hose against robot
+  std::string hose_material;       ///< of the corrugated hose; empty: its strain is not evaluated
+  double hose_strain_factor = 1;   ///< strain of the corrugated wall over that of a smooth hose
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
 };
@@ -202,17 +205,18 @@ struct Dresspack {
 // ---- routing ----------------------------------------------------------------------------------------------
 
 struct Clamp {
-  std::string link;                           ///< of the robot
-  Vector3d position = Vector3d::Zero();       ///< in the link's frame [m]
-  Vector3d direction = Vector3d::UnitZ();     ///< of the dresspack there, base to tool, in the link's frame
-  std::optional<double> roll;                 ///< about the direction [rad]; tool clamp only, absent: twist-free
+  std::string link;                        ///< of the robot
+  Vector3d position = Vector3d::Zero();    ///< in the link's frame [m]
+  Vector3d direction = Vector3d::UnitZ();  ///< of the dresspack there, base to tool, in the link's frame
+  std::optional<double> roll;              ///< about the direction [rad]; tool clamp only, absent: twist-free
   Where where;
 };
 
 struct Routing {
-  double free_length = 0;               ///< of dresspack between the clamps, unstretched [m]
+  double free_length = 0;                       ///< of dresspack between the clamps, unstretched [m]
   std::optional<Clamp> base_clamp, tool_clamp;  ///< absent with clamp_poses only
-  std::vector<double> mounting_pose;    ///< joints when the dresspack was clamped free of twist [rad]; empty: start
+  std::vector<double>
+      mounting_pose;  ///< joints when the dresspack was clamped free of twist [rad]; empty: start
   Where where;
 };
 
@@ -220,16 +224,16 @@ struct Routing {
 
 struct Simulation {
   int segments = 50;
-  double time_step = 0.005;             ///< [s]
-  bool choose_time_step = false;        ///< time_step_ms: auto; time_step is then where the choice begins
-  double curvature_error = 0.5;         ///< that a chosen step may leave [%]
-  double sample_rate = 25;              ///< of motion.h5 [Hz]; 1/rate is a multiple of the step
-  Vector3d gravity{0, 0, -9.81};        ///< [m/s2]
-  bool contact = true;                  ///< with the robot's links
-  bool self_contact = true;             ///< of the dresspack with itself
-  bool floor = true;                    ///< contact with the plane z = 0 too
-  double periodic_tolerance = 1e-3;     ///< a motion is repeated until repeats begin this much alike [m]
-  int most_repeats = 8;                 ///< of the motion, also when they do not
+  double time_step = 0.005;          ///< [s]
+  bool choose_time_step = false;     ///< time_step_ms: auto; time_step is then where the choice begins
+  double curvature_error = 0.5;      ///< that a chosen step may leave [%]
+  double sample_rate = 25;           ///< of motion.h5 [Hz]; 1/rate is a multiple of the step
+  Vector3d gravity{0, 0, -9.81};     ///< [m/s2]
+  bool contact = true;               ///< with the robot's links
+  bool self_contact = true;          ///< of the dresspack with itself
+  bool floor = true;                 ///< contact with the plane z = 0 too
+  double periodic_tolerance = 1e-3;  ///< a motion is repeated until repeats begin this much alike [m]
+  int most_repeats = 8;              ///< of the motion, also when they do not
 };
 
 enum class DeformationMeasure { rotation_vector, thesis };
@@ -239,16 +243,16 @@ enum class Equivalent { axial, shear_included };
 
 struct Probe {
   int segment_from_tool = 1;
-  std::string component;                ///< path of a wire
+  std::string component;  ///< path of a wire
 };
 
 struct Strain {
   DeformationMeasure deformation = DeformationMeasure::rotation_vector;
   Kinematics kinematics = Kinematics::exact;
-  std::vector<Slip> slip{Slip::free};   ///< one for every level, or one per level, outermost first
+  std::vector<Slip> slip{Slip::free};         ///< one for every level, or one per level, outermost first
   Equivalent equivalent = Equivalent::axial;  ///< which strain of a fibre is counted
-  int surface_fibres = 1;               ///< per wire; 0: the wire's axis
-  double gate = 5e-4;                   ///< turning points of a smaller strain range are dropped
+  int surface_fibres = 1;                     ///< per wire; 0: the wire's axis
+  double gate = 5e-4;                         ///< turning points of a smaller strain range are dropped
   std::vector<Probe> probes;
 };
 
@@ -260,17 +264,17 @@ struct Fatigue {
   Stress stress = Stress::cyclic;
   MeanStress mean_stress = MeanStress::swt;
   Counting counting = Counting::repeating;
-  double endurance_strain = 0;          ///< amplitudes up to this do no damage
-  std::string material;                 ///< of every wire instead of its own; empty: its own
-  int listed_sites = 20;                ///< worst sites whose cycles are written
-  double operating_hours_per_week = 80; ///< turns hours into months
-  double scatter_log10 = 0.2;           ///< standard deviation of log10 of a wire's life
-  double failed_wires_percent = 10;     ///< a conductor fails when so many of its wires have
-  bool load_sharing = false;            ///< the rest of a conductor takes over the load of its broken wires
+  double endurance_strain = 0;           ///< amplitudes up to this do no damage
+  std::string material;                  ///< of every wire instead of its own; empty: its own
+  int listed_sites = 20;                 ///< worst sites whose cycles are written
+  double operating_hours_per_week = 80;  ///< turns hours into months
+  double scatter_log10 = 0.2;            ///< standard deviation of log10 of a wire's life
+  double failed_wires_percent = 10;      ///< a conductor fails when so many of its wires have
+  bool load_sharing = false;             ///< the rest of a conductor takes over the load of its broken wires
 };
 
 struct Job {
-  Robot robot;                          ///< no joints with clamp_poses
+  Robot robot;  ///< no joints with clamp_poses
   Motion motion;
   Dresspack dresspack;
   Routing routing;
@@ -280,8 +284,8 @@ struct Job {
   Fatigue fatigue;
 };
 
-/// Reads a job, looks up the catalogue entries that it names, applies `--set key.path=value` in their order, checks
-/// everything that can be checked without running. Errors: InputError.
+/// Reads a job, looks up the catalogue entries that it names, applies `--set key.path=value` in their order,
+/// checks everything that can be checked without running. Errors: InputError.
 Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 
 /// The same for a job that is a tree already: a study's, or the `job` attribute of a file.
@@ -297,16 +301,20 @@ std::string part_text(const Job& job, Part part);
 /// Files beyond the job and the catalogue that dresslife-sim reads.
 std::vector<std::filesystem::path> files_beside(const Job& job);
 
-/// The material that a wire of material `name` has under these settings. Precondition: the job was read above.
+/// The material that a wire of material `name` has under these settings. Precondition: the job was read
+/// above.
 const Material& material_of(const Job& job, const std::string& name);
 
-/// Folders of the catalogue: "robots", "programs", "dresspacks", "materials". A name is looked up beside the file
-/// that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml; the working folder for --set), then in
-/// the same way beside the job (a study or --set may change a job of another place), then in the catalogue that comes
-/// with dresslife (the environment variable DRESSLIFE_CONFIG names another). Errors: InputError with the near names.
-Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at, const Where& job);
+/// Folders of the catalogue: "robots", "programs", "dresspacks", "materials". A name is looked up beside the
+/// file that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml; the working folder for
+/// --set), then in the same way beside the job (a study or --set may change a job of another place), then in
+/// the catalogue that comes with dresslife (the environment variable DRESSLIFE_CONFIG names another). Errors:
+/// InputError with the near names.
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
+                     const Where& job);
 
-/// Sets the value at a key path (`simulation.segments`, `dresspack.components.1.count`); where: who asks for it.
+/// Sets the value at a key path (`simulation.segments`, `dresspack.components.1.count`); where: who asks for
+/// it.
 void set_value(Node& job, const std::string& path, Node value, const Where& where);
 
 /// Sets the value at `key.path=value` in a job's tree; list items count from 1. Errors: InputError.

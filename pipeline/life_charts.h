@@ -21,8 +21,8 @@ struct LifeSummary {
   std::vector<double> damage_rate;     ///< (sample) of the worst segment; empty: no wire was evaluated
   std::vector<std::int32_t> step;      ///< (sample) program line, -1: none
   std::vector<std::string> step_text;  ///< (line)
-  std::vector<double> step_damage;     ///< (line) of the worst wire, per repeat, by the line that closes a cycle
-  std::vector<double> step_opened;     ///< (line) the same by the line that opens it; empty: not told
+  std::vector<double> step_damage;  ///< (line) of the worst wire, per repeat, by the line that closes a cycle
+  std::vector<double> step_opened;  ///< (line) the same by the line that opens it; empty: not told
   std::vector<double> segment_length;  ///< (segment) from the base [m]
   std::vector<double> segment_damage;  ///< (segment) of its worst wire, per repeat
   std::vector<std::string> layer;      ///< (layer) path of a layer of wires
@@ -49,7 +49,8 @@ std::string strain_chart(const LifeSummary& life);
 /// Damage per repeat along the dresspack, base to tool; worst_from_tool is marked, 0: none.
 std::string segment_chart(const LifeSummary& life, int worst_from_tool);
 
-/// Share of the length on which the damage is at least 0.8 of the largest: near 1, the worst segment says little.
+/// Share of the length on which the damage is at least 0.8 of the largest: near 1, the worst segment says
+/// little.
 double nearly_worst_share(const LifeSummary& life);
 
 /// How many cycles of which strain range the worst wire sees in a repeat, and what each range costs.

@@ -37,7 +37,8 @@ class Lock {
     const fs::path file = folder / ".lock";
     descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
     if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
-      throw InputError({folder.string()}, "is in use by another run, or cannot be written", "wait for it, or choose another folder with -o");
+      throw InputError({folder.string()}, "is in use by another run, or cannot be written",
+                       "wait for it, or choose another folder with -o");
   }
   ~Lock() { ::close(descriptor_); }
   Lock(const Lock&) = delete;
@@ -51,25 +52,29 @@ StudyPlaces places_of(const Study& study, const Options& options) {
   return {fs::path(options.out) / study.name, fs::read_symlink("/proc/self/exe").parent_path()};
 }
 
-std::vector<JobResult> results_of(const Study& study, const StudyPlaces& places, const std::map<std::string, std::string>& failures) {
+std::vector<JobResult> results_of(const Study& study, const StudyPlaces& places,
+                                  const std::map<std::string, std::string>& failures) {
   std::vector<JobResult> results;
   for (const StudyJob& job : study.jobs) {
     JobResult result{job.name, places.life(job.name), job.failure};
-    if (const auto failed = failures.find(job.name); failed != failures.end()) result.failure = failed->second;
+    if (const auto failed = failures.find(job.name); failed != failures.end())
+      result.failure = failed->second;
     results.push_back(std::move(result));
   }
   return results;
 }
 
 /// Writes ranking.csv and report.html and prints the table. Returns the number of failed jobs.
-int publish(const Study& study, const StudyPlaces& places, const std::map<std::string, std::string>& failures) {
+int publish(const Study& study, const StudyPlaces& places,
+            const std::map<std::string, std::string>& failures) {
   const std::vector<JobResult> results = results_of(study, places, failures);
   const std::vector<RankingRow> rows = read_ranking(results);
   write_text_if_changed(places.folder / "ranking.csv", ranking_csv(rows));
   write_report(places.folder / "report.html", study.name, rows);
   fmt::print("{}", ranking_table(rows));
   fmt::print("\nReport: {}\n", (places.folder / "report.html").string());
-  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); }));
+  return static_cast<int>(
+      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); }));
 }
 
 /// A study with fewer jobs than cores lets each stage use several.
@@ -91,11 +96,14 @@ int run(const Options& options) {
   });
   progress.clear();
   join_logs(study, places);
-  progress.note(built.executed ? fmt::format("{}: {} stages ran", study.name, built.executed) : fmt::format("{}: nothing to do", study.name));
+  progress.note(built.executed ? fmt::format("{}: {} stages ran", study.name, built.executed)
+                               : fmt::format("{}: nothing to do", study.name));
   const int failed = publish(study, places, built.failures);
   if (failed == 0) return 0;
-  fmt::print(stderr, "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n", options.study, failed,
-             study.jobs.size());
+  fmt::print(
+      stderr,
+      "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",
+      options.study, failed, study.jobs.size());
   return 1;
 }
 
@@ -106,7 +114,8 @@ std::map<std::string, std::string> unfinished_jobs(const Study& study, const Stu
   write_build_graph(study, places);
   const std::vector<std::string> pending = run_build_graph(places, 1, true, {}).pending;
   for (const StudyJob& job : study.jobs)
-    if (std::find(pending.begin(), pending.end(), job.name) != pending.end()) reasons[job.name] = pending_state(job, places);
+    if (std::find(pending.begin(), pending.end(), job.name) != pending.end())
+      reasons[job.name] = pending_state(job, places);
   return reasons;
 }
 
@@ -133,7 +142,8 @@ int report(const Options& options) {
   const Study study = read_study(options.study, options.sets);
   const StudyPlaces places = places_of(study, options);
   if (!fs::is_directory(places.folder))
-    throw InputError({places.folder.string()}, "is not there (the study has not run)", "run it: dresslife run " + options.study);
+    throw InputError({places.folder.string()}, "is not there (the study has not run)",
+                     "run it: dresslife run " + options.study);
   return publish(study, places, unfinished_jobs(study, places)) ? 1 : 0;
 }
 
@@ -149,14 +159,19 @@ int show(const Options& options) {
 
 /// Becomes dresslife-import, which lies beside this program and takes the rest of the command line.
 int import_program(char** arguments) {
-  const std::string program = (fs::read_symlink("/proc/self/exe").parent_path() / "dresslife-import").string();
+  const std::string program =
+      (fs::read_symlink("/proc/self/exe").parent_path() / "dresslife-import").string();
   ::execv(program.c_str(), arguments);
   throw InputError({program}, "cannot be started", "install dresslife's programs into one folder");
 }
 
 void add_common(CLI::App* command, Options& options) {
-  command->add_option("-o,--output", options.out, "folder of the results")->type_name("DIR")->capture_default_str();
-  command->add_option("--set", options.sets, "override a key in every job; may be repeated")->type_name("KEY.PATH=VALUE")->allow_extra_args(false);
+  command->add_option("-o,--output", options.out, "folder of the results")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command->add_option("--set", options.sets, "override a key in every job; may be repeated")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -164,29 +179,44 @@ void add_common(CLI::App* command, Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app(
-      "How long does a robot's dresspack live under its programs, which wire breaks, where, and which motion does it?\n\n"
+      "How long does a robot's dresspack live under its programs, which wire breaks, where, and which motion "
+      "does it?\n\n"
       "Example: dresslife run config/studies/two_robots.yaml",
       "dresslife");
   app.set_version_flag("--version", std::string("dresslife ") + DRESSLIFE_VERSION);
   app.require_subcommand(1);
 
-  CLI::App* run_command = app.add_subcommand("run", "run what is not up to date in a study, then rank and report");
+  CLI::App* run_command =
+      app.add_subcommand("run", "run what is not up to date in a study, then rank and report");
   run_command->add_option("study", options.study, "STUDY.yaml")->required()->type_name("");
-  run_command->add_option("-j,--jobs", options.jobs, "stages at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  run_command->add_option("-j,--jobs", options.jobs, "stages at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   run_command->add_flag("--quiet", options.quiet, "no progress, no notes");
   add_common(run_command, options);
-  CLI::App* status_command = app.add_subcommand("status", "tell which jobs of a study are done, stale, failed or to do");
+  CLI::App* status_command =
+      app.add_subcommand("status", "tell which jobs of a study are done, stale, failed or to do");
   status_command->add_option("study", options.study, "STUDY.yaml")->required()->type_name("");
   add_common(status_command, options);
-  CLI::App* report_command = app.add_subcommand("report", "rank and report what has been computed, without running anything");
+  CLI::App* report_command =
+      app.add_subcommand("report", "rank and report what has been computed, without running anything");
   report_command->add_option("study", options.study, "STUDY.yaml")->required()->type_name("");
   add_common(report_command, options);
-  CLI::App* show_command = app.add_subcommand("show", "print a job with its catalogue entries and defaults written out");
+  CLI::App* show_command =
+      app.add_subcommand("show", "print a job with its catalogue entries and defaults written out");
   show_command->add_option("job", options.study, "JOB.yaml")->required()->type_name("");
-  show_command->add_option("--set", options.sets, "override a key; may be repeated")->type_name("KEY.PATH=VALUE")->allow_extra_args(false);
-  app.add_subcommand("import", "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help");
-  CLI::App* manual_command = app.add_subcommand("manual", "print the reference of all keys or of all files, as Markdown");
-  manual_command->add_option("what", options.what, "keys or files")->required()->check(CLI::IsMember({"keys", "files"}))->type_name("");
+  show_command->add_option("--set", options.sets, "override a key; may be repeated")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_subcommand(
+      "import",
+      "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help");
+  CLI::App* manual_command =
+      app.add_subcommand("manual", "print the reference of all keys or of all files, as Markdown");
+  manual_command->add_option("what", options.what, "keys or files")
+      ->required()
+      ->check(CLI::IsMember({"keys", "files"}))
+      ->type_name("");
 
   if (argc > 1 && std::string_view(argv[1]) == "import")
     return guarded("dresslife", [&] { return import_program(argv + 1); });

@@ -106,7 +106,8 @@ std::string story(const RankingRow& row) {
           ? ""
           : fmt::format("; first break {} .. {} h by scatter", life_text(row.first_wire_hours[0]),
                         life_text(row.first_wire_hours[2]));
-  return fmt::format("{} breaks first, worst at {:.1f} s{}{}", row.worst_component, row.worst_time, during, scatter);
+  return fmt::format("{} breaks first, worst at {:.1f} s{}{}", row.worst_component, row.worst_time, during,
+                     scatter);
 }
 
 std::string one_line(std::string text) {
@@ -139,19 +140,19 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     }
     const bool evaluated = row.worst_segment_from_tool > 0;
     std::vector<std::string> cells{row.job,
-                                            shortest_text(row.life_repeats),
-                                            shortest_text(row.life_hours),
-                                            evaluated ? std::to_string(row.worst_segment_from_tool) : "",
-                                            row.worst_component,
-                                            shortest_text(row.damage_per_repeat),
-                                            shortest_text(row.life_months),
-                                            shortest_text(row.life_repeats_all_stick),
-                                            shortest_text(row.life_repeats_all_free),
-                                            evaluated ? shortest_text(row.worst_position_from_tool) : "",
-                                            evaluated ? shortest_text(row.worst_time) : "",
-                                            row.worst_step,
-                                            "done",
-                                            ""};
+                                   shortest_text(row.life_repeats),
+                                   shortest_text(row.life_hours),
+                                   evaluated ? std::to_string(row.worst_segment_from_tool) : "",
+                                   row.worst_component,
+                                   shortest_text(row.damage_per_repeat),
+                                   shortest_text(row.life_months),
+                                   shortest_text(row.life_repeats_all_stick),
+                                   shortest_text(row.life_repeats_all_free),
+                                   evaluated ? shortest_text(row.worst_position_from_tool) : "",
+                                   evaluated ? shortest_text(row.worst_time) : "",
+                                   row.worst_step,
+                                   "done",
+                                   ""};
     for (const auto* lives : {&row.first_wire_hours, &row.conductor_hours})
       for (const double life : *lives) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);

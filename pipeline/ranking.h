@@ -34,8 +34,8 @@ struct RankingRow {
   std::string worst_component;          ///< path of the wire, outermost part first; empty: none was evaluated
   double worst_time = 0;                ///< when its most damaging cycle closes [s]
   std::string worst_step;               ///< program line being executed then
-  /// Hours of motion by which 10, 50, 90 % of such dresspacks have a broken wire, and a failed conductor; NaN:
-  /// the file does not tell.
+  /// Hours of motion by which 10, 50, 90 % of such dresspacks have a broken wire, and a failed conductor;
+  /// NaN: the file does not tell.
   std::array<double, 3> first_wire_hours{unknown, unknown, unknown};
   std::array<double, 3> conductor_hours{unknown, unknown, unknown};
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -197,7 +197,8 @@ std::string program_table(const LifeSummary& life) {
   if (rows.empty()) return "";
   return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">A cycle of strain counts for the line in "
          "which its range is "
-         "reached; the share of those that open in a line stands beside it.</p>\n<div class=\"wide\"><table>\n<thead><tr><th "
+         "reached; the share of those that open in a line stands beside it.</p>\n<div "
+         "class=\"wide\"><table>\n<thead><tr><th "
          "class=\"number\">line</th><th>program</th>"
          "<th class=\"number\">runs</th><th>costliest at</th><th>share of the damage</th><th "
          "class=\"number\">opened here</th><th class=\"number\">damage per repeat</th></tr>"
@@ -238,8 +239,8 @@ std::string facts(const RankingRow& row) {
                    hours_words(row.hours_of(row.life_repeats_all_free))));
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (!std::isnan(lives[0]))
-      fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks", hours_words(lives[0]),
-                             hours_words(lives[1]), hours_words(lives[2])));
+      fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks",
+                             hours_words(lives[0]), hours_words(lives[1]), hours_words(lives[2])));
   };
   scatter("first broken wire", row.first_wire_hours);
   scatter("first failed conductor", row.conductor_hours);
@@ -294,7 +295,8 @@ std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
   std::error_code ignored;
   if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
-  return under("The moment", "Robot and dresspack when the most damaging cycle closes; the worst segment is marked.",
+  return under("The moment",
+               "Robot and dresspack when the most damaging cycle closes; the worst segment is marked.",
                scene_picture(motion, row.worst_time, row.worst_segment_from_tool));
 }
 

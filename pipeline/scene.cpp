@@ -15,7 +15,7 @@ namespace {
 constexpr double picture_width = 860, margin = 24;  // [px]
 constexpr double most_height = 620;                 // [px]
 constexpr double azimuth = -62, elevation = 16;     // of the viewer, from +x and above the floor [deg]
-constexpr double piece = 0.06;                      // thick parts are cut into pieces to sort them by depth [m]
+constexpr double piece = 0.06;  // thick parts are cut into pieces to sort them by depth [m]
 
 /// A stroke with round ends from one point to another.
 struct Stroke {
@@ -69,14 +69,16 @@ std::vector<Vector3d> hose_points(const FileReader& file, std::size_t sample) {
   file.read_rows("/clamp/position", sample, 1, clamps);
   file.read_rows("/segment/position", sample, 1, centres);
   std::vector<Vector3d> points{Vector3d(clamps[0], clamps[1], clamps[2])};
-  for (std::size_t i = 0; i + 2 < centres.size(); i += 3) points.emplace_back(centres[i], centres[i + 1], centres[i + 2]);
+  for (std::size_t i = 0; i + 2 < centres.size(); i += 3)
+    points.emplace_back(centres[i], centres[i + 1], centres[i + 2]);
   const double* tool = &clamps[clamps.size() - 3];
   points.emplace_back(tool[0], tool[1], tool[2]);
   return points;
 }
 
 /// Segment i reaches half way to its neighbours.
-void add_hose(std::vector<Stroke>& strokes, const std::vector<Vector3d>& points, double radius, int worst_from_tool) {
+void add_hose(std::vector<Stroke>& strokes, const std::vector<Vector3d>& points, double radius,
+              int worst_from_tool) {
   const int segments = static_cast<int>(points.size()) - 2;
   for (int i = 1; i <= segments; ++i) {
     const Vector3d begin = i == 1 ? points[0] : Vector3d((points[i - 1] + points[i]) / 2);
@@ -88,8 +90,11 @@ void add_hose(std::vector<Stroke>& strokes, const std::vector<Vector3d>& points,
 }
 
 std::string stroke_line(const View& view, const Stroke& stroke, const char* style, double wider) {
-  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke-width=\"{:.1f}\"/>\n", style,
-                     view.x(stroke.from), view.y(stroke.from), view.x(stroke.to), view.y(stroke.to), 2 * stroke.radius * view.scale + wider);
+  return fmt::format(
+      "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
+      "stroke-width=\"{:.1f}\"/>\n",
+      style, view.x(stroke.from), view.y(stroke.from), view.x(stroke.to), view.y(stroke.to),
+      2 * stroke.radius * view.scale + wider);
 }
 
 View fit(const std::vector<Stroke>& strokes, double& height) {
@@ -102,7 +107,8 @@ View fit(const std::vector<Stroke>& strokes, double& height) {
       bottom = std::min(bottom, p.dot(view.up) - stroke.radius);
       top = std::max(top, p.dot(view.up) + stroke.radius);
     }
-  view.scale = std::min((picture_width - 2 * margin) / std::max(right - left, 0.1), (most_height - 2 * margin) / std::max(top - bottom, 0.1));
+  view.scale = std::min((picture_width - 2 * margin) / std::max(right - left, 0.1),
+                        (most_height - 2 * margin) / std::max(top - bottom, 0.1));
   view.left = left - ((picture_width - 2 * margin) / view.scale - (right - left)) / 2;
   view.top = top;
   height = view.scale * (top - bottom) + 2 * margin;
@@ -121,9 +127,11 @@ std::size_t sample_at(const FileReader& file, double time) {
 std::string scale_bar(const View& view, double height) {
   const double length = view.scale > 600 ? 0.1 : 1;
   const double y = height - 10;
-  return fmt::format("<line class=\"mark\" x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\" stroke-width=\"2\"/>\n"
-                     "<text class=\"tick\" x=\"{3:.1f}\" y=\"{4:.1f}\">{5}</text>\n",
-                     margin, y, margin + length * view.scale, margin + 4, y - 5, length < 1 ? "100 mm" : "1 m");
+  return fmt::format(
+      "<line class=\"mark\" x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\" "
+      "stroke-width=\"2\"/>\n"
+      "<text class=\"tick\" x=\"{3:.1f}\" y=\"{4:.1f}\">{5}</text>\n",
+      margin, y, margin + length * view.scale, margin + 4, y - 5, length < 1 ? "100 mm" : "1 m");
 }
 
 }  // namespace
@@ -138,15 +146,18 @@ std::string scene_picture(const std::filesystem::path& motion_file, double time,
 
   double height = 0;
   const View view = fit(strokes, height);
-  std::stable_sort(strokes.begin(), strokes.end(),
-                   [&](const Stroke& a, const Stroke& b) { return a.nearness(view.toward_viewer) < b.nearness(view.toward_viewer); });
+  std::stable_sort(strokes.begin(), strokes.end(), [&](const Stroke& a, const Stroke& b) {
+    return a.nearness(view.toward_viewer) < b.nearness(view.toward_viewer);
+  });
   std::string body;
   for (const Stroke& stroke : strokes) {
     if (stroke.style.starts_with("hose")) body += stroke_line(view, stroke, "halo", 3);
     body += stroke_line(view, stroke, stroke.style.c_str(), 0);
   }
-  return fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\"><title>Robot and dresspack at {:.2f} s</title>\n{}{}</svg>\n", picture_width,
-                     height, time, body, scale_bar(view, height));
+  return fmt::format(
+      "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\"><title>Robot and dresspack at {:.2f} "
+      "s</title>\n{}{}</svg>\n",
+      picture_width, height, time, body, scale_bar(view, height));
 }
 
 }  // namespace dresslife::pipeline

@@ -1,5 +1,5 @@
-// A picture of the robot and its dresspack at one moment of a motion file, as inline SVG in the classes of report.cpp:
-// parallel projection from the side, nearer parts over farther ones, the worst segment marked.
+// A picture of the robot and its dresspack at one moment of a motion file, as inline SVG in the classes of
+// report.cpp: parallel projection from the side, nearer parts over farther ones, the worst segment marked.
 #pragma once
 
 #include <filesystem>

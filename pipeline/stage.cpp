@@ -10,9 +10,12 @@ namespace {
 
 const char* part_name(Part part) {
   switch (part) {
-    case Part::sim: return "robot, motion, dresspack, routing or simulation";
-    case Part::strain: return "dresspack.components or strain";
-    case Part::fatigue: return "dresspack.materials or fatigue";
+    case Part::sim:
+      return "robot, motion, dresspack, routing or simulation";
+    case Part::strain:
+      return "dresspack.components or strain";
+    case Part::fatigue:
+      return "dresspack.materials or fatigue";
   }
   return "";
 }
@@ -20,17 +23,20 @@ const char* part_name(Part part) {
 void check_output(const StageCall& call) {
   std::error_code failure;
   if (std::filesystem::is_directory(call.output, failure))
-    throw InputError({call.output.string()}, "is a folder (the output must be a file)", "name a file after -o");
+    throw InputError({call.output.string()}, "is a folder (the output must be a file)",
+                     "name a file after -o");
   if (std::filesystem::equivalent(call.input, call.output, failure))
     throw InputError({call.output.string()}, "is the input itself", "name another output after -o");
   const auto folder = call.output.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder, failure))
-    throw InputError({call.output.string()}, "lies in a folder that does not exist", fmt::format("make {} first", folder.string()));
+    throw InputError({call.output.string()}, "lies in a folder that does not exist",
+                     fmt::format("make {} first", folder.string()));
 }
 
 }  // namespace
 
-int run_stage(const StageInfo& info, int argc, char** argv, const std::function<void(const StageCall&, Progress&)>& body) {
+int run_stage(const StageInfo& info, int argc, char** argv,
+              const std::function<void(const StageCall&, Progress&)>& body) {
   StageCall call;
   call.info = info;
   CLI::App app(info.purpose + "\n\nExample: " + info.example, info.program);
@@ -38,13 +44,17 @@ int run_stage(const StageInfo& info, int argc, char** argv, const std::function<
   app.add_option("input", input, info.input)->required()->type_name("");
   app.add_option("-o,--output", output, "where to write " + info.output)->required()->type_name("FILE");
   if (!info.input_is_job)
-    app.add_option("--job", job_file, "take the settings from this job instead of the one in the input")->type_name("JOB.yaml");
-  app.add_option("--set", call.sets, "override a key of the job, for example simulation.segments=80; may be repeated")
+    app.add_option("--job", job_file, "take the settings from this job instead of the one in the input")
+        ->type_name("JOB.yaml");
+  app.add_option("--set", call.sets,
+                 "override a key of the job, for example simulation.segments=80; may be repeated")
       ->type_name("KEY.PATH=VALUE")
       ->allow_extra_args(false);
   call.options.resize(info.options.size());
   for (std::size_t i = 0; i < info.options.size(); ++i)
-    app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)->type_name(info.options[i].value)->allow_extra_args(false);
+    app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)
+        ->type_name(info.options[i].value)
+        ->allow_extra_args(false);
   app.add_flag("--quiet", call.quiet, "no progress, no notes");
   app.set_version_flag("--version", info.program + " " + DRESSLIFE_VERSION);
   try {
@@ -71,13 +81,17 @@ int guarded(const std::string& program, const std::function<int()>& body) {
     fmt::print(stderr, "{}\n", problem.what());
     return 1;
   } catch (const std::filesystem::filesystem_error& problem) {
-    fmt::print(stderr, "{}: error: {}; check the folder and its permissions\n", problem.path1().string(), problem.code().message());
+    fmt::print(stderr, "{}: error: {}; check the folder and its permissions\n", problem.path1().string(),
+               problem.code().message());
     return 1;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "{}: error: out of memory; run fewer jobs at a time or ask for fewer segments or samples\n", program);
+    fmt::print(stderr,
+               "{}: error: out of memory; run fewer jobs at a time or ask for fewer segments or samples\n",
+               program);
     return 3;
   } catch (const std::exception& problem) {
-    fmt::print(stderr, "{}: error: internal fault ({}); please report it with the job\n", program, problem.what());
+    fmt::print(stderr, "{}: error: internal fault ({}); please report it with the job\n", program,
+               problem.what());
     return 3;
   }
 }
@@ -86,17 +100,21 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
   const std::string own_text = input.text_attribute("job");
   const std::string own_name = input.where().file + " (attribute job)";
   const Job own = job_from(parse_yaml(own_text, own_name));
-  const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets) : read_job(call.job_file, call.sets);
+  const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets)
+                                        : read_job(call.job_file, call.sets);
   for (Part part : before)
     if (part_text(own, part) != part_text(job, part))
-      throw InputError(input.where(), fmt::format("was made with other settings of {} than this job has", part_name(part)),
-                       fmt::format("run the stage before again with the same --job and --set, then {}", call.info.program));
+      throw InputError(input.where(),
+                       fmt::format("was made with other settings of {} than this job has", part_name(part)),
+                       fmt::format("run the stage before again with the same --job and --set, then {}",
+                                   call.info.program));
   return job;
 }
 
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier) {
   // The output's name stays out of the history: the same input gives the same bytes wherever they go.
-  std::string line = fmt::format("{} {}: {} {}", call.info.program, DRESSLIFE_VERSION, call.info.program, call.input.filename().string());
+  std::string line = fmt::format("{} {}: {} {}", call.info.program, DRESSLIFE_VERSION, call.info.program,
+                                 call.input.filename().string());
   if (!call.job_file.empty()) line += " --job " + call.job_file.filename().string();
   for (const std::string& set : call.sets) line += " --set " + set;
   file.attribute("job", job_text(job));

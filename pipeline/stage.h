@@ -1,5 +1,5 @@
-// What every stage's program shares: the command line, exit statuses, where its settings come from and the stamp on
-// its output. A stage's main is a StageInfo and one call of run_stage().
+// What every stage's program shares: the command line, exit statuses, where its settings come from and the
+// stamp on its output. A stage's main is a StageInfo and one call of run_stage().
 //
 // Exit status: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 our fault.
 #pragma once
@@ -23,11 +23,11 @@ struct StageOption {
 };
 
 struct StageInfo {
-  std::string program;  ///< "dresslife-sim"
-  std::string purpose;  ///< one sentence for --help
-  std::string input;    ///< what the positional argument is: "JOB.yaml", "motion.h5"
-  std::string output;   ///< what -o names: "motion.h5"
-  std::string example;  ///< a command that can be typed
+  std::string program;        ///< "dresslife-sim"
+  std::string purpose;        ///< one sentence for --help
+  std::string input;          ///< what the positional argument is: "JOB.yaml", "motion.h5"
+  std::string output;         ///< what -o names: "motion.h5"
+  std::string example;        ///< a command that can be typed
   bool input_is_job = false;  ///< the input is the job itself; other stages take --job
   std::vector<StageOption> options = {};
 };
@@ -42,17 +42,20 @@ struct StageCall {
 };
 
 /// Parses the command line, runs `body`, words what it throws. Returns the exit status.
-int run_stage(const StageInfo& info, int argc, char** argv, const std::function<void(const StageCall&, Progress&)>& body);
+int run_stage(const StageInfo& info, int argc, char** argv,
+              const std::function<void(const StageCall&, Progress&)>& body);
 
-/// Runs `body` and words what it throws on standard error. Returns its value, or the exit status of the failure.
+/// Runs `body` and words what it throws on standard error. Returns its value, or the exit status of the
+/// failure.
 int guarded(const std::string& program, const std::function<int()>& body);
 
 /// The settings of a stage whose input is a file: of --job, else of the file's `job` attribute; then --set.
-/// Errors: InputError also when the job differs from the file's in a part of an earlier stage (`before`), because the
-/// file then does not hold what the job asks for.
+/// Errors: InputError also when the job differs from the file's in a part of an earlier stage (`before`),
+/// because the file then does not hold what the job asks for.
 Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before);
 
-/// Writes the root attributes `job`, `history` and `input_sha256`. earlier: history of the input file, "" for none.
+/// Writes the root attributes `job`, `history` and `input_sha256`. earlier: history of the input file, "" for
+/// none.
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier);
 
 }  // namespace dresslife::pipeline

@@ -51,8 +51,8 @@ std::string_view stem_of_key(std::string_view key) {
 std::string shortest_text(double value) { return fmt::format("{}", value); }
 
 std::string text_in_unit(double si, const Unit& unit) {
-  // A value that came from text is x * to_si for some short x; si / to_si is within an ulp of that x, so one of
-  // the roundings of its neighbours reads back exactly.
+  // A value that came from text is x * to_si for some short x; si / to_si is within an ulp of that x, so one
+  // of the roundings of its neighbours reads back exactly.
   const double near = si / unit.to_si;
   for (int digits = 1; digits <= 17; ++digits)
     for (const double x : {near, std::nextafter(near, INFINITY), std::nextafter(near, -INFINITY)}) {

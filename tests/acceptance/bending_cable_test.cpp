@@ -1,5 +1,5 @@
-// The thesis' bending test (3.4.1, figures 13 to 15), from the job file to the wire: what a cable between two blocks
-// must show when the upper one comes down.
+// The thesis' bending test (3.4.1, figures 13 to 15), from the job file to the wire: what a cable between two
+// blocks must show when the upper one comes down.
 #include <Eigen/Core>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -22,9 +22,9 @@ constexpr double wire_radius = 0.075e-3;
 /// What the stages give for the bending job with some settings.
 struct Bending {
   int worst_from_tool = 0;
-  std::vector<double> curvature, strain;           // of the worst site over time, once the cable has bowed out
-  double direction = 0;                            // of the curvature vector at the end [rad]
-  std::vector<double> helix;                       // of the worst site: R, lay, phase per level
+  std::vector<double> curvature, strain;  // of the worst site over time, once the cable has bowed out
+  double direction = 0;                   // of the curvature vector at the end [rad]
+  std::vector<double> helix;              // of the worst site: R, lay, phase per level
 };
 
 Bending bend(const std::string& settings) {
@@ -74,43 +74,51 @@ Line fit(const std::vector<double>& x, const std::vector<double>& y) {
   return {slope, 1 - (db - slope * da).square().sum() / db.square().sum()};
 }
 
-/// Strain of a wire's axis per unit curvature by the thesis' (14) to (20) at the phases of a site, and its own bend
-/// and twist strain per unit curvature by (21) to (23).
+/// Strain of a wire's axis per unit curvature by the thesis' (14) to (20) at the phases of a site, and its
+/// own bend and twist strain per unit curvature by (21) to (23).
 struct WireShares {
   double stretch, bend, twist;
 };
-WireShares shares_of(double conductor_radius, double conductor_phase, double wire_helix_radius, double wire_phase) {
-  const double sc = std::sin(conductor_lay), cc = std::cos(conductor_lay), sw = std::sin(wire_lay), cw = std::cos(wire_lay);
+WireShares shares_of(double conductor_radius, double conductor_phase, double wire_helix_radius,
+                     double wire_phase) {
+  const double sc = std::sin(conductor_lay), cc = std::cos(conductor_lay), sw = std::sin(wire_lay),
+               cw = std::cos(wire_lay);
   const double conductor = cc * cc * conductor_radius * std::sin(conductor_phase);
-  const double normal = cc * std::cos(conductor_phase), binormal = cc * cc * std::sin(conductor_phase), torsion = sc * cc * std::sin(conductor_phase);
+  const double normal = cc * std::cos(conductor_phase), binormal = cc * cc * std::sin(conductor_phase),
+               torsion = sc * cc * std::sin(conductor_phase);
   const double across = binormal * std::sin(wire_phase) - normal * std::cos(wire_phase);
   return {cw * cw * (conductor + wire_helix_radius * across) + wire_helix_radius * sw * cw * torsion,
-          wire_radius * std::hypot((normal * std::sin(wire_phase) + binormal * std::cos(wire_phase)) * cw, across * cw * cw),
+          wire_radius * std::hypot((normal * std::sin(wire_phase) + binormal * std::cos(wire_phase)) * cw,
+                                   across * cw * cw),
           wire_radius * std::abs(across * sw * cw)};
 }
 
 }  // namespace
 
 TEST_CASE("bending test with the thesis' model") {
-  const Bending bending =
-      bend("--set strain.kinematics=thesis --set strain.deformation=thesis --set strain.slip=stick --set strain.surface_fibres=0");
+  const Bending bending = bend(
+      "--set strain.kinematics=thesis --set strain.deformation=thesis --set strain.slip=stick --set "
+      "strain.surface_fibres=0");
   CHECK(bending.worst_from_tool == middle_from_tool);
   const Line line = fit(bending.curvature, bending.strain);
   CHECK(line.share_explained > 0.999);
 
-  // The largest stretch per curvature over all conductors and wires of the outermost layer, scanned over both phases.
+  // The largest stretch per curvature over all conductors and wires of the outermost layer, scanned over both
+  // phases.
   WireShares worst{0, 0, 0};
   for (int i = 0; i < 720; ++i)
     for (int j = 0; j < 720; ++j) {
-      const WireShares shares = shares_of(2.825e-3, i * std::numbers::pi / 360, 0.75e-3, j * std::numbers::pi / 360);
+      const WireShares shares =
+          shares_of(2.825e-3, i * std::numbers::pi / 360, 0.75e-3, j * std::numbers::pi / 360);
       if (shares.stretch > worst.stretch) worst = shares;
     }
-  // Seven conductors leave up to half of 360/7 degrees between the worst phase and the nearest conductor: the slope
-  // lies between cos(26 degrees) = 0.9 of the radius of the construction and that radius.
+  // Seven conductors leave up to half of 360/7 degrees between the worst phase and the nearest conductor: the
+  // slope lies between cos(26 degrees) = 0.9 of the radius of the construction and that radius.
   const double effective_radius = std::abs(line.slope);
   CHECK(effective_radius <= worst.stretch * 1.001);
   CHECK(effective_radius >= worst.stretch * std::cos(std::numbers::pi / 7));
-  CHECK(youngs_modulus * effective_radius * 0.25 == Approx(youngs_modulus * worst.stretch * 0.25).epsilon(0.1));
+  CHECK(youngs_modulus * effective_radius * 0.25 ==
+        Approx(youngs_modulus * worst.stretch * 0.25).epsilon(0.1));
 
   // Figure 14: the wire's stretch is far above its own bend and twist.
   CHECK(worst.stretch > 20 * worst.bend);
@@ -123,8 +131,9 @@ TEST_CASE("bending test with our model") {
   const Line glued = fit(stick.curvature, stick.strain);
   CHECK(glued.share_explained > 0.999);
 
-  // Slipping freely, what is left is the bend of the wire itself: the strain falls by more than the ratio of the
-  // conductor's helix radius to the wire's own radius would need, 2.8 mm to 0.075 mm, allowing for the change of lay.
+  // Slipping freely, what is left is the bend of the wire itself: the strain falls by more than the ratio of
+  // the conductor's helix radius to the wire's own radius would need, 2.8 mm to 0.075 mm, allowing for the
+  // change of lay.
   const Bending free = bend("");
   const Line slipping = fit(free.curvature, free.strain);
   CHECK(slipping.share_explained > 0.999);

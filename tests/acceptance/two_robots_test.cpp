@@ -1,4 +1,5 @@
-// The two welding robots, from the study files to the ranking: what the 2018 thesis found and what must hold of it.
+// The two welding robots, from the study files to the ranking: what the 2018 thesis found and what must hold
+// of it.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -30,7 +31,8 @@ std::map<std::string, Row> ranking(const fs::path& file) {
 }
 
 /// Runs a study of config/studies, or one written in the test.
-std::map<std::string, Row> run_study(const Scratch& scratch, const std::string& file, const std::string& name) {
+std::map<std::string, Row> run_study(const Scratch& scratch, const std::string& file,
+                                     const std::string& name) {
   const Outcome outcome = run(scratch, "dresslife", "run '" + file + "'");
   INFO(outcome.err);
   INFO(outcome.out);
@@ -43,7 +45,8 @@ constexpr double free_third = 0.7;  // a third of the dresspack's free length, f
 
 }  // namespace
 
-TEST_CASE("two robots, shipped study: robot 1 wears its dresspack out before robot 2, near the robot's head") {
+TEST_CASE(
+    "two robots, shipped study: robot 1 wears its dresspack out before robot 2, near the robot's head") {
   Scratch scratch;
   auto rows = run_study(scratch, config + "studies/two_robots.yaml", "two_robots");
   REQUIRE(rows.size() == 4);
@@ -57,11 +60,14 @@ TEST_CASE("two robots, shipped study: robot 1 wears its dresspack out before rob
   CHECK(again.err.find("nothing to do") != std::string::npos);
 }
 
-TEST_CASE("two robots with the thesis' settings: hours, robot 1 worse, aluminium worse than copper in the same place") {
+TEST_CASE(
+    "two robots with the thesis' settings: hours, robot 1 worse, aluminium worse than copper in the same "
+    "place") {
   Scratch scratch;
   auto rows = run_study(scratch, config + "studies/two_robots_thesis.yaml", "two_robots_thesis");
   const Row copper_1 = rows["thesis-spot_robot_1-copper"], copper_2 = rows["thesis-spot_robot_2-copper"];
-  const Row aluminium_1 = rows["thesis-spot_robot_1-aluminium_7070_t6"], aluminium_2 = rows["thesis-spot_robot_2-aluminium_7070_t6"];
+  const Row aluminium_1 = rows["thesis-spot_robot_1-aluminium_7070_t6"],
+            aluminium_2 = rows["thesis-spot_robot_2-aluminium_7070_t6"];
   CHECK(copper_1.hours < copper_2.hours);
   CHECK(aluminium_1.hours < aluminium_2.hours);
   for (const Row& copper : {copper_1, copper_2}) {
@@ -78,7 +84,8 @@ TEST_CASE("two robots with the thesis' settings: hours, robot 1 worse, aluminium
 TEST_CASE("the life of robot 1 is converged in segments and time step") {
   constexpr double most_change = 0.1;  // the issue's limit; a fatigue exponent near 9 makes it 1 % in strain
   Scratch scratch;
-  const fs::path study = scratch.write("convergence.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml
+  const fs::path study =
+      scratch.write("convergence.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml
 jobs:
   shipped: {motion: spot_robot_1}
   twice_the_segments: {motion: spot_robot_1, simulation.segments: 100}

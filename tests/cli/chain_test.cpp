@@ -75,6 +75,7 @@ TEST_CASE("a stage refuses settings that its input was not made with") {
   REQUIRE(sim(scratch).status == 0);
   const Outcome outcome = strain(scratch, "--set simulation.segments=9");
   CHECK(outcome.status == 1);
-  CHECK(outcome.err.find("motion.h5: error: was made with other settings of robot, motion, dresspack, routing or simulation") == 0);
+  CHECK(outcome.err.find("motion.h5: error: was made with other settings of robot, motion, dresspack, "
+                         "routing or simulation") == 0);
   CHECK_FALSE(fs::exists(scratch / "strain.h5"));
 }

@@ -9,7 +9,8 @@ using namespace dresslife::tests;
 TEST_CASE("the key and file references in the READMEs are fresh") {
   Scratch scratch;
   const std::string marker = "<!-- generated below this line by scripts/manual: do not edit -->\n";
-  for (const auto& [page, what] : {std::pair{"config/README.md", "keys"}, std::pair{"pipeline/README.md", "files"}}) {
+  for (const auto& [page, what] :
+       {std::pair{"config/README.md", "keys"}, std::pair{"pipeline/README.md", "files"}}) {
     const std::string text = content(fs::path(DRESSLIFE_SOURCE_DIR) / page);
     const std::size_t at = text.find(marker);
     REQUIRE(at != std::string::npos);

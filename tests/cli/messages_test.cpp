@@ -1,5 +1,5 @@
-// What a user can do wrong at the command line: one line with place, reason and remedy, exit status 1, nothing left
-// behind. (Every message of the job reader is checked in tests/pipeline.)
+// What a user can do wrong at the command line: one line with place, reason and remedy, exit status 1,
+// nothing left behind. (Every message of the job reader is checked in tests/pipeline.)
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,7 +10,8 @@ using namespace dresslife::tests;
 
 namespace {
 
-void check_refused(const Scratch& scratch, const Outcome& outcome, const std::string& words, const std::string& output) {
+void check_refused(const Scratch& scratch, const Outcome& outcome, const std::string& words,
+                   const std::string& output) {
   INFO(outcome.err);
   CHECK(outcome.status == 1);
   CHECK(outcome.out.empty());
@@ -37,15 +38,22 @@ TEST_CASE("dresslife-sim refuses a job with one line that names the place") {
     std::string from, to, words;
   };
   const Case cases[] = {
-      {"free_length_m: 0.9", "free_length_mm: 900", "job.yaml:20:3: error: unknown key 'routing.free_length_mm'; its unit is m, write 'free_length_m'"},
-      {"free_length_m: 0.9", "free_length_m: 0.9 m", "job.yaml:20:18: error: routing.free_length_m is '0.9 m' (must be a number"},
-      {"free_length_m: 0.9", "free_length_m: .nan", "job.yaml:20:18: error: routing.free_length_m is .nan (must be finite)"},
-      {"free_length_m: 0.9", "free_length_m: -1", "job.yaml:20:18: error: routing.free_length_m is -1 (must be > 0 m)"},
-      {"free_length_m: 0.9", "free_length_m: 0.9\n  free_length_m: 1", "job.yaml:21:3: error: duplicate key 'free_length_m'"},
+      {"free_length_m: 0.9", "free_length_mm: 900",
+       "job.yaml:20:3: error: unknown key 'routing.free_length_mm'; its unit is m, write 'free_length_m'"},
+      {"free_length_m: 0.9", "free_length_m: 0.9 m",
+       "job.yaml:20:18: error: routing.free_length_m is '0.9 m' (must be a number"},
+      {"free_length_m: 0.9", "free_length_m: .nan",
+       "job.yaml:20:18: error: routing.free_length_m is .nan (must be finite)"},
+      {"free_length_m: 0.9", "free_length_m: -1",
+       "job.yaml:20:18: error: routing.free_length_m is -1 (must be > 0 m)"},
+      {"free_length_m: 0.9", "free_length_m: 0.9\n  free_length_m: 1",
+       "job.yaml:21:3: error: duplicate key 'free_length_m'"},
       {"routing:\n  free_length_m: 0.9\n", "", "job.yaml:1:1: error: routing is missing"},
-      {"segments: 12", "segmets: 12", "job.yaml:22:3: error: unknown key 'simulation.segmets'; did you mean 'segments'?"},
+      {"segments: 12", "segmets: 12",
+       "job.yaml:22:3: error: unknown key 'simulation.segmets'; did you mean 'segments'?"},
       {"segments: 12", "segments: 2", "job.yaml:22:13: error: simulation.segments is 2 (must be 4 .. 2000)"},
-      {"sample_rate_Hz: 50", "sample_rate_Hz: 60", "job.yaml:22:3: error: simulation.sample_rate_Hz 60 leaves 3.33333 steps of 5 ms"},
+      {"sample_rate_Hz: 50", "sample_rate_Hz: 60",
+       "job.yaml:22:3: error: simulation.sample_rate_Hz 60 leaves 3.33333 steps of 5 ms"},
       {"material: copper", "material: coper", "job.yaml:18:99: error: 'coper' is not in the catalogue"},
       {"clamp_poses: poses.csv", "clamp_poses: none.csv", ""},
       {"motion: {", "motion: {{", "job.yaml:1:"},
@@ -59,16 +67,20 @@ TEST_CASE("dresslife-sim refuses a job with one line that names the place") {
 
 TEST_CASE("dresslife-sim refuses what is not there") {
   Scratch scratch;
-  check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o motion.h5"), "job.yaml: error: cannot be read (No such file or directory)", "motion.h5");
+  check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o motion.h5"),
+                "job.yaml: error: cannot be read (No such file or directory)", "motion.h5");
   write_small_job(scratch);
-  check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o none/motion.h5"), "none/motion.h5: error: lies in a folder that does not exist", "none/motion.h5");
-  check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --set segments"), "--set segments: error: is not key.path=value", "motion.h5");
+  check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o none/motion.h5"),
+                "none/motion.h5: error: lies in a folder that does not exist", "none/motion.h5");
+  check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --set segments"),
+                "--set segments: error: is not key.path=value", "motion.h5");
 }
 
 TEST_CASE("dresslife-sim says when, in which step and by how much a dresspack is too short") {
   Scratch scratch;
   write_small_job(scratch);
-  scratch.write("job.yaml", replaced(content(scratch / "job.yaml"), "free_length_m: 0.9", "free_length_m: 0.75"));
+  scratch.write("job.yaml",
+                replaced(content(scratch / "job.yaml"), "free_length_m: 0.9", "free_length_m: 0.75"));
   const Outcome outcome = run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
   check_refused(scratch, outcome, "job.yaml:", "motion.h5");
   CHECK(outcome.err.find("too short") != std::string::npos);
@@ -82,11 +94,17 @@ TEST_CASE("the later stages refuse files that are not theirs, cut off or damaged
   const std::string whole = content(scratch / "motion.h5");
 
   scratch.write("cut.h5", whole.substr(0, whole.size() / 2));
-  check_refused(scratch, run(scratch, "dresslife-strain", "cut.h5 -o strain.h5"), "cut.h5: error: is not an HDF5 file, or is cut off; make the file anew with dresslife-sim", "strain.h5");
+  check_refused(scratch, run(scratch, "dresslife-strain", "cut.h5 -o strain.h5"),
+                "cut.h5: error: is not an HDF5 file, or is cut off; make the file anew with dresslife-sim",
+                "strain.h5");
   scratch.write("text.h5", "no HDF5 at all\n");
-  check_refused(scratch, run(scratch, "dresslife-strain", "text.h5 -o strain.h5"), "text.h5: error: is not an HDF5 file", "strain.h5");
-  check_refused(scratch, run(scratch, "dresslife-fatigue", "motion.h5 -o life.h5"), "motion.h5: error: holds 'dresslife-motion' ('dresslife-strain' is expected)", "life.h5");
-  check_refused(scratch, run(scratch, "dresslife-strain", "none.h5 -o strain.h5"), "none.h5: error: is not there", "strain.h5");
-  check_refused(scratch, run(scratch, "dresslife-strain", "motion.h5 -o motion.h5"), "motion.h5: error: is the input itself", "strain.h5");
+  check_refused(scratch, run(scratch, "dresslife-strain", "text.h5 -o strain.h5"),
+                "text.h5: error: is not an HDF5 file", "strain.h5");
+  check_refused(scratch, run(scratch, "dresslife-fatigue", "motion.h5 -o life.h5"),
+                "motion.h5: error: holds 'dresslife-motion' ('dresslife-strain' is expected)", "life.h5");
+  check_refused(scratch, run(scratch, "dresslife-strain", "none.h5 -o strain.h5"),
+                "none.h5: error: is not there", "strain.h5");
+  check_refused(scratch, run(scratch, "dresslife-strain", "motion.h5 -o motion.h5"),
+                "motion.h5: error: is the input itself", "strain.h5");
   CHECK(content(scratch / "motion.h5") == whole);
 }

@@ -56,13 +56,15 @@ inline std::string content(const fs::path& file) {
 /// Runs `program arguments` from our build in the scratch folder. Arguments are shell words.
 inline Outcome run(const Scratch& scratch, const std::string& program, const std::string& arguments) {
   const fs::path out = scratch / ".out", err = scratch / ".err";
-  const std::string command = "cd '" + scratch.folder().string() + "' && '" DRESSLIFE_BIN_DIR "/" + program + "' " + arguments + " >'" + out.string() +
-                              "' 2>'" + err.string() + "' </dev/null";
+  const std::string command = "cd '" + scratch.folder().string() + "' && '" DRESSLIFE_BIN_DIR "/" + program +
+                              "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() +
+                              "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
 
-/// A quick job without a robot: a short cable between two clamps, one of which swings to and fro for a second.
+/// A quick job without a robot: a short cable between two clamps, one of which swings to and fro for a
+/// second.
 inline void write_small_job(const Scratch& scratch) {
   std::ostringstream poses;
   for (int i = 0; i <= 20; ++i) {

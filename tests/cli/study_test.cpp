@@ -31,7 +31,9 @@ TEST_CASE("a study runs every job, and again only what changed") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);
-  auto run_study = [&](const std::string& more = "") { return run(scratch, "dresslife", "run study.yaml " + more); };
+  auto run_study = [&](const std::string& more = "") {
+    return run(scratch, "dresslife", "run study.yaml " + more);
+  };
 
   const Outcome first = run_study();
   INFO(first.err << first.out);
@@ -40,14 +42,18 @@ TEST_CASE("a study runs every job, and again only what changed") {
   for (const std::string job : {"bending_stiffness_Nm2=2", "bending_stiffness_Nm2=3"})
     for (const std::string file : {"job.yaml", "motion.h5", "strain.h5", "life.h5", "log"})
       CHECK(fs::exists(scratch / ("runs/study/" + job + "/" + file)));
-  for (const std::string file : {"ranking.csv", "report.html", "build.ninja"}) CHECK(fs::exists(scratch / ("runs/study/" + file)));
-  CHECK(content(scratch / "runs/study/ranking.csv").rfind("job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat", 0) == 0);
+  for (const std::string file : {"ranking.csv", "report.html", "build.ninja"})
+    CHECK(fs::exists(scratch / ("runs/study/" + file)));
+  CHECK(content(scratch / "runs/study/ranking.csv")
+            .rfind("job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat",
+                   0) == 0);
   CHECK(first.out.find("runs/study/report.html") != std::string::npos);
   // The picture of the worst moment: every segment once, in two halves, one of them marked.
   const std::string report = content(scratch / "runs/study/report.html");
   const auto count = [&](const std::string& words) {
     int found = 0;
-    for (std::size_t at = report.find(words); at != std::string::npos; at = report.find(words, at + 1)) ++found;
+    for (std::size_t at = report.find(words); at != std::string::npos; at = report.find(words, at + 1))
+      ++found;
     return found;
   };
   CHECK(count("<line class=\"hose-hot\"") == 2 * 2);
@@ -146,7 +152,9 @@ TEST_CASE("a study that cannot be read is refused with its place") {
     CHECK(outcome.err.find(words) == 0);
   };
   refused("vary: {motion: [a]}\n", "study.yaml:1:1: error: base is missing");
-  refused("base: job.yaml\nvery: {}\n", "study.yaml:2:1: error: unknown key 'very' of a study; did you mean 'vary'?");
-  refused("base: job.yaml\nvary: {simulation.segments: 8}\n", "study.yaml:2:29: error: vary.simulation.segments must be a list of values");
+  refused("base: job.yaml\nvery: {}\n",
+          "study.yaml:2:1: error: unknown key 'very' of a study; did you mean 'vary'?");
+  refused("base: job.yaml\nvary: {simulation.segments: 8}\n",
+          "study.yaml:2:29: error: vary.simulation.segments must be a list of values");
   refused("base: none.yaml\n", "none.yaml: error: cannot be read");
 }
