@@ -1,5 +1,6 @@
 #include "strain/chain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,6 +45,9 @@ BundleChain chain_to(const Construction& construction, const std::vector<LayerSl
   for (const Fibre& fibre : fibres)
     if (!fibre.on_axis && std::abs(fibre.phi_sine) > 1e-12) chain.order = 1;
   const Rod<double> dresspack = dresspack_at_rest();
+  const bool any_turned = std::any_of(plan.begin(), plan.end(), [](const LayerSlip& slip) {
+    return slip.sliding == Sliding::along_ancestor;
+  });
   for (const int level_part : construction.ancestry(part)) {
     const Part& of = construction.parts()[level_part];
     ChainStep step;
@@ -51,7 +55,7 @@ BundleChain chain_to(const Construction& construction, const std::vector<LayerSl
     step.rest = child(rest_at_end(chain, dresspack), step.place);
     step.slide = sliding_numbers(plan[of.layer], chain, dresspack, step.place);
     const bool turns = helical(construction.layers()[of.layer]);
-    for (int turn = 0; turn < phases_per_pitch; ++turn) {
+    for (int turn = 0; any_turned && turn < phases_per_pitch; ++turn) {
       const double angle = turns ? 2 * pi * turn / phases_per_pitch : 0;
       step.turned[turn] = construction.placement(of.layer, of.number, of.parent, arc, angle);
       step.turned_rest[turn] = child(rest_at_end(chain, dresspack, turns ? -1 : turn), step.turned[turn]);

@@ -12,7 +12,7 @@ ClampMeans::ClampMeans(const Construction& construction, std::vector<LayerSlip> 
       plan_(std::move(plan)),
       lengths_(std::move(lengths)),
       arcs_(std::move(arcs)),
-      stride_(padded(samples) + pack_size) {  // a block may end with a partly filled pack
+      stride_(padded(samples) + padding) {  // a block may end within a pack
   list_group(dresspack_itself);
   for (std::size_t part = 0; part < construction_.parts().size(); ++part) list_group(static_cast<int>(part));
 }
@@ -106,7 +106,7 @@ std::vector<double> ClampMeans::at_angle(int part, int layer, double turn) const
 ClampMeans ClampMeans::thinned(std::size_t every) const {
   ClampMeans thin = *this;
   thin.groups_.clear();
-  thin.stride_ = padded((next_ + every - 1) / every) + pack_size;
+  thin.stride_ = padded((next_ + every - 1) / every) + padding;
   for (std::vector<double>& row : thin.strain_) {
     for (std::size_t k = 0; k * every < next_; ++k) row[k] = row[k * every];
     row.resize(thin.stride_);

@@ -9,13 +9,15 @@
 #include <set>
 
 #include "pipeline/errors.h"
+#include "pipeline/threads.h"
 
 namespace dresslife::strain {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::size_t block_samples = 256;    // waves of five layers: 26 kB, within the first-level cache
 constexpr std::size_t thinned_samples = 256;  // at least so many of them pick the wires of the bounds
+// Of all bundles that a thread takes in a row: enough to be worth a thread, few enough to hold their results.
+constexpr std::size_t samples_at_a_time = 1 << 16;
 
 std::vector<double> centres(const std::vector<double>& lengths) {
   std::vector<double> arcs;
@@ -29,19 +31,6 @@ std::vector<double> centres(const std::vector<double>& lengths) {
 
 double total(const std::vector<double>& lengths) {
   return std::accumulate(lengths.begin(), lengths.end(), 0.0);
-}
-
-/// Share of node `node` in the value at one angle of the waves through a layer's nodes: Dirichlet's kernel.
-double nodal_share(double angle, int node) {
-  const double away = angle - 2 * pi * node / waves_per_layer;
-  return (1 + 2 * std::cos(away) + 2 * std::cos(2 * away)) / waves_per_layer;
-}
-
-/// Shear (fibre null) or bending of the undeformed wire, as the ingredients hold them.
-double rest_ingredient(const WireNode& node, const Fibre* fibre) {
-  if (fibre == nullptr) return node.strain_factor * node.shear_radius / std::numbers::sqrt3 * node.rest.twist;
-  if (fibre->on_axis) return 0;
-  return fibre_strain(node.rest.bend1, node.rest.bend2, node.wire_radius, fibre->phi_sine, fibre->phi_cosine);
 }
 
 }  // namespace
@@ -58,16 +47,15 @@ void SiteRows::clear() {
 }
 
 Evaluation::Evaluation(const Construction& construction, const pipeline::Strain& settings,
-                       std::vector<double> lengths, std::size_t samples)
+                       std::vector<double> lengths, std::size_t samples, std::size_t threads)
     : construction_(construction),
       lengths_(std::move(lengths)),
       arcs_(centres(lengths_)),
       samples_(samples),
       fibres_(strain::surface_fibres(settings.surface_fibres)),
       surface_fibres_(settings.surface_fibres),
-      fibre_count_(static_cast<int>(fibres_.size())),
-      gate_(static_cast<float>(settings.gate)),
-      with_shear_(settings.equivalent == pipeline::Equivalent::shear_included),
+      scan_{static_cast<int>(fibres_.size()), static_cast<float>(settings.gate),
+            settings.equivalent == pipeline::Equivalent::shear_included, settings.surface_fibres == 0},
       means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
       stick_{{construction, plan_slip(construction, {pipeline::Slip::stick}, total(lengths_)), lengths_,
               arcs_, samples},
@@ -75,6 +63,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       free_{{construction, plan_slip(construction, {pipeline::Slip::free}, total(lengths_)), lengths_, arcs_,
              samples},
             {}} {
+  for (std::size_t k = 0; k < threads; ++k) workers_.push_back({{construction, scan_}, {}, dresspack_itself});
   for (std::size_t b = 0; b < construction.bundles().size(); ++b) {
     const Bundle& bundle = construction.bundles()[b];
     first_wire_.push_back(wires_.size());
@@ -133,8 +122,8 @@ void Evaluation::add(const DeformationHistory& block) {
 }
 
 bool Evaluation::mixed(const ClampMeans& means) const {
-  return with_shear_ || std::any_of(means.plan().begin(), means.plan().end(),
-                                    [](const LayerSlip& slip) { return slip.friction; });
+  return scan_.with_shear || std::any_of(means.plan().begin(), means.plan().end(),
+                                         [](const LayerSlip& slip) { return slip.friction; });
 }
 
 BundleChain Evaluation::part_chain(int part, std::size_t segment, const ClampMeans& means,
@@ -159,105 +148,61 @@ BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment,
   return chain;
 }
 
-/// Up to sixteen wires of one layer. Their turning points fibre by fibre.
-struct Evaluation::Group {
-  std::size_t layer;  ///< in the bundle
-  std::size_t first_wire;
-  MixedLanes mixed;
-  std::vector<LaneScan> scans;                    ///< (fibre)
-  std::vector<std::vector<TurningList>> turning;  ///< (fibre, wire)
-};
-
-MixedLanes Evaluation::mixed_lanes(const BundleChain& chain, std::size_t layer_in_bundle,
-                                   const LayerSlip& slip, const std::vector<double>& angles) const {
-  MixedLanes mixed;
-  constexpr float glued = std::numeric_limits<float>::infinity();
-  mixed.cap = slip.sliding == Sliding::glued ? glued : static_cast<float>(slip.cap.constant);
-  mixed.cap_per_mean = static_cast<float>(slip.cap.per_mean);
-  mixed.scales = construction_.kinematics() == pipeline::Kinematics::exact;
-  mixed.with_shear = with_shear_;
-  mixed.on_axis = surface_fibres_ == 0;
-  mixed.rest.resize(1 + fibre_count_);
-  const WireNode* nodes = chain.nodes.data() + layer_in_bundle * waves_per_layer;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const double angle = angles[lane < static_cast<int>(angles.size()) ? lane : 0];
-    mixed.slip[lane] = 0;
-    mixed.shape[0][lane] = static_cast<float>(std::sin(angle));
-    mixed.shape[1][lane] = static_cast<float>(std::cos(angle));
-    mixed.shape[2][lane] = static_cast<float>(std::sin(2 * angle));
-    mixed.shape[3][lane] = static_cast<float>(std::cos(2 * angle));
-    for (int kind = 0; kind <= fibre_count_; ++kind) {
-      double rest = 0;
-      for (int node = 0; node < waves_per_layer; ++node)
-        rest +=
-            nodal_share(angle, node) * rest_ingredient(nodes[node], kind == 0 ? nullptr : &fibres_[kind - 1]);
-      mixed.rest[kind][lane] = static_cast<float>(rest);
-    }
-  }
-  return mixed;
+/// Whether every part that is moved on along its pitch in this chain lies in the chain's last part's parent
+/// or below.
+bool parent_suffices(const BundleChain& chain) {
+  const int steps = static_cast<int>(chain.steps.size());
+  auto reaches_above = [&](const SlidingNumbers& slide) {
+    return slide.sliding == Sliding::along_ancestor && slide.helical_level < steps;
+  };
+  return steps > 0 && !reaches_above(chain.steps.back().slide) &&
+         std::none_of(chain.nodes.begin(), chain.nodes.end(),
+                      [&](const WireNode& node) { return reaches_above(node.slide); });
 }
 
-void Evaluation::run_blocks(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples,
-                            bool is_mixed, bool keep, std::vector<Group>& groups) const {
-  const std::size_t layers = chain.nodes.size() / waves_per_layer;
-  const int kinds = is_mixed ? ingredients(fibre_count_) : fibre_count_;
-  std::vector<float> waves(layers * kinds * waves_per_layer * block_samples);
-  std::vector<float> strains(is_mixed ? fibre_count_ * block_samples * lanes : 0);
-  for (std::size_t first = 0; first < samples; first += block_samples) {
-    const std::size_t count = std::min(block_samples, samples - first);
-    const auto fill = is_mixed ? kernels().ingredient_waves : kernels().layer_waves;
-    fill(pointers(chain), columns, first, count, waves.data(), block_samples);
-    for (Group& group : groups) {
-      const float* of_layer = waves.data() + group.layer * kinds * waves_per_layer * block_samples;
-      if (is_mixed) kernels().mix(group.mixed, of_layer, block_samples, count, fibre_count_, strains.data());
-      for (int f = 0; keep && f < fibre_count_; ++f) {
-        if (is_mixed) {
-          group.scans[f].scan_strains(strains.data() + f * count * lanes, count, group.turning[f]);
-          continue;
-        }
-        Waves of;
-        for (int w = 0; w < waves_per_layer; ++w)
-          of.at[w] = of_layer + (f * waves_per_layer + w) * block_samples;
-        group.scans[f].scan(of, count, group.turning[f]);
-      }
-    }
-  }
-}
-
-void Evaluation::scan_bundle(
-    std::size_t b, std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
-    std::size_t row, float gate,
-    const std::function<void(Site, const Extremes&, const TurningList&)>& found) const {
+void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMeans& means,
+                             const DeformationHistory& history, std::size_t row, bool with_rows,
+                             Worker& worker, BundleSites& out) const {
   const Bundle& bundle = construction_.bundles()[b];
   const BundleChain chain = layer_chain(bundle, segment, means);
-  const bool is_mixed = mixed(means);
-  std::vector<Group> groups;
-  std::size_t wire = first_wire_[b];
-  bool settles = false;
-  for (std::size_t k = 0; k < bundle.wire_layers.size(); ++k) {
-    const int count = construction_.layers()[bundle.wire_layers[k]].count;
-    const LayerSlip& slip = means.plan()[bundle.wire_layers[k]];
-    settles = settles || slip.friction;
-    for (int first = 0; first < count; first += lanes) {
-      std::vector<double> angles;
-      for (int j = first; j < std::min(count, first + lanes); ++j) angles.push_back(2 * pi * j / count);
-      Group& group = groups.emplace_back(Group{k, wire + first, {}, {}, {}});
-      if (is_mixed) group.mixed = mixed_lanes(chain, k, slip, angles);
-      for (int f = 0; f < fibre_count_; ++f) {
-        group.scans.emplace_back(angles, gate);
-        group.turning.emplace_back(angles.size());
-      }
+  BundlePointers from = pointers(chain);
+  const int parent =
+      bundle.part == dresspack_itself ? dresspack_itself : construction_.parts()[bundle.part].parent;
+  if (parent != dresspack_itself && parent_suffices(chain)) {
+    if (parent != worker.parent_part) {
+      BundleChain to_parent = part_chain(parent, segment, means, fibres_);
+      to_parent.order = chain.order + 1;
+      worker.parent.fill(to_parent, history.columns(row), history.samples());
+      worker.parent_part = parent;
     }
-    wire += count;
+    from.parent = worker.parent.rows();
+    from.parent_stride = worker.parent.stride();
   }
-  if (settles) run_blocks(chain, history.columns(row), history.samples(), is_mixed, false, groups);
-  run_blocks(chain, history.columns(row), history.samples(), is_mixed, true, groups);
-  for (Group& group : groups) {
-    for (int f = 0; f < fibre_count_; ++f) group.scans[f].finish(group.turning[f]);
-    for (int lane = 0; lane < group.scans[0].wires(); ++lane)
-      for (int f = 0; f < fibre_count_; ++f)
-        found({group.first_wire + lane, f}, {group.scans[f].lowest(lane), group.scans[f].highest(lane)},
-              group.turning[f][lane]);
+  worker.scan.run(bundle, means.plan(), from, mixed(means), history.columns(row), history.samples());
+  out.rows.clear();
+  out.seen.clear();
+  const std::vector<double> helix = with_rows ? helix_of(bundle.part, segment) : std::vector<double>{};
+  worker.scan.for_each_site([&](std::size_t wire, int fibre, std::span<const TurningPoint> points) {
+    const Site site{first_wire_[b] + wire, fibre};
+    if (with_rows) append_site(out.rows, site, segment, helix);
+    out.seen.push_back(measured(site, append_points(out.rows, points)));
+  });
+}
+
+void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
+                              std::size_t row, bool with_rows,
+                              const std::function<void(const BundleSites&)>& use) {
+  const std::size_t bundles = construction_.bundles().size(), threads = workers_.size();
+  const std::size_t each = threads == 1 ? 1 : std::max<std::size_t>(1, samples_at_a_time / history.samples());
+  for (Worker& worker : workers_) worker.parent_part = dresspack_itself;
+  std::vector<BundleSites> found(std::min(bundles, threads * each));
+  for (std::size_t first = 0; first < bundles; first += found.size()) {
+    const std::size_t end = std::min(bundles, first + found.size());
+    pipeline::in_parallel(threads, [&](std::size_t part) {
+      for (std::size_t b = first + part * each; b < std::min(end, first + (part + 1) * each); ++b)
+        scan_bundle(b, segment, means, history, row, with_rows, workers_[part], found[b - first]);
+    });
+    for (std::size_t b = first; b < end; ++b) use(found[b - first]);
   }
 }
 
@@ -301,95 +246,121 @@ std::vector<double> Evaluation::mixed_history(const BundleChain& chain, const La
       const double axial = mean + slider.next(away, cap);
       const double scale = scales ? (1 + axial) / (1 + mean + away) : 1;
       strain[t] = axial + (fibre.on_axis ? 0 : rows[first_bending * stride + t] * scale - rest_bending);
-      if (!with_shear_) continue;
+      if (!scan_.with_shear) continue;
       const double torsion = rows[shear * stride + t] * scale - rest_shear;
       strain[t] = std::copysign(std::hypot(strain[t], torsion), strain[t]);
     }
   return strain;
 }
 
-void Evaluation::append(SiteRows& rows, Site site, std::size_t segment, const TurningList& turning) const {
+/// Radius, lay angle and phase of every level down to `part`; wires' own level and those below are 0.
+std::vector<double> Evaluation::helix_of(int part, std::size_t segment) const {
+  std::vector<double> helix(3 * construction_.levels(), 0.0);
+  for (int inner = part; inner != dresspack_itself; inner = construction_.parts()[inner].parent) {
+    const Part& in = construction_.parts()[inner];
+    const Layer& layer = construction_.layers()[in.layer];
+    const double phase = construction_.phase(in.layer, in.number, in.parent, arcs_[segment]);
+    std::ranges::copy(std::array{layer.helix_radius, layer.lay_angle, phase},
+                      helix.begin() + 3 * (layer.level - 1));
+  }
+  return helix;
+}
+
+void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment,
+                             const std::vector<double>& helix) const {
   const Wire& wire = wires_[site.wire];
   const Layer& layer = construction_.layers()[wire.layer];
   const int part = construction_.bundles()[wire.bundle].part;
   rows.segment.push_back(static_cast<std::int32_t>(segment));
   rows.component.push_back(wire.path);
   rows.material.push_back(layer.material);
-  const std::size_t helix = rows.helix.size();
-  rows.helix.resize(helix + 3 * construction_.levels(), 0.0);
-  auto put_level = [&](const Layer& of, double phase) {
-    double* at = rows.helix.data() + helix + 3 * (of.level - 1);
-    at[0] = of.helix_radius;
-    at[1] = of.lay_angle;
-    at[2] = phase;
-  };
-  for (int inner = part; inner != dresspack_itself; inner = construction_.parts()[inner].parent) {
-    const Part& in = construction_.parts()[inner];
-    put_level(construction_.layers()[in.layer],
-              construction_.phase(in.layer, in.number, in.parent, arcs_[segment]));
-  }
-  put_level(layer, construction_.phase(wire.layer, wire.number, part, arcs_[segment]));
-  const bool on_axis = surface_fibres_ == 0 || layer.is_hose;
+  rows.helix.insert(rows.helix.end(), helix.begin(), helix.end());
+  const double phase = construction_.phase(wire.layer, wire.number, part, arcs_[segment]);
+  std::ranges::copy(std::array{layer.helix_radius, layer.lay_angle, phase},
+                    rows.helix.end() - helix.size() + 3 * (layer.level - 1));
+  const bool on_axis = scan_.on_axis || layer.is_hose;
   rows.fibre.insert(rows.fibre.end(),
                     {on_axis ? 0 : layer.part_radius, fibre_angle(site.fibre, surface_fibres_)});
-  rows.turning.push_back(turning.size());
-  for (const TurningPoint& point : turning.points()) {
-    rows.strain.push_back(point.strain);
-    rows.sample.push_back(point.sample);
-  }
 }
 
-/// Something like the damage of Smith, Watson and Topper between turning points: ranges times tensile peaks,
-/// to a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
-float cycle_sum(const TurningList& turning) {
-  float sum = 0;
-  const auto points = turning.points();
-  for (std::size_t k = 1; k < points.size(); ++k) {
-    const float peak = std::max({points[k].strain, points[k - 1].strain, 0.0f});
-    const float product = peak * std::abs(points[k].strain - points[k - 1].strain);
-    sum += product * product * product;
+/// Returns their strains.
+std::span<const float> Evaluation::append_points(SiteRows& rows, std::span<const TurningPoint> points) {
+  const std::size_t first = rows.strain.size();
+  rows.turning.push_back(points.size());
+  rows.strain.resize(first + points.size());
+  rows.sample.resize(first + points.size());
+  float* const strain = rows.strain.data() + first;
+  std::uint32_t* const sample = rows.sample.data() + first;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    strain[k] = points[k].strain;
+    sample[k] = points[k].sample;
   }
-  return sum;
+  return {strain, points.size()};
 }
 
-void Evaluation::Worst::consider(Site at, const Extremes& extremes, const TurningList& turning) {
-  const float high = std::max(0.0f, extremes.high);
-  const std::array<float, measures> of{extremes.range(), extremes.size(), high, extremes.range() * high,
-                                       cycle_sum(turning)};
-  for (int by = 0; by < measures; ++by)
-    if (of[by] > value[by]) {
-      value[by] = of[by];
-      site[by] = at;
+/// `cycles` is something like the damage of Smith, Watson and Topper between turning points: ranges times
+/// tensile peaks, to a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
+Evaluation::Seen Evaluation::measured(Site site, std::span<const float> strains) {
+  constexpr std::size_t side_by_side = 8;  // so that the compiler may use wide registers
+  std::array<float, side_by_side> low, high, sum{};
+  low.fill(strains[0]);
+  high.fill(strains[0]);
+  auto take = [&](std::size_t k, std::size_t lane) {
+    const float now = strains[k], before = strains[k - 1];
+    low[lane] = now < low[lane] ? now : low[lane];
+    high[lane] = now > high[lane] ? now : high[lane];
+    const float larger = now > before ? now : before, peak = larger > 0 ? larger : 0;
+    const float product = peak * std::abs(now - before);
+    sum[lane] += product * product * product;
+  };
+  std::size_t k = 1;
+  for (; k + side_by_side <= strains.size(); k += side_by_side)
+    for (std::size_t lane = 0; lane < side_by_side; ++lane) take(k + lane, lane);
+  for (; k < strains.size(); ++k) take(k, 0);
+  const float lowest = *std::ranges::min_element(low), highest = *std::ranges::max_element(high);
+  const float range = highest - lowest, tension = std::max(0.0f, highest);
+  Seen seen{site, {}};
+  seen.by[Worst::range] = range;
+  seen.by[Worst::size] = std::max(std::abs(lowest), std::abs(highest));
+  seen.by[Worst::tension] = tension;
+  seen.by[Worst::range_times_tension] = range * tension;
+  seen.by[Worst::cycles] = std::accumulate(sum.begin(), sum.end(), 0.0f);
+  return seen;
+}
+
+void Evaluation::Worst::consider(const Seen& seen) {
+  for (int measure = 0; measure < measures; ++measure)
+    if (seen.by[measure] > value[measure]) {
+      value[measure] = seen.by[measure];
+      site[measure] = seen.site;
     }
+}
+
+std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const ClampMeans& means,
+                                                    const DeformationHistory& history, std::size_t row,
+                                                    const std::function<void(const SiteRows&)>& sink) {
+  std::vector<Worst> worst(construction_.layers().size());
+  scan_bundles(segment, means, history, row, sink != nullptr, [&](const BundleSites& bundle) {
+    for (const Seen& seen : bundle.seen) worst[wires_[seen.site.wire].layer].consider(seen);
+    if (sink) sink(bundle.rows);
+  });
+  return worst;
 }
 
 void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
                           const Sink& sink) {
-  const std::size_t bundles = construction_.bundles().size();
-  std::vector<Worst> worst(construction_.layers().size());
-  SiteRows rows;
   held_.reset();
   if (std::any_of(means_.plan().begin(), means_.plan().end(),
                   [](const LayerSlip& slip) { return slip.friction; }))
     held_.emplace(construction_, means_, arcs_[segment], history.columns(row), history.samples());
-  for (std::size_t b = 0; b < bundles; ++b) {
-    rows.clear();
-    scan_bundle(b, segment, means_, history, row, gate_,
-                [&](Site site, const Extremes& extremes, const TurningList& turning) {
-                  append(rows, site, segment, turning);
-                  worst[wires_[site.wire].layer].consider(site, extremes, turning);
-                });
-    sink.sites(rows);
-    if (sink.progress)
-      sink.progress((static_cast<double>(segment) + (b + 1.0) / bundles) / static_cast<double>(segments()));
-  }
+  const std::vector<Worst> worst = worst_of(segment, means_, history, row, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
     const bool same = bound->means.plan() == means_.plan();
-    put_bound(same ? worst : worst_of(*bound, segment, history, row), bound->means, segment, history, row,
-              bound == &stick_ ? sink.bound_stick : sink.bound_free);
+    put_bound(same ? worst : worst_of_bound(*bound, segment, history, row), bound->means, segment, history,
+              row, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
   auto probe = [&](Site site) {
-    const std::size_t index = (segment * wires_.size() + site.wire) * fibre_count_ + site.fibre;
+    const std::size_t index = (segment * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
     sink.probe({index, history_of(site, segment, means_, history, row)});
   };
   const auto of_all = std::max_element(worst.begin(), worst.end(), [](const Worst& a, const Worst& b) {
@@ -405,21 +376,15 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   }
   for (const auto& [at, site] : probes_)
     if (at == segment) probe(site);
+  if (sink.progress) sink.progress((static_cast<double>(segment) + 1) / static_cast<double>(segments()));
 }
 
-std::vector<Evaluation::Worst> Evaluation::worst_of(Bound& bound, std::size_t segment,
-                                                    const DeformationHistory& history,
-                                                    std::size_t row) const {
+std::vector<Evaluation::Worst> Evaluation::worst_of_bound(Bound& bound, std::size_t segment,
+                                                          const DeformationHistory& history,
+                                                          std::size_t row) {
   const std::size_t every = std::max<std::size_t>(1, history.samples() / thinned_samples);
   if (!bound.thin) bound.thin.emplace(bound.means.thinned(every));
-  const DeformationHistory thin = history.thinned(row, every);
-  std::vector<Worst> worst(construction_.layers().size());
-  for (std::size_t b = 0; b < construction_.bundles().size(); ++b)
-    scan_bundle(b, segment, *bound.thin, thin, 0, gate_,
-                [&](Site site, const Extremes& extremes, const TurningList& turning) {
-                  worst[wires_[site.wire].layer].consider(site, extremes, turning);
-                });
-  return worst;
+  return worst_of(segment, *bound.thin, history.thinned(row, every), 0, {});
 }
 
 void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
@@ -431,12 +396,14 @@ void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& me
       if (layer.value[by] >= 0) sites.insert(layer.site[by]);
   SiteRows rows;
   for (const Site site : sites) {
-    TurningPoints points(gate_);
+    TurningPoints points(scan_.gate);
     TurningList turning;
     for (const double strain : history_of(site, segment, means, history, row))
       points.next(static_cast<float>(strain), turning);
     points.finish(turning);
-    append(rows, site, segment, turning);
+    append_site(rows, site, segment,
+                helix_of(construction_.bundles()[wires_[site.wire].bundle].part, segment));
+    append_points(rows, turning.points());
   }
   sink(rows);
 }

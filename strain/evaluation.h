@@ -13,9 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "strain/clamp_means.h"
+#include "strain/bundle_scan.h"
 #include "strain/friction.h"
-#include "strain/reversals.h"
 
 namespace dresslife::strain {
 
@@ -47,13 +46,13 @@ struct Sink {
 
 class Evaluation {
  public:
-  /// lengths: rest lengths of the segments [m]. Errors: InputError for a probe that names no wire or no
-  /// segment.
+  /// lengths: rest lengths of the segments [m]. threads: share the bundles of a segment; any number gives the
+  /// same. Errors: InputError for a probe that names no wire or no segment.
   Evaluation(const Construction& construction, const pipeline::Strain& settings, std::vector<double> lengths,
-             std::size_t samples);
+             std::size_t samples, std::size_t threads = 1);
 
   std::size_t segments() const { return lengths_.size(); }
-  std::size_t sites() const { return segments() * wires_.size() * fibre_count_; }
+  std::size_t sites() const { return segments() * wires_.size() * scan_.fibre_count; }
 
   std::size_t longest_path() const;  ///< of a site's component [bytes]
   std::size_t longest_material() const;
@@ -74,18 +73,18 @@ class Evaluation {
     int fibre = 0;
     auto operator<=>(const Site&) const = default;
   };
-  struct Extremes {
-    float low = 0, high = 0;
-    float range() const { return high - low; }
-    float size() const { return std::max(std::abs(low), std::abs(high)); }
-  };
   /// The sites of one wire layer of the construction, over all its bundles, that see most, by each of several
   /// measures. Which of them lives shortest depends on the material and the mean-stress correction.
+  struct Seen;
   struct Worst {
     enum By { range, size, tension, range_times_tension, cycles, measures };
     std::array<Site, measures> site;
     std::array<float, measures> value{-1, -1, -1, -1, -1};
-    void consider(Site at, const Extremes& extremes, const TurningList& turning);
+    void consider(const Seen& seen);
+  };
+  struct Seen {
+    Site site;
+    std::array<float, Worst::measures> by;
   };
   /// One way of sliding and what it needs.
   struct Bound {
@@ -93,31 +92,44 @@ class Evaluation {
     std::optional<ClampMeans> thin;  ///< the means at the thinned samples
   };
 
+  /// What one thread keeps between bundles.
+  struct Worker {
+    BundleScan scan;
+    PartStates parent;  ///< of part `parent_part`, in the run at hand
+    int parent_part;    ///< dresspack_itself: of none
+  };
+  /// The sites of one bundle, wire by wire.
+  struct BundleSites {
+    SiteRows rows;
+    std::vector<Seen> seen;
+  };
+
   /// Wires whose strain is put together one by one: of layers with friction, and all when shear counts.
   bool mixed(const ClampMeans& means) const;
-  MixedLanes mixed_lanes(const BundleChain& chain, std::size_t layer_in_bundle, const LayerSlip& slip,
-                         const std::vector<double>& angles) const;
-  struct Group;
-  /// One run over the motion; turning points are kept when `keep`.
-  void run_blocks(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples,
-                  bool is_mixed, bool keep, std::vector<Group>& groups) const;
-
   void find_probes(const std::vector<pipeline::Probe>& probes);
   BundleChain part_chain(int part, std::size_t segment, const ClampMeans& means,
                          const std::vector<Fibre>& fibres) const;
   BundleChain layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means) const;
-  /// Calls found(site, extremes, turning points) for every site of a bundle.
   void scan_bundle(std::size_t bundle, std::size_t segment, const ClampMeans& means,
-                   const DeformationHistory& history, std::size_t row, float gate,
-                   const std::function<void(Site, const Extremes&, const TurningList&)>& found) const;
+                   const DeformationHistory& history, std::size_t row, bool with_rows, Worker& worker,
+                   BundleSites& out) const;
+  /// Calls use() for every bundle in order; threads share the work.
+  void scan_bundles(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
+                    std::size_t row, bool with_rows, const std::function<void(const BundleSites&)>& use);
   std::vector<double> history_of(Site site, std::size_t segment, const ClampMeans& means,
                                  const DeformationHistory& history, std::size_t row) const;
   std::vector<double> mixed_history(const BundleChain& chain, const LayerSlip& slip,
                                     const DeformationColumns& columns, std::size_t samples) const;
-  void append(SiteRows& rows, Site site, std::size_t segment, const TurningList& turning) const;
-  /// The worst sites of every wire layer, found on thinned samples.
-  std::vector<Worst> worst_of(Bound& bound, std::size_t segment, const DeformationHistory& history,
-                              std::size_t row) const;
+  std::vector<double> helix_of(int part, std::size_t segment) const;
+  void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;
+  static std::span<const float> append_points(SiteRows& rows, std::span<const TurningPoint> points);
+  static Seen measured(Site site, std::span<const float> strains);
+  /// The worst sites of every wire layer. sink: where all sites go; may be empty.
+  std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
+                              std::size_t row, const std::function<void(const SiteRows&)>& sink);
+  /// The same for a bound, found on thinned samples.
+  std::vector<Worst> worst_of_bound(Bound& bound, std::size_t segment, const DeformationHistory& history,
+                                    std::size_t row);
   void put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
                  const DeformationHistory& history, std::size_t row,
                  const std::function<void(const SiteRows&)>& sink) const;
@@ -126,12 +138,12 @@ class Evaluation {
   std::vector<double> lengths_, arcs_;
   std::size_t samples_;
   std::vector<Fibre> fibres_;
-  int surface_fibres_, fibre_count_;
-  float gate_;
-  bool with_shear_;
+  int surface_fibres_;
+  ScanSettings scan_;
   ClampMeans means_;
   std::optional<HeldStrains> held_;  ///< of the segment being evaluated, with friction
   Bound stick_, free_;
+  std::vector<Worker> workers_;          ///< one a thread
   std::vector<Wire> wires_;              ///< bundle by bundle
   std::vector<std::size_t> first_wire_;  ///< of each bundle
   Site worst_;

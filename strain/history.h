@@ -10,8 +10,8 @@
 
 namespace dresslife::strain {
 
-/// Samples up to the next multiple of a pack, with room to work on.
-inline std::size_t padded(std::size_t samples) { return (samples + pack_size - 1) / pack_size * pack_size; }
+/// Samples up to what the kernels work on at a time.
+inline std::size_t padded(std::size_t samples) { return (samples + padding - 1) / padding * padding; }
 
 class DeformationHistory {
  public:

@@ -78,7 +78,14 @@ struct BundlePointers {
   const WireNode* nodes;
   const Fibre* fibres;
   int step_count, node_count, fibre_count, order;
+  /// States of the part in which the last part of the chain lies, from part_states(); null: the chain is
+  /// followed from the dresspack.
+  const double* parent = nullptr;
+  std::size_t parent_stride = 0;
 };
+
+/// Rows of a part's state: stretch, bend1, bend2, twist, each with its powers 0 .. order.
+constexpr std::size_t part_state_rows(int order) { return 4 * (static_cast<std::size_t>(order) + 1); }
 
 // ---- turning points ---------------------------------------------------------------------------------------
 
@@ -137,6 +144,9 @@ struct Kernels {
   /// the pitch of the ancestor at `turned_level`, its own where that is 0.
   void (*deviations)(const BundlePointers&, int turn, int turned_level, const DeformationColumns&,
                      std::size_t first, std::size_t count, double* out, std::size_t stride);
+  /// States of the last part of a chain, to out[row * stride + t]. See part_state_rows().
+  void (*part_states)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                      double* out, std::size_t stride);
   /// Ingredients of every node, to out[(node * ingredients + ingredient) * stride + t].
   void (*node_ingredients)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                            std::size_t count, double* out, std::size_t stride);
@@ -156,7 +166,7 @@ struct Kernels {
   /// The same from the strains themselves, strain[t * lanes + lane].
   void (*scan_strains)(LaneState&, const float* strain, std::size_t count, TurningPoint** end);
 };
-// count is padded by the callee to a multiple of pack_size: columns and outputs have room for it.
+// count is padded by the callee to a multiple of `padding`: columns and outputs have room for it.
 
 const Kernels& kernels();                               ///< the widest this machine can run
 std::vector<const Kernels*> kernels_of_this_machine();  ///< all it can run, plain one first
@@ -168,7 +178,9 @@ inline BundlePointers pointers(const BundleChain& chain) {
           static_cast<int>(chain.steps.size()),
           static_cast<int>(chain.nodes.size()),
           static_cast<int>(chain.fibres.size()),
-          chain.order};
+          chain.order,
+          nullptr,
+          0};
 }
 
 }  // namespace dresslife::strain

@@ -3,6 +3,7 @@
 #define DRESSLIFE_MACHINE avx2
 #define DRESSLIFE_MACHINE_KERNELS avx2_kernels
 #define DRESSLIFE_MACHINE_NAME "avx2"
+#define DRESSLIFE_REGISTER_BYTES 32
 
 // Everything from outside comes first: it must be compiled for any machine.
 #include <immintrin.h>

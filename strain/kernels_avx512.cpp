@@ -3,6 +3,7 @@
 #define DRESSLIFE_MACHINE avx512
 #define DRESSLIFE_MACHINE_KERNELS avx512_kernels
 #define DRESSLIFE_MACHINE_NAME "avx512"
+#define DRESSLIFE_REGISTER_BYTES 64
 
 // Everything from outside comes first: it must be compiled for any machine.
 #include <immintrin.h>

@@ -2,6 +2,7 @@
 #define DRESSLIFE_MACHINE baseline
 #define DRESSLIFE_MACHINE_KERNELS baseline_kernels
 #define DRESSLIFE_MACHINE_NAME "baseline"
+#define DRESSLIFE_REGISTER_BYTES 16
 
 // Everything from outside comes first: it must be compiled for any machine.
 #include <array>

@@ -11,19 +11,6 @@ namespace {
 
 // ---- strains of a bundle ----------------------------------------------------------------------------------
 
-typedef float FloatPack __attribute__((vector_size(pack_size * sizeof(float))));
-
-inline Pack load_pack(const double* from) {
-  Pack pack;
-  __builtin_memcpy(&pack, from, sizeof(pack));
-  return pack;
-}
-
-template <class To, class Vector>
-inline void store_pack(const Vector& pack, To* to) {
-  __builtin_memcpy(to, &pack, sizeof(pack));
-}
-
 /// The states along a chain at one pack of samples: rods[0] is the dresspack, rods[k] the part of level k.
 struct Descent {
   Rod<Pack> rods[highest_level + 1];
@@ -40,7 +27,7 @@ inline Rod<Pack> step_down(const Rod<Pack>& rod, const ChainStep& step, const Pl
   Series<Pack> strain;
   strain.order = glued.stretch.order;
   for (int power = 0; power <= strain.order; ++power)
-    strain.at[power] = load_pack(held + power * step.slide.held_stride);
+    strain.at[power] = load<Pack>(held + power * step.slide.held_stride);
   strain.at[0] += free_strain;
   return slid_unevenly(glued, strain, rest, place.kinematics);
 }
@@ -66,7 +53,7 @@ inline Pack free_strain(const BundlePointers& chain, const Descent& descent, int
     case Sliding::glued:
       break;
     case Sliding::clamp_to_clamp:
-      return load_pack(slide.clamp_strain + sample);
+      return load<Pack>(slide.clamp_strain + sample);
     case Sliding::over_pitch:
       return mean_path_rate(descent.rods[level], place) / slide.mean_rest_rate - 1.0;
     case Sliding::along_ancestor: {
@@ -79,13 +66,27 @@ inline Pack free_strain(const BundlePointers& chain, const Descent& descent, int
   return Pack{};
 }
 
-/// The first `steps` parts of the chain.
+/// The part that holds the last one of the chain, as part_states() left it.
+inline void load_parent(const BundlePointers& chain, std::size_t sample, Rod<Pack>& rod) {
+  const double* row = chain.parent + sample;
+  for (Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist}) {
+    series->order = chain.order + 1;
+    for (int power = 0; power <= series->order; ++power, row += chain.parent_stride)
+      series->at[power] = load<Pack>(row);
+  }
+}
+
+/// The first `steps` parts of the chain; with a parent given, only the last of them.
 inline void descend(const BundlePointers& chain, const DeformationColumns& in, std::size_t sample,
                     Descent& descent, int steps) {
-  descent.rods[0] = uniform_rod<Pack>(load_pack(in.elongation + sample), load_pack(in.curvature1 + sample),
-                                      load_pack(in.curvature2 + sample), load_pack(in.twist + sample),
-                                      chain.order + chain.step_count);
-  for (int k = 0; k < steps; ++k) {
+  const int known = chain.parent ? chain.step_count - 1 : 0;
+  if (chain.parent)
+    load_parent(chain, sample, descent.rods[known]);
+  else
+    descent.rods[0] = uniform_rod<Pack>(
+        load<Pack>(in.elongation + sample), load<Pack>(in.curvature1 + sample),
+        load<Pack>(in.curvature2 + sample), load<Pack>(in.twist + sample), chain.order + chain.step_count);
+  for (int k = known; k < steps; ++k) {
     const ChainStep& step = chain.steps[k];
     descent.free_strain[k] = free_strain(chain, descent, k, step.place, step.slide, sample);
     descent.rods[k + 1] = step_down(descent.rods[k], step, step.place, step.rest, descent.free_strain[k],
@@ -96,6 +97,19 @@ inline void descend(const BundlePointers& chain, const DeformationColumns& in, s
 inline void descend(const BundlePointers& chain, const DeformationColumns& in, std::size_t sample,
                     Descent& descent) {
   descend(chain, in, sample, descent, chain.step_count);
+}
+
+void part_states(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
+                 std::size_t count, double* out, std::size_t stride) {
+  for (std::size_t t = 0; t < count; t += pack_size) {
+    Descent descent;
+    descend(chain, in, first + t, descent);
+    const Rod<Pack>& rod = descent.rods[chain.step_count];
+    double* row = out + t;
+    for (const Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist})
+      for (int power = 0; power <= chain.order; ++power, row += stride)
+        store(power <= series->order ? series->at[power] : Pack{}, row);  // `thesis` has values only
+  }
 }
 
 void deviations(const BundlePointers& chain, int turn, int turned_level, const DeformationColumns& in,
@@ -113,10 +127,9 @@ void deviations(const BundlePointers& chain, int turn, int turned_level, const D
                                  : turned_parent(chain, descent, turned_level, last, turn, first + t);
     const Rod<Pack> glued = child(parent, place);
     const Series<Pack> ratio = glued.stretch * (constant_series(1.0, rest.stretch.order) / rest.stretch);
-    store_pack(mean, out + t);
-    store_pack(Pack(ratio.at[0] - 1.0 - mean), out + stride + t);
-    for (int power = 1; power <= ratio.order; ++power)
-      store_pack(ratio.at[power], out + (1 + power) * stride + t);
+    store(mean, out + t);
+    store(Pack(ratio.at[0] - 1.0 - mean), out + stride + t);
+    for (int power = 1; power <= ratio.order; ++power) store(ratio.at[power], out + (1 + power) * stride + t);
   }
 }
 
@@ -159,7 +172,7 @@ void node_strains(const BundlePointers& chain, const DeformationColumns& in, std
       const Pack sliding = free_strain(chain, descent, chain.step_count, node.place, node.slide, first + t);
       strains_of_node(chain, descent.rods[chain.step_count], node, sliding, strain);
       for (int f = 0; f < chain.fibre_count; ++f)
-        store_pack(strain[f], out + (static_cast<std::size_t>(n) * chain.fibre_count + f) * stride + t);
+        store(strain[f], out + (static_cast<std::size_t>(n) * chain.fibre_count + f) * stride + t);
     }
   }
 }
@@ -193,78 +206,370 @@ void node_ingredients(const BundlePointers& chain, const DeformationColumns& in,
                           free_strain(chain, descent, chain.step_count, node.place, node.slide, first + t),
                           values);
       for (int k = 0; k < kinds; ++k)
-        store_pack(values[k], out + (static_cast<std::size_t>(n) * kinds + k) * stride + t);
+        store(values[k], out + (static_cast<std::size_t>(n) * kinds + k) * stride + t);
     }
   }
 }
 
-/// Fourier coefficients of five evenly spaced values around the layer (W13).
-struct FiveToWaves {
-  double factor[waves_per_layer][waves_per_layer];
-  FiveToWaves() {
-    for (int n = 0; n < waves_per_layer; ++n) {
-      const double angle = 2 * 3.141592653589793 * n / waves_per_layer;
-      factor[0][n] = 1.0 / waves_per_layer;
-      factor[1][n] = 2.0 / waves_per_layer * std::sin(angle);
-      factor[2][n] = 2.0 / waves_per_layer * std::cos(angle);
-      factor[3][n] = 2.0 / waves_per_layer * std::sin(2 * angle);
-      factor[4][n] = 2.0 / waves_per_layer * std::cos(2 * angle);
+// ---- waves of a layer -------------------------------------------------------------------------------------
+//
+// Single precision is enough here because strains are never taken as differences of stretches: with the
+// changes against the construction at rest of the parent's stretch, bending and twist at hand,
+//     q = (V^2 - V0^2) / V0^2 = (R^2 dsigma (sigma + sigma0) + dy (y + y0)) / V0^2,
+//     strain = sqrt(1 + q) - 1 = q / (1 + sqrt(1 + q)).
+
+/// What the wires of a bundle need of the part they lie in, one row of samples each.
+enum PartRow {
+  part_stretch,
+  part_bend1,
+  part_bend2,
+  part_twist,
+  stretch_change,
+  bend1_change,
+  bend2_change,
+  twist_change,
+  stretch_slope,
+  bend1_slope,
+  bend2_slope,
+  twist_slope,
+  part_rows
+};
+
+constexpr std::size_t chunk = 256;  ///< samples for which the rows stay in the first-level cache
+
+struct PartState {
+  float rows[part_rows][chunk];
+
+  FloatPack operator()(int row, std::size_t t) const { return load<FloatPack>(rows[row] + t); }
+};
+
+inline bool slides_from_afar(const SlidingNumbers& slide) {
+  return slide.sliding == Sliding::clamp_to_clamp || slide.sliding == Sliding::along_ancestor;
+}
+
+/// Fills the state for samples [first, first + count). The strains of nodes that slide from afar wait in
+/// `out`, where the first waves of their layer will be: five rows for five nodes.
+void fill_part(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
+               std::size_t count, PartState& state, float* out, std::size_t stride, int kinds) {
+  const std::size_t whole_packs = (count + float_pack_size - 1) / float_pack_size * float_pack_size;
+  const int steps = chain.step_count;
+  const double at_rest[] = {steps ? chain.steps[steps - 1].rest.stretch.at[0] : 1,
+                            steps ? chain.steps[steps - 1].rest.bend1.at[0] : 0,
+                            steps ? chain.steps[steps - 1].rest.bend2.at[0] : 0,
+                            steps ? chain.steps[steps - 1].rest.twist.at[0] : 0};
+  for (std::size_t t = 0; t < whole_packs; t += pack_size) {
+    Descent descent;
+    descend(chain, in, first + t, descent);
+    const Rod<Pack>& rod = descent.rods[steps];
+    const Series<Pack>* const of[] = {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist};
+    const auto put = [&](int row, const Pack& value) {
+      store(__builtin_convertvector(value, HalfPack), state.rows[row] + t);
+    };
+    for (int k = 0; k < 4; ++k) {
+      put(part_stretch + k, of[k]->at[0]);
+      put(stretch_change + k, of[k]->at[0] - at_rest[k]);
+      if (chain.order > 0) put(stretch_slope + k, of[k]->at[1]);
     }
+    for (int n = 0; n < chain.node_count; ++n)
+      if (const WireNode& node = chain.nodes[n]; slides_from_afar(node.slide))
+        store(__builtin_convertvector(free_strain(chain, descent, steps, node.place, node.slide, first + t),
+                                      HalfPack),
+              out + (n / waves_per_layer * kinds * waves_per_layer + n % waves_per_layer) * stride + t);
+  }
+}
+
+/// A node in the numbers of this loop; names as in helix.h.
+struct NodeNumbers {
+  float sine, cosine, radius, turn_rate, tangent, c, inverse_c;
+  float sigma0, y0, stretch0, inverse_V0, inverse_V0_squared;  ///< at rest
+  float rest_stretch, rest_bend1, rest_bend2;
+
+  NodeNumbers(const WireNode& node, const Rod<double>* parent_at_rest) {
+    const Placement& p = node.place;
+    const double bend1 = parent_at_rest ? parent_at_rest->bend1.at[0] : 0;
+    const double bend2 = parent_at_rest ? parent_at_rest->bend2.at[0] : 0;
+    const double twist = parent_at_rest ? parent_at_rest->twist.at[0] : 0;
+    const double stretch = parent_at_rest ? parent_at_rest->stretch.at[0] : 1;
+    const double X = bend1 * p.sine.at[0] - bend2 * p.cosine.at[0];
+    sine = static_cast<float>(p.sine.at[0]);
+    cosine = static_cast<float>(p.cosine.at[0]);
+    radius = static_cast<float>(p.radius);
+    turn_rate = static_cast<float>(p.turn_rate);
+    tangent = static_cast<float>(p.lay_tangent);
+    c = static_cast<float>(p.lay_cosine);
+    inverse_c = static_cast<float>(1 / p.lay_cosine);
+    sigma0 = static_cast<float>(p.turn_rate + twist);
+    y0 = static_cast<float>(stretch + p.radius * X);
+    stretch0 = static_cast<float>(stretch);
+    inverse_V0 = static_cast<float>(1 / node.rest_rate);
+    inverse_V0_squared = static_cast<float>(1 / (node.rest_rate * node.rest_rate));
+    rest_stretch = static_cast<float>(node.rest.stretch);
+    rest_bend1 = static_cast<float>(node.rest.bend1);
+    rest_bend2 = static_cast<float>(node.rest.bend2);
   }
 };
 
-void layer_waves(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
-                 std::size_t count, float* out, std::size_t stride) {
+/// wire_state() with the glued strain in place of the stretch.
+struct NodeState {
+  FloatPack strain, bend1, bend2, twist, inverse_stretch;
+};
+
+/// (13) as the thesis' equations use it.
+struct FloatAngle {
+  FloatPack cosine_squared, cosine, sine_cosine;
+  FloatAngle(const NodeNumbers& n, const PartState& part, std::size_t t) {
+    const FloatPack tangent = (n.tangent + n.radius * part(part_twist, t)) * inverse(part(part_stretch, t));
+    cosine = inverse_root(1.0f + tangent * tangent);
+    cosine_squared = cosine * cosine;
+    sine_cosine = tangent * cosine_squared;
+  }
+};
+
+template <bool thesis, bool with_bend1>
+inline NodeState node_state(const NodeNumbers& n, const PartState& part, std::size_t t) {
+  const FloatPack stretch = part(part_stretch, t), bend1 = part(part_bend1, t), bend2 = part(part_bend2, t),
+                  twist = part(part_twist, t);
+  const FloatPack X = bend1 * n.sine - bend2 * n.cosine, radial = bend1 * n.cosine + bend2 * n.sine;
+  if constexpr (thesis) {
+    const FloatAngle a(n, part, t);
+    return {a.cosine_squared * (part(stretch_change, t) + n.radius * X) + n.radius * a.sine_cosine * twist,
+            -a.cosine * radial, a.cosine_squared * X, a.sine_cosine * X, FloatPack{} + 1.0f};
+  }
+  const FloatPack sigma = n.turn_rate + twist, y = stretch + n.radius * X, turning = n.radius * sigma;
+  const FloatPack V2 = turning * turning + y * y, inverse_V = inverse_root(V2);
+  const FloatPack y_change = part(stretch_change, t) +
+                             n.radius * (part(bend1_change, t) * n.sine - part(bend2_change, t) * n.cosine);
+  const FloatPack q =
+      (n.radius * n.radius * part(twist_change, t) * (sigma + n.sigma0) + y_change * (y + n.y0)) *
+      n.inverse_V0_squared;
+  NodeState state;
+  state.strain = q * inverse(1.0f + V2 * inverse_V * n.inverse_V0);
+  const FloatPack scale = n.c * inverse_V;
+  state.bend2 = scale * (turning * sigma + y * X);
+  state.twist = scale * sigma * stretch;
+  state.inverse_stretch = n.inverse_c * inverse_V;
+  state.bend1 = FloatPack{};
+  if constexpr (with_bend1) {
+    const FloatPack y_slope = part(stretch_slope, t) +
+                              n.radius * (part(bend1_slope, t) * n.sine - part(bend2_slope, t) * n.cosine) +
+                              n.radius * n.turn_rate * radial;
+    state.bend1 =
+        n.c * (n.radius * (part(twist_slope, t) * y - sigma * y_slope) * inverse_V * inverse_V - radial);
+  }
+  return state;
+}
+
+/// The strain of mean_path_rate() against that at rest, in the same way.
+struct PitchMean {
+  float radius, turn_rate, tangent, sigma0, stretch0, at_rest, inverse_at_rest, rest_second,
+      inverse_one_and_second;
+  bool thesis;
+
+  static float second_order(float A, float y2, float bend) {
+    const float inverse2 = 1 / (A + y2);
+    return 0.25f * A * bend * inverse2 * inverse2 * (1 + 0.1875f * bend * (4 * y2 - A) * inverse2 * inverse2);
+  }
+
+  PitchMean(const WireNode& node, const Rod<double>* parent_at_rest) {
+    const Placement& p = node.place;
+    thesis = p.kinematics == pipeline::Kinematics::thesis;
+    const double stretch = parent_at_rest ? parent_at_rest->stretch.at[0] : 1;
+    const double bend1 = parent_at_rest ? parent_at_rest->bend1.at[0] : 0;
+    const double bend2 = parent_at_rest ? parent_at_rest->bend2.at[0] : 0;
+    const double sigma = p.turn_rate + (parent_at_rest ? parent_at_rest->twist.at[0] : 0);
+    const double A = p.radius * p.radius * sigma * sigma;
+    radius = static_cast<float>(p.radius);
+    turn_rate = static_cast<float>(p.turn_rate);
+    tangent = static_cast<float>(p.lay_tangent);
+    sigma0 = static_cast<float>(sigma);
+    stretch0 = static_cast<float>(stretch);
+    at_rest = static_cast<float>(A + stretch * stretch);
+    inverse_at_rest = static_cast<float>(1 / (A + stretch * stretch));
+    rest_second = second_order(static_cast<float>(A), static_cast<float>(stretch * stretch),
+                               static_cast<float>(p.radius * p.radius * (bend1 * bend1 + bend2 * bend2)));
+    inverse_one_and_second = 1 / (1 + rest_second);
+  }
+
+  inline FloatPack strain(const PartState& part, std::size_t t) const {
+    const FloatPack stretch = part(part_stretch, t), bend1 = part(part_bend1, t), bend2 = part(part_bend2, t),
+                    twist = part(part_twist, t);
+    if (thesis) {
+      const FloatPack tan = (tangent + radius * twist) * inverse(stretch);
+      const FloatPack cosine_squared = inverse(1.0f + tan * tan);
+      return cosine_squared * part(stretch_change, t) + radius * (tan * cosine_squared) * twist;
+    }
+    const FloatPack sigma = turn_rate + twist, y2 = stretch * stretch,
+                    A = (radius * sigma) * (radius * sigma);
+    const FloatPack q = (radius * radius * part(twist_change, t) * (sigma + sigma0) +
+                         part(stretch_change, t) * (stretch + stretch0)) *
+                        inverse_at_rest;
+    const FloatPack root = inverse_root(1.0f + q), inverse2 = root * root * inverse_at_rest;
+    const FloatPack first = q * inverse(1.0f + (1.0f + q) * root);
+    const FloatPack bend = radius * radius * (bend1 * bend1 + bend2 * bend2) * (inverse2 * inverse2);
+    const FloatPack second = 0.25f * A * bend * (1.0f + 0.1875f * bend * (4.0f * y2 - A));
+    return first + (second - rest_second) * (1.0f + first) * inverse_one_and_second;
+  }
+};
+
+/// Mean, sine, cosine, and those of twice the angle, of five evenly spaced values around the layer (W13).
+struct FiveToWaves {
+  float sine1, sine2, cosine1, cosine2;  ///< of a fifth of a turn and of two, times 2/5
+
+  FiveToWaves() {
+    const double fifth = 2 * 3.141592653589793 / waves_per_layer, scale = 2.0 / waves_per_layer;
+    sine1 = static_cast<float>(scale * std::sin(fifth));
+    sine2 = static_cast<float>(scale * std::sin(2 * fifth));
+    cosine1 = static_cast<float>(scale * std::cos(fifth));
+    cosine2 = static_cast<float>(scale * std::cos(2 * fifth));
+  }
+
+  inline void store_waves(const FloatPack* value, float* out, std::size_t stride) const {
+    const FloatPack near = value[1] + value[4], far = value[2] + value[3];
+    const FloatPack near_odd = value[1] - value[4], far_odd = value[2] - value[3];
+    const FloatPack front = 0.4f * value[0];
+    store(FloatPack(0.5f * front + 0.2f * (near + far)), out);
+    store(FloatPack(sine1 * near_odd + sine2 * far_odd), out + stride);
+    store(FloatPack(front + cosine1 * near + cosine2 * far), out + 2 * stride);
+    store(FloatPack(sine2 * near_odd - sine1 * far_odd), out + 3 * stride);
+    store(FloatPack(front + cosine2 * near + cosine1 * far), out + 4 * stride);
+  }
+};
+
+/// One wire layer of a chain: its nodes and how it slides.
+struct LayerNumbers {
+  const BundlePointers& chain;
+  const WireNode* nodes;
+  Sliding sliding;
+  NodeNumbers numbers[waves_per_layer];
+  PitchMean mean;
+
+  LayerNumbers(const BundlePointers& of, int layer)
+      : chain(of),
+        nodes(of.nodes + layer * waves_per_layer),
+        sliding(nodes[0].slide.sliding),
+        numbers{{nodes[0], rest()},
+                {nodes[1], rest()},
+                {nodes[2], rest()},
+                {nodes[3], rest()},
+                {nodes[4], rest()}},
+        mean(nodes[0], rest()) {}
+
+  const Rod<double>* rest() const {
+    return chain.step_count ? &chain.steps[chain.step_count - 1].rest : nullptr;
+  }
+
+  /// Strain of the nodes where they slide; glued nodes: nothing.
+  inline void slid(const PartState& part, std::size_t t, const float* waiting, std::size_t stride,
+                   FloatPack* strain) const {
+    const FloatPack of_layer = sliding == Sliding::over_pitch ? mean.strain(part, t) : FloatPack{};
+    for (int n = 0; n < waves_per_layer; ++n)
+      strain[n] = slides_from_afar(nodes[n].slide) ? load<FloatPack>(waiting + n * stride + t) : of_layer;
+  }
+};
+
+/// Waves of the strains of a layer's fibres at `count` samples.
+template <bool thesis, bool with_bend1>
+void strains_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
+                      std::size_t stride) {
   const FiveToWaves to_waves;
-  const int layers = chain.node_count / waves_per_layer;
-  for (std::size_t t = 0; t < count; t += pack_size) {
-    Descent descent;
-    descend(chain, in, first + t, descent);
-    for (int layer = 0; layer < layers; ++layer) {
-      Pack strain[waves_per_layer][most_fibres];
-      Pack sliding{};
+  const BundlePointers& chain = layer.chain;
+  const bool glued = layer.sliding == Sliding::glued;
+  for (std::size_t t = 0; t < count; t += float_pack_size) {
+    FloatPack axial[waves_per_layer], bend1[waves_per_layer], bend2[waves_per_layer], strain[waves_per_layer];
+    if (!glued) layer.slid(part, t, out, stride, axial);
+    for (int n = 0; n < waves_per_layer; ++n) {
+      const NodeNumbers& numbers = layer.numbers[n];
+      const NodeState node = node_state<thesis, with_bend1>(numbers, part, t);
+      if (glued) axial[n] = node.strain;
+      // where it slides, curvature per path length stays (W11)
+      const FloatPack factor = glued || thesis
+                                   ? FloatPack{} + 1.0f
+                                   : (1.0f + axial[n]) * numbers.rest_stretch * node.inverse_stretch;
+      bend1[n] = node.bend1 * factor - numbers.rest_bend1;
+      bend2[n] = node.bend2 * factor - numbers.rest_bend2;
+      axial[n] *= static_cast<float>(layer.nodes[n].strain_factor);
+    }
+    for (int f = 0; f < chain.fibre_count; ++f) {
+      const Fibre& fibre = chain.fibres[f];
+      const auto radius = static_cast<float>(fibre.on_axis ? 0 : layer.nodes[0].wire_radius);
+      const float by_bend1 = radius * static_cast<float>(fibre.phi_sine);
+      const float by_bend2 = -radius * static_cast<float>(fibre.phi_cosine);
       for (int n = 0; n < waves_per_layer; ++n) {
-        const WireNode& node = chain.nodes[layer * waves_per_layer + n];
-        if (n == 0 || node.slide.sliding != Sliding::over_pitch)  // the mean over the pitch is the layer's
-          sliding = free_strain(chain, descent, chain.step_count, node.place, node.slide, first + t);
-        strains_of_node(chain, descent.rods[chain.step_count], node, sliding, strain[n]);
+        strain[n] = axial[n] + by_bend2 * bend2[n];
+        if constexpr (with_bend1) strain[n] += by_bend1 * bend1[n];
       }
-      for (int f = 0; f < chain.fibre_count; ++f)
-        for (int w = 0; w < waves_per_layer; ++w) {
-          Pack sum = to_waves.factor[w][0] * strain[0][f];
-          for (int n = 1; n < waves_per_layer; ++n) sum += to_waves.factor[w][n] * strain[n][f];
-          const std::size_t row =
-              (static_cast<std::size_t>(layer) * chain.fibre_count + f) * waves_per_layer + w;
-          store_pack(__builtin_convertvector(sum, FloatPack), out + row * stride + t);
-        }
+      to_waves.store_waves(strain, out + f * waves_per_layer * stride + t, stride);
     }
   }
+}
+
+/// Waves of the ingredients of a layer at `count` samples.
+template <bool thesis, bool with_bend1>
+void ingredients_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
+                          std::size_t stride) {
+  const FiveToWaves to_waves;
+  const BundlePointers& chain = layer.chain;
+  for (std::size_t t = 0; t < count; t += float_pack_size) {
+    NodeState node[waves_per_layer];
+    FloatPack sliding[waves_per_layer], value[waves_per_layer];
+    layer.slid(part, t, out, stride, sliding);
+    for (int n = 0; n < waves_per_layer; ++n)
+      node[n] = node_state<thesis, with_bend1>(layer.numbers[n], part, t);
+    const auto put = [&](int kind, const auto& of_node) {
+      for (int n = 0; n < waves_per_layer; ++n) value[n] = of_node(n, layer.nodes[n]);
+      to_waves.store_waves(value, out + kind * waves_per_layer * stride + t, stride);
+    };
+    put(mean_strain, [&](int n, const WireNode&) { return sliding[n]; });
+    put(deviation, [&](int n, const WireNode& at) {
+      return FloatPack(static_cast<float>(at.strain_factor) * node[n].strain - sliding[n]);
+    });
+    put(shear, [&](int n, const WireNode& at) {
+      return FloatPack(static_cast<float>(inverse_root_3 * at.strain_factor * at.shear_radius) *
+                       node[n].twist);
+    });
+    for (int f = 0; f < chain.fibre_count; ++f) {
+      const Fibre& fibre = chain.fibres[f];
+      put(first_bending + f, [&](int n, const WireNode& at) {
+        const double radius = fibre.on_axis ? 0 : at.wire_radius;
+        return FloatPack(node[n].bend1 * static_cast<float>(radius * fibre.phi_sine) -
+                         node[n].bend2 * static_cast<float>(radius * fibre.phi_cosine));
+      });
+    }
+  }
+}
+
+using OfLayer = void (*)(const LayerNumbers&, const PartState&, std::size_t, float*, std::size_t);
+
+/// Runs one of the two above over all layers, chunk by chunk. by: [thesis][with bend1]. kinds: of waves per
+/// layer.
+void over_layers(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
+                 std::size_t count, int kinds, float* out, std::size_t stride, const OfLayer (&by)[2][2]) {
+  const int layers = chain.node_count / waves_per_layer;
+  if (layers == 0) return;
+  const bool thesis = chain.nodes[0].place.kinematics == pipeline::Kinematics::thesis;
+  const OfLayer of_layer = by[thesis][chain.order > 0 || thesis];
+  PartState part;
+  for (std::size_t done = 0; done < count; done += chunk) {
+    const std::size_t here = count - done < chunk ? count - done : chunk;
+    fill_part(chain, in, first + done, here, part, out + done, stride, kinds);
+    for (int layer = 0; layer < layers; ++layer)
+      of_layer(LayerNumbers(chain, layer), part, here,
+               out + static_cast<std::size_t>(layer) * kinds * waves_per_layer * stride + done, stride);
+  }
+}
+
+void layer_waves(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
+                 std::size_t count, float* out, std::size_t stride) {
+  over_layers(chain, in, first, count, chain.fibre_count, out, stride,
+              {{strains_of_layer<false, false>, strains_of_layer<false, true>},
+               {strains_of_layer<true, false>, strains_of_layer<true, true>}});
 }
 
 void ingredient_waves(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
                       std::size_t count, float* out, std::size_t stride) {
-  const FiveToWaves to_waves;
-  const int layers = chain.node_count / waves_per_layer, kinds = ingredients(chain.fibre_count);
-  Pack values[waves_per_layer][ingredients(most_fibres)];
-  for (std::size_t t = 0; t < count; t += pack_size) {
-    Descent descent;
-    descend(chain, in, first + t, descent);
-    for (int layer = 0; layer < layers; ++layer) {
-      for (int n = 0; n < waves_per_layer; ++n) {
-        const WireNode& node = chain.nodes[layer * waves_per_layer + n];
-        ingredients_of_node(chain, descent, node,
-                            free_strain(chain, descent, chain.step_count, node.place, node.slide, first + t),
-                            values[n]);
-      }
-      for (int k = 0; k < kinds; ++k)
-        for (int w = 0; w < waves_per_layer; ++w) {
-          Pack sum = to_waves.factor[w][0] * values[0][k];
-          for (int n = 1; n < waves_per_layer; ++n) sum += to_waves.factor[w][n] * values[n][k];
-          const std::size_t row = (static_cast<std::size_t>(layer) * kinds + k) * waves_per_layer + w;
-          store_pack(__builtin_convertvector(sum, FloatPack), out + row * stride + t);
-        }
-    }
-  }
+  over_layers(chain, in, first, count, ingredients(chain.fibre_count), out, stride,
+              {{ingredients_of_layer<false, false>, ingredients_of_layer<false, true>},
+               {ingredients_of_layer<true, false>, ingredients_of_layer<true, true>}});
 }
 
 void add_path_rates(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
@@ -274,260 +579,248 @@ void add_path_rates(const BundlePointers& chain, const DeformationColumns& in, s
     descend(chain, in, first + t, descent);
     for (int n = 0; n < chain.node_count; ++n) {
       double* to = sum + static_cast<std::size_t>(n) * stride + t;
-      store_pack(
-          Pack(load_pack(to) + weight * path_rate(descent.rods[chain.step_count], chain.nodes[n].place)), to);
+      store(Pack(load<Pack>(to) + weight * path_rate(descent.rods[chain.step_count], chain.nodes[n].place)),
+            to);
     }
   }
 }
 
-// ---- turning points ---------------------------------------------------------------------------------------
+// ---- wires put together one by one ------------------------------------------------------------------------
 
-typedef float Floats __attribute__((vector_size(lanes * sizeof(float))));
-typedef std::int32_t Ints __attribute__((vector_size(lanes * sizeof(std::int32_t))));
-
-template <class Vector, class Value>
-inline Vector load_lanes(const Value* from) {
-  Vector vector;
-  __builtin_memcpy(&vector, from, sizeof(vector));
-  return vector;
-}
-
-/// Bit j: mask of lane j.
-inline unsigned bits(const Ints& mask) {
-#if defined(__AVX512F__)
-  return _mm512_movepi32_mask(reinterpret_cast<const __m512i&>(mask));
-#elif defined(__AVX2__)
-  const __m256* half = reinterpret_cast<const __m256*>(&mask);
-  return static_cast<unsigned>(_mm256_movemask_ps(half[0]) | _mm256_movemask_ps(half[1]) << 8);
-#else
-  typedef std::int64_t Words __attribute__((vector_size(lanes * sizeof(std::int32_t))));
-  const Words w = reinterpret_cast<const Words&>(mask);
-  if (((w[0] | w[1] | w[2] | w[3]) | (w[4] | w[5] | w[6] | w[7])) == 0) return 0;
-  unsigned found = 0;
-  for (int lane = 0; lane < lanes; ++lane) found |= mask[lane] ? 1u << lane : 0;
-  return found;
-#endif
-}
-
-/// Values of one ingredient at sixteen wires.
+/// Values of one ingredient at a pack of wires, the first of them lane `at`.
 struct Around {
-  Floats sine1, cosine1, sine2, cosine2;
+  FloatPack sine1, cosine1, sine2, cosine2;
 
-  explicit Around(const float (*shape)[lanes])
-      : sine1(load_lanes<Floats>(shape[0])),
-        cosine1(load_lanes<Floats>(shape[1])),
-        sine2(load_lanes<Floats>(shape[2])),
-        cosine2(load_lanes<Floats>(shape[3])) {}
+  Around(const float (*shape)[lanes], int at)
+      : sine1(load<FloatPack>(shape[0] + at)),
+        cosine1(load<FloatPack>(shape[1] + at)),
+        sine2(load<FloatPack>(shape[2] + at)),
+        cosine2(load<FloatPack>(shape[3] + at)) {}
 
-  inline Floats at(const float* waves, std::size_t stride, std::size_t t) const {
+  inline FloatPack at(const float* waves, std::size_t stride, std::size_t t) const {
     return (waves[t] + waves[stride + t] * sine1 + waves[2 * stride + t] * cosine1) +
            (waves[3 * stride + t] * sine2 + waves[4 * stride + t] * cosine2);
   }
 };
 
-inline Floats square_root_of(const Floats& x) {
-  Floats root;
-  for (int lane = 0; lane < lanes; ++lane) root[lane] = __builtin_sqrtf(x[lane]);
-  return root;
+void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t stride, std::size_t count,
+              int fibres, float* out) {
+  const Around around(state.shape, lane);
+  const std::size_t per_kind = waves_per_layer * stride;
+  const FloatPack zero{};
+  FloatPack slip = load<FloatPack>(state.slip + lane);
+  for (std::size_t t = 0; t < count; ++t) {
+    const FloatPack mean = around.at(waves + mean_strain * per_kind, stride, t);
+    const FloatPack away = around.at(waves + deviation * per_kind, stride, t);
+    const FloatPack cap = larger(state.cap + state.cap_per_mean * mean, zero);
+    // return mapping (W17): what is held is the deviation less the slip, cut at the cap; the slip follows
+    const FloatPack held = -larger(-larger(away - slip, -cap), -cap);
+    slip = away - held;
+    const FloatPack axial = mean + held;
+    const FloatPack scale = state.scales ? (1.0f + axial) / (1.0f + (mean + away)) : zero + 1.0f;
+    FloatPack torsion{};
+    if (state.with_shear)
+      torsion = around.at(waves + shear * per_kind, stride, t) * scale -
+                load<FloatPack>(state.rest[0].data() + lane);
+    for (int f = 0; f < fibres; ++f) {
+      FloatPack strain = axial;
+      if (!state.on_axis)
+        strain += around.at(waves + (first_bending + f) * per_kind, stride, t) * scale -
+                  load<FloatPack>(state.rest[1 + f].data() + lane);
+      if (state.with_shear) {
+        const FloatPack size = square_root(strain * strain + torsion * torsion);
+        strain = select(greater(zero, strain), -size, size);
+      }
+      store(strain, out + (f * count + t) * lanes + lane);
+    }
+  }
+  store(slip, state.slip + lane);
 }
 
 void mix(MixedLanes& state, const float* waves, std::size_t stride, std::size_t count, int fibres,
          float* out) {
-  const Around around(state.shape);
-  const std::size_t per_kind = waves_per_layer * stride;
-  const Floats zero{};
-  Floats slip = load_lanes<Floats>(state.slip);
-  for (std::size_t t = 0; t < count; ++t) {
-    const Floats mean = around.at(waves + mean_strain * per_kind, stride, t);
-    const Floats away = around.at(waves + deviation * per_kind, stride, t);
-    Floats cap = state.cap + state.cap_per_mean * mean;
-    cap = cap > 0.0f ? cap : zero;
-    // return mapping (W17): what is held is the deviation less the slip, cut at the cap; the slip follows
-    Floats held = away - slip;
-    held = held > cap ? cap : held;
-    held = held < -cap ? -cap : held;
-    slip = away - held;
-    const Floats axial = mean + held;
-    const Floats scale = state.scales ? (1.0f + axial) / (1.0f + (mean + away)) : Floats{} + 1.0f;
-    Floats torsion{};
-    if (state.with_shear)
-      torsion =
-          around.at(waves + shear * per_kind, stride, t) * scale - load_lanes<Floats>(state.rest[0].data());
-    for (int f = 0; f < fibres; ++f) {
-      Floats strain = axial;
-      if (!state.on_axis)
-        strain += around.at(waves + (first_bending + f) * per_kind, stride, t) * scale -
-                  load_lanes<Floats>(state.rest[1 + f].data());
-      if (state.with_shear) {
-        const Floats size = square_root_of(strain * strain + torsion * torsion);
-        strain = strain < 0.0f ? -size : size;
-      }
-      store_pack(strain, out + (f * count + t) * lanes);
-    }
-  }
-  store_pack(slip, state.slip);
+  for (int lane = 0; lane < lanes; lane += float_pack_size)
+    mix_pack(state, lane, waves, stride, count, fibres, out);
 }
 
-/// Factors of the waves for sixteen wires (W13), all times `sign`: +1 or the direction in which each wire
+// ---- turning points ---------------------------------------------------------------------------------------
+
+inline IntPack whole(std::int32_t value) { return IntPack{} + value; }
+
+/// Factors of the waves for a pack of wires (W13), all times `sign`: +1 or the direction in which each wire
 /// moves.
 struct WaveShape {
-  Floats sign, sine1, cosine1, sine2, cosine2;
+  FloatPack sign, sine1, cosine1, sine2, cosine2;
 
-  WaveShape(const LaneState& state, const Floats& of)
+  WaveShape(const LaneState& state, int lane, const FloatPack& of)
       : sign(of),
-        sine1(of * load_lanes<Floats>(state.shape[0])),
-        cosine1(of * load_lanes<Floats>(state.shape[1])),
-        sine2(of * load_lanes<Floats>(state.shape[2])),
-        cosine2(of * load_lanes<Floats>(state.shape[3])) {}
+        sine1(of * load<FloatPack>(state.shape[0] + lane)),
+        cosine1(of * load<FloatPack>(state.shape[1] + lane)),
+        sine2(of * load<FloatPack>(state.shape[2] + lane)),
+        cosine2(of * load<FloatPack>(state.shape[3] + lane)) {}
 
-  inline __attribute__((always_inline)) Floats at(const Waves& waves, std::size_t t) const {
+  inline __attribute__((always_inline)) FloatPack at(const Waves& waves, std::size_t t) const {
     return (waves.at[0][t] * sign + waves.at[1][t] * sine1 + waves.at[2][t] * cosine1) +
            (waves.at[3][t] * sine2 + waves.at[4][t] * cosine2);
   }
-  inline __attribute__((always_inline)) void flip(const Ints& where) {
-    sign = where ? -sign : sign;
-    sine1 = where ? -sine1 : sine1;
-    cosine1 = where ? -cosine1 : cosine1;
-    sine2 = where ? -sine2 : sine2;
-    cosine2 = where ? -cosine2 : cosine2;
+  inline __attribute__((always_inline)) void flip(Mask where) {
+    for (FloatPack* factor : {&sign, &sine1, &cosine1, &sine2, &cosine2})
+      *factor = select(where, -*factor, *factor);
   }
 };
 
 /// The same for strains that are there already.
 struct Strains {
-  Floats sign;
+  FloatPack sign;
+  int lane;
 
-  Strains(const LaneState&, const Floats& of) : sign(of) {}
+  Strains(const LaneState&, int first_lane, const FloatPack& of) : sign(of), lane(first_lane) {}
 
-  inline __attribute__((always_inline)) Floats at(const float* strain, std::size_t t) const {
-    return sign * load_lanes<Floats>(strain + t * lanes);
+  inline __attribute__((always_inline)) FloatPack at(const float* strain, std::size_t t) const {
+    return sign * load<FloatPack>(strain + t * lanes + lane);
   }
-  inline __attribute__((always_inline)) void flip(const Ints& where) { sign = where ? -sign : sign; }
+  inline __attribute__((always_inline)) void flip(Mask where) { sign = select(where, -sign, sign); }
 };
 
-const Floats forward = Floats{} + 1.0f;
-
-/// Decided wires: strain times direction rises to `extreme`; a turn is where it has fallen from there by the
-/// gate. Scans samples [from, to) and turns with them.
+/// A pack of the wires of a LaneState, the first of them lane `lane`.
 template <class Shape, class Source>
-void scan_decided(LaneState& state, const Source& waves, std::size_t from, std::size_t to,
-                  TurningPoint** end) {
-  Shape toward(state, load_lanes<Floats>(state.direction));
-  Floats extreme = toward.sign * load_lanes<Floats>(state.extreme);
-  Ints extreme_at = load_lanes<Ints>(state.extreme_at);
-  const unsigned used = (1u << state.used) - 1;
-  for (std::size_t t = from; t < to; ++t) {
-    const std::int32_t sample = state.sample + static_cast<std::int32_t>(t);
-    const Floats y = toward.at(waves, t);
-    const Ints further = y > extreme;
-    extreme = further ? y : extreme;
-    extreme_at = further ? Ints{} + sample : extreme_at;
-    const Ints turned = extreme - y > state.below_gate;
-    unsigned left = bits(turned);
-    if (__builtin_expect(left != 0, 0)) {
-      alignas(64) float strain[lanes];
-      alignas(64) std::int32_t at[lanes];
-      store_pack(Floats(toward.sign * extreme), strain);
-      store_pack(extreme_at, at);
-      for (left &= used; left != 0; left &= left - 1) {
-        const int lane = __builtin_ctz(left);
-        *end[lane]++ = {strain[lane], static_cast<std::uint32_t>(at[lane])};
+struct Scan {
+  LaneState& state;
+  const Source& waves;
+  int lane;
+  TurningPoint** end;
+
+  unsigned used() const { return ((1u << state.used) - 1) >> lane; }
+  FloatPack direction() const { return load<FloatPack>(state.direction + lane); }
+
+  /// Decided wires: strain times direction rises to `extreme`; a turn is where it has fallen from there by
+  /// the gate. Scans samples [from, to) and turns with them.
+  void decided(std::size_t from, std::size_t to) {
+    Shape toward(state, lane, direction());
+    FloatPack extreme = toward.sign * load<FloatPack>(state.extreme + lane);
+    IntPack extreme_at = load<IntPack>(state.extreme_at + lane);
+    const FloatPack below_gate = FloatPack{} + state.below_gate;
+    for (std::size_t t = from; t < to; ++t) {
+      const IntPack sample = whole(state.sample + static_cast<std::int32_t>(t));
+      const FloatPack y = toward.at(waves, t);
+      extreme_at = select(greater(y, extreme), sample, extreme_at);
+      extreme = larger(y, extreme);
+      const Mask turned = greater(extreme - y, below_gate);
+      if (__builtin_expect(bits(turned) != 0, 0)) {
+        put_turns(bits(turned) & used(), toward.sign * extreme, extreme_at);
+        toward.flip(turned);
+        extreme = select(turned, -y, extreme);
+        extreme_at = select(turned, sample, extreme_at);
       }
-      toward.flip(turned);
-      extreme = turned ? -y : extreme;
-      extreme_at = turned ? Ints{} + sample : extreme_at;
+    }
+    store(toward.sign, state.direction + lane);
+    store(FloatPack(toward.sign * extreme), state.extreme + lane);
+    store(extreme_at, state.extreme_at + lane);
+  }
+
+  inline void put_turns(unsigned which, const FloatPack& extreme, const IntPack& extreme_at) {
+    alignas(64) float strain[float_pack_size];
+    alignas(64) std::int32_t at[float_pack_size];
+    store(extreme, strain);
+    store(extreme_at, at);
+    for (; which != 0; which &= which - 1) {
+      const int wire = __builtin_ctz(which);
+      *end[lane + wire]++ = {strain[wire], static_cast<std::uint32_t>(at[wire])};
     }
   }
-  store_pack(toward.sign, state.direction);
-  store_pack(Floats(toward.sign * extreme), state.extreme);
-  store_pack(extreme_at, state.extreme_at);
-}
 
-struct Stretch {
-  std::size_t end;   ///< the sample after the last one seen
-  unsigned decided;  ///< wires that have moved by the gate there
+  struct Stretch {
+    std::size_t end;   ///< the sample after the last one seen
+    unsigned decided;  ///< wires that have moved by the gate there
+  };
+
+  /// Wires that have not moved by the gate yet: follows their lowest and highest strain from sample `from` to
+  /// the first at which one of them has, or to `to`.
+  Stretch undecided(std::size_t from, std::size_t to) {
+    const Shape shape(state, lane, FloatPack{} + 1.0f);
+    const FloatPack directed = direction() * direction();  // 1 where decided
+    FloatPack low = load<FloatPack>(state.low + lane), high = load<FloatPack>(state.high + lane);
+    IntPack low_at = load<IntPack>(state.low_at + lane), high_at = load<IntPack>(state.high_at + lane);
+    const unsigned open = bits(greater(FloatPack{} + 0.5f, directed));
+    unsigned decided = 0;
+    std::size_t t = from;
+    for (; t < to && decided == 0; ++t) {
+      const IntPack sample = whole(state.sample + static_cast<std::int32_t>(t));
+      const FloatPack x = shape.at(waves, t);
+      const Mask lower = greater(low, x), higher = greater(x, high);
+      low = select(lower, x, low);
+      high = select(higher, x, high);
+      low_at = select(lower, sample, low_at);
+      high_at = select(higher, sample, high_at);
+      decided = open & bits(greater(high - low, FloatPack{} + state.below_gate));
+    }
+    store(low, state.low + lane);
+    store(high, state.high + lane);
+    store(low_at, state.low_at + lane);
+    store(high_at, state.high_at + lane);
+    return {t, decided};
+  }
+
+  /// Starts the wires that have moved by the gate.
+  void decide(unsigned which) {
+    for (; which != 0; which &= which - 1) {  // the newer of lowest and highest is where the wire is now
+      const int wire = lane + __builtin_ctz(which);
+      const bool rising = state.high_at[wire] > state.low_at[wire];
+      const std::int32_t before = rising ? state.low_at[wire] : state.high_at[wire];
+      if (wire < state.used && before > 0)
+        *end[wire]++ = {rising ? state.low[wire] : state.high[wire], static_cast<std::uint32_t>(before)};
+      state.direction[wire] = rising ? 1.0f : -1.0f;
+      state.extreme[wire] = rising ? state.high[wire] : state.low[wire];
+      state.extreme_at[wire] = rising ? state.high_at[wire] : state.low_at[wire];
+    }
+  }
+
+  void run(std::size_t count) {
+    const Shape shape(state, lane, FloatPack{} + 1.0f);
+    std::size_t from = 0;
+    if (state.sample == 0) {
+      const FloatPack x = shape.at(waves, 0);
+      store(x, state.low + lane);
+      store(x, state.high + lane);
+      store(x, state.extreme + lane);
+      for (int wire = lane; wire < state.used && wire < lane + float_pack_size; ++wire)
+        *end[wire]++ = {state.low[wire], 0};
+      from = 1;
+    }
+    // Undecided wires have direction 0, so the decided scan leaves them alone; it runs piece by piece between
+    // the samples at which others are decided.
+    while (from < count) {
+      Stretch stretch{count, 0};
+      if (bits(greater(FloatPack{} + 0.5f, direction() * direction())) != 0) stretch = undecided(from, count);
+      decided(from, stretch.end);
+      decide(stretch.decided);
+      from = stretch.end;
+    }
+    store(shape.at(waves, count - 1), state.last + lane);
+  }
 };
 
-/// Wires that have not moved by the gate yet: follows their lowest and highest strain from sample `from` to
-/// the first at which one of them has, or to `to`.
 template <class Shape, class Source>
-Stretch scan_undecided(LaneState& state, const Source& waves, std::size_t from, std::size_t to) {
-  const Shape shape(state, forward);
-  const Ints undecided = load_lanes<Floats>(state.direction) == 0.0f;
-  Floats low = load_lanes<Floats>(state.low), high = load_lanes<Floats>(state.high);
-  Ints low_at = load_lanes<Ints>(state.low_at), high_at = load_lanes<Ints>(state.high_at);
-  unsigned decided = 0;
-  std::size_t t = from;
-  for (; t < to && decided == 0; ++t) {
-    const std::int32_t sample = state.sample + static_cast<std::int32_t>(t);
-    const Floats x = shape.at(waves, t);
-    const Ints lower = x<low, higher = x> high;
-    low = lower ? x : low;
-    high = higher ? x : high;
-    low_at = lower ? Ints{} + sample : low_at;
-    high_at = higher ? Ints{} + sample : high_at;
-    decided = bits(undecided & (high - low > state.below_gate));
-  }
-  store_pack(low, state.low);
-  store_pack(high, state.high);
-  store_pack(low_at, state.low_at);
-  store_pack(high_at, state.high_at);
-  return {t, decided};
-}
-
-/// Starts the wires that have moved by the gate.
-void decide(LaneState& state, unsigned decided, TurningPoint** end) {
-  for (; decided != 0; decided &= decided - 1) {  // the newer of lowest and highest is where the wire is now
-    const int lane = __builtin_ctz(decided);
-    const bool rising = state.high_at[lane] > state.low_at[lane];
-    const std::int32_t before = rising ? state.low_at[lane] : state.high_at[lane];
-    if (lane < state.used && before > 0)
-      *end[lane]++ = {rising ? state.low[lane] : state.high[lane], static_cast<std::uint32_t>(before)};
-    state.direction[lane] = rising ? 1.0f : -1.0f;
-    state.extreme[lane] = rising ? state.high[lane] : state.low[lane];
-    state.extreme_at[lane] = rising ? state.high_at[lane] : state.low_at[lane];
-  }
-}
-
-template <class Shape, class Source>
-void scan_from(LaneState& state, const Source& waves, std::size_t count, TurningPoint** end) {
-  const Shape shape(state, forward);
-  std::size_t from = 0;
-  if (state.sample == 0) {
-    const Floats x = shape.at(waves, 0);
-    store_pack(x, state.low);
-    store_pack(x, state.high);
-    store_pack(x, state.extreme);
-    for (int lane = 0; lane < state.used; ++lane) *end[lane]++ = {state.low[lane], 0};
-    from = 1;
-  }
-  // Undecided wires have direction 0, so the decided scan leaves them alone; it runs piece by piece between
-  // the samples at which others are decided.
-  while (from < count) {
-    Stretch stretch{count, 0};
-    if (bits(load_lanes<Floats>(state.direction) == 0.0f) != 0)
-      stretch = scan_undecided<Shape>(state, waves, from, count);
-    scan_decided<Shape>(state, waves, from, stretch.end, end);
-    decide(state, stretch.decided, end);
-    from = stretch.end;
-  }
-  store_pack(shape.at(waves, count - 1), state.last);
+void scan_all(LaneState& state, const Source& waves, std::size_t count, TurningPoint** end) {
+  for (int lane = 0; lane < state.used; lane += float_pack_size)
+    Scan<Shape, Source>{state, waves, lane, end}.run(count);
   state.sample += static_cast<std::int32_t>(count);
 }
 
 void scan(LaneState& state, const Waves& waves, std::size_t count, TurningPoint** end) {
-  scan_from<WaveShape>(state, waves, count, end);
+  scan_all<WaveShape>(state, waves, count, end);
 }
 
 void scan_strains(LaneState& state, const float* strain, std::size_t count, TurningPoint** end) {
-  scan_from<Strains>(state, strain, count, end);
+  scan_all<Strains>(state, strain, count, end);
 }
 
 }  // namespace
 
 extern const Kernels set;
-const Kernels set{DRESSLIFE_MACHINE_NAME, node_strains, layer_waves,    deviations, node_ingredients,
-                  ingredient_waves,       mix,          add_path_rates, scan,       scan_strains};
+const Kernels set{
+    DRESSLIFE_MACHINE_NAME, node_strains, layer_waves,    deviations, part_states, node_ingredients,
+    ingredient_waves,       mix,          add_path_rates, scan,       scan_strains};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain

@@ -1,5 +1,6 @@
 // dresslife-strain: motion.h5 in, strain.h5 out.
 #include "pipeline/stage.h"
+#include "pipeline/threads.h"
 #include "strain/strain_file.h"
 
 int main(int argc, char** argv) {
@@ -15,8 +16,8 @@ int main(int argc, char** argv) {
         const pipeline::FileReader motion(call.input, pipeline::motion_format());
         const pipeline::Job job = pipeline::job_of(call, motion, {pipeline::Part::sim});
         pipeline::FileWriter file(call.output, pipeline::strain_format());
-        const std::string summary =
-            strain::write_strain(motion, job, file, [&](double share) { progress.show(share); });
+        const std::string summary = strain::write_strain(motion, job, file, pipeline::thread_count(),
+                                                         [&](double share) { progress.show(share); });
         pipeline::stamp(file, call, job, motion.text_attribute("history"));
         file.commit();
         progress.note(summary);

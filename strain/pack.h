@@ -1,25 +1,125 @@
-// Eight samples side by side: arithmetic on a Pack is arithmetic on eight samples, in one instruction where
-// the machine has registers that wide and in several where it has not. Included by kernels_body.h only,
-// before helix.h.
+// Numbers side by side, as many as a register of the machine holds: arithmetic on a Pack is arithmetic on
+// that many doubles, on a FloatPack on twice as many floats. Here is all that instruction sets do
+// differently. Included by kernels_body.h only, before helix.h.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "strain/sizes.h"
 
-#ifndef DRESSLIFE_MACHINE
-#error "pack.h belongs to the kernels, which name their instruction set"
+#ifndef DRESSLIFE_REGISTER_BYTES
+#error "pack.h belongs to the kernels, which name their instruction set and how wide it is"
 #endif
 
 namespace dresslife::strain {
 
 inline namespace DRESSLIFE_MACHINE {
 
-typedef double Pack __attribute__((vector_size(pack_size * sizeof(double))));
+constexpr int register_bytes = DRESSLIFE_REGISTER_BYTES;
+constexpr int pack_size = register_bytes / sizeof(double);
+constexpr int float_pack_size = register_bytes / sizeof(float);
+static_assert(padding % float_pack_size == 0 && lanes % float_pack_size == 0);
+
+typedef double Pack __attribute__((vector_size(register_bytes)));
+typedef float FloatPack __attribute__((vector_size(register_bytes)));
+typedef std::int32_t IntPack __attribute__((vector_size(register_bytes)));
+typedef float HalfPack __attribute__((vector_size(register_bytes / 2)));  ///< a Pack in single precision
+
+template <class Vector, class Value>
+inline Vector load(const Value* from) {
+  Vector vector;
+  __builtin_memcpy(&vector, from, sizeof(vector));
+  return vector;
+}
+
+template <class Value, class Vector>
+inline void store(const Vector& vector, Value* to) {
+  __builtin_memcpy(to, &vector, sizeof(vector));
+}
 
 inline Pack square_root(const Pack& x) {
   Pack root;
   for (int k = 0; k < pack_size; ++k) root[k] = std::sqrt(x[k]);
+  return root;
+}
+
+// ---- what comparisons give --------------------------------------------------------------------------------
+
+#if DRESSLIFE_REGISTER_BYTES == 64
+
+typedef __mmask16 Mask;
+inline Mask greater(const FloatPack& a, const FloatPack& b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
+inline FloatPack select(Mask mask, const FloatPack& yes, const FloatPack& no) {
+  return _mm512_mask_blend_ps(mask, no, yes);
+}
+inline IntPack select(Mask mask, const IntPack& yes, const IntPack& no) {
+  return reinterpret_cast<IntPack>(
+      _mm512_mask_blend_epi32(mask, reinterpret_cast<__m512i>(no), reinterpret_cast<__m512i>(yes)));
+}
+inline unsigned bits(Mask mask) { return mask; }  ///< bit j: of lane j
+inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return _mm512_max_ps(a, b); }
+
+#elif DRESSLIFE_REGISTER_BYTES == 32
+
+typedef __m256 Mask;
+inline Mask greater(const FloatPack& a, const FloatPack& b) { return _mm256_cmp_ps(a, b, _CMP_GT_OQ); }
+inline FloatPack select(Mask mask, const FloatPack& yes, const FloatPack& no) {
+  return _mm256_blendv_ps(no, yes, mask);
+}
+inline IntPack select(Mask mask, const IntPack& yes, const IntPack& no) {
+  return reinterpret_cast<IntPack>(
+      _mm256_blendv_ps(reinterpret_cast<__m256>(no), reinterpret_cast<__m256>(yes), mask));
+}
+inline unsigned bits(Mask mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
+inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return _mm256_max_ps(a, b); }
+
+#else
+
+typedef IntPack Mask;
+inline Mask greater(const FloatPack& a, const FloatPack& b) { return a > b; }
+inline FloatPack select(const Mask& mask, const FloatPack& yes, const FloatPack& no) {
+  return mask ? yes : no;
+}
+inline IntPack select(const Mask& mask, const IntPack& yes, const IntPack& no) { return mask ? yes : no; }
+inline unsigned bits(const Mask& mask) {
+  return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
+}
+inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return a > b ? a : b; }
+
+#endif
+
+// ---- roots and quotients, to a few units of the last place ------------------------------------------------
+
+#if DRESSLIFE_REGISTER_BYTES == 64
+inline FloatPack rough_inverse_root(const FloatPack& x) { return _mm512_rsqrt14_ps(x); }
+inline FloatPack rough_inverse(const FloatPack& x) { return _mm512_rcp14_ps(x); }
+#elif DRESSLIFE_REGISTER_BYTES == 32
+inline FloatPack rough_inverse_root(const FloatPack& x) { return _mm256_rsqrt_ps(x); }
+inline FloatPack rough_inverse(const FloatPack& x) { return _mm256_rcp_ps(x); }
+#endif
+
+#if DRESSLIFE_REGISTER_BYTES > 16  // one step of Newton's doubles the digits
+inline FloatPack inverse_root(const FloatPack& x) {
+  const FloatPack rough = rough_inverse_root(x);
+  return rough * (1.5f - (0.5f * x) * (rough * rough));
+}
+inline FloatPack inverse(const FloatPack& x) {
+  const FloatPack rough = rough_inverse(x);
+  return rough * (2.0f - x * rough);
+}
+#else
+inline FloatPack inverse_root(const FloatPack& x) {
+  FloatPack root;
+  for (int k = 0; k < float_pack_size; ++k) root[k] = std::sqrt(x[k]);
+  return 1.0f / root;
+}
+inline FloatPack inverse(const FloatPack& x) { return 1.0f / x; }
+#endif
+
+inline FloatPack square_root(const FloatPack& x) {
+  FloatPack root;
+  for (int k = 0; k < float_pack_size; ++k) root[k] = __builtin_sqrtf(x[k]);
   return root;
 }
 

@@ -83,11 +83,6 @@ void LaneScan::finish(std::span<TurningList> out) {
     if (moved && state_.extreme_at[wire] != state_.sample - 1)
       out[wire].add(state_.extreme[wire], static_cast<std::uint32_t>(state_.extreme_at[wire]));
     out[wire].add(state_.last[wire], static_cast<std::uint32_t>(state_.sample - 1));
-    if (!moved) continue;  // lowest and highest are known from the scan
-    for (const TurningPoint& point : out[wire].points()) {
-      state_.low[wire] = std::min(state_.low[wire], point.strain);
-      state_.high[wire] = std::max(state_.high[wire], point.strain);
-    }
   }
 }
 

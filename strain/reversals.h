@@ -46,8 +46,6 @@ class LaneScan {
   void finish(std::span<TurningList> out);
 
   int wires() const { return state_.used; }
-  float lowest(int wire) const { return state_.low[wire]; }  ///< after finish()
-  float highest(int wire) const { return state_.high[wire]; }
 
  private:
   const Kernels* machine_;

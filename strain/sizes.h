@@ -3,7 +3,7 @@
 
 namespace dresslife::strain {
 
-constexpr int pack_size = 8;         ///< samples in a Pack; histories are padded to a multiple
+constexpr int padding = 16;          ///< histories are padded to a multiple of so many samples
 constexpr int lanes = 16;            ///< wires scanned for turning points together
 constexpr int waves_per_layer = 5;   ///< mean, sin, cos, sin 2, cos 2 of the angle around a layer
 constexpr int phases_per_pitch = 6;  ///< of a mean over an ancestor's pitch

@@ -129,12 +129,13 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
 }  // namespace
 
 std::string write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
-                         const std::function<void(double)>& progress, std::size_t history_bytes) {
+                         std::size_t threads, const std::function<void(double)>& progress,
+                         std::size_t history_bytes) {
   MotionReader reader(motion, job.strain.deformation);
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   const Construction construction(job.dresspack, job.strain.kinematics);
-  Evaluation evaluation(construction, job.strain, reader.lengths(), samples);
+  Evaluation evaluation(construction, job.strain, reader.lengths(), samples, threads);
   strain.set_axis("segment", segments);
   strain.set_axis("level", construction.levels());
   strain.set_axis("sample", samples);

@@ -13,11 +13,13 @@ namespace dresslife::strain {
 /// Histories of so many bytes are held at a time; for more, the motion is read again for the next segments.
 constexpr std::size_t default_history_bytes = std::size_t{256} << 20;
 
-/// Writes every dataset of strain.h5 and returns a line on the worst site. progress: share of the work done.
+/// Writes every dataset of strain.h5 and returns a line on the worst site. threads: any number gives the same
+/// bytes. progress: share of the work done.
 /// Errors: InputError for a motion without samples, a dresspack without wires, and those of Construction and
 /// Evaluation.
 std::string write_strain(const pipeline::FileReader& motion, const pipeline::Job& job,
-                         pipeline::FileWriter& strain, const std::function<void(double)>& progress,
+                         pipeline::FileWriter& strain, std::size_t threads,
+                         const std::function<void(double)>& progress,
                          std::size_t history_bytes = default_history_bytes);
 
 }  // namespace dresslife::strain

@@ -377,6 +377,51 @@ TEST_CASE("every instruction set of this machine gives the same strains") {
     for (std::size_t k = 0; k < of.size(); ++k) REQUIRE(std::abs(of[k] - strains[0][k]) < contraction);
 }
 
+TEST_CASE("waves in single precision are the strains of their nodes on every instruction set") {
+  const std::size_t samples = 250;  // not a multiple of any register
+  const DeformationHistory history = moving(1, samples);
+  for (const Kinematics kinematics : {Kinematics::exact, Kinematics::thesis})
+    for (const auto& slip :
+         {std::vector{Slip::stick}, {Slip::free}, {Slip::stick, Slip::stick, Slip::free}}) {
+      const Construction construction(thesis_dresspack(), kinematics);
+      const auto plan = plan_slip(construction, slip, 2.0);
+      const std::size_t stride = padded(samples);
+      const std::vector<double> clamp_strain(stride, 1e-3);
+      const Bundle& bundle = construction.bundles()[12];
+      BundleChain chain = chain_to(construction, plan, bundle.part, 0.1, surface_fibres(3));
+      for (ChainStep& step : chain.steps) step.slide.clamp_strain = clamp_strain.data();
+      for (const int layer : bundle.wire_layers)
+        for (int node = 0; node < waves_per_layer; ++node)
+          chain.nodes.push_back(node_at(construction, plan, chain, layer, 1, bundle.part, 0.1,
+                                        2 * pi * node / waves_per_layer));
+      const std::size_t rows = chain.nodes.size() * 3;
+      std::vector<double> strains(rows * stride);
+      kernels().node_strains(pointers(chain), history.columns(0), 0, samples, strains.data(), stride);
+      double largest = 0;
+      for (const double strain : strains) largest = std::max(largest, std::abs(strain));
+      for (const Kernels* set : kernels_of_this_machine()) {
+        std::vector<float> waves(rows * stride);
+        set->layer_waves(pointers(chain), history.columns(0), 0, samples, waves.data(), stride);
+        double worst = 0;
+        for (std::size_t layer = 0; layer < bundle.wire_layers.size(); ++layer)
+          for (int fibre = 0; fibre < 3; ++fibre)
+            for (int node = 0; node < waves_per_layer; ++node)
+              for (std::size_t t = 0; t < samples; ++t) {
+                const float* wave = &waves[(layer * 3 + fibre) * waves_per_layer * stride + t];
+                const double turn = 2 * pi * node / waves_per_layer;
+                const double strain =
+                    wave[0] + wave[stride] * std::sin(turn) + wave[2 * stride] * std::cos(turn) +
+                    wave[3 * stride] * std::sin(2 * turn) + wave[4 * stride] * std::cos(2 * turn);
+                const double exact = strains[((layer * waves_per_layer + node) * 3 + fibre) * stride + t];
+                worst = std::max(worst, std::abs(strain - exact));
+              }
+        constexpr double single = 3e-6;  // of the largest strain: some tens of roundings to 6e-8
+        CAPTURE(set->machine, worst / largest);
+        CHECK(worst < single * largest);
+      }
+    }
+}
+
 TEST_CASE("a probe that names no wire or no segment is refused") {
   const Construction construction(thesis_dresspack(), Kinematics::exact);
   Settings settings = settings_with(Slip::stick);

@@ -85,11 +85,12 @@ void write_motion(const std::filesystem::path& name, std::size_t count = samples
 }
 
 std::string evaluate(const std::filesystem::path& motion, const std::filesystem::path& out,
-                     const pipeline::Job& job, std::size_t history_bytes = strain::default_history_bytes) {
+                     const pipeline::Job& job, std::size_t history_bytes = strain::default_history_bytes,
+                     std::size_t threads = 1) {
   const FileReader reader(motion, pipeline::motion_format());
   FileWriter writer(out, pipeline::strain_format());
   const std::string summary = strain::write_strain(
-      reader, job, writer, [](double) {}, history_bytes);
+      reader, job, writer, threads, [](double) {}, history_bytes);
   writer.attribute("job", "");
   writer.attribute("history", "");
   writer.attribute("input_sha256", "");
@@ -153,7 +154,8 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
   CHECK(file.read<std::string>("/program/text").back() == "home");
 }
 
-TEST_CASE("the same motion gives the same bytes, read in one pass or segment by segment") {
+TEST_CASE(
+    "the same motion gives the same bytes: in one pass or segment by segment and on any number of threads") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
   evaluate(scratch / "motion.h5", scratch / "once.h5", job_with());
@@ -162,6 +164,11 @@ TEST_CASE("the same motion gives the same bytes, read in one pass or segment by 
   evaluate(scratch / "motion.h5", scratch / "passes.h5", job_with(), three_segments);
   CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "twice.h5"));
   CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "passes.h5"));
+  for (const std::size_t threads : {2, 3, 8}) {
+    evaluate(scratch / "motion.h5", scratch / "threads.h5", job_with(), strain::default_history_bytes,
+             threads);
+    CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "threads.h5"));
+  }
 }
 
 TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {

@@ -1,0 +1,137 @@
+#include "strain/bundle_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dresslife::strain {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr std::size_t block_samples = 256;  // waves of five layers: 26 kB, within the first-level cache
+
+/// Share of node `node` in the value at one angle of the waves through a layer's nodes: Dirichlet's kernel.
+double nodal_share(double angle, int node) {
+  const double away = angle - 2 * pi * node / waves_per_layer;
+  return (1 + 2 * std::cos(away) + 2 * std::cos(2 * away)) / waves_per_layer;
+}
+
+}  // namespace
+
+double rest_ingredient(const WireNode& node, const Fibre* fibre) {
+  if (fibre == nullptr) return node.strain_factor * node.shear_radius / std::numbers::sqrt3 * node.rest.twist;
+  if (fibre->on_axis) return 0;
+  return fibre_strain(node.rest.bend1, node.rest.bend2, node.wire_radius, fibre->phi_sine, fibre->phi_cosine);
+}
+
+void PartStates::fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples) {
+  stride_ = padded(samples);
+  rows_.resize(part_state_rows(chain.order) * stride_);
+  kernels().part_states(pointers(chain), columns, 0, samples, rows_.data(), stride_);
+}
+
+MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
+                                   const std::vector<double>& angles) const {
+  MixedLanes mixed;
+  constexpr float glued = std::numeric_limits<float>::infinity();
+  mixed.cap = slip.sliding == Sliding::glued ? glued : static_cast<float>(slip.cap.constant);
+  mixed.cap_per_mean = static_cast<float>(slip.cap.per_mean);
+  mixed.scales = construction_.kinematics() == pipeline::Kinematics::exact;
+  mixed.with_shear = settings_.with_shear;
+  mixed.on_axis = settings_.on_axis;
+  mixed.rest.resize(1 + settings_.fibre_count);
+  for (int lane = 0; lane < lanes; ++lane) {
+    const double angle = angles[lane < static_cast<int>(angles.size()) ? lane : 0];
+    mixed.slip[lane] = 0;
+    mixed.shape[0][lane] = static_cast<float>(std::sin(angle));
+    mixed.shape[1][lane] = static_cast<float>(std::cos(angle));
+    mixed.shape[2][lane] = static_cast<float>(std::sin(2 * angle));
+    mixed.shape[3][lane] = static_cast<float>(std::cos(2 * angle));
+    for (int kind = 0; kind <= settings_.fibre_count; ++kind) {
+      double rest = 0;
+      for (int node = 0; node < waves_per_layer; ++node)
+        rest +=
+            nodal_share(angle, node) * rest_ingredient(nodes[node], kind == 0 ? nullptr : &fibres[kind - 1]);
+      mixed.rest[kind][lane] = static_cast<float>(rest);
+    }
+  }
+  return mixed;
+}
+
+void BundleScan::list_groups(const Bundle& bundle, const std::vector<LayerSlip>& plan,
+                             const BundlePointers& chain, bool mixed) {
+  groups_.clear();
+  std::size_t lists = 0;
+  for (std::size_t k = 0; k < bundle.wire_layers.size(); ++k) {
+    const int count = construction_.layers()[bundle.wire_layers[k]].count;
+    for (int first = 0; first < count; first += lanes) {
+      std::vector<double> angles;
+      for (int j = first; j < std::min(count, first + lanes); ++j) angles.push_back(2 * pi * j / count);
+      Group& group = groups_.emplace_back(Group{k, {}, {}, lists});
+      if (mixed)
+        group.mixed =
+            mixed_lanes(chain.nodes + k * waves_per_layer, chain.fibres, plan[bundle.wire_layers[k]], angles);
+      for (int f = 0; f < settings_.fibre_count; ++f) group.scans.emplace_back(angles, settings_.gate);
+      lists += settings_.fibre_count * angles.size();
+    }
+  }
+  if (lists_.size() < lists) lists_.resize(lists);
+  for (TurningList& list : lists_) list.clear();
+}
+
+std::span<TurningList> BundleScan::lists_of(const Group& group, int fibre) {
+  const std::size_t wires = group.scans[0].wires();
+  return std::span(lists_).subspan(group.first_list + fibre * wires, wires);
+}
+
+void BundleScan::run_blocks(const BundlePointers& chain, bool mixed, bool keep,
+                            const DeformationColumns& columns, std::size_t samples) {
+  const std::size_t layers = chain.node_count / waves_per_layer;
+  const int fibres = settings_.fibre_count, kinds = mixed ? ingredients(fibres) : fibres;
+  waves_.resize(layers * kinds * waves_per_layer * block_samples);
+  strains_.resize(mixed ? fibres * block_samples * lanes : 0);
+  for (std::size_t first = 0; first < samples; first += block_samples) {
+    const std::size_t count = std::min(block_samples, samples - first);
+    const auto fill = mixed ? kernels().ingredient_waves : kernels().layer_waves;
+    fill(chain, columns, first, count, waves_.data(), block_samples);
+    for (Group& group : groups_) {
+      const float* of_layer = waves_.data() + group.layer * kinds * waves_per_layer * block_samples;
+      if (mixed) kernels().mix(group.mixed, of_layer, block_samples, count, fibres, strains_.data());
+      for (int f = 0; keep && f < fibres; ++f) {
+        if (mixed) {
+          group.scans[f].scan_strains(strains_.data() + f * count * lanes, count, lists_of(group, f));
+          continue;
+        }
+        Waves of;
+        for (int w = 0; w < waves_per_layer; ++w)
+          of.at[w] = of_layer + (f * waves_per_layer + w) * block_samples;
+        group.scans[f].scan(of, count, lists_of(group, f));
+      }
+    }
+  }
+}
+
+void BundleScan::run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+                     bool mixed, const DeformationColumns& columns, std::size_t samples) {
+  list_groups(bundle, plan, chain, mixed);
+  const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
+                                   [&](int layer) { return plan[layer].friction; });
+  if (settles) run_blocks(chain, mixed, false, columns, samples);
+  run_blocks(chain, mixed, true, columns, samples);
+  for (Group& group : groups_)
+    for (int f = 0; f < settings_.fibre_count; ++f) group.scans[f].finish(lists_of(group, f));
+}
+
+void BundleScan::for_each_site(
+    const std::function<void(std::size_t, int, std::span<const TurningPoint>)>& found) const {
+  std::size_t wire = 0;
+  for (const Group& group : groups_) {
+    const std::size_t wires = group.scans[0].wires();
+    for (std::size_t lane = 0; lane < wires; ++lane, ++wire)
+      for (int f = 0; f < settings_.fibre_count; ++f)
+        found(wire, f, lists_[group.first_list + f * wires + lane].points());
+  }
+}
+
+}  // namespace dresslife::strain

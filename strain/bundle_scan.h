@@ -1,0 +1,76 @@
+// All wires of one bundle in one segment, run over the motion in blocks of samples that stay in cache: waves
+// of strain (W13), or strains put together wire by wire (W18), and their turning points (W14).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "strain/clamp_means.h"
+#include "strain/reversals.h"
+
+namespace dresslife::strain {
+
+/// What of the job the scan of a bundle needs.
+struct ScanSettings {
+  int fibre_count = 1;
+  float gate = 0;
+  bool with_shear = false;  ///< W19
+  bool on_axis = false;     ///< fibres are the wires' axes
+};
+
+/// Shear (fibre null) or bending of the undeformed wire, as the ingredients hold them.
+double rest_ingredient(const WireNode& node, const Fibre* fibre);
+
+/// The state of a part over the motion, from which its own parts go on: worked out once for all of them.
+class PartStates {
+ public:
+  /// chain: down to the part, its order that of its parts plus one.
+  void fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples);
+  const double* rows() const { return rows_.data(); }
+  std::size_t stride() const { return stride_; }
+
+ private:
+  std::vector<double> rows_;
+  std::size_t stride_ = 0;
+};
+
+/// Reused from bundle to bundle by one thread.
+class BundleScan {
+ public:
+  BundleScan(const Construction& construction, const ScanSettings& settings)
+      : construction_(construction), settings_(settings) {}
+
+  /// chain: with the nodes of the bundle's layers. mixed: strains are put together wire by wire.
+  void run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain, bool mixed,
+           const DeformationColumns& columns, std::size_t samples);
+
+  /// After run(): calls found(wire, fibre, points) for every site, wire by wire; wires count through the
+  /// bundle.
+  void for_each_site(const std::function<void(std::size_t, int, std::span<const TurningPoint>)>& found) const;
+
+ private:
+  /// Up to sixteen wires of one layer.
+  struct Group {
+    std::size_t layer;  ///< in the bundle
+    MixedLanes mixed;
+    std::vector<LaneScan> scans;  ///< (fibre)
+    std::size_t first_list;       ///< of (fibre, wire) lists
+  };
+
+  void list_groups(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+                   bool mixed);
+  MixedLanes mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
+                         const std::vector<double>& angles) const;
+  std::span<TurningList> lists_of(const Group& group, int fibre);
+  void run_blocks(const BundlePointers& chain, bool mixed, bool keep, const DeformationColumns& columns,
+                  std::size_t samples);
+
+  const Construction& construction_;
+  ScanSettings settings_;
+  std::vector<Group> groups_;
+  std::vector<TurningList> lists_;  ///< those in use first
+  std::vector<float> waves_, strains_;
+};
+
+}  // namespace dresslife::strain
