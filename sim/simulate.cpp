@@ -32,6 +32,7 @@ std::unique_ptr<ClampPath> path_of(const pipeline::Job& job) {
 }
 
 constexpr double same_step = 1e-9;  // [s]
+constexpr double exact_lead = 0.1;  // share of the repeat that leads in that has the motion's own step
 
 /// Intervals that cover the motion; a duration that is a whole number of them up to rounding takes no further
 /// one.
@@ -117,16 +118,47 @@ struct Simulation::Repeat {
   StepError error;
 };
 
+// (R8) What a repeat forgets need not be exact: the first one of a motion that returns only leads into the
+// cycle, with twice the step, but for its last tenth. Whether it did is judged as between any two repeats.
+// Null: it broke down or drew the dresspack taut; the motion then runs from rest, which says where.
+std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
+  const double h = job_.simulation.time_step;
+  const int steps = (description_.samples - 1) * steps_per_sample(h);
+  const int coarse = static_cast<int>((1 - exact_lead) * steps / 2);
+  std::unique_ptr<World> world = world_at(start_, path_->at(0), 2 * h);
+  RodState before;
+  const auto advance = [&](int at) {
+    const Pose pose = path_->at(at * h);
+    if (at == 2 * coarse) before = world->state();
+    if (sinks.progress) sinks.progress(static_cast<double>(at) / steps);
+    return world->advance(pose.clamps, pose.links).finite &&
+           rod_.mean_elongation(world->state()) <= longest_elongation;
+  };
+  for (int k = 1; k <= coarse; ++k)
+    if (!advance(2 * k)) return nullptr;
+  if (coarse > 0)
+    world = world_at(with_half_step(world->state(), before), path_->at(2 * coarse * h), h);
+  else
+    world = world_at(start_, path_->at(0), h);
+  for (int k = 2 * coarse + 1; k <= steps; ++k)
+    if (!advance(k)) return nullptr;
+  return world;
+}
+
 RunSummary Simulation::run(const RunSinks& sinks) const {
   const pipeline::Simulation& settings = job_.simulation;
   RunSummary summary;
   summary.returns = returns(*path_);
   summary.time_step = settings.time_step;
   bool choose = settings.choose_time_step;
-  std::unique_ptr<World> world = world_at(start_, path_->at(0), summary.time_step);
-  for (summary.repeats = 1;; ++summary.repeats) {  // (R8)
+  std::unique_ptr<World> world;
+  if (summary.returns && !choose && settings.most_repeats > 1)
+    world = led_in(sinks);
+  summary.repeats = world ? 2 : 1;
+  if (!world) world = world_at(start_, path_->at(0), summary.time_step);
+  for (bool first = true;; first = false, ++summary.repeats) {  // (R8)
     const RodState begin = world->state();
-    if (summary.repeats > 1 && sinks.begin) sinks.begin(summary.repeats);
+    if (!first && sinks.begin) sinks.begin(summary.repeats);
     Repeat repeat(*this, summary.time_step);
     run_once(*world, repeat, sinks);
     summary.distance = state_distance(rod_, begin, world->state());

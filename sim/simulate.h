@@ -2,7 +2,8 @@
 //
 // (R6) From rest in its mounting (mounting.h), time goes on in steps h, clamps and links follow the motion,
 // and every 1/(rate h)-th state is a sample: t = k/rate, k = 0, 1, ... until the motion has ended. A motion
-// that returns is repeated until two successive repeats begin alike (R8, periodic.h); the last one counts.
+// that returns is repeated until two successive repeats begin alike (R8, periodic.h); the last one counts, the
+// first only leads in.
 // Memory does not grow with the motion's length.
 #pragma once
 
@@ -47,7 +48,7 @@ struct Sample {
 
 /// What a run says of itself.
 struct RunSummary {
-  int repeats = 1;        ///< of the motion that were run; the last is the result
+  int repeats = 1;        ///< of the motion that were run, the one that leads in too; the last is the result
   bool returns = false;   ///< the motion ends where it begins
   bool periodic = false;  ///< the last repeat began and ended alike
   double distance = 0;    ///< between the states at the last repeat's begin and end (R8) [m]
@@ -64,8 +65,8 @@ std::vector<std::string> remarks(const Simulation& simulation, const RunSummary&
 
 /// What a run hands its results to; only `take` is needed.
 struct RunSinks {
-  std::function<void(const Sample&)> take;    ///< every sample of every repeat
-  std::function<void(int)> begin = {};        ///< repeat 2, 3, ... begins: samples taken so far do not count
+  std::function<void(const Sample&)> take;    ///< every sample of every repeat but the one that leads in
+  std::function<void(int)> begin = {};        ///< a further repeat begins: samples taken so far do not count
   std::function<void(double)> progress = {};  ///< share of the repeat that is done, 0..1
 };
 
@@ -92,6 +93,7 @@ class Simulation {
  private:
   struct Repeat;  // what looks on while a repeat runs
   std::unique_ptr<World> world_at(const RodState& state, const Pose& pose, double step) const;
+  std::unique_ptr<World> led_in(const RunSinks& sinks) const;
   void run_once(World& world, Repeat& repeat, const RunSinks& sinks) const;
   int steps_per_sample(double step) const;
   void check_reach() const;

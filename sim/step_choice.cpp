@@ -31,24 +31,23 @@ std::vector<double> liveliness(const ClampPath& path, double h, int steps) {
   return squares;
 }
 
-/// As if the state had been reached with steps of half the length: velocities a quarter step later.
-RodState for_half_steps(const RodState& state, const RodState& before) {
+double step_that_fits(double h, double rate) { return 1 / (rate * std::ceil(1 / (rate * h) - 1e-9)); }
+
+}  // namespace
+
+RodState with_half_step(const RodState& state, const RodState& before) {
   RodState start = state;
   const auto later = [](Vector3& v, const Vector3& v_before) { v += (v - v_before) / 4; };
   for (size_t i = 0; i < state.velocity.size(); ++i) {
     later(start.velocity[i], before.velocity[i]);
     later(start.angular_velocity[i], before.angular_velocity[i]);
   }
-  for (int end = 0; end < 2; ++end) {
+  for (size_t end = 0; end < state.clamp_velocity.size(); ++end) {
     later(start.clamp_velocity[end], before.clamp_velocity[end]);
     later(start.clamp_angular_velocity[end], before.clamp_angular_velocity[end]);
   }
   return start;
 }
-
-double step_that_fits(double h, double rate) { return 1 / (rate * std::ceil(1 / (rate * h) - 1e-9)); }
-
-}  // namespace
 
 std::vector<StepWindow> lively_windows(const ClampPath& path, double h, int steps) {
   const int length = std::min(steps, static_cast<int>(std::lround(window_seconds / h)));
@@ -83,7 +82,7 @@ void StepError::see(int k, const RodState& state) {
   for (size_t w = 0; w < windows_.size(); ++w) {
     const StepWindow& window = windows_[w];
     if (k == std::max(window.begin, 1)) {
-      records_[w].begin = before_.position.empty() ? state : for_half_steps(state, before_);
+      records_[w].begin = before_.position.empty() ? state : with_half_step(state, before_);
       records_[w].curvature.clear();
     }
     if (k >= window.compare && k <= window.end) append_curvatures(rod_, state, records_[w].curvature);

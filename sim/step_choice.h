@@ -5,10 +5,9 @@
 // clamps, the run is done again from its own state with half the step. At second order the error of the step
 // h is
 //   e = 4/3 rms(kappa_h - kappa_{h/2}) / rms(kappa_{h/2})      (Richardson),
-// over all links and the second half of each window; the first half lets differences grow. Velocities live
-// half a step before positions, so those of the half step are v + (v - v_before)/4. e holds for the lively
-// seconds, hence bounds that of the motion; it does not count the segments' length. (R11) h' = h sqrt(e'/e)
-// reaches the error e'.
+// over all links and the second half of each window; the first half lets differences grow. e holds for the
+// lively seconds, hence bounds that of the motion; it does not count the segments' length. (R11) h' = h
+// sqrt(e'/e) reaches the error e'.
 #pragma once
 
 #include <functional>
@@ -29,6 +28,10 @@ struct StepWindow {
 /// Windows of 3 s, liveliest first, apart from each other, together at most a thirtieth of the motion but at
 /// least one. h: step [s], steps: of the whole motion.
 std::vector<StepWindow> lively_windows(const ClampPath& path, double h, int steps);
+
+/// As if the state had been reached with steps of half the length: velocities live half a step before
+/// positions, so they move on by a quarter step. before: the state one step earlier.
+RodState with_half_step(const RodState& state, const RodState& before);
 
 class StepError {
  public:
