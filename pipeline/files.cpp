@@ -3,16 +3,20 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "pipeline/document.h"
+#include "pipeline/scale_offset.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t chunk_bytes = 1 << 16;  // one write call and one chunk: large enough to amortise both
+constexpr std::size_t packed_chunk_rows =
+    1 << 15;  // fewer calls; the range of values, hence their bits, hardly grows
 
 /// An HDF5 identifier that closes itself.
 class Handle {
@@ -152,6 +156,7 @@ struct FileWriter::Impl {
   Handle file;
   std::map<std::string, Open> open;  // ordered: same calls, same bytes
   std::map<std::string, std::size_t> axes, text_widths;
+  std::vector<char> packed;  // the chunk being written
   bool committed = false;
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -191,7 +196,10 @@ struct FileWriter::Impl {
     const auto& shape = made.description->shape;
     std::vector<hsize_t> lengths(shape.size()), most(shape.size()), chunk(shape.size());
     made.chunk_rows =
-        std::max<std::size_t>(1, chunk_bytes / std::max<std::size_t>(1, made.row_values * made.value_bytes));
+        made.description->decimals
+            ? packed_chunk_rows
+            : std::max<std::size_t>(
+                  1, chunk_bytes / std::max<std::size_t>(1, made.row_values * made.value_bytes));
     for (std::size_t i = 0; i < shape.size(); ++i) {
       lengths[i] = i ? axis_length(shape[i]) : 0;
       most[i] = i ? lengths[i] : H5S_UNLIMITED;
@@ -205,6 +213,12 @@ struct FileWriter::Impl {
     if (made.description->deflate) {
       H5Pset_shuffle(creation);
       H5Pset_deflate(creation, 1);
+    }
+    if (made.description->decimals) {
+      const bool real = made.description->type == Type::f32;
+      H5Pset_fill_value(creation, made.file_type, nullptr);  // a defined one would need a number of its own
+      H5Pset_scaleoffset(creation, real ? H5Z_SO_FLOAT_DSCALE : H5Z_SO_INT,
+                         real ? *made.description->decimals : H5Z_SO_INT_MINBITS_DEFAULT);
     }
     make_groups(path);
     made.id = Handle(
@@ -229,10 +243,45 @@ struct FileWriter::Impl {
   void put(Open& target, const void* bytes, std::size_t count) {
     const char* begin = static_cast<const char*>(bytes);
     target.buffer.insert(target.buffer.end(), begin, begin + count);
-    if (target.buffer.size() >= chunk_bytes) flush(target);
+    if (target.description->decimals)
+      flush_packed(target, false);
+    else if (target.buffer.size() >= chunk_bytes)
+      flush(target);
+  }
+
+  /// Whole chunks; at the end the last one too, filled up with its last number.
+  void flush_packed(Open& target, bool at_end) {
+    const std::size_t whole_chunk = target.chunk_rows * target.value_bytes;
+    std::size_t done = 0;
+    for (; target.buffer.size() - done >= whole_chunk; done += whole_chunk)
+      write_chunk(target, target.buffer.data() + done, target.chunk_rows);
+    target.buffer.erase(target.buffer.begin(), target.buffer.begin() + static_cast<std::ptrdiff_t>(done));
+    if (!at_end || target.buffer.empty()) return;
+    const std::size_t rest = target.buffer.size();
+    target.buffer.resize(whole_chunk);
+    for (std::size_t at = rest; at < whole_chunk; at += target.value_bytes)
+      std::copy_n(target.buffer.data() + rest - target.value_bytes, target.value_bytes,
+                  target.buffer.data() + at);
+    write_chunk(target, target.buffer.data(), rest / target.value_bytes);
+    target.buffer.clear();
+  }
+
+  /// rows: of the chunk that belong to the dataset.
+  void write_chunk(Open& target, const char* numbers, std::size_t rows) {
+    const auto pack = [&]<class T>(T) {
+      pack_chunk(std::span(reinterpret_cast<const T*>(numbers), target.chunk_rows),
+                 *target.description->decimals, packed);
+    };
+    target.description->type == Type::f32 ? pack(float{}) : pack(std::uint32_t{});
+    const hsize_t first = target.rows, length = target.rows + rows;
+    if (H5Dset_extent(target.id, &length) < 0 ||
+        H5Dwrite_chunk(target.id, H5P_DEFAULT, 0, &first, packed.size(), packed.data()) < 0)
+      fail("dataset " + target.description->path);
+    target.rows += rows;
   }
 
   void flush(Open& target) {
+    if (target.description->decimals) return flush_packed(target, true);
     const std::size_t row_bytes = target.row_values * target.value_bytes;
     if (target.buffer.empty() || row_bytes == 0) return;
     const hsize_t rows = target.buffer.size() / row_bytes;
@@ -391,6 +440,7 @@ struct FileReader::Impl {
     Handle id;
     std::vector<hsize_t> lengths;
     std::size_t row_values = 1;
+    std::size_t packed_rows = 0;  ///< of a chunk that scale_offset.h reads; 0: left to the library
   };
   std::filesystem::path name;
   const Format* format = nullptr;
@@ -458,6 +508,7 @@ struct FileReader::Impl {
     if (!made.id.valid()) fail(fmt::format("{} is not a dataset or is damaged", description.path));
     check_type(made);
     check_shape(made);
+    if (description.decimals) made.packed_rows = packed_rows_of(made);
     open.emplace(description.path, std::move(made));
   }
 
@@ -497,6 +548,52 @@ struct FileReader::Impl {
     }
   }
 
+  /// Rows of a chunk if it is packed as this program does it; other layouts of the same numbers go through
+  /// the library.
+  static std::size_t packed_rows_of(const Open& made) {
+    const Handle creation(H5Dget_create_plist(made.id), H5Pclose);
+    const Handle type(H5Dget_type(made.id), H5Tclose);
+    if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_nfilters(creation) != 1 || H5Tget_size(type) != 4 ||
+        H5Tget_order(type) != H5T_ORDER_LE)
+      return 0;
+    std::array<unsigned, 20>
+        values{};  // scale type, scale, numbers a chunk, class, size, sign, order, fill value ...
+    std::size_t count = values.size();
+    unsigned flags = 0, config = 0;
+    const H5Z_filter_t filter =
+        H5Pget_filter2(creation, 0, &flags, &count, values.data(), 0, nullptr, &config);
+    H5D_fill_value_t fill = H5D_FILL_VALUE_ERROR;
+    H5Pfill_value_defined(creation, &fill);
+    hsize_t chunk = 0;
+    H5Pget_chunk(creation, 1, &chunk);
+    const bool real = H5Tget_class(type) == H5T_FLOAT;
+    const bool ours =
+        filter == H5Z_FILTER_SCALEOFFSET && fill == H5D_FILL_VALUE_UNDEFINED &&
+        (real ? values[0] == H5Z_SO_FLOAT_DSCALE && static_cast<int>(values[1]) == *made.description->decimals
+              : values[0] == H5Z_SO_INT && H5Tget_sign(type) == H5T_SGN_NONE);
+    return ours ? chunk : 0;
+  }
+
+  template <class T>
+  void read_packed(const Open& from, std::size_t first, std::size_t count, T* out) const {
+    std::vector<char> bytes;
+    std::vector<T> numbers(from.packed_rows);
+    for (std::size_t row = first, end = first + count; row < end;) {
+      const hsize_t chunk = row / from.packed_rows * from.packed_rows;
+      hsize_t size = 0;
+      std::uint32_t unfiltered = 0;
+      const bool found = H5Dget_chunk_storage_size(from.id, &chunk, &size) >= 0;
+      bytes.resize(size);
+      if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, &chunk, &unfiltered, bytes.data()) < 0 ||
+          unfiltered || !unpack_chunk(bytes, *from.description->decimals, std::span(numbers)))
+        fail(fmt::format("dataset {} cannot be read (the file is damaged)", from.description->path));
+      const std::size_t here = std::min<std::size_t>(end, chunk + from.packed_rows) - row;
+      std::copy_n(numbers.data() + (row - chunk), here, out);
+      row += here;
+      out += here;
+    }
+  }
+
   /// Selects rows [first, first + count) and reads them.
   void read(const Open& from, std::size_t first, std::size_t count, hid_t type, void* out) const {
     if (first + count > from.lengths[0])
@@ -517,11 +614,21 @@ struct FileReader::Impl {
   void read_values(const std::string& path, std::size_t first, std::size_t count, std::vector<T>& out) const {
     const Open& from = dataset(path);
     out.resize(count * from.row_values);
+    if constexpr (type_of<T> == Type::f32 || type_of<T> == Type::u32)
+      if (from.packed_rows && from.description->type == type_of<T> && first + count <= from.lengths[0]) {
+        read_packed(from, first, count, out.data());
+        return check_finite(from, first, out);
+      }
     read(from, first, count, memory_type(type_of<T>), out.data());
+    check_finite(from, first, out);
+  }
+
+  template <class T>
+  void check_finite(const Open& from, std::size_t first, const std::vector<T>& out) const {
     if constexpr (std::is_floating_point_v<T>) {
       for (std::size_t i = 0; i < out.size(); ++i)
         if (std::isnan(out[i]) || (std::isinf(out[i]) && !from.description->may_be_infinite))
-          fail(fmt::format("dataset {} holds a non-finite number in row {}", path,
+          fail(fmt::format("dataset {} holds a non-finite number in row {}", from.description->path,
                            first + i / from.row_values));
     }
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ struct Dataset {
   bool may_be_infinite = false;
   bool may_be_absent = false;
   bool deflate = false;  ///< repetitive tables; histories are left plain for speed
+  /// Of f32 and u32 in long rows of numbers: kept to this many decimals in as few bits as each chunk needs
+  /// (HDF5's scale-offset filter, scale_offset.h); nothing: as they are.
+  std::optional<int> decimals{};
 };
 
 struct AttributeInfo {

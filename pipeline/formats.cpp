@@ -37,8 +37,11 @@ void add_site_set(std::vector<Dataset>& datasets, const std::string& group, cons
                       {site + "+1"},
                       "1",
                       "turning points of site k are [offset k, offset k+1)"});
-  datasets.push_back({group + "/reversal/strain", Type::f32, {reversal}, "1", "strain at the turning point"});
+  datasets.push_back(
+      {group + "/reversal/strain", Type::f32, {reversal}, "1", "strain at the turning point, kept to 5e-8"});
+  datasets.back().decimals = 7;  // a five-thousandth of the default gate
   datasets.push_back({group + "/reversal/sample", Type::u32, {reversal}, "1", "sample of the turning point"});
+  datasets.back().decimals = 0;
 }
 
 /// What a cell designer asks of the motion: one table, and along the dresspack. Absent in older files.

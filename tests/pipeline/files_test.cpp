@@ -193,6 +193,49 @@ TEST_CASE("files: rows appended one by one, in blocks and at once are the same")
   CHECK(bytes_of(scratch / "one.h5") == bytes_of(scratch / "some.h5"));
 }
 
+TEST_CASE("files: packed numbers are the same through this program's reader and through the HDF5 library's") {
+  const Scratch scratch;
+  Format packed{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
+  packed.datasets = {{"/a", Type::f32, {"sample"}, "1", ""}, {"/b", Type::u32, {"sample"}, "1", ""}};
+  Format plain = packed;  // reads through the library whatever the filter
+  packed.datasets[0].decimals = 7;
+  packed.datasets[1].decimals = 0;
+  constexpr std::size_t samples = 70001;  // two chunks and a rest
+  std::vector<float> a(samples);
+  std::vector<std::uint32_t> b(samples);
+  std::mt19937 random(4);
+  for (std::size_t k = 0; k < samples; ++k) {
+    a[k] = 1e-3f * std::sin(0.01f * static_cast<float>(k)) * static_cast<float>(1 + k / 1000);
+    b[k] = static_cast<std::uint32_t>(random() % 4293 + k);
+  }
+  for (const bool written_packed : {true, false}) {
+    const fs::path file = scratch / "f.h5";
+    {
+      FileWriter writer(file, written_packed ? packed : plain);
+      for (std::size_t first = 0; first < samples; first += 9999) {
+        const std::size_t count = std::min<std::size_t>(9999, samples - first);
+        writer.append("/a", std::span<const float>(a).subspan(first, count));
+        writer.append("/b", std::span<const std::uint32_t>(b).subspan(first, count));
+      }
+      writer.commit();
+    }
+    const FileReader own(file, packed), library(file, plain);
+    CHECK(own.read<float>("/a") == library.read<float>("/a"));
+    CHECK(own.read<std::uint32_t>("/b") == b);
+    CHECK(library.read<std::uint32_t>("/b") == b);
+    std::vector<float> some, whole = own.read<float>("/a");
+    own.read_rows("/a", 32760, 40, some);  // over the border of two chunks
+    CHECK(some == std::vector<float>(whole.begin() + 32760, whole.begin() + 32800));
+    std::vector<double> wider;
+    own.read_rows("/a", 65530, 20, wider);
+    CHECK(wider == std::vector<double>(whole.begin() + 65530, whole.begin() + 65550));
+    constexpr double kept = 0.5e-7 + 2e-8;  // half of the last decimal, and a float's roundings of 0.14
+    double worst = 0;
+    for (std::size_t k = 0; k < samples; ++k) worst = std::max(worst, std::abs(double(whole[k]) - a[k]));
+    CHECK(worst <= (written_packed ? kept : 0));
+  }
+}
+
 TEST_CASE("files: the same content twice is the same bytes, and the file stays untouched") {
   const Scratch scratch;
   const Format format = sample_format();
