@@ -104,4 +104,21 @@ inline constexpr double beam_curvature[80][2] = {
     {5.26467, 3.61509}, {5.6547, 3.90753},  {5.99685, 4.19585}, {6.28018, 4.47629}, {6.5777, 4.74464},
 };
 
+/// Root mean square over the beam's places of the difference in rms curvature, relative to the beam's; for the
+/// comparison of 4 to 24 s.
+inline double rms_curvature_error(const CurvatureRecord& record) {
+  const int n = static_cast<int>(record.mean_square.size()) - 1;
+  double difference2 = 0, rms2 = 0;
+  for (int k = 0; k < 80; ++k) {
+    const double s = (0.0125 + 0.025 * k) * n / 2;
+    const int j = std::min(n - 1, static_cast<int>(s));
+    const double part = s - j;  // between link j and j + 1
+    const double rms =
+        (1 - part) * std::sqrt(record.mean_square[j]) + part * std::sqrt(record.mean_square[j + 1]);
+    difference2 += std::pow(rms - beam_curvature[k][1], 2);
+    rms2 += std::pow(beam_curvature[k][1], 2);
+  }
+  return std::sqrt(difference2 / rms2);
+}
+
 }  // namespace dresslife::sim::test
