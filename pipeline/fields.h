@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -111,137 +112,30 @@ class Fields {
   virtual void leave_list() = 0;
 };
 
-class FieldReader final : public Fields {
- public:
-  explicit FieldReader(const Node& root);
-  void finish();  ///< Errors: unknown or missing keys of the root
+/// Something that describes a struct to whoever walks it.
+using Describe = std::function<void(Fields&)>;
 
-  void text(Key, std::string&, Need, std::string_view) override;
-  void number(Key, double&, Need, Range, std::string_view) override;
-  void maybe_number(Key, std::optional<double>&, Range, std::string_view) override;
-  void number_or_auto(Key, double&, bool&, Range, std::string_view) override;
-  void integer(Key, int&, Need, Range, std::string_view) override;
-  void boolean(Key, bool&, Need, std::string_view) override;
-  void vector(Key, Eigen::Vector3d&, Need, std::string_view) override;
-  void numbers(Key, std::vector<double>&, Need, std::string_view) override;
-  void path(Key, std::filesystem::path&, Need, std::string_view) override;
-  void place(Where& where) override;
-
- protected:
-  void choose(Key, int&, const Words&, std::string_view) override;
-  void choose_some(Key, std::vector<int>&, const Words&, std::string_view) override;
-  bool enter(Key, Need, bool, std::string_view, const char*) override;
-  void leave() override;
-  std::size_t enter_list(Key, std::size_t, Need, std::string_view, const char*) override;
-  void enter_item(std::size_t) override;
-  void leave_list() override;
-
- private:
-  struct Level {
-    const Node* map = nullptr;
-    const Node* list = nullptr;
-    std::string path;                ///< of the map, for messages: "dresspack.components[2]"
-    std::vector<std::string> known;  ///< keys described so far
-    std::string missing;             ///< message of the first missing key
-    std::string missing_remedy;
-  };
-  const Node* take(Key key, Need need, std::string_view meaning);
-  std::string name_of(Key key) const;
-  double number_of(const Node& node, Key key, Range range, std::string_view meaning) const;
-  int word_of(const Node& node, Key key, const Words& words, std::string_view meaning) const;
-  void close(const Level& level) const;
-
-  std::vector<Level> levels_;
-};
-
-class FieldEcho final : public Fields {
- public:
-  Node finish() { return std::move(levels_.front()); }
-  FieldEcho();
-
-  void text(Key, std::string&, Need, std::string_view) override;
-  void number(Key, double&, Need, Range, std::string_view) override;
-  void maybe_number(Key, std::optional<double>&, Range, std::string_view) override;
-  void number_or_auto(Key, double&, bool&, Range, std::string_view) override;
-  void integer(Key, int&, Need, Range, std::string_view) override;
-  void boolean(Key, bool&, Need, std::string_view) override;
-  void vector(Key, Eigen::Vector3d&, Need, std::string_view) override;
-  void numbers(Key, std::vector<double>&, Need, std::string_view) override;
-  void path(Key, std::filesystem::path&, Need, std::string_view) override;
-  void place(Where&) override {}
-
- protected:
-  void choose(Key, int&, const Words&, std::string_view) override;
-  void choose_some(Key, std::vector<int>&, const Words&, std::string_view) override;
-  bool enter(Key, Need, bool, std::string_view, const char*) override;
-  void leave() override;
-  std::size_t enter_list(Key, std::size_t, Need, std::string_view, const char*) override;
-  void enter_item(std::size_t) override;
-  void leave_list() override;
-
- private:
-  void put(Key key, Node value);
-  std::vector<Node> levels_;       ///< open maps and lists, outermost first
-  std::vector<std::string> keys_;  ///< under which each of them goes into the one before
-};
-
-class FieldManual final : public Fields {
- public:
-  /// One Markdown table per map, each under a heading; `title` heads the root.
-  std::string finish();
-  explicit FieldManual(std::string title);
-
-  void text(Key, std::string&, Need, std::string_view) override;
-  void number(Key, double&, Need, Range, std::string_view) override;
-  void maybe_number(Key, std::optional<double>&, Range, std::string_view) override;
-  void number_or_auto(Key, double&, bool&, Range, std::string_view) override;
-  void integer(Key, int&, Need, Range, std::string_view) override;
-  void boolean(Key, bool&, Need, std::string_view) override;
-  void vector(Key, Eigen::Vector3d&, Need, std::string_view) override;
-  void numbers(Key, std::vector<double>&, Need, std::string_view) override;
-  void path(Key, std::filesystem::path&, Need, std::string_view) override;
-  void place(Where&) override {}
-
- protected:
-  void choose(Key, int&, const Words&, std::string_view) override;
-  void choose_some(Key, std::vector<int>&, const Words&, std::string_view) override;
-  bool enter(Key, Need, bool, std::string_view, const char*) override;
-  void leave() override;
-  std::size_t enter_list(Key, std::size_t, Need, std::string_view, const char*) override;
-  void enter_item(std::size_t) override {}
-  void leave_list() override;
-
- private:
-  struct Table {
-    std::string path, type, rows;
-  };
-  void row(Key key, const std::string& allowed, const std::string& fallback, std::string_view meaning);
-  bool open(Key key, const std::string& suffix, const char* type);
-  std::vector<Table> open_;
-  std::vector<std::size_t> slots_;
-  std::vector<Table> done_;  ///< in the order of opening
-};
+/// From a document's map. Errors: see above.
+void read_fields(const Node& node, const Describe& described);
+/// To a map, with defaults filled in.
+Node echo_fields(const Describe& described);
+/// One Markdown table per map, each under a heading; `title` heads the root.
+std::string field_manual(const std::string& title, const Describe& described);
 
 template <class T>
 void read_fields(const Node& node, T& value) {
-  FieldReader reader(node);
-  describe(static_cast<Fields&>(reader), value);
-  reader.finish();
+  read_fields(node, Describe([&](Fields& f) { describe(f, value); }));
 }
 
 template <class T>
 Node echo_fields(T value) {
-  FieldEcho echo;
-  describe(static_cast<Fields&>(echo), value);
-  return echo.finish();
+  return echo_fields(Describe([&](Fields& f) { describe(f, value); }));
 }
 
 template <class T>
 std::string field_manual(const std::string& title) {
-  FieldManual manual(title);
   T value{};
-  describe(static_cast<Fields&>(manual), value);
-  return manual.finish();
+  return field_manual(title, Describe([&](Fields& f) { describe(f, value); }));
 }
 
 /// The word nearest to `word` by edit distance; empty when none is near.

@@ -592,9 +592,9 @@ Job read_job(const std::filesystem::path& file, const std::vector<std::string>& 
 
 std::string job_text(const Job& job) { return to_yaml(echo_fields(job)); }
 
-std::string part_text(const Job& job, Part part) {
-  Job copy = job;
-  FieldEcho echo;
+namespace {
+
+void describe_part(Fields& echo, Job copy, Part part) {
   switch (part) {
     case Part::sim:
       copy.dresspack.components.clear();
@@ -610,10 +610,10 @@ std::string part_text(const Job& job, Part part) {
       break;
     case Part::strain:
       echo.list("components", copy.dresspack.components, Need::optional, "");
-      if (std::count(job.strain.slip.begin(), job.strain.slip.end(), Slip::friction) >
+      if (std::count(copy.strain.slip.begin(), copy.strain.slip.end(), Slip::friction) >
           0)  // stiffness of the wires
         echo.list("materials", copy.dresspack.materials, Need::optional, "");
-      if (!job.dresspack.hose_material.empty()) {
+      if (!copy.dresspack.hose_material.empty()) {
         echo.text("hose_material", copy.dresspack.hose_material, Need::optional, "");
         echo.number("hose_strain_factor", copy.dresspack.hose_strain_factor, Need::optional, any_number(),
                     "");
@@ -626,7 +626,12 @@ std::string part_text(const Job& job, Part part) {
       echo.group("fatigue", copy.fatigue, Need::optional, "");
       break;
   }
-  return to_yaml(echo.finish());
+}
+
+}  // namespace
+
+std::string part_text(const Job& job, Part part) {
+  return to_yaml(echo_fields(Describe([&](Fields& f) { describe_part(f, job, part); })));
 }
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {
