@@ -5,8 +5,12 @@
 
 #include "pipeline/fields.h"
 #include "pipeline/job.h"
+#include "pipeline/urdf.h"
 
 namespace dresslife::pipeline {
+
+void describe(Fields& f, UrdfRequest& request);  // job.cpp
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -51,6 +55,50 @@ void merge(Node& base, const Node& over) {
   }
 }
 
+/// Items of the same `name` are merged, others added.
+void merge_by_name(Node& base, const Node& over) {
+  if (!base.is_list() || !over.is_list()) return merge(base, over);
+  const auto name = [](const Node& item) {
+    const Node* found = item.find("name");
+    return found ? found->text : std::string();
+  };
+  for (const Node& item : over.items) {
+    const auto same = std::find_if(base.items.begin(), base.items.end(), [&](const Node& known) {
+      return !name(item).empty() && name(known) == name(item);
+    });
+    if (same != base.items.end())
+      merge(*same, item);
+    else
+      base.items.push_back(item);
+  }
+}
+
+/// `urdf: FILE` and what else says how to read it; all other keys of the entry go over the robot in it.
+void read_urdf(Node& entry) {
+  Node about = entry, over = entry;
+  const auto is_about = [](const Entry& e) {
+    for (const char* key : {"urdf", "tip", "package_folder", "collision", "accelerations_deg_per_s2"})
+      if (e.key == key) return true;
+    return false;
+  };
+  std::erase_if(about.entries, [&](const Entry& e) { return !is_about(e); });
+  std::erase_if(over.entries, is_about);
+  UrdfRequest request;
+  read_fields(about, request);
+  std::error_code failure;
+  if (const fs::path shown = fs::proximate(request.urdf, failure); !failure && !shown.empty())
+    request.urdf = shown;
+  Node robot = robot_from_urdf(request);
+  for (const Entry& e : over.entries) {
+    Node& known = robot[e.key];
+    if (e.key == "joints" || e.key == "links" || e.key == "external_axes")
+      merge_by_name(known, e.value);
+    else
+      known = e.value;
+  }
+  entry = std::move(robot);
+}
+
 void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0) {
   if (depth > 16) throw InputError(entry.where, "'from' goes in a circle", "let one entry stand alone");
   if (entry.is_scalar()) {
@@ -59,6 +107,7 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
     return;
   }
   const Node* from = entry.is_map() ? entry.find("from") : nullptr;
+  if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
   if (!from) return;
   Node base = catalogue_entry(folder, from->text, from->where, job);
   resolve(base, folder, job, depth + 1);
@@ -145,6 +194,12 @@ void place_at(Node& node, const Where& where) {
 
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
                      const Where& job) {
+  if (name.ends_with(".urdf")) {  // alone: its entry is the file itself
+    Node entry;
+    entry["urdf"] = scalar(name);
+    place_at(entry, named_at);
+    return entry;
+  }
   if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
     return read_yaml((folder_of(named_at) / name).lexically_normal());
   std::vector<std::string> names;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "pipeline/fields.h"
+#include "pipeline/urdf.h"
 
 namespace dresslife::pipeline {
 
@@ -12,17 +12,70 @@ void resolve_job(Node& job);  // catalogue.cpp
 
 // ---- one describe() per struct ----------------------------------------------------------------------------
 
+std::size_t Robot::axes() const {
+  return static_cast<std::size_t>(
+      std::count_if(joints.begin(), joints.end(), [](const Joint& joint) { return joint.follows.empty(); }));
+}
+
+void describe(Fields& f, UrdfRequest& request) {
+  f.path("urdf", request.urdf, Need::required,
+         "a URDF from which the robot is made; all other keys of a robot go beside it and count more, joints "
+         "and "
+         "links by their names");
+  f.text("tip", request.tip, Need::optional,
+         "link of the URDF at the flange; without it tool0, flange, or the only end");
+  f.path("package_folder", request.package_folder, Need::optional,
+         "folder that holds the packages of package:// names; without it those above the URDF");
+  f.choice("collision", request.collision, {"keep", "drop"},
+           "whether the URDF's collision shapes are the links' shapes");
+  f.numbers("accelerations_deg_per_s2", request.accelerations, Need::optional,
+            "highest accelerations of the axes, in their order: a URDF has none");
+}
+
 void describe(Fields& f, Joint& joint) {
+  f.place(joint.where);
   f.text("name", joint.name, Need::required, "name of the joint");
   f.vector("origin_m", joint.origin, Need::required,
            "origin of the joint frame in the frame of the link before");
   f.vector("rpy_deg", joint.orientation, Need::optional,
            "roll, pitch, yaw of the joint frame, fixed axes x, y, z");
   f.vector("axis", joint.axis, Need::required, "axis of rotation in the joint frame");
+  f.text("follows", joint.follows, Need::optional,
+         "name of the joint that moves this one through a rod; it has then no limits and drive of its own");
+  f.number("ratio", joint.ratio, Need::optional, any_number(),
+           "of a joint that follows: its angle over the other's");
+  f.number("offset_deg", joint.offset, Need::optional, any_number(),
+           "of a joint that follows: its angle at 0");
+  if (!joint.follows.empty()) return;
   f.number("lower_deg", joint.lower, Need::required, any_number(), "lowest angle");
   f.number("upper_deg", joint.upper, Need::required, any_number(), "highest angle");
   f.number("speed_deg_per_s", joint.speed, Need::required, above(0), "highest speed");
   f.number("acceleration_deg_per_s2", joint.acceleration, Need::required, above(0), "highest acceleration");
+}
+
+void describe(Fields& f, ExternalAxis& axis) {
+  f.place(axis.where);
+  f.text("name", axis.name, Need::required, "name of the axis");
+  f.choice("kind", axis.kind, {"linear", "rotary"}, "slides along, or turns about its axis");
+  f.choice("carries", axis.carries, {"robot", "nothing"},
+           "what it moves: the robot's base, or nothing that matters here but the time that it takes");
+  f.vector("origin_m", axis.origin, Need::optional,
+           "of its frame in the world, or on the axis before that carries");
+  f.vector("rpy_deg", axis.orientation, Need::optional, "roll, pitch, yaw of its frame");
+  f.vector("axis", axis.axis, Need::optional, "its direction in its frame");
+  const bool manual = axis.name.empty();
+  if (axis.kind == ExternalAxis::Kind::linear) {
+    f.number("lower_mm", axis.lower, Need::required, any_number(), "lowest position");
+    f.number("upper_mm", axis.upper, Need::required, any_number(), "highest position");
+    f.number("speed_mm_per_s", axis.speed, Need::required, above(0), "highest speed");
+    f.number("acceleration_mm_per_s2", axis.acceleration, Need::required, above(0), "highest acceleration");
+  }
+  if (axis.kind == ExternalAxis::Kind::linear && !manual) return;
+  const Need need = manual ? Need::optional : Need::required;
+  f.number("lower_deg", axis.lower, need, any_number(), "of a rotary axis, likewise");
+  f.number("upper_deg", axis.upper, need, any_number(), "likewise");
+  f.number("speed_deg_per_s", axis.speed, need, above(0), "likewise");
+  f.number("acceleration_deg_per_s2", axis.acceleration, need, above(0), "likewise");
 }
 
 void describe(Fields& f, Capsule& capsule) {
@@ -43,6 +96,14 @@ void describe(Fields& f, MeshFile& mesh) {
            "metres per unit of the file: 0.001 for millimetres");
   f.vector("position_m", mesh.position, Need::optional, "of the file's origin");
   f.vector("rpy_deg", mesh.orientation, Need::optional, "roll, pitch, yaw of the file's axes");
+}
+
+void describe(Fields& f, MountingPoint& point) {
+  f.text("name", point.name, Need::required, "by which clamps refer to it");
+  f.text("link", point.link, Need::required, "link of the robot that carries it");
+  f.vector("position_m", point.position, Need::required, "in the link's frame");
+  f.vector("direction", point.direction, Need::required,
+           "of the dresspack there, from base to tool, in the link's frame");
 }
 
 void describe(Fields& f, Cell& cell) {
@@ -71,8 +132,11 @@ void describe(Fields& f, Robot& robot) {
            "of the flange frame (tool0) in the last link");
   f.vector("flange_rpy_deg", robot.flange_orientation, Need::optional,
            "its roll, pitch, yaw; z leaves the flange");
+  f.list("external_axes", robot.external_axes, Need::optional,
+         "drives besides the robot's own; tracks under it from the world on");
   f.list("joints", robot.joints, Need::required, "the axes, from the base to the flange");
   f.list("links", robot.links, Need::required, "base link first, then the link that each joint moves");
+  f.list("mounting_points", robot.mounting_points, Need::optional, "places to which dresspacks are clamped");
 }
 
 void describe(Fields& f, MotionStep& step) {
@@ -87,7 +151,8 @@ void describe(Fields& f, MotionStep& step) {
   f.text(
       "configuration", step.configuration, Need::optional,
       "which arm reaches the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0; without it the nearest");
-  f.numbers("external_axes", step.external_axes, Need::optional, "targets of external axes, as programmed");
+  f.numbers("external_axes", step.external_axes, Need::optional,
+            "targets of external axes, mm or deg; without them they stay");
   f.text("tool", step.tool, Need::optional, "a name of tools; without it the flange");
   f.text("work_object", step.work_object, Need::optional,
          "a name of work_objects; without it the robot's base frame");
@@ -243,9 +308,12 @@ void describe(Fields& f, Dresspack& dresspack) {
 
 void describe(Fields& f, Clamp& clamp) {
   f.place(clamp.where);
-  f.text("link", clamp.link, Need::required, "link of the robot that carries the clamp");
-  f.vector("position_m", clamp.position, Need::required, "of the clamp in the link's frame");
-  f.vector("direction", clamp.direction, Need::required,
+  f.text("mounting_point", clamp.mounting_point, Need::optional,
+         "name of one of the robot's, instead of link, position_m and direction");
+  const Need need = clamp.mounting_point.empty() ? Need::required : Need::optional;
+  f.text("link", clamp.link, need, "link of the robot that carries the clamp");
+  f.vector("position_m", clamp.position, need, "of the clamp in the link's frame");
+  f.vector("direction", clamp.direction, need,
            "of the dresspack there, from base to tool, in the link's frame");
   f.maybe_number("roll_deg", clamp.roll, between(-360, 360),
                  "about the direction; without it 0 at the base clamp and free of twist at the tool clamp");
@@ -345,29 +413,40 @@ namespace {
 
 // ---- checks across keys -----------------------------------------------------------------------------------
 
+void check_direction(const Vector3d& axis, const std::string& name, const Where& where) {
+  if (!(axis.norm() > 1e-9))
+    throw InputError(where, fmt::format("axis of {} is zero", name), "give its direction");
+}
+
+void check_range(double lower, double upper, const std::string& name, const Where& where) {
+  if (!(lower < upper))
+    throw InputError(where, fmt::format("limits of {} are empty (lower >= upper)", name), "mend them");
+}
+
+void check_joint(const Joint& joint, const Robot& robot) {
+  check_direction(joint.axis, joint.name, joint.where);
+  if (joint.follows.empty()) return check_range(joint.lower, joint.upper, joint.name, joint.where);
+  const bool driven = std::any_of(robot.joints.begin(), robot.joints.end(), [&](const Joint& other) {
+    return other.name == joint.follows && other.follows.empty();
+  });
+  if (!driven)
+    throw InputError(joint.where,
+                     fmt::format("{} follows '{}', which is no driven joint", joint.name, joint.follows),
+                     "name a joint that follows no other");
+}
+
 void check_robot(const Robot& robot, const Where& where) {
   if (robot.links.size() != robot.joints.size() + 1)
     throw InputError(where,
                      fmt::format("robot has {} joints and {} links (must be one link more)",
                                  robot.joints.size(), robot.links.size()),
                      "list the base link and one link per joint");
-  for (const Joint& joint : robot.joints) {
-    if (!(joint.axis.norm() > 1e-9))
-      throw InputError(where, fmt::format("axis of {} is zero", joint.name), "give its direction");
-    if (!(joint.lower < joint.upper))
-      throw InputError(where, fmt::format("limits of {} are empty (lower >= upper)", joint.name),
-                       "mend them");
+  for (const Joint& joint : robot.joints) check_joint(joint, robot);
+  for (const ExternalAxis& axis : robot.external_axes) {
+    if (axis.name.empty()) throw InputError(axis.where, "an external axis has no name", "name it");
+    check_direction(axis.axis, axis.name, axis.where);
+    check_range(axis.lower, axis.upper, axis.name, axis.where);
   }
-}
-
-void check_limit(const MotionStep& step, const Joint& joint, double angle) {
-  constexpr double slack = 1e-9;  // rounding of degrees to radians
-  constexpr double degrees = 180 / std::numbers::pi;
-  if (angle >= joint.lower - slack && angle <= joint.upper + slack) return;
-  throw InputError(step.where,
-                   fmt::format("target of {} is {:.6g} deg (limits {:.6g} .. {:.6g} deg)", joint.name,
-                               angle * degrees, joint.lower * degrees, joint.upper * degrees),
-                   "choose a target within the limits");
 }
 
 void check_pose(const std::vector<double>& position, const std::vector<double>& quaternion,
@@ -384,13 +463,11 @@ void check_pose(const std::vector<double>& position, const std::vector<double>& 
 
 void check_move(const MotionStep& step, const Robot& robot) {
   const Where& where = step.where;
-  if (!step.joints.empty() && step.joints.size() != robot.joints.size())
-    throw InputError(where,
-                     fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(),
-                                 robot.joints.size()),
-                     "give one angle per axis");
-  for (std::size_t axis = 0; axis < step.joints.size(); ++axis)
-    check_limit(step, robot.joints[axis], step.joints[axis]);
+  if (!step.joints.empty() && step.joints.size() != robot.axes())
+    throw InputError(
+        where,
+        fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(), robot.axes()),
+        "give one angle per axis");
   if (!step.joints.empty() && !step.position.empty())
     throw InputError(where, "both joints_deg and position_mm are given", "keep one of the two");
   if (!step.position.empty()) check_pose(step.position, step.quaternion, where);
@@ -438,6 +515,26 @@ void check_motion(const Motion& motion, const Robot& robot) {
                      "the program must begin with a move (where the robot starts)", "begin with joints_deg");
 }
 
+/// A clamp at a mounting point becomes one with link, position and direction.
+void place_clamp(std::optional<Clamp>& clamp, const Robot& robot) {
+  if (!clamp || clamp->mounting_point.empty()) return;
+  if (!clamp->link.empty())
+    throw InputError(clamp->where, "a clamp has both a mounting_point and a link", "keep one of the two");
+  std::vector<std::string> names;
+  for (const MountingPoint& point : robot.mounting_points) {
+    names.push_back(point.name);
+    if (point.name != clamp->mounting_point) continue;
+    clamp->link = point.link;
+    clamp->position = point.position;
+    clamp->direction = point.direction;
+    clamp->mounting_point.clear();
+    return;
+  }
+  throw InputError(clamp->where, fmt::format("the robot has no mounting point '{}'", clamp->mounting_point),
+                   names.empty() ? "give link, position_m and direction of the clamp"
+                                 : fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
 void check_clamp(const std::optional<Clamp>& clamp, const char* name, const Routing& routing,
                  const Robot& robot) {
   if (!clamp)
@@ -463,10 +560,10 @@ void check_routing(const Job& job) {
     throw InputError(routing.where, "clamps are given although motion.clamp_poses brings their poses",
                      "keep one of the two");
   }
-  if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != job.robot.joints.size())
+  if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != job.robot.axes())
     throw InputError(routing.where,
                      fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)",
-                                 routing.mounting_pose.size(), job.robot.joints.size()),
+                                 routing.mounting_pose.size(), job.robot.axes()),
                      "give one angle per axis");
 }
 
@@ -582,6 +679,8 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   resolve_job(document);
   Job job;
   read_fields(document, job);
+  place_clamp(job.routing.base_clamp, job.robot);
+  place_clamp(job.routing.tool_clamp, job.robot);
   check(job, document);
   return job;
 }
@@ -661,7 +760,9 @@ Motion motion_from(const Node& document) {
   return motion;
 }
 
-std::string job_manual() { return field_manual<Job>("job"); }
+std::string job_manual() {
+  return field_manual<Job>("job") + field_manual<UrdfRequest>("job.robot from a URDF");
+}
 
 const Material& material_of(const Job& job, const std::string& name) {
   const std::string& wanted = job.fatigue.material.empty() ? name : job.fatigue.material;

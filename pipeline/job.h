@@ -21,6 +21,8 @@ using Eigen::Vector3d;
 
 // ---- robot ------------------------------------------------------------------------------------------------
 
+/// A turning joint. One that follows another (a parallelogram's rod) has no drive: q = ratio q_other +
+/// offset.
 struct Joint {
   std::string name;
   Vector3d origin = Vector3d::Zero();       ///< in the frame of the link before [m]
@@ -29,6 +31,22 @@ struct Joint {
   double lower = 0, upper = 0;              ///< [rad]
   double speed = 0;                         ///< largest [rad/s]
   double acceleration = 0;                  ///< largest [rad/s2]
+  std::string follows;                      ///< name of the joint whose angle moves it; empty: a driven axis
+  double ratio = 1, offset = 0;             ///< of a joint that follows [1, rad]
+  Where where;
+};
+
+/// A drive besides the robot's axes: a track that carries the robot, or one that only takes its time.
+struct ExternalAxis {
+  std::string name;
+  enum class Kind { linear, rotary } kind = Kind::linear;
+  enum class Carries { robot, nothing } carries = Carries::robot;
+  Vector3d origin = Vector3d::Zero();       ///< in the world, or on the axis before that carries [m]
+  Vector3d orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
+  Vector3d axis = Vector3d::UnitX();        ///< slides along or turns about it
+  double lower = 0, upper = 0;              ///< [m or rad, as all below]
+  double speed = 0, acceleration = 0;
+  Where where;
 };
 
 struct Capsule {
@@ -56,6 +74,13 @@ struct Link {
   std::vector<MeshFile> meshes{};
 };
 
+/// A place on a link to which dresspacks are clamped.
+struct MountingPoint {
+  std::string name, link;
+  Vector3d position = Vector3d::Zero();    ///< in the link's frame [m]
+  Vector3d direction = Vector3d::UnitZ();  ///< of the dresspack there, base to tool
+};
+
 /// What stands still around the robot, in the world's frame.
 struct Cell {
   std::vector<Capsule> capsules;
@@ -70,8 +95,12 @@ struct Robot {
   Vector3d program_base = Vector3d::Zero();  ///< origin of the frame programs are written in, in link 0 [m]
   Vector3d flange_position = Vector3d::Zero();     ///< of the flange frame in the last link [m]
   Vector3d flange_orientation = Vector3d::Zero();  ///< roll, pitch, yaw; its z axis leaves the flange [rad]
+  std::vector<ExternalAxis> external_axes;         ///< those that carry the robot from the world on
   std::vector<Joint> joints;                       ///< serial, from the base
   std::vector<Link> links;                         ///< joints + 1
+  std::vector<MountingPoint> mounting_points;
+
+  std::size_t axes() const;  ///< joints that follow no other
 };
 
 // ---- motion -----------------------------------------------------------------------------------------------
@@ -87,7 +116,7 @@ struct MotionStep {
   std::vector<double> quaternion;     ///< of the tool: w, x, y, z
   std::vector<double> via_position;   ///< of a circular move: a point on the way [m]
   std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty: the nearest
-  std::vector<double> external_axes;  ///< as programmed
+  std::vector<double> external_axes;  ///< as programmed: mm or deg, in the order of the robot's
   std::string tool, work_object;      ///< names in Motion; empty: flange, robot base
   std::optional<double> speed_percent;         ///< of each axis' largest speed [%]
   std::optional<double> speed;                 ///< of the fastest axis [rad/s]
@@ -210,6 +239,7 @@ struct Clamp {
   Vector3d direction = Vector3d::UnitZ();  ///< of the dresspack there, base to tool, in the link's frame
   std::optional<double> roll;              ///< about the direction [rad]; tool clamp only, absent: twist-free
   Where where;
+  std::string mounting_point{};  ///< of the robot, instead of link, position, direction; empty once read
 };
 
 struct Routing {

@@ -18,6 +18,7 @@ constexpr std::array units{
     Unit{"deg_per_s", "deg/s", degree},
     Unit{"deg_per_s2", "deg/s2", degree},
     Unit{"mm_per_s", "mm/s", 1e-3},
+    Unit{"mm_per_s2", "mm/s2", 1e-3},
     Unit{"s", "s", 1},
     Unit{"ms", "ms", 1e-3},
     Unit{"Hz", "Hz", 1},

@@ -28,7 +28,8 @@ RobotPath::RobotPath(const pipeline::Job& job)
   const std::vector<double>& mounting = job.routing.mounting_pose;
   if (mounting.empty()) return;
   check_joint_limits(job.robot, mounting, "routing.mounting_pose_deg", job.routing.where);
-  mounting_pose_ = Eigen::Map<const Eigen::VectorXd>(mounting.data(), static_cast<long>(mounting.size()));
+  mounting_pose_.head(static_cast<long>(mounting.size())) =  // external axes: as at the start
+      Eigen::Map<const Eigen::VectorXd>(mounting.data(), static_cast<long>(mounting.size()));
 }
 
 Pose RobotPath::pose(const Eigen::VectorXd& joints) const {

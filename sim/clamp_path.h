@@ -29,7 +29,7 @@ namespace dresslife::sim {
 struct Pose {
   ClampFrames clamps;
   std::vector<Frame> links;  ///< of the robot; empty without one
-  Eigen::VectorXd joints;    ///< of the robot [rad]; empty without one
+  Eigen::VectorXd joints;    ///< of the robot, then of its external axes (robot.h); empty without one
 };
 
 class ClampPath {

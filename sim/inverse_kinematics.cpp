@@ -48,29 +48,41 @@ double wrapped(double angle) {
 
 InverseKinematics::InverseKinematics(const pipeline::Robot& robot)
     : robot_(robot),
+      externals_(static_cast<long>(robot.external_axes.size())),
       kinematics_(robot),
-      to_program_(inverse(Frame{robot.base_position, from_roll_pitch_yaw(robot.base_orientation)} *
-                          Frame{robot.program_base, Quaternion::Identity()})),
       flange_in_link_{robot.flange_position, from_roll_pitch_yaw(robot.flange_orientation)} {
-  const VectorXd zero = VectorXd::Zero(static_cast<long>(robot.joints.size()));
+  const VectorXd zero = VectorXd::Zero(kinematics_.axes());
+  std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
+  kinematics_.link_frames({zero.data(), static_cast<std::size_t>(zero.size())}, frames);
+  base_ = frames[0];
+  to_program_ = inverse(base_ * Frame{robot.program_base, Quaternion::Identity()});
   zero_ = flange(zero);
   check_geometry();
 }
 
-Frame InverseKinematics::flange(const VectorXd& joints) const {
+Frame InverseKinematics::flange(const VectorXd& axes) const {
   std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
-  kinematics_.link_frames({joints.data(), static_cast<std::size_t>(joints.size())}, frames);
+  kinematics_.link_frames({axes.data(), static_cast<std::size_t>(axes.size())}, frames);
   return to_program_ * frames.back() * flange_in_link_;
 }
 
+/// Where the flange would be if the robot stood where its external axes are 0.
+Frame InverseKinematics::on_tracks(const Frame& flange, const VectorXd& near) const {
+  if (externals_ == 0 || near.size() != kinematics_.axes()) return flange;
+  std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
+  kinematics_.link_frames({near.data(), static_cast<std::size_t>(near.size())}, frames);
+  return to_program_ * base_ * inverse(frames[0]) * inverse(to_program_) * flange;
+}
+
 void InverseKinematics::check_geometry() {
-  if (robot_.joints.size() != 6) {
-    unsupported_ = fmt::format("it has {} axes, not six", robot_.joints.size());
+  if (robot_.joints.size() != 6 || robot_.axes() != 6) {
+    unsupported_ = robot_.axes() == 6 ? "a rod moves some of its joints"
+                                      : fmt::format("it has {} axes, not six", robot_.axes());
     return;
   }
-  const VectorXd zero = VectorXd::Zero(6);
+  const VectorXd zero = VectorXd::Zero(kinematics_.axes());
   std::vector<Frame> frames(7);
-  kinematics_.link_frames({zero.data(), 6}, frames);
+  kinematics_.link_frames({zero.data(), static_cast<std::size_t>(zero.size())}, frames);
   for (int i = 0; i < 6; ++i) {
     const Frame joint = to_program_ * frames[i + 1];
     point_[i] = joint.position;
@@ -124,7 +136,7 @@ void InverseKinematics::add_wrists(const Frame& flange, double q1, double q2, do
     const Vector3 end = turn(w5, q5) * w6;
     double q4, q6;
     if (w4.cross(end).norm() < singular_wrist) {
-      q4 = near.size() == 6 ? near[3] : 0;
+      q4 = near.size() >= 6 ? near[3] : 0;
       const Quaternion rest = (turn(w4, q4) * turn(w5, q5)).conjugate() * m;
       const Vector3 probe = std::abs(w6.x()) < 0.5 ? Vector3::UnitX() : Vector3::UnitY();
       q6 = turned(w6, probe, rest * probe);
@@ -230,7 +242,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
     reason = fmt::format("the arm cannot be solved for ({})", unsupported_);
     return {};
   }
-  const std::vector<VectorXd> reaching = arms(flange, near);
+  const std::vector<VectorXd> reaching = arms(on_tracks(flange, near), near);
   std::optional<VectorXd> best;
   double least = INFINITY;
   std::vector<std::string> others;
@@ -249,7 +261,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
         constexpr double share_of_others = 1e-3;
         double time = 0, sum = 0;
         for (long axis = 0; axis < 6; ++axis) {
-          const double way = std::abs(joints[axis] - (near.size() == 6 ? near[axis] : 0.0));
+          const double way = std::abs(joints[axis] - (near.size() >= 6 ? near[axis] : 0.0));
           time = std::max(time, way / robot_.joints[axis].speed);
           sum += way / robot_.joints[axis].speed;
         }
@@ -260,7 +272,12 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
         }
       }
   }
-  if (best) return best;
+  if (best) {
+    VectorXd whole = VectorXd::Zero(6 + externals_);
+    if (near.size() == whole.size()) whole = near;
+    whole.head(6) = *best;
+    return whole;
+  }
   std::sort(others.begin(), others.end());
   others.erase(std::unique(others.begin(), others.end()), others.end());
   if (others.size() > 8) others.resize(8);

@@ -42,15 +42,16 @@ class InverseKinematics {
   /// Empty, or why no closed form fits this robot.
   const std::string& unsupported() const { return unsupported_; }
 
-  /// The flange in the frame that programs are written in, at these angles [rad]. Any serial robot.
-  Frame flange(const Eigen::VectorXd& joints) const;
+  /// The flange in the frame that programs are written in, at these values of all axes (robot.h). Any serial
+  /// robot. The frame stands still: a robot on a track moves in it.
+  Frame flange(const Eigen::VectorXd& axes) const;
 
-  /// Every arm that reaches the flange's frame, angles within (-pi, pi]; at singular wrists axis 4 as in
-  /// `near`.
+  /// Every arm (six angles) that reaches the flange's frame while external axes are at 0, angles within
+  /// (-pi, pi]; at singular wrists axis 4 as in `near`.
   std::vector<Eigen::VectorXd> arms(const Frame& flange, const Eigen::VectorXd& near) const;
 
   /// The arm of this configuration within the limits, else (any) the one nearest to `near` by the time to get
-  /// there. Absent: none; `reason` says why.
+  /// there; all axes, the external ones as in `near`. Absent: none; `reason` says why.
   std::optional<Eigen::VectorXd> solve(const Frame& flange, const ArmConfiguration& configuration,
                                        const Eigen::VectorXd& near, std::string& reason) const;
 
@@ -69,8 +70,11 @@ class InverseKinematics {
   bool matches(const Eigen::VectorXd& joints, const ArmConfiguration& wanted, bool with_sides) const;
 
   const pipeline::Robot robot_;
+  Frame on_tracks(const Frame& flange, const Eigen::VectorXd& near) const;
+
+  const long externals_;
   RobotKinematics kinematics_;
-  Frame to_program_;  // programs' frame seen from the world, inverted
+  Frame base_, to_program_;  // of link 0 while external axes are at 0; the programs' frame, inverted
   Frame flange_in_link_;
   std::array<Vector3, 6> point_{};   // p_i at zero, in the programs' frame
   std::array<Vector3, 6> axis_{};    // w_i

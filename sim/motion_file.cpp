@@ -123,7 +123,7 @@ void MotionFile::add_robot(const Pose& pose) {
     put(poses_, link.orientation);
   }
   file_.append("/robot/joint_position",
-               std::span<const double>(pose.joints.data(), static_cast<size_t>(pose.joints.size())));
+               std::span<const double>(pose.joints.data(), static_cast<size_t>(description_.joints)));
   file_.append("/robot/link_pose", std::span<const double>(poses_));
   if (links_named_) return;
   file_.dataset_attribute("/robot/link_pose", "links",

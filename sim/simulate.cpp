@@ -46,7 +46,7 @@ Simulation::Simulation(const pipeline::Job& job)
   robot_ = dynamic_cast<RobotPath*>(path_.get());
   description_.samples = intervals(path_->duration(), job_.simulation.sample_rate) + 1;
   description_.segment_length.assign(rod_.segments(), rod_.segment_length());
-  description_.joints = static_cast<int>(robot_ ? job_.robot.joints.size() : 0);
+  description_.joints = static_cast<int>(robot_ ? job_.robot.axes() : 0);
   description_.step_texts = path_->step_texts();
   if (robot_)
     for (const pipeline::Link& link : job_.robot.links) description_.link_names.push_back(link.name);

@@ -76,9 +76,9 @@ TEST_CASE("job: unknown keys are refused with the likeliest key") {
   check_case({"damping_source: guessed", "damping_sorce: guessed", "damping_sorce",
               "unknown key 'dresspack.damping_sorce'; did you mean 'damping_source'?"});
   check_case({"fatigue: {", "fatige: {", "fatige: {", "unknown key 'fatige'; did you mean 'fatigue'?"});
-  check_case(
-      {"gate: 1e-4", "xyzzy: 1", "xyzzy",
-       "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, surface_fibres, gate, probes"});
+  check_case({"gate: 1e-4", "xyzzy: 1", "xyzzy",
+              "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, "
+              "surface_fibres, gate, probes"});
 }
 
 TEST_CASE("job: a key with the wrong unit is answered with the right one") {
@@ -168,11 +168,13 @@ TEST_CASE("job: numbers may be written in every usual way") {
 TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are told apart") {
   check_case({"segments: 20", "segments: 20.5", "20.5",
               "simulation.segments is 20.5 (must be a whole number); give rigid segments of the chain"});
-  check_case({"mean_stress: swt", "mean_stress: goodman", "goodman",
-              "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give correction of the "
-              "strain-life curve"});
+  check_case(
+      {"mean_stress: swt", "mean_stress: goodman", "goodman",
+       "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give correction of the "
+       "strain-life curve"});
   check_case({"slip: [stick, free]", "slip: [stick, glued]", "glued",
-              "strain.slip is 'glued' (must be free | stick | friction); give between a part and its parent; one word, "
+              "strain.slip is 'glued' (must be free | stick | friction); give between a part and its parent; "
+              "one word, "
               "or one per "
               "level, outermost first"});
   check_case({"slip: [stick, free]", "slip: []", "[], gate",
@@ -214,11 +216,13 @@ TEST_CASE("job: lists have the length that they must have") {
 
 TEST_CASE("job: a material may be a table of measured lives instead of a metal's constants") {
   const std::string polymer =
-      "  damping_source: guessed\n  materials:\n    - {name: hose, source: made for the tests, youngs_modulus_GPa: 0.4,\n"
-      "       strain_life_table: [{strain_amplitude: 0.05, cycles: 1e3}, {strain_amplitude: 0.01, cycles: 1e6}]}\n"
+      "  damping_source: guessed\n  materials:\n    - {name: hose, source: made for the tests, "
+      "youngs_modulus_GPa: 0.4,\n"
+      "       strain_life_table: [{strain_amplitude: 0.05, cycles: 1e3}, {strain_amplitude: 0.01, cycles: "
+      "1e6}]}\n"
       "  components:\n";
-  const std::string text =
-      edited(edited(sample_job, "  damping_source: guessed\n  components:\n", polymer), "material: copper", "material: hose");
+  const std::string text = edited(edited(sample_job, "  damping_source: guessed\n  components:\n", polymer),
+                                  "material: copper", "material: hose");
   const Job job = job_of_text(text);
   const Material& hose = material_of(job, "hose");
   CHECK(hose.youngs_modulus == 0.4e9);
@@ -233,17 +237,75 @@ TEST_CASE("job: a material may be a table of measured lives instead of a metal's
   };
   refused("0.01, cycles", "0.06, cycles",
           "point 2 of strain_life_table of 'hose' is no smaller strain with a longer life; order the points");
-  refused(", {strain_amplitude: 0.01, cycles: 1e6}", "", "strain_life_table of 'hose' has one point; give at least two");
+  refused(", {strain_amplitude: 0.01, cycles: 1e6}", "",
+          "strain_life_table of 'hose' has one point; give at least two");
   refused("youngs_modulus_GPa: 0.4", "youngs_modulus_GPa: 0.4, fatigue_ductility: 2", "fatigue_ductility");
 }
 
+TEST_CASE("job: a clamp may stand at one of the robot's mounting points") {
+  const std::string robot = edited(sample_job, "robot:\n",
+                                   "robot:\n  mounting_points: [{name: elbow, link: turret, position_m: [1, "
+                                   "2, 3], direction: [0, 1, 0]}]\n");
+  const auto begin = robot.find("base_clamp: {"), end = robot.find("}", begin);
+  const auto with_clamp = [&](const std::string& clamp) {
+    return robot.substr(0, begin) + "base_clamp: {" + clamp + robot.substr(end);
+  };
+  const Job job = job_of_text(with_clamp("mounting_point: elbow, roll_deg: 10"));
+  REQUIRE(job.routing.base_clamp);
+  CHECK(job.routing.base_clamp->link == "turret");
+  CHECK(job.routing.base_clamp->position == Vector3d(1, 2, 3));
+  CHECK(job.routing.base_clamp->direction == Vector3d(0, 1, 0));
+  CHECK(*job.routing.base_clamp->roll == Approx(10 * degree));
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
+  CHECK_THAT(message_of([&] { job_of_text(with_clamp("mounting_point: knee")); }),
+             Catch::Contains("the robot has no mounting point 'knee'; one of: elbow"));
+  CHECK_THAT(message_of([&] { job_of_text(with_clamp("mounting_point: elbow, link: arm")); }),
+             Catch::Contains("a clamp has both a mounting_point and a link; keep one of the two"));
+}
+
+TEST_CASE("job: joints that follow and external axes") {
+  const auto with = [&](const std::string& axes) {
+    return edited(sample_job, "robot:\n", "robot:\n  external_axes: [" + axes + "]\n");
+  };
+  const Job job =
+      job_of_text(with("{name: track, lower_mm: -100, upper_mm: 4000, speed_mm_per_s: 1000, "
+                       "acceleration_mm_per_s2: 2000}, {name: table, "
+                       "kind: rotary, carries: nothing, axis: [0, 0, 1], lower_deg: -180, upper_deg: 180, "
+                       "speed_deg_per_s: 90, "
+                       "acceleration_deg_per_s2: 180}"));
+  REQUIRE(job.robot.external_axes.size() == 2);
+  CHECK(job.robot.external_axes[0].acceleration == Approx(2));
+  CHECK(job.robot.external_axes[1].upper == Approx(180 * degree));
+  CHECK(job.robot.external_axes[1].carries == ExternalAxis::Carries::nothing);
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
+  const auto refused = [&](const std::string& text, const std::string& words) {
+    CHECK_THAT(message_of([&] { job_of_text(text); }), Catch::Contains(words));
+  };
+  refused(with("{name: track, lower_mm: 5, upper_mm: 5, speed_mm_per_s: 1, acceleration_mm_per_s2: 1}"),
+          "limits of track are empty (lower >= upper); mend them");
+  refused(with("{name: track, lower_mm: 0, upper_mm: 5, speed_mm_per_s: 0, acceleration_mm_per_s2: 1}"),
+          "speed_mm_per_s is 0 (must be > 0 mm/s)");
+  refused(with("{name: track, lower_mm: 0, upper_mm: 5, speed_mm_per_s: 1, acceleration_mm_per_s2: 1, axis: "
+               "[0, 0, 0]}"),
+          "axis of track is zero; give its direction");
+  refused(with("{name: track, kind: rotary, lower_mm: 0, upper_mm: 5}"), "lower_deg");
+  const std::string following =
+      edited(sample_job,
+             "lower_deg: -60.1, upper_deg: 80, speed_deg_per_s: 90,\n       acceleration_deg_per_s2: 300",
+             "follows: axis_1, ratio: -1, offset_deg: 5");
+  refused(edited(following, "follows: axis_1", "follows: axis_2"),
+          "axis_2 follows 'axis_2', which is no driven joint");
+  refused(edited(following, "ratio: -1", "ratio: -1, lower_deg: 3"), "unknown key");
+}
+
 TEST_CASE("job: what contradicts itself is refused") {
-  check_case({"lower_deg: -60.1", "lower_deg: 90", "name: two axes",
+  check_case({"lower_deg: -60.1", "lower_deg: 90", "{name: axis_2",
               "limits of axis_2 are empty (lower >= upper); mend them"});
   check_case(
-      {"axis: [0, 1, 0]", "axis: [0, 0, 0]", "name: two axes", "axis of axis_2 is zero; give its direction"});
+      {"axis: [0, 1, 0]", "axis: [0, 0, 0]", "{name: axis_2", "axis of axis_2 is zero; give its direction"});
   check_case({"{dwell_s: 0.5}", "{dwell_s: 0.5, joints_deg: [0, 0]}", "{dwell_s",
-              "a step must be one of: joints_deg or position_mm (a move), dwell_s, repeat with steps; split it into steps"});
+              "a step must be one of: joints_deg or position_mm (a move), dwell_s, repeat with steps; split "
+              "it into steps"});
   check_case({"{dwell_s: 0.5}", "{dwell_s: 0.5, zone_deg: 1}", "{dwell_s",
               "speed and zone belong to a move; take them out of this step"});
   check_case({"speed_percent: 50", "speed_percent: 50, speed_deg_per_s: 3", "{joints_deg: [10.7",
@@ -358,8 +420,7 @@ TEST_CASE("job: the time step is a number or left to the run") {
   const Job fixed = job_of_text(text, {"simulation.time_step_ms=2"});
   CHECK_FALSE(fixed.simulation.choose_time_step);
   CHECK(fixed.simulation.time_step == Approx(0.002));
-  const std::string message =
-      message_of([] { job_of_text(sample_job, {"simulation.time_step_ms=fast"}); });
+  const std::string message = message_of([] { job_of_text(sample_job, {"simulation.time_step_ms=fast"}); });
   CHECK(message.find("time_step_ms") != std::string::npos);
   CHECK(message.find("fast") != std::string::npos);
 }

@@ -105,7 +105,7 @@ TEST_CASE("robot: angles beyond the limits are named") {
       "90 deg); move it inside the limits of arm");
   CHECK_THROWS_WITH(
       check_joint_limits(robot, std::vector{0.0}, "waypoint 'home'", where),
-      "job.yaml:12:7: error: waypoint 'home' has 1 joint angles; arm has 2 joints: give one angle "
+      "job.yaml:12:7: error: waypoint 'home' has 1 joint angles; arm has 2 axes: give one angle "
       "for each");
 }
 
