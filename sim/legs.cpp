@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include "sim/inverse_kinematics.h"
@@ -15,6 +16,8 @@ using Eigen::VectorXd;
 using pipeline::MotionStep;
 using pipeline::PathKind;
 
+constexpr double degree = std::numbers::pi / 180, millimetre = 1e-3;
+constexpr double limit_rounding = 1e-9;  // of written angles and positions [rad, m]
 constexpr double point_distance = 0.01;  // largest between points of a path [m]
 constexpr double point_turn = 0.035;     // [rad]
 constexpr double point_change = 0.1;     // of any joint [rad]
@@ -31,6 +34,7 @@ struct Move {
   Tooling tooling;
   std::optional<ToolPath> path;           // of a linear or circular move
   double cut_before = 0, cut_behind = 0;  // shares of the path that the corners' curves replace
+  int chain = 0;                          // Leg::path
 
   bool is_path() const { return path.has_value(); }
 };
@@ -38,7 +42,7 @@ struct Move {
 class Layout {
  public:
   Layout(const pipeline::Motion& motion, const pipeline::Robot& robot, const VectorXd& accelerations)
-      : motion_(motion), robot_(robot), accelerations_(accelerations), arm_(robot) {
+      : motion_(motion), robot_(robot), axes_(axes_of(robot)), accelerations_(accelerations), arm_(robot) {
     for (const pipeline::MotionFrame& frame : motion.tools) tools_[frame.name] = &frame;
     for (const pipeline::MotionFrame& frame : motion.work_objects) objects_[frame.name] = &frame;
   }
@@ -49,9 +53,11 @@ class Layout {
                                  fmt::format("motion '{}' does not begin with a move", motion_.name),
                                  "begin with the joints_deg at which the robot starts");
     number(motion_.steps, "");
+    problems_.throw_if_any();
     int first = 0;
     expand(motion_.steps, first);
     problems_.throw_if_any();
+    find_paths();
     for (std::size_t k = 0; k + 1 < moves_.size(); ++k) round_corner(k);
     for (std::size_t k = 0; k < moves_.size(); ++k) lay(k);
     problems_.throw_if_any();
@@ -74,8 +80,7 @@ class Layout {
       const char* kind = step.is_move() ? "move" : "dwell";
       const int line = static_cast<int>(made_.texts.size());
       const std::string text = block + (step.text.empty() ? fmt::format("{} {}", kind, line + 1) : step.text);
-      if (!step.joints.empty())
-        check_joint_limits(robot_, step.joints, fmt::format("waypoint '{}'", text), step.where);
+      if (!step.joints.empty()) collect_limits(step, text);
       // A program's loop runs the same line again.
       const auto [known, added] = line_of_.try_emplace(
           step.where.line > 0 && step.where.column > 0
@@ -85,6 +90,11 @@ class Layout {
       numbers_.push_back(known->second);
       if (added) made_.texts.push_back(text);
     }
+  }
+
+  void collect_limits(const MotionStep& step, const std::string& text) {
+    if (const auto fault = limit_fault(robot_, step.joints, fmt::format("waypoint '{}'", text)))
+      problems_.add(step.where, fault->what, fault->remedy);
   }
 
   void expand(const std::vector<MotionStep>& steps, int& line) {
@@ -133,9 +143,42 @@ class Layout {
     return made;
   }
 
-  void refuse(const MotionStep& step, int line, const std::string& reason) {
+  bool refuse(const MotionStep& step, int line, const std::string& reason) {
     problems_.add(step.where, fmt::format("target of '{}' {}", made_.texts[line], reason),
                   "check target, tool, work object, configuration and where the robot stands");
+    return false;
+  }
+
+  /// All axes near `joints`, with the external axes at the share u of a move's way.
+  VectorXd at_share(const Move& move, double u, VectorXd joints) const {
+    const long external = static_cast<long>(axes_.size() - robot_.axes());
+    joints.tail(external) = (1 - u) * move.from.tail(external) + u * move.to.tail(external);
+    return joints;
+  }
+
+  /// Where the external axes are at the end of a step; those that it does not name stay.
+  VectorXd externals(const MotionStep& step, int line) {
+    const long robot_axes = static_cast<long>(robot_.axes());
+    const long count = static_cast<long>(axes_.size()) - robot_axes;
+    VectorXd values = place_.size() > 0 ? VectorXd(place_.tail(count)) : VectorXd::Zero(count);
+    for (long i = 0; i < count; ++i) {
+      const Axis& axis = axes_[robot_axes + i];
+      const double unit = axis.turns ? degree : millimetre;
+      if (i < static_cast<long>(step.external_axes.size())) values[i] = unit * step.external_axes[i];
+      if (values[i] < axis.lower - limit_rounding || values[i] > axis.upper + limit_rounding)
+        refuse(
+            step, line,
+            fmt::format("moves {} to {:.6g} {} (must be within {:.6g} .. {:.6g})", axis.name,
+                        values[i] / unit, axis.turns ? "deg" : "mm", axis.lower / unit, axis.upper / unit));
+    }
+    return values;
+  }
+
+  /// All axes: the robot's given ones, the external ones.
+  static VectorXd joined(const VectorXd& joints, const VectorXd& external) {
+    VectorXd whole(joints.size() + external.size());
+    whole << joints, external;
+    return whole;
   }
 
   void add_move(const MotionStep& step, int line) {
@@ -144,31 +187,14 @@ class Layout {
     move.line = line;
     move.from = place_;
     const Tooling tooling = move.tooling = this->tooling(step);
+    const VectorXd external = externals(step, line);
     if (!step.joints.empty()) {
-      move.to = Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size()));
+      move.to = joined(Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size())),
+                       external);
       if (step.path != PathKind::joint && place_.size() > 0)
         move.path = ToolPath(tooling, tooling.pose(arm_.flange(place_)), tooling.pose(arm_.flange(move.to)));
-    } else {
-      const auto& p = step.position;
-      const auto& q = step.quaternion;
-      const Frame target{Vector3(p[0], p[1], p[2]), Quaternion(q[0], q[1], q[2], q[3]).normalized()};
-      const bool path = step.path != PathKind::joint && place_.size() > 0;
-      std::string reason;
-      const auto configuration = arm_configuration(step.configuration);
-      if (!configuration)
-        return refuse(step, line,
-                      fmt::format("has a configuration like none that is read: '{}'", step.configuration));
-      // On a path the arm cannot change; its own continuation counts (lay_path).
-      const auto joints =
-          arm_.solve(tooling.flange(target), path ? ArmConfiguration{} : *configuration, place_, reason);
-      if (!joints) return refuse(step, line, reason);
-      move.to = *joints;
-      if (path) {
-        move.path = ToolPath(tooling, tooling.pose(arm_.flange(place_)), target);
-        if (step.path == PathKind::circular)
-          move.path->bend({step.via_position[0], step.via_position[1], step.via_position[2]});
-        follow(move);
-      }
+    } else if (!reach(step, line, external, move)) {
+      return;
     }
     if (place_.size() == 0) {  // the robot starts here
       place_ = move.to;
@@ -180,6 +206,33 @@ class Layout {
     }
     place_ = move.to;
     moves_.push_back(std::move(move));
+  }
+
+  /// The end of a move to a pose; false: not reached.
+  bool reach(const MotionStep& step, int line, const VectorXd& external, Move& move) {
+    const auto& p = step.position;
+    const auto& q = step.quaternion;
+    const Frame target{Vector3(p[0], p[1], p[2]), Quaternion(q[0], q[1], q[2], q[3]).normalized()};
+    const bool path = step.path != PathKind::joint && place_.size() > 0;
+    std::string reason;
+    const auto configuration = arm_configuration(step.configuration);
+    if (!configuration)
+      return refuse(step, line,
+                    fmt::format("has a configuration like none that is read: '{}'", step.configuration));
+    VectorXd near = joined(VectorXd::Zero(static_cast<long>(robot_.axes())), external);
+    if (place_.size() > 0)
+      near.head(place_.size() - external.size()) = place_.head(place_.size() - external.size());
+    // On a path the arm cannot change; its own continuation counts (lay_path).
+    const auto joints =
+        arm_.solve(move.tooling.flange(target), path ? ArmConfiguration{} : *configuration, near, reason);
+    if (!joints) return refuse(step, line, reason);
+    move.to = *joints;
+    if (!path) return true;
+    move.path = ToolPath(move.tooling, move.tooling.pose(arm_.flange(place_)), target);
+    if (step.path == PathKind::circular)
+      move.path->bend({step.via_position[0], step.via_position[1], step.via_position[2]});
+    follow(move);
+    return true;
   }
 
   /// The joints at the end of a path, by going along it.
@@ -203,7 +256,7 @@ class Layout {
                                                   std::ceil(path.turn() / point_turn)}));
     while (true) {
       std::string reason;
-      const auto next = arm_.solve(path.flange(u + step), {}, joints, reason);
+      const auto next = arm_.solve(path.flange(u + step), {}, at_share(move, u + step, joints), reason);
       const double change = next ? (*next - joints).lpNorm<Eigen::Infinity>() : INFINITY;
       if (change <= point_change || (step <= shortest && change <= jump)) {
         const double at = end - u - step < 1e-12 ? end : u + step;
@@ -265,20 +318,37 @@ class Layout {
   }
 
   VectorXd speeds(const MotionStep& step) const {
-    VectorXd limits(static_cast<long>(robot_.joints.size()));
-    for (long i = 0; i < limits.size(); ++i) limits[i] = robot_.joints[i].speed;
+    VectorXd limits(static_cast<long>(axes_.size()));
+    for (long i = 0; i < limits.size(); ++i) limits[i] = axes_[i].speed;
     if (step.speed) return limits;
     if (step.tool_speed || step.turn_speed || step.duration)
       return limits * step.speed_percent.value_or(100) / 100;
     return limits * step.speed_percent.value_or(motion_.speed_percent) / 100;
   }
 
+  /// Numbers the chains of moves from stop to stop that hold a path.
+  void find_paths() {
+    int paths = 0;
+    for (std::size_t begin = 0, end; begin < moves_.size(); begin = end) {
+      bool path = moves_[begin].is_path();
+      for (end = begin + 1; end < moves_.size() && !stops(end - 1); ++end) path |= moves_[end].is_path();
+      if (!path) continue;
+      ++paths;
+      for (std::size_t k = begin; k < end; ++k) moves_[k].chain = paths;
+    }
+  }
+
   void round_corner(std::size_t k) {
     Move &move = moves_[k], &next = moves_[k + 1];
-    if (stops(k) || (!move.is_path() && !next.is_path())) return;
-    const double zone = tool_zone(k);
-    move.cut_behind = std::min(0.5, zone / tool_way(move));
-    next.cut_before = std::min(0.5, zone / tool_way(next));
+    if (stops(k) || move.chain == 0) return;
+    const MotionStep& step = *move.step;
+    const bool angle = !move.is_path() && !next.is_path() && !step.tool_zone && !step.stop_zone;
+    const double zone = angle ? step.zone.value_or(motion_.zone) : tool_zone(k);
+    const auto way = [&](const Move& m) {
+      return angle ? (m.to - m.from).lpNorm<Eigen::Infinity>() : tool_way(m);
+    };
+    move.cut_behind = std::min(0.5, zone / way(move));
+    next.cut_before = std::min(0.5, zone / way(next));
   }
 
   // ---- legs
@@ -302,6 +372,7 @@ class Layout {
     leg.length = length;
     leg.step = limits.line;
     leg.zone = leg.zone_behind = INFINITY;
+    leg.path = chain_;
     leg.cruise = axis_limit(leg.direction, speeds(step));
     leg.acceleration = axis_limit(leg.direction, accelerations_) *
                        std::min(1.0, step.acceleration_percent.value_or(100) / 100);
@@ -325,6 +396,7 @@ class Layout {
       made_.legs.push_back(leg);
       return;
     }
+    chain_ = move.chain;
     const VectorXd begun = k > 0 && moves_[k].cut_before > 0 ? last_ : move.from;
     last_ = begun;
     if (move.is_path())
@@ -375,8 +447,10 @@ class Layout {
     last_ = end;
     const std::size_t before = made_.legs.size();
     add_leg(begin, end, distance, turn, {&step, move.line}, duration);
-    if (made_.legs.size() == before || move.cut_behind > 0 || stops(k)) return;
+    if (made_.legs.size() == before) return;
     Leg& leg = made_.legs.back();
+    leg.straight = true;
+    if (move.cut_behind > 0 || stops(k)) return;
     if (step.zone || (!step.tool_zone && !step.stop_zone)) {
       leg.zone = leg.zone_behind = step.zone.value_or(motion_.zone);
     } else {  // a zone of the tool between two joint moves
@@ -404,8 +478,9 @@ class Layout {
     VectorXd end = next.from + next.cut_before * (next.to - next.from);
     if (next.is_path()) {
       std::string reason;
-      const auto reached = arm_.solve(next.path->flange(next.cut_before), {}, corner, reason);
-      if (!reached) return refuse(*next.step, next.line, reason);
+      const auto reached =
+          arm_.solve(next.path->flange(next.cut_before), {}, at_share(next, next.cut_before, corner), reason);
+      if (!reached) return static_cast<void>(refuse(*next.step, next.line, reason));
       end = *reached;
     }
     const double before = move.cut_behind * tool_way(move), behind = next.cut_before * tool_way(next);
@@ -420,8 +495,11 @@ class Layout {
         std::string reason;
         const Frame pose = bezier(move.path->pose(1 - move.cut_behind), next.path->pose(0),
                                   next.path->pose(next.cut_before), u);
-        const auto reached = arm_.solve(next.path->tooling().flange(pose), {}, joints, reason);
-        if (!reached) return refuse(*next.step, next.line, reason);
+        VectorXd near = joints;  // external axes go over likewise
+        const long external = near.size() - static_cast<long>(robot_.axes());
+        near.tail(external) = target.tail(external);
+        const auto reached = arm_.solve(next.path->tooling().flange(pose), {}, near, reason);
+        if (!reached) return static_cast<void>(refuse(*next.step, next.line, reason));
         target = *reached;
       }
       if (i == points) target = end;
@@ -438,6 +516,7 @@ class Layout {
 
   const pipeline::Motion& motion_;
   const pipeline::Robot& robot_;
+  const std::vector<Axis> axes_;
   const VectorXd& accelerations_;  // A_i
   InverseKinematics arm_;
   std::map<std::string, const pipeline::MotionFrame*> tools_, objects_;
@@ -447,6 +526,7 @@ class Layout {
   std::vector<std::size_t> stops_;  // moves behind which the robot stops although their zone would not
   Problems problems_;
   VectorXd place_, last_;
+  int chain_ = 0;  // of the move being laid
   Legs made_;
 };
 

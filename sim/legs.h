@@ -30,6 +30,8 @@ struct Leg {
   double zone = 0;                  ///< at its end: blending begins at most this far before it [rad]
   double zone_behind = 0;           ///< and ends at most this far behind it [rad]
   double dwell = 0;                 ///< [s]
+  int path = 0;           ///< which chain from stop to stop that holds a tool path it belongs to; 0: none
+  bool straight = false;  ///< the whole of a joint move
   int step = 0;
 };
 

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "sim/legs.h"
+#include "sim/path_motion.h"
+#include "sim/robot.h"
 
 namespace dresslife::sim {
 namespace {
@@ -32,9 +35,10 @@ double integrated_rise(double u) {
 
 /// A_i (M2) of every axis [rad/s2].
 VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robot& robot) {
-  VectorXd accelerations(static_cast<long>(robot.joints.size()));
+  const std::vector<Axis> axes = axes_of(robot);
+  VectorXd accelerations(static_cast<long>(axes.size()));
   for (long i = 0; i < accelerations.size(); ++i)
-    accelerations[i] = (1 - ramp) * robot.joints[i].acceleration * motion.acceleration_percent / 100;
+    accelerations[i] = (1 - ramp) * axes[i].acceleration * motion.acceleration_percent / 100;
   return accelerations;
 }
 
@@ -148,6 +152,12 @@ class Pieces {
     time += duration;
   }
 
+  void append(std::vector<MotionPiece> more) {
+    if (more.empty()) return;
+    time = more.back().start + more.back().duration;
+    std::move(more.begin(), more.end(), std::back_inserter(pieces));
+  }
+
   /// The part of a leg between its blends: up to the top speed, along, and down (M3).
   void add_leg(const Leg& leg, const Corner& entry, const Corner& exit) {
     const double v0 = entry.out, v1 = exit.in, twice = 2 * leg.acceleration;
@@ -171,24 +181,54 @@ class Pieces {
 
 }  // namespace
 
-JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& robot) {
-  const VectorXd accelerations = mean_accelerations(motion, robot);
-  Legs program = legs_of(motion, robot, accelerations);
-  const CornerSpeeds corners(program.legs, accelerations);
-  Pieces laid;
-  const VectorXd rest = VectorXd::Zero(program.place.size());
-  for (int k = 0; k < static_cast<int>(program.legs.size()); ++k) {
-    const Leg& leg = program.legs[k];
+namespace {
+
+/// Legs none of which is part of a path, one by one.
+void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, Pieces& laid) {
+  const CornerSpeeds corners(legs, accelerations);
+  for (int k = 0; k < static_cast<int>(legs.size()); ++k) {
+    const Leg& leg = legs[k];
     if (leg.dwell > 0) {
+      const VectorXd rest = VectorXd::Zero(leg.from.size());
       laid.add(leg.from, rest, rest, leg.dwell, leg.step, leg.step);
       continue;
     }
     laid.add_leg(leg, corners.at_end(k - 1), corners.at_end(k));
-    if (corners.at_end(k).limit > 0) laid.add_blend(leg, program.legs[k + 1], corners.at_end(k));
+    if (corners.at_end(k).limit > 0) laid.add_blend(leg, legs[k + 1], corners.at_end(k));
+  }
+}
+
+AxisLimits limits_of(const pipeline::Robot& robot) {
+  const std::vector<Axis> axes = axes_of(robot);
+  AxisLimits limits{VectorXd(static_cast<long>(axes.size())), VectorXd(static_cast<long>(axes.size()))};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    limits.speed[static_cast<long>(i)] = axes[i].speed;
+    limits.acceleration[static_cast<long>(i)] = axes[i].acceleration;
+  }
+  return limits;
+}
+
+}  // namespace
+
+JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  const VectorXd accelerations = mean_accelerations(motion, robot);
+  Legs program = legs_of(motion, robot, accelerations);
+  const AxisLimits limits = limits_of(robot);
+  Pieces laid;
+  for (auto begin = program.legs.begin(); begin != program.legs.end();) {
+    const auto end =
+        std::find_if(begin, program.legs.end(), [&](const Leg& leg) { return leg.path != begin->path; });
+    const std::vector<Leg> legs(begin, end);
+    if (begin->path == 0)
+      add_legs(legs, accelerations, laid);
+    else
+      laid.append(path_pieces(legs, accelerations, limits, laid.time));
+    begin = end;
   }
   duration_ = laid.time;
   // The stand at the end (its duration does not matter); also the whole of a program that goes nowhere.
   const int last = static_cast<int>(program.texts.size()) - 1;
+  const VectorXd rest = VectorXd::Zero(program.place.size());
   laid.pieces.push_back({duration_, 1, program.place, rest, rest, last, last});
   pieces_ = std::move(laid.pieces);
   step_texts_ = std::move(program.texts);
@@ -211,19 +251,25 @@ double fraction(const MotionPiece& piece, double time) {
 
 VectorXd JointMotion::position(double time) const {
   const MotionPiece& piece = piece_at(time);
-  const double u = fraction(piece, time);
+  const double u = fraction(piece, time), t = u * piece.duration;
+  if (piece.jerk.size() > 0)
+    return piece.position + t * (piece.velocity_before + t / 2 * (piece.acceleration + t / 3 * piece.jerk));
   return piece.position +
          piece.duration * (u * piece.velocity_before + integrated_rise(u) * piece.velocity_change);
 }
 
 VectorXd JointMotion::velocity(double time) const {
   const MotionPiece& piece = piece_at(time);
-  return piece.velocity_before + rise(fraction(piece, time)) * piece.velocity_change;
+  const double u = fraction(piece, time), t = u * piece.duration;
+  if (piece.jerk.size() > 0) return piece.velocity_before + t * (piece.acceleration + t / 2 * piece.jerk);
+  return piece.velocity_before + rise(u) * piece.velocity_change;
 }
 
 VectorXd JointMotion::acceleration(double time) const {
   const MotionPiece& piece = piece_at(time);
-  return slope(fraction(piece, time)) / piece.duration * piece.velocity_change;
+  const double u = fraction(piece, time);
+  if (piece.jerk.size() > 0) return piece.acceleration + u * piece.duration * piece.jerk;
+  return slope(u) / piece.duration * piece.velocity_change;
 }
 
 int JointMotion::step(double time) const {

@@ -19,10 +19,10 @@
 // and both legs are long enough to change speed; found corner by corner and swept until all legs agree. w = 0
 // (zone 0, a dwell, the ends) is a full stop.
 //
-// Tool paths are chains of short legs, whose corners are blended likewise (legs.h: M6, M7).
-// Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is an estimate.
-// (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic Machines and
-// Robots, 2008, chapters 3 and 5; the unified form here is derived in sim/README.md.)
+// A chain of moves without a stop that holds a tool path is laid out as a whole (legs.h: M6, M7;
+// path_motion.h). Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is
+// an estimate. (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic
+// Machines and Robots, 2008, chapters 3 and 5; the unified form here is derived in sim/README.md.)
 #pragma once
 
 #include <Eigen/Core>
@@ -33,15 +33,16 @@
 
 namespace dresslife::sim {
 
-/// One change of velocity (M1).
+/// One change of velocity (M1), or (with a jerk) a cubic in time.
 struct MotionPiece {
-  double start = 0;                 ///< t0 [s]
-  double duration = 0;              ///< tau [s]
-  Eigen::VectorXd position;         ///< q0 (joint) [rad]
-  Eigen::VectorXd velocity_before;  ///< V0 (joint) [rad/s]
-  Eigen::VectorXd velocity_change;  ///< V1 - V0 (joint) [rad/s]
-  int step = 0;                     ///< program line
-  int step_after = 0;               ///< program line of the second half: a blend belongs to two moves
+  double start = 0;                        ///< t0 [s]
+  double duration = 0;                     ///< tau [s]
+  Eigen::VectorXd position;                ///< q0 (joint) [rad]
+  Eigen::VectorXd velocity_before;         ///< V0 (joint) [rad/s]
+  Eigen::VectorXd velocity_change;         ///< V1 - V0 (joint) [rad/s]
+  int step = 0;                            ///< program line
+  int step_after = 0;                      ///< program line of the second half: a blend belongs to two moves
+  Eigen::VectorXd acceleration{}, jerk{};  ///< of a cubic: at its begin, throughout (joint) [rad/s2, rad/s3]
 };
 
 /// A program laid out in time. Before 0 and after duration() the robot stands still.

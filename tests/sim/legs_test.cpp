@@ -173,6 +173,70 @@ TEST_CASE("legs: a joint move never takes its tool faster than told; a duration 
   CHECK(timed.duration() == Approx(2).epsilon(1e-9));
 }
 
+namespace {
+
+pipeline::Robot on_track(pipeline::ExternalAxis::Carries carries) {
+  pipeline::Robot robot = arm();
+  pipeline::ExternalAxis track;
+  track.name = "track";
+  track.axis = Vector3::UnitY();
+  track.carries = carries;
+  track.lower = -1;
+  track.upper = 2;
+  track.speed = 0.5;
+  track.acceleration = 1;
+  robot.external_axes = {track};
+  return robot;
+}
+
+}  // namespace
+
+TEST_CASE("legs: a track carries the robot along while its tool keeps to the line in the cell") {
+  const pipeline::Robot robot = on_track(pipeline::ExternalAxis::Carries::robot);
+  const InverseKinematics kinematics(robot);
+  auto start = to(PathKind::joint, {1.2, 0, 1.2}, 1, 0), along = to(PathKind::linear, {1.2, 1, 1.2}, 0.3, 0),
+       back = to(PathKind::linear, {1.2, 0.6, 1.2}, 0.3, 0);
+  start.external_axes = {0};
+  along.external_axes = {1000};
+  const JointMotion run(motion({start, along, back}), robot);
+  const VectorXd begin = run.position(0);
+  double off = 0, bent = 0;
+  for (double t = 0; t < run.duration(); t += 0.005) {
+    const VectorXd axes = run.position(t);
+    const Vector3 here = kinematics.flange(axes).position;
+    off = std::max(off, std::hypot(here.x() - 1.2, here.z() - 1.2));
+    if (run.step(t) < 2) bent = std::max(bent, (axes - begin).head(6).lpNorm<Eigen::Infinity>());
+    CHECK(std::abs(run.velocity(t)[6]) <= 0.5 + limit_margin);
+    CHECK(std::abs(run.acceleration(t)[6]) <= 1 + limit_margin);
+  }
+  CHECK(off < 2e-5);   // the third move leaves the track where it is and bends the arm: chords, as above
+  CHECK(bent < 1e-7);  // track and tool go as far as each other: the arm keeps its pose (acos near 1)
+  CHECK((kinematics.flange(run.position(run.duration())).position - Vector3(1.2, 0.6, 1.2)).norm() < 1e-9);
+  CHECK(run.position(run.duration())[6] == Approx(1));
+}
+
+TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its limits") {
+  const pipeline::Robot robot = on_track(pipeline::ExternalAxis::Carries::nothing);
+  auto start = to(PathKind::joint, corner, 1, 0);
+  auto same = start;
+  same.tool_speed = {};
+  same.external_axes = {1500};
+  const JointMotion run(motion({start, same}), robot);
+  // 1.5 m at 0.5 m/s with A = 0.75 m/s2: L/v + v/A.
+  CHECK(run.duration() == Approx(1.5 / 0.5 + 0.5 / 0.75).epsilon(1e-9));
+  same.external_axes = {2500};
+  same.where = {"main.mod", 7, 1};
+  try {
+    JointMotion(motion({start, same}), robot);
+    FAIL("no problem was told");
+  } catch (const pipeline::InputError& error) {
+    CHECK(std::string(error.what())
+              .starts_with(
+                  "main.mod:7:1: error: target of 'move 2' moves track to 2500 mm (must be within -1000 .. "
+                  "2000); check target"));
+  }
+}
+
 TEST_CASE("legs: targets out of reach are told together, with their lines") {
   auto far = to(PathKind::linear, {5, 0, 1}, 1, 0), wrong = to(PathKind::joint, corner, 1, 0);
   far.where = {"main.mod", 12, 3};
