@@ -60,6 +60,8 @@ struct Statement {
     instruction,  ///< name, arguments: a routine of the program or a word of the language
     give_back,    ///< RETURN, arguments[0] or none
     leave_loop,   ///< KRL's EXIT
+    label,        ///< name
+    jump,         ///< GOTO name: a label of the routine, in one of the blocks around
     finish,       ///< the program ends here
     declare       ///< name, type in `text`, arguments: value or none, then the dimensions
   };

@@ -12,6 +12,8 @@ using Kind = Statement::Kind;
 
 constexpr int stack_depth = 1200;  // of execute() and evaluate() in each other; a frame is below 1 kB
 
+constexpr std::size_t instruction_work = 10;  // of a move, in statements
+
 const char* assume_remedy = "choose with --assume {}:{}=then or =else (motion.assume in a job)";
 
 }  // namespace
@@ -38,7 +40,7 @@ void Interpreter::run(const Routine& routine) {
                                       : assign(statement.arguments[0], evaluate(statement.arguments[1]));
     locals_.emplace_back();
     routines_.push_back(&routine);
-    execute(routine.body);
+    execute_routine(routine);
   } catch (const Stop&) {
   }
 }
@@ -106,9 +108,40 @@ void Interpreter::emit(Instruction instruction, const Statement& statement) {
 // ---- statements -------------------------------------------------------------------------------------------
 
 Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
-  for (const Statement& statement : body)
-    if (const Flow flow = execute(statement); flow != Flow::next) return flow;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const Flow flow = execute(body[i]);
+    if (flow == Flow::next) continue;
+    if (flow != Flow::jump) return flow;
+    const auto label = std::find_if(body.begin(), body.end(), [&](const Statement& statement) {
+      return statement.kind == Kind::label && statement.name == jump_->name;
+    });
+    if (label == body.end()) return flow;  // in a block around this one
+    const auto target = static_cast<std::size_t>(label - body.begin());
+    if (target <= i && jumps_for_ever(body, target, i)) {
+      note(jump_->place, "jumps back for ever: the motion is one pass");
+      throw Stop{};
+    }
+    charge(1);
+    i = target;
+  }
   return Flow::next;
+}
+
+Interpreter::Flow Interpreter::execute_routine(const Routine& routine) {
+  const Flow flow = execute(routine.body);
+  if (flow != Flow::jump) return flow;
+  complain(jump_->place, fmt::format("jumps to '{}', which is no label in a block around it", jump_->name),
+           "mend the label, or write a loop");
+  throw Stop{};
+}
+
+/// The jump stands in `body` itself, and nothing between it and its label leaves the way round.
+bool Interpreter::jumps_for_ever(const std::vector<Statement>& body, std::size_t label,
+                                 std::size_t jump) const {
+  if (body[jump].kind != Kind::jump) return false;  // in an arm of a branch
+  const std::vector<Statement> round(body.begin() + static_cast<long>(label),
+                                     body.begin() + static_cast<long>(jump));
+  return !holds_loop_exit(round);
 }
 
 Interpreter::Flow Interpreter::execute(const Statement& statement) {
@@ -139,6 +172,11 @@ Interpreter::Flow Interpreter::execute(const Statement& statement) {
       return Flow::give_back;
     case Kind::leave_loop:
       return Flow::leave_loop;
+    case Kind::label:
+      break;
+    case Kind::jump:
+      jump_ = &statement;
+      return Flow::jump;
     case Kind::finish:
       throw Stop{};
     case Kind::declare:
@@ -326,6 +364,7 @@ void Interpreter::run_instruction(const Statement& statement) {
     call(*routine, statement.arguments, statement.place);
     return;
   }
+  charge(instruction_work);
   if (dialect_.instruction(statement, *this)) return;
   if (dialect_.harmless(statement.name))
     note(statement.place, statement.text + ": input, output or logic");
@@ -397,7 +436,7 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
   routines_.push_back(&routine);
   locals_.push_back(std::move(variables));
   result_ = Value{};
-  const Flow flow = execute(routine.body);
+  const Flow flow = execute_routine(routine);
   const Value result = flow == Flow::give_back ? result_ : Value{};
   variables = std::move(locals_.back());
   locals_.pop_back();
@@ -417,6 +456,7 @@ bool Interpreter::matters(const std::vector<Statement>& body, int depth) const {
     switch (statement.kind) {
       case Kind::give_back:
       case Kind::leave_loop:
+      case Kind::jump:
         return true;
       case Kind::instruction:
         if (const Routine* routine = code_.find(statement.name)) {
@@ -444,7 +484,9 @@ void Interpreter::forget_assigned(const std::vector<Statement>& body) {
 
 bool Interpreter::holds_loop_exit(const std::vector<Statement>& body) const {
   for (const Statement& statement : body) {
-    if (statement.kind == Kind::leave_loop || statement.kind == Kind::give_back) return true;
+    if (statement.kind == Kind::leave_loop || statement.kind == Kind::give_back ||
+        statement.kind == Kind::jump || statement.kind == Kind::finish)
+      return true;
     if (statement.kind != Kind::branch && statement.kind != Kind::choose) continue;
     for (const Branch& branch : statement.branches)
       if (holds_loop_exit(branch.body)) return true;

@@ -87,11 +87,12 @@ class Interpreter {
   bool shape(Value& value, const RecordType* type) const;
 
  private:
-  enum class Flow { next, leave_loop, give_back };
+  enum class Flow { next, leave_loop, give_back, jump };
   struct Stop {};  // thrown: the program ends, or goes past a limit
   struct Deeper;
 
   Flow execute(const std::vector<Statement>& body);
+  Flow execute_routine(const Routine& routine);
   Flow execute(const Statement& statement);
   Flow run_branch(const Statement& statement);
   Flow run_choice(const Statement& statement);
@@ -110,6 +111,7 @@ class Interpreter {
   bool matters(const std::vector<Statement>& body, int depth = 0) const;
   void forget_assigned(const std::vector<Statement>& body);
   bool holds_loop_exit(const std::vector<Statement>& body) const;
+  bool jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const;
 
   Value evaluate_inner(const Expression& expression);
   Value name_value(const Expression& expression);
@@ -129,7 +131,8 @@ class Interpreter {
       locals_;  // stay where they are while routines are called
   std::vector<const Routine*> routines_;
   Value result_;
-  std::deque<RecordType> records_;  // of aggregates with names
+  const Statement* jump_ = nullptr;  // on its way to its label
+  std::deque<RecordType> records_;   // of aggregates with names
   std::map<std::string, const RecordType*> record_of_;
   std::map<std::string, int> frames_;
   long executed_ = 0;

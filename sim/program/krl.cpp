@@ -15,10 +15,10 @@ constexpr double millimetre = 1e-3;
 
 constexpr const char* axis_names[] = {"a1", "a2", "a3", "a4", "a5", "a6"};
 constexpr const char* frame_names[] = {"x", "y", "z", "a", "b", "c"};
-constexpr const char* harmless_names[] = {
-    "wait",    "halt",   "interrupt", "trigger", "pulse",     "signal",  "ext",   "extfct", "extp",
-    "extfctp", "import", "enum",      "struc",   "channel",   "anin",    "anout", "brake",  "resume",
-    "cwrite",  "cread",  "goto",      "gripper", "err_raise", "eb_test", "sync"};
+constexpr const char* harmless_names[] = {"wait",   "halt",    "interrupt", "trigger",   "pulse",   "signal",
+                                          "ext",    "extfct",  "extp",      "extfctp",   "import",  "enum",
+                                          "struc",  "channel", "anin",      "anout",     "brake",   "resume",
+                                          "cwrite", "cread",   "gripper",   "err_raise", "eb_test", "sync"};
 
 /// Axes of the target, or the position and angles of its frame, of which a program may give some only.
 struct Coordinates {
@@ -168,9 +168,6 @@ bool Krl::read_target(const Expression& written, bool relative, Instruction& mov
   for (const char* name : {"e1", "e2", "e3", "e4", "e5", "e6"})
     if (const Value* axis = value.field(name); axis && axis->is_number())
       move.target.external_axes.push_back(axis->number);
-  if (std::all_of(move.target.external_axes.begin(), move.target.external_axes.end(),
-                  [](double e) { return e == 0; }))
-    move.target.external_axes.clear();  // KUKA writes zeros for axes that are not there
   return true;
 }
 
@@ -467,6 +464,13 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
   }
   Krl krl(tools, work_objects);
   Interpreter(code, krl, options, program, problems).run(*routine);
+  // KUKA writes zeros for axes that are not there.
+  const auto at_zero = [](double e) { return e == 0; };
+  const auto unused = [&](const Instruction& i) {
+    return std::all_of(i.target.external_axes.begin(), i.target.external_axes.end(), at_zero);
+  };
+  if (std::all_of(program.instructions.begin(), program.instructions.end(), unused))
+    for (Instruction& instruction : program.instructions) instruction.target.external_axes.clear();
 }
 
 }  // namespace dresslife::sim

@@ -14,10 +14,10 @@ constexpr const char* ends[] = {"end",      "endfct",    "enddat",    "endif", "
                                 "endwhile", "endloop",   "else",      "case",  "default",
                                 "until",    "endswitch", "endspline", "def",   "deffct"};
 
-class KrlParser {
+class KrlParser : StatementParser {
  public:
   KrlParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
-      : code_(code), file_(file), at_(tokens, file, true), problems_(problems) {}
+      : StatementParser(code, file, tokens, problems, true) {}
 
   void run() {
     skip_line_ends();
@@ -44,13 +44,7 @@ class KrlParser {
   template <class Read>
   void guarded(const Read& read) {
     const Place before = at_.place();
-    try {
-      read();
-      return;
-    } catch (const SyntaxError& error) {
-      problems_.add({code_.files[file_].name(), error.place.line, error.place.column}, error.what,
-                    error.remedy);
-    }
+    if (attempt(read)) return;
     const Place now = at_.place();
     if (now.line == before.line || now.column > 1) skip_line();
     skip_line_ends();
@@ -103,34 +97,17 @@ class KrlParser {
     }
   }
 
-  bool at_any(const std::vector<const char*>& words) const {
-    return std::any_of(words.begin(), words.end(), [&](const char* word) { return at_.at_word(word); });
-  }
-
   std::vector<Statement> body(const std::vector<const char*>& until) {
-    struct Level {
-      int& depth;
-      ~Level() { --depth; }
-    } level{++depth_};
-    if (depth_ > ImportLimits::nesting)
-      at_.fail(fmt::format("is nested more than {} deep", ImportLimits::nesting), "use routines");
-    std::vector<Statement> statements;
     skip_line_ends();
-    while (!at_any(until) && !problems_.full()) {
-      if (at_.at_end() ||
-          std::any_of(std::begin(ends), std::end(ends), [&](const char* word) { return at_.at_word(word); }))
-        at_.fail(fmt::format("has {} before {}", at_.seen(), upper(until[0])),
-                 fmt::format("close the block with {}", upper(until[0])));
-      guarded([&] { statement(statements); });
-      skip_line_ends();
-    }
-    return statements;
-  }
-
-  static std::string upper(std::string text) {
-    for (char& c : text)
-      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    return text;
+    return block(
+        until,
+        [&] {
+          return at_any({std::begin(ends), std::end(ends)});
+        },
+        [&](std::vector<Statement>& statements) {
+          guarded([&] { statement(statements); });
+          skip_line_ends();
+        });
   }
 
   void statement(std::vector<Statement>& into) {
@@ -171,15 +148,18 @@ class KrlParser {
       return;
     else if (at_.at_word("wait"))
       wait_statement(s);
-    else if (at_.at_word("goto") || at_.at_word("halt"))
+    else if (at_.at_word("halt"))
       return left_out(s, into);
+    else if (at_.take_word("goto"))
+      s = labelled(Kind::jump);
     else if (is_move())
       move(s);
     else if (at_.peek(1).kind == Token::Kind::word && !line_done())
       return declaration_or_unknown(s, into);
-    else if (at_.at_sign(":", 1))
-      return skip_line();  // a label
-    else
+    else if (at_.at_sign(":", 1)) {
+      s = labelled(Kind::label);
+      at_.next();
+    } else
       assignment_or_call(s);
     need_line_end();
     into.push_back(std::move(s));
@@ -385,12 +365,6 @@ class KrlParser {
     s.text = target.text;
     if (target.kind == Expression::Kind::call) s.arguments = std::move(target.items);
   }
-
-  Code& code_;
-  int file_;
-  Cursor at_;
-  Problems& problems_;
-  int depth_ = 0;
 };
 
 }  // namespace

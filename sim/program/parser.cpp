@@ -271,4 +271,24 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
   return list;
 }
 
+// ---- statements -------------------------------------------------------------------------------------------
+
+bool StatementParser::at_any(const std::vector<const char*>& words) const {
+  return std::any_of(words.begin(), words.end(), [&](const char* word) { return at_.at_word(word); });
+}
+
+void StatementParser::fail_at_end(std::string word) const {
+  for (char& c : word)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  at_.fail(fmt::format("has {} before {}", at_.seen(), word), fmt::format("close the block with {}", word));
+}
+
+Statement StatementParser::labelled(Statement::Kind kind) {
+  Statement s;
+  s.kind = kind;
+  s.place = at_.place();
+  s.name = at_.word("a label");
+  return s;
+}
+
 }  // namespace dresslife::sim

@@ -55,4 +55,57 @@ class Cursor {
   bool krl_;
 };
 
+/// What the statements of both languages are read with: blocks, nesting, and problems instead of errors.
+class StatementParser {
+ protected:
+  StatementParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems, bool krl)
+      : code_(code), file_(file), at_(tokens, file, krl), problems_(problems) {}
+
+  bool at_any(const std::vector<const char*>& words) const;
+
+  /// False: there was a syntax error, which is now a problem; the cursor stands where it was found.
+  template <class Read>
+  bool attempt(const Read& read) {
+    try {
+      read();
+      return true;
+    } catch (const SyntaxError& error) {
+      problems_.add({code_.files[file_].name(), error.place.line, error.place.column}, error.what,
+                    error.remedy);
+      return false;
+    }
+  }
+
+  /// Statements, read by `one`, up to one of these words, which is not taken. wrong_end: whether the cursor
+  /// is at the end of something else.
+  template <class WrongEnd, class One>
+  std::vector<Statement> block(const std::vector<const char*>& until, const WrongEnd& wrong_end,
+                               const One& one) {
+    struct Level {
+      int& depth;
+      ~Level() { --depth; }
+    } level{++depth_};
+    if (depth_ > ImportLimits::nesting)
+      at_.fail(fmt::format("is nested more than {} deep", ImportLimits::nesting), "use routines");
+    std::vector<Statement> statements;
+    while (!at_any(until) && !problems_.full()) {
+      if (at_.at_end() || wrong_end()) fail_at_end(until[0]);
+      one(statements);
+    }
+    return statements;
+  }
+
+  /// A label or a jump to one, at its name.
+  Statement labelled(Statement::Kind kind);
+
+  Code& code_;
+  int file_;
+  Cursor at_;
+  Problems& problems_;
+
+ private:
+  [[noreturn]] void fail_at_end(std::string word) const;
+  int depth_ = 0;
+};
+
 }  // namespace dresslife::sim

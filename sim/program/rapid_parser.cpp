@@ -6,10 +6,10 @@ namespace {
 
 using Kind = Statement::Kind;
 
-class RapidParser {
+class RapidParser : StatementParser {
  public:
   RapidParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
-      : code_(code), file_(file), at_(tokens, file, false), problems_(problems) {}
+      : StatementParser(code, file, tokens, problems, false) {}
 
   void run() {
     while (!at_.at_end() && !at_.at_word("module")) at_.next();  // %%% VERSION and LANGUAGE %%%
@@ -38,19 +38,12 @@ class RapidParser {
 
   /// Runs `read`; a syntax error in it becomes a problem and the reading goes on behind the statement.
   template <class Read>
-  bool guarded(const Read& read) {
+  void guarded(const Read& read) {
     const Place before = at_.place();
-    try {
-      read();
-      return true;
-    } catch (const SyntaxError& error) {
-      problems_.add({code_.files[file_].name(), error.place.line, error.place.column}, error.what,
-                    error.remedy);
-    }
+    if (attempt(read)) return;
     while (!at_.at_end() && !at_.at_sign(";") && !opens_or_closes()) at_.next();
     at_.take_sign(";");
     if (const Place now = at_.place(); now.line == before.line && now.column == before.column) at_.next();
-    return false;
   }
 
   /// A word that a lost reader finds its way by.
@@ -144,35 +137,20 @@ class RapidParser {
     }
   }
 
-  bool at_any(const std::vector<const char*>& words) const {
-    for (const char* word : words)
-      if (at_.at_word(word)) return true;
-    return false;
-  }
-
   /// Statements up to one of these words, which is not taken.
-  std::vector<Statement> body(const std::vector<const char*>& ends) {
-    struct Level {
-      int& depth;
-      ~Level() { --depth; }
-    } level{++depth_};
-    if (depth_ > ImportLimits::nesting)
-      at_.fail(fmt::format("is nested more than {} deep", ImportLimits::nesting), "use routines");
-    std::vector<Statement> statements;
-    while (!at_any(ends) && !problems_.full()) {
-      if (at_.at_end() || at_.at_word("endmodule") || at_.at_word("endproc") || at_.at_word("endfunc") ||
-          at_.at_word("proc") || at_.at_word("func"))
-        at_.fail(fmt::format("has {} before {}", at_.seen(), ends[0]),
-                 fmt::format("close the block with {}", ends[0]));
-      guarded([&] { statement(statements); });
-    }
-    return statements;
+  std::vector<Statement> body(const std::vector<const char*>& until) {
+    return block(
+        until,
+        [&] {
+          return at_any({"endmodule", "endproc", "endfunc", "proc", "func"});
+        },
+        [&](std::vector<Statement>& statements) { guarded([&] { statement(statements); }); });
   }
 
   void statement(std::vector<Statement>& into) {
     if (at_.take_sign(";")) return;
-    if (at_.peek().kind == Token::Kind::word && at_.at_sign(":", 1)) {  // a label
-      at_.next();
+    if (at_.peek().kind == Token::Kind::word && at_.at_sign(":", 1)) {
+      into.push_back(labelled(Kind::label));
       at_.next();
       return;
     }
@@ -287,8 +265,7 @@ class RapidParser {
   }
 
   void goto_statement(Statement& s) {
-    s.name = "goto";
-    at_.word("a label");
+    s = labelled(Kind::jump);
     at_.need_sign(";");
   }
 
@@ -321,12 +298,6 @@ class RapidParser {
     s.arguments = at_.arguments(";");
     at_.need_sign(";");
   }
-
-  Code& code_;
-  int file_;
-  Cursor at_;
-  Problems& problems_;
-  int depth_ = 0;
 };
 
 }  // namespace

@@ -239,7 +239,6 @@ const std::vector<std::string>& harmless_rapid_instructions() {
                                   "removefile",
                                   "copyfile",
                                   "eoffsset",
-                                  "goto",
                                   "timex",
                                   "exitcycle",
                                   "savecfgdata",

@@ -4,7 +4,14 @@
 #include <cstdlib>
 #include <string>
 
+#include "pipeline/fields.h"
+#include "pipeline/job.h"
+#include "pipeline/urdf.h"
 #include "sim/program/import.h"
+
+namespace dresslife::pipeline {
+void describe(Fields& f, Robot& robot);
+}
 
 namespace dresslife::tests {
 
@@ -44,6 +51,22 @@ inline std::string fault_of_reading(sim::Language language, const std::string& t
       return "a configuration that does not read back";
   }
   if (problems.empty()) sim::motion_of(program, {});
+  return "";
+}
+
+/// The same for a URDF: a robot, or a message with the file's name.
+inline std::string fault_of_urdf(const std::string& text) {
+  pipeline::UrdfRequest request;
+  request.urdf = "p.urdf";
+  request.accelerations.assign(7, 1);
+  try {
+    pipeline::Robot robot;
+    pipeline::read_fields(pipeline::robot_from_urdf(request, text), robot);
+    if (robot.links.size() != robot.joints.size() + 1) return "another number of links than joints and one";
+    if (robot.axes() < 4 || robot.axes() > 7) return "a number of axes that is refused";
+  } catch (const pipeline::InputError& error) {
+    if (!std::string(error.what()).starts_with("p.urdf")) return "a message without its file";
+  }
   return "";
 }
 

@@ -5,50 +5,17 @@
 #include "pipeline/job.h"
 #include "tests/program/fuzz_target.h"
 #include "tests/program/reading.h"
+#include "tests/program/samples.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;
 using dresslife::tests::Reader;
 using dresslife::tests::Reading;
+using dresslife::tests::samples;
 
 namespace {
 
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
-
-/// One program per language, with most of what its reader knows.
-const std::vector<std::pair<Language, std::string>>& samples() {
-  static const std::vector<std::pair<Language, std::string>> list{
-      {Language::rapid,
-       "MODULE M\nRECORD r num a; pos b; ENDRECORD\nPERS tooldata "
-       "t:=[TRUE,[[0,0,1],[1,0,0,0]],[1,[0,0,0],[1,0,0,0],0,0,0]];\nCONST robtarget "
-       "p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nVAR num a{3}:=[1,2,3];\nPROC "
-       "main()\nFOR i FROM 1 TO 3 DO\nMoveL "
-       "Offs(p,a{i},0,-i)\\T:=2,v100,z10,t\\WObj:=wobj0;\nENDFOR\nIF di1=1 THEN\nMoveJ "
-       "p,v5,fine,tool0;\nELSEIF FALSE THEN\nsub 1\\x:=2;\nENDIF\nTEST "
-       "a{1}\nCASE 1,2:\nWaitTime 1;\nDEFAULT:\nExit;\nENDTEST\nMoveC "
-       "p,RelTool(p,1,2,3\\Rx:=4),v50,z1,tool0;\nENDPROC\nPROC sub(num y\\num "
-       "x)\na{2}:=a{2}+y DIV 2;\nWHILE a{2}<9 DO\na{2}:=a{2}*2;\nENDWHILE\nENDPROC\nFUNC num f(num "
-       "z)\nRETURN -z;\nENDFUNC\nENDMODULE\n"},
-      {Language::krl,
-       "&ACCESS RVP\nDEF m()\nDECL E6POS P[2]\nINT i\nP[1]={X 1,Y 2,Z 3,A 0,B 0,C 0,S 2,T "
-       "35}\n$VEL.CP=0.5\nBAS(#VEL_PTP,50)\nPTP P[1] C_PTP\nFOR i=1 TO 3 STEP "
-       "1\nLIN {X i} C_DIS\nENDFOR\nCIRC {X 1,Y 2,Z 4},P[1]\nSPLINE WITH $VEL.CP=1\nSPL P[1]\nENDSPLINE\nIF "
-       "$IN[1]==TRUE THEN\nPTP XHOME\nELSE\nHALT\nENDIF\nWAIT SEC 1\nSWITCH i\nCASE "
-       "1,2\nf(i)\nDEFAULT\nENDSWITCH\nLOOP\nEXIT\nENDLOOP\n$BASE={X 1,Y 0,Z 0,A 0,B 0,C 0}:{X 0,Y 1,Z 0,A "
-       "9,B 8,C 7}\nEND\nDEF f(x:IN)\nREPEAT\nx=x+1\nUNTIL x>4\nEND\n"},
-      {Language::fanuc,
-       "/PROG M\n/MN\n 1:J P[1] 100% CNT100 ;\n 2: R[1]=1+2*3 ;\n 3: FOR R[2]=1 TO 3 ;\n 4:L P[2] R[1]mm/sec "
-       "FINE Offset,PR[1] ;\n 5: ENDFOR ;\n 6: IF (R[1]>3 AND !DI[1]=ON) THEN "
-       ";\n 7: WAIT 1.0(sec) ;\n 8: ELSE ;\n 9: ENDIF ;\n10: SELECT R[1]=1,JMP LBL[1] ;\n11: ELSE,CALL M "
-       ";\n12: LBL[1:x] ;\n13:C P[2]\n   : P[2] 10cm/min CNT50 ;\n14: PR[1,3]=5 ;\n15: JMP "
-       "LBL[1] ;\n/POS\nP[1]{\n GP1:\n UF : 0, UT : 0,\n J1= 1 deg, J2= 2 deg, J3= 3 deg, J4= 4 deg, J5= 5 "
-       "deg, J6= 6 deg\n};\nP[2]{\n GP1:\n UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n X = 1 mm, "
-       "Y = 2 mm, Z = 3 mm,\n W = 4 deg, P = 5 deg, R = 6 deg\n};\n/END\n"},
-      {Language::joint_columns, "time, axis 1, axis 2\n0, 1, 2\n0.5, 1.5, 2.5\n# note\n1, 2, 3\n"},
-      {Language::ros_trajectory,
-       R"({"joint_names": ["a", "b"], "points": [{"positions": [0, 1], "time_from_start": {"sec": 0, "nanosec": 0}}, {"positions": [0.5, 1], "time_from_start": 1.5}]})"}};
-  return list;
-}
 
 std::string mutated(const std::string& seed, std::mt19937& random) {
   std::string text = seed;

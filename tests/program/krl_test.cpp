@@ -85,6 +85,40 @@ TEST_CASE("krl: loops, calls, splines") {
   CHECK(r.move(5).zone.percent == 0);
 }
 
+TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one pass") {
+  const std::string start = "INT i\n$VEL.CP=1\nPTP {X 500,Y 0,Z 500,A 0,B 0,C 0}\n";
+  const Reading over = run(start + "GOTO done\nLIN {X 1}\ndone:\nLIN {X 2}");
+  REQUIRE(over.problem() == "no such problem");
+  REQUIRE(over.program.instructions.size() == 2);
+  CHECK(over.move(1).target.pose.position.x() == Approx(0.002).epsilon(rounding));
+  const Reading back =
+      run(start + "i=0\nagain:\ni=i+1\nLIN {X i}\nIF i<4 THEN\n GOTO again\nENDIF\nLIN {X 9}");
+  REQUIRE(back.problem() == "no such problem");
+  REQUIRE(back.program.instructions.size() == 6);
+  CHECK(back.move(4).target.pose.position.x() == Approx(0.004).epsilon(rounding));
+  const Reading endless = run(start + "again:\nLIN {X 1}\nLIN {X 2}\nGOTO again\nLIN {X 9}");
+  REQUIRE(endless.problem() == "no such problem");
+  CHECK(endless.program.instructions.size() == 3);
+  REQUIRE(endless.program.skipped.size() == 1);
+  CHECK(endless.program.skipped[0].what == "jumps back for ever: the motion is one pass");
+  CHECK(run(start + "GOTO nowhere").problem() ==
+        "cell.src:6:6: error: jumps to 'nowhere', which is no label in a block around it; mend the label, or "
+        "write a loop");
+  const Reading asked = run(start + "IF $IN[1] THEN\n GOTO done\nENDIF\nLIN {X 1}\ndone:\nLIN {X 2}");
+  CHECK(asked.problems.size() == 1);
+}
+
+TEST_CASE("krl: external axes are kept where one of them is used") {
+  const Reading unused = run(
+      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}\nPTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}");
+  CHECK(unused.move(0).target.external_axes.empty());
+  const Reading used = run(
+      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 500,E2 0}\nPTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}");
+  REQUIRE(used.move(1).target.external_axes.size() == 2);
+  CHECK(used.move(0).target.external_axes[0] == 500);
+  CHECK(used.move(1).target.external_axes[0] == 0);
+}
+
 TEST_CASE("krl: problems name what is missing and where") {
   const Reading r =
       run("PTP XP7\nLIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\nBAS(#TOOL,3)\n$VEL.CP=1\nLIN {X 1,Y 0,Z 0,A 0,B 0,C "

@@ -178,6 +178,17 @@ TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
   CHECK(broken.problems.size() >= 2);
 }
 
+TEST_CASE("rapid: GOTO jumps to labels of its routine") {
+  const Reading r =
+      run("VAR num i:=0;\nMoveJ p1,v100,fine,tool0;\nagain:\ni:=i+1;\nIF i>2 THEN\n GOTO done;\nENDIF\nMoveL "
+          "Offs(p1,i,0,0),v100,fine,tool0;\nGOTO again;\ndone:\nWaitTime 1;");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 4);
+  CHECK((r.move(2).target.pose.position - r.move(1).target.pose.position).x() == Approx(0.001).epsilon(1e-9));
+  CHECK(r.move(3).dwell == 1);
+  CHECK(run("GOTO far;").problems.at(0).what == "jumps to 'far', which is no label in a block around it");
+}
+
 TEST_CASE("rapid: loops and recursion without end are stopped") {
   const Reading loop = run("VAR num n:=0;\nWHILE n<1 DO\n n:=n*1;\nENDWHILE");
   REQUIRE(loop.problems.size() == 1);

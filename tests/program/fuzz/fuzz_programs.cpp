@@ -1,11 +1,27 @@
-// libFuzzer's entry: the first byte chooses the language, the rest is the program. Not part of the tests;
-// built by scripts/fuzz.
+// libFuzzer's entry: any bytes as a program of the language FUZZ_READER, or as a URDF. It begins with the
+// tests' sample, which it writes into the corpus. Not part of the tests; built by scripts/fuzz.
+#include <fstream>
+
 #include "tests/program/fuzz_target.h"
+#include "tests/program/samples.h"
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+#ifdef FUZZ_URDF
+  std::ofstream("corpus/sample") << dresslife::tests::palletizer;
+#else
+  for (const auto& [language, text] : dresslife::tests::samples())
+    if (language == dresslife::sim::Language::FUZZ_READER) std::ofstream("corpus/sample") << text;
+#endif
+  return 0;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-  if (size == 0) return 0;
-  const auto language = static_cast<dresslife::sim::Language>(data[0] % 5);
-  const std::string text(reinterpret_cast<const char*>(data + 1), size - 1);
-  if (!dresslife::tests::fault_of_reading(language, text).empty()) std::abort();
+  const std::string text(reinterpret_cast<const char*>(data), size);
+#ifdef FUZZ_URDF
+  const std::string fault = dresslife::tests::fault_of_urdf(text);
+#else
+  const std::string fault = dresslife::tests::fault_of_reading(dresslife::sim::Language::FUZZ_READER, text);
+#endif
+  if (!fault.empty()) std::abort();
   return 0;
 }
