@@ -59,25 +59,33 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
   return mixed;
 }
 
-void BundleScan::list_groups(const Bundle& bundle, const std::vector<LayerSlip>& plan,
-                             const BundlePointers& chain, bool mixed) {
+void BundleScan::list_groups(const std::vector<int>& layers) {
+  layers_ = layers;
   groups_.clear();
   std::size_t lists = 0;
-  for (std::size_t k = 0; k < bundle.wire_layers.size(); ++k) {
-    const int count = construction_.layers()[bundle.wire_layers[k]].count;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const int count = construction_.layers()[layers[k]].count;
     for (int first = 0; first < count; first += lanes) {
-      std::vector<double> angles;
-      for (int j = first; j < std::min(count, first + lanes); ++j) angles.push_back(2 * pi * j / count);
-      Group& group = groups_.emplace_back(Group{k, {}, {}, lists});
-      if (mixed)
-        group.mixed =
-            mixed_lanes(chain.nodes + k * waves_per_layer, chain.fibres, plan[bundle.wire_layers[k]], angles);
-      for (int f = 0; f < settings_.fibre_count; ++f) group.scans.emplace_back(angles, settings_.gate);
-      lists += settings_.fibre_count * angles.size();
+      Group& group = groups_.emplace_back(Group{k, {}, {}, {}, lists});
+      for (int j = first; j < std::min(count, first + lanes); ++j) group.angles.push_back(2 * pi * j / count);
+      for (int f = 0; f < settings_.fibre_count; ++f) group.scans.emplace_back(group.angles, settings_.gate);
+      lists += settings_.fibre_count * group.angles.size();
     }
   }
-  if (lists_.size() < lists) lists_.resize(lists);
+  lists_.resize(lists);
+}
+
+/// Bundles of the same layers, one after the other, keep their groups.
+void BundleScan::start(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+                       bool mixed) {
+  if (bundle.wire_layers != layers_) list_groups(bundle.wire_layers);
   for (TurningList& list : lists_) list.clear();
+  for (Group& group : groups_) {
+    for (LaneScan& scan : group.scans) scan.restart();
+    if (mixed)
+      group.mixed = mixed_lanes(chain.nodes + group.layer * waves_per_layer, chain.fibres,
+                                plan[bundle.wire_layers[group.layer]], group.angles);
+  }
 }
 
 std::span<TurningList> BundleScan::lists_of(const Group& group, int fibre) {
@@ -114,7 +122,7 @@ void BundleScan::run_blocks(const BundlePointers& chain, bool mixed, bool keep,
 
 void BundleScan::run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
                      bool mixed, const DeformationColumns& columns, std::size_t samples) {
-  list_groups(bundle, plan, chain, mixed);
+  start(bundle, plan, chain, mixed);
   const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
                                    [&](int layer) { return plan[layer].friction; });
   if (settles) run_blocks(chain, mixed, false, columns, samples);

@@ -53,13 +53,15 @@ class BundleScan {
   /// Up to sixteen wires of one layer.
   struct Group {
     std::size_t layer;  ///< in the bundle
+    std::vector<double> angles;
     MixedLanes mixed;
     std::vector<LaneScan> scans;  ///< (fibre)
     std::size_t first_list;       ///< of (fibre, wire) lists
   };
 
-  void list_groups(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
-                   bool mixed);
+  void list_groups(const std::vector<int>& layers);
+  void start(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+             bool mixed);
   MixedLanes mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
                          const std::vector<double>& angles) const;
   std::span<TurningList> lists_of(const Group& group, int fibre);
@@ -68,8 +70,9 @@ class BundleScan {
 
   const Construction& construction_;
   ScanSettings settings_;
+  std::vector<int> layers_;  ///< for whose wires the groups are
   std::vector<Group> groups_;
-  std::vector<TurningList> lists_;  ///< those in use first
+  std::vector<TurningList> lists_;
   std::vector<float> waves_, strains_;
 };
 

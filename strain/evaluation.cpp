@@ -63,7 +63,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       free_{{construction, plan_slip(construction, {pipeline::Slip::free}, total(lengths_)), lengths_, arcs_,
              samples},
             {}} {
-  for (std::size_t k = 0; k < threads; ++k) workers_.push_back({{construction, scan_}, {}, dresspack_itself});
+  for (std::size_t k = 0; k < threads; ++k) workers_.push_back({{construction, scan_}, {}, {}});
   for (std::size_t b = 0; b < construction.bundles().size(); ++b) {
     const Bundle& bundle = construction.bundles()[b];
     first_wire_.push_back(wires_.size());
@@ -160,24 +160,30 @@ bool parent_suffices(const BundleChain& chain) {
                       [&](const WireNode& node) { return reaches_above(node.slide); });
 }
 
+BundlePointers Evaluation::from_parent(const BundleChain& chain, int part, std::size_t segment,
+                                       const ClampMeans& means, const DeformationHistory& history,
+                                       std::size_t row, Worker& worker) const {
+  BundlePointers from = pointers(chain);
+  const int parent = part == dresspack_itself ? dresspack_itself : construction_.parts()[part].parent;
+  if (parent == dresspack_itself || !parent_suffices(chain)) return from;
+  const std::pair wanted{parent, chain.order + 1};
+  if (worker.parent_is != wanted) {
+    BundleChain to_parent = part_chain(parent, segment, means, fibres_);
+    to_parent.order = chain.order + 1;
+    worker.parent.fill(to_parent, history.columns(row), history.samples());
+    worker.parent_is = wanted;
+  }
+  from.parent = worker.parent.rows();
+  from.parent_stride = worker.parent.stride();
+  return from;
+}
+
 void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMeans& means,
                              const DeformationHistory& history, std::size_t row, bool with_rows,
                              Worker& worker, BundleSites& out) const {
   const Bundle& bundle = construction_.bundles()[b];
   const BundleChain chain = layer_chain(bundle, segment, means);
-  BundlePointers from = pointers(chain);
-  const int parent =
-      bundle.part == dresspack_itself ? dresspack_itself : construction_.parts()[bundle.part].parent;
-  if (parent != dresspack_itself && parent_suffices(chain)) {
-    if (parent != worker.parent_part) {
-      BundleChain to_parent = part_chain(parent, segment, means, fibres_);
-      to_parent.order = chain.order + 1;
-      worker.parent.fill(to_parent, history.columns(row), history.samples());
-      worker.parent_part = parent;
-    }
-    from.parent = worker.parent.rows();
-    from.parent_stride = worker.parent.stride();
-  }
+  const BundlePointers from = from_parent(chain, bundle.part, segment, means, history, row, worker);
   worker.scan.run(bundle, means.plan(), from, mixed(means), history.columns(row), history.samples());
   out.rows.clear();
   out.seen.clear();
@@ -194,7 +200,7 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
                               const std::function<void(const BundleSites&)>& use) {
   const std::size_t bundles = construction_.bundles().size(), threads = workers_.size();
   const std::size_t each = threads == 1 ? 1 : std::max<std::size_t>(1, samples_at_a_time / history.samples());
-  for (Worker& worker : workers_) worker.parent_part = dresspack_itself;
+  for (Worker& worker : workers_) worker.parent_is = {};
   std::vector<BundleSites> found(std::min(bundles, threads * each));
   for (std::size_t first = 0; first < bundles; first += found.size()) {
     const std::size_t end = std::min(bundles, first + found.size());
@@ -207,7 +213,8 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
 }
 
 std::vector<double> Evaluation::history_of(Site site, std::size_t segment, const ClampMeans& means,
-                                           const DeformationHistory& history, std::size_t row) const {
+                                           const DeformationHistory& history, std::size_t row,
+                                           Worker& worker) const {
   const Wire& wire = wires_[site.wire];
   const int part = construction_.bundles()[wire.bundle].part;
   BundleChain chain = part_chain(part, segment, means, {fibres_[site.fibre]});
@@ -220,19 +227,22 @@ std::vector<double> Evaluation::history_of(Site site, std::size_t segment, const
     chain.nodes[0].slide.clamp_strain = sliding.data();
   }
   const std::size_t samples = history.samples(), stride = padded(samples);
-  if (mixed(means)) return mixed_history(chain, means.plan()[wire.layer], history.columns(row), samples);
+  const BundlePointers from = from_parent(chain, part, segment, means, history, row, worker);
+  if (mixed(means))
+    return mixed_history(chain, from, means.plan()[wire.layer], history.columns(row), samples);
   std::vector<double> strain(stride);
-  kernels().node_strains(pointers(chain), history.columns(row), 0, samples, strain.data(), stride);
+  kernels().node_strains(from, history.columns(row), 0, samples, strain.data(), stride);
   strain.resize(samples);
   return strain;
 }
 
 /// What Kernels::mix does, of one fibre in double precision.
-std::vector<double> Evaluation::mixed_history(const BundleChain& chain, const LayerSlip& slip,
-                                              const DeformationColumns& columns, std::size_t samples) const {
+std::vector<double> Evaluation::mixed_history(const BundleChain& chain, const BundlePointers& from,
+                                              const LayerSlip& slip, const DeformationColumns& columns,
+                                              std::size_t samples) const {
   const std::size_t stride = padded(samples);
   std::vector<double> rows(ingredients(1) * stride), strain(samples);
-  kernels().node_ingredients(pointers(chain), columns, 0, samples, rows.data(), stride);
+  kernels().node_ingredients(from, columns, 0, samples, rows.data(), stride);
   const WireNode& node = chain.nodes[0];
   const Fibre& fibre = chain.fibres[0];
   const double rest_bending = rest_ingredient(node, &fibre), rest_shear = rest_ingredient(node, nullptr);
@@ -298,33 +308,15 @@ std::span<const float> Evaluation::append_points(SiteRows& rows, std::span<const
   return {strain, points.size()};
 }
 
-/// `cycles` is something like the damage of Smith, Watson and Topper between turning points: ranges times
-/// tensile peaks, to a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
 Evaluation::Seen Evaluation::measured(Site site, std::span<const float> strains) {
-  constexpr std::size_t side_by_side = 8;  // so that the compiler may use wide registers
-  std::array<float, side_by_side> low, high, sum{};
-  low.fill(strains[0]);
-  high.fill(strains[0]);
-  auto take = [&](std::size_t k, std::size_t lane) {
-    const float now = strains[k], before = strains[k - 1];
-    low[lane] = now < low[lane] ? now : low[lane];
-    high[lane] = now > high[lane] ? now : high[lane];
-    const float larger = now > before ? now : before, peak = larger > 0 ? larger : 0;
-    const float product = peak * std::abs(now - before);
-    sum[lane] += product * product * product;
-  };
-  std::size_t k = 1;
-  for (; k + side_by_side <= strains.size(); k += side_by_side)
-    for (std::size_t lane = 0; lane < side_by_side; ++lane) take(k + lane, lane);
-  for (; k < strains.size(); ++k) take(k, 0);
-  const float lowest = *std::ranges::min_element(low), highest = *std::ranges::max_element(high);
-  const float range = highest - lowest, tension = std::max(0.0f, highest);
+  const StrainMeasures of = kernels().measures(strains.data(), strains.size());
+  const float range = of.highest - of.lowest, tension = std::max(0.0f, of.highest);
   Seen seen{site, {}};
   seen.by[Worst::range] = range;
-  seen.by[Worst::size] = std::max(std::abs(lowest), std::abs(highest));
+  seen.by[Worst::size] = std::max(std::abs(of.lowest), std::abs(of.highest));
   seen.by[Worst::tension] = tension;
   seen.by[Worst::range_times_tension] = range * tension;
-  seen.by[Worst::cycles] = std::accumulate(sum.begin(), sum.end(), 0.0f);
+  seen.by[Worst::cycles] = of.cycle_sum;
   return seen;
 }
 
@@ -359,9 +351,10 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
     put_bound(same ? worst : worst_of_bound(*bound, segment, history, row), bound->means, segment, history,
               row, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
+  workers_[0].parent_is = {};
   auto probe = [&](Site site) {
     const std::size_t index = (segment * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
-    sink.probe({index, history_of(site, segment, means_, history, row)});
+    sink.probe({index, history_of(site, segment, means_, history, row, workers_[0])});
   };
   const auto of_all = std::max_element(worst.begin(), worst.end(), [](const Worst& a, const Worst& b) {
     return a.value[Worst::range] < b.value[Worst::range];
@@ -389,16 +382,17 @@ std::vector<Evaluation::Worst> Evaluation::worst_of_bound(Bound& bound, std::siz
 
 void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
                            const DeformationHistory& history, std::size_t row,
-                           const std::function<void(const SiteRows&)>& sink) const {
+                           const std::function<void(const SiteRows&)>& sink) {
   std::set<Site> sites;
   for (const Worst& layer : worst)
     for (int by = 0; by < Worst::measures; ++by)
       if (layer.value[by] >= 0) sites.insert(layer.site[by]);
   SiteRows rows;
+  workers_[0].parent_is = {};
   for (const Site site : sites) {
     TurningPoints points(scan_.gate);
     TurningList turning;
-    for (const double strain : history_of(site, segment, means, history, row))
+    for (const double strain : history_of(site, segment, means, history, row, workers_[0]))
       points.next(static_cast<float>(strain), turning);
     points.finish(turning);
     append_site(rows, site, segment,

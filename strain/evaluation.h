@@ -95,8 +95,8 @@ class Evaluation {
   /// What one thread keeps between bundles.
   struct Worker {
     BundleScan scan;
-    PartStates parent;  ///< of part `parent_part`, in the run at hand
-    int parent_part;    ///< dresspack_itself: of none
+    PartStates parent;
+    std::pair<int, int> parent_is;  ///< part and order of the states, in the run at hand; order 0: none yet
   };
   /// The sites of one bundle, wire by wire.
   struct BundleSites {
@@ -116,10 +116,14 @@ class Evaluation {
   /// Calls use() for every bundle in order; threads share the work.
   void scan_bundles(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
                     std::size_t row, bool with_rows, const std::function<void(const BundleSites&)>& use);
+  /// The chain to `part`, from its parent's states where they are enough.
+  BundlePointers from_parent(const BundleChain& chain, int part, std::size_t segment, const ClampMeans& means,
+                             const DeformationHistory& history, std::size_t row, Worker& worker) const;
   std::vector<double> history_of(Site site, std::size_t segment, const ClampMeans& means,
-                                 const DeformationHistory& history, std::size_t row) const;
-  std::vector<double> mixed_history(const BundleChain& chain, const LayerSlip& slip,
-                                    const DeformationColumns& columns, std::size_t samples) const;
+                                 const DeformationHistory& history, std::size_t row, Worker& worker) const;
+  std::vector<double> mixed_history(const BundleChain& chain, const BundlePointers& from,
+                                    const LayerSlip& slip, const DeformationColumns& columns,
+                                    std::size_t samples) const;
   std::vector<double> helix_of(int part, std::size_t segment) const;
   void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;
   static std::span<const float> append_points(SiteRows& rows, std::span<const TurningPoint> points);
@@ -132,7 +136,7 @@ class Evaluation {
                                     std::size_t row);
   void put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
                  const DeformationHistory& history, std::size_t row,
-                 const std::function<void(const SiteRows&)>& sink) const;
+                 const std::function<void(const SiteRows&)>& sink);
 
   const Construction& construction_;
   std::vector<double> lengths_, arcs_;

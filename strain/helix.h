@@ -62,8 +62,9 @@ inline Placement make_placement(pipeline::Kinematics kinematics, double radius, 
   place.lay_tangent = std::tan(lay_angle);
   place.lay_cosine = std::cos(lay_angle);
   place.turn_rate = radius > 0 ? place.lay_tangent / radius : 0;
-  place.sine = sine_series(phase, place.turn_rate, highest);
-  place.cosine = cosine_series(phase, place.turn_rate, highest);
+  const double sine = std::sin(phase), cosine = std::cos(phase);
+  place.sine = sine_series(sine, cosine, place.turn_rate, highest);
+  place.cosine = sine_series(cosine, -sine, place.turn_rate, highest);
   return place;
 }
 

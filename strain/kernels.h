@@ -129,6 +129,14 @@ struct MixedLanes {
   bool with_shear = false, on_axis = false;
 };
 
+/// What ranks the wires of a bound, of the strains at turning points.
+struct StrainMeasures {
+  float lowest, highest;
+  /// Something like the damage of Smith, Watson and Topper: sum of (range times tensile peak)^3 between
+  /// neighbours, a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
+  float cycle_sum;
+};
+
 struct Kernels {
   const char* machine;
   /// Strains of every node and fibre at samples [first, first + count), to out[(node * fibres + fibre) *
@@ -165,6 +173,8 @@ struct Kernels {
   void (*scan)(LaneState&, const Waves&, std::size_t count, TurningPoint** end);
   /// The same from the strains themselves, strain[t * lanes + lane].
   void (*scan_strains)(LaneState&, const float* strain, std::size_t count, TurningPoint** end);
+  /// Precondition: count > 0.
+  StrainMeasures (*measures)(const float* strain, std::size_t count);
 };
 // count is padded by the callee to a multiple of `padding`: columns and outputs have room for it.
 

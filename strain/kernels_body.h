@@ -99,8 +99,9 @@ inline void descend(const BundlePointers& chain, const DeformationColumns& in, s
   descend(chain, in, sample, descent, chain.step_count);
 }
 
-void part_states(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
-                 std::size_t count, double* out, std::size_t stride) {
+__attribute__((flatten)) void part_states(const BundlePointers& chain, const DeformationColumns& in,
+                                          std::size_t first, std::size_t count, double* out,
+                                          std::size_t stride) {
   for (std::size_t t = 0; t < count; t += pack_size) {
     Descent descent;
     descend(chain, in, first + t, descent);
@@ -161,8 +162,9 @@ inline void strains_of_node(const BundlePointers& chain, const Rod<Pack>& parent
 constexpr int most_fibres = 64;
 constexpr double inverse_root_3 = 0.57735026918962576;
 
-void node_strains(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
-                  std::size_t count, double* out, std::size_t stride) {
+__attribute__((flatten)) void node_strains(const BundlePointers& chain, const DeformationColumns& in,
+                                           std::size_t first, std::size_t count, double* out,
+                                           std::size_t stride) {
   for (std::size_t t = 0; t < count; t += pack_size) {
     Descent descent;
     descend(chain, in, first + t, descent);
@@ -243,20 +245,35 @@ struct PartState {
   FloatPack operator()(int row, std::size_t t) const { return load<FloatPack>(rows[row] + t); }
 };
 
+/// The part itself in the undeformed construction.
+struct ParentAtRest {
+  double stretch = 1, bend1 = 0, bend2 = 0, twist = 0;
+
+  explicit ParentAtRest(const BundlePointers& chain) {
+    if (chain.step_count == 0) return;
+    const Rod<double>& rest = chain.steps[chain.step_count - 1].rest;
+    stretch = rest.stretch.at[0];
+    bend1 = rest.bend1.at[0];
+    bend2 = rest.bend2.at[0];
+    twist = rest.twist.at[0];
+  }
+};
+
 inline bool slides_from_afar(const SlidingNumbers& slide) {
   return slide.sliding == Sliding::clamp_to_clamp || slide.sliding == Sliding::along_ancestor;
 }
 
 /// Fills the state for samples [first, first + count). The strains of nodes that slide from afar wait in
 /// `out`, where the first waves of their layer will be: five rows for five nodes.
-void fill_part(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
-               std::size_t count, PartState& state, float* out, std::size_t stride, int kinds) {
+__attribute__((flatten)) void fill_part(const BundlePointers& chain, const DeformationColumns& in,
+                                        std::size_t first, std::size_t count, PartState& state, float* out,
+                                        std::size_t stride, int kinds) {
   const std::size_t whole_packs = (count + float_pack_size - 1) / float_pack_size * float_pack_size;
   const int steps = chain.step_count;
-  const double at_rest[] = {steps ? chain.steps[steps - 1].rest.stretch.at[0] : 1,
-                            steps ? chain.steps[steps - 1].rest.bend1.at[0] : 0,
-                            steps ? chain.steps[steps - 1].rest.bend2.at[0] : 0,
-                            steps ? chain.steps[steps - 1].rest.twist.at[0] : 0};
+  const ParentAtRest rest(chain);
+  bool any_from_afar = false;
+  for (int n = 0; n < chain.node_count; ++n) any_from_afar |= slides_from_afar(chain.nodes[n].slide);
+  const double at_rest[] = {rest.stretch, rest.bend1, rest.bend2, rest.twist};
   for (std::size_t t = 0; t < whole_packs; t += pack_size) {
     Descent descent;
     descend(chain, in, first + t, descent);
@@ -270,7 +287,7 @@ void fill_part(const BundlePointers& chain, const DeformationColumns& in, std::s
       put(stretch_change + k, of[k]->at[0] - at_rest[k]);
       if (chain.order > 0) put(stretch_slope + k, of[k]->at[1]);
     }
-    for (int n = 0; n < chain.node_count; ++n)
+    for (int n = 0; any_from_afar && n < chain.node_count; ++n)
       if (const WireNode& node = chain.nodes[n]; slides_from_afar(node.slide))
         store(__builtin_convertvector(free_strain(chain, descent, steps, node.place, node.slide, first + t),
                                       HalfPack),
@@ -278,29 +295,17 @@ void fill_part(const BundlePointers& chain, const DeformationColumns& in, std::s
   }
 }
 
-/// A node in the numbers of this loop; names as in helix.h.
+/// A node in the numbers of this loop; names as in helix.h, those at rest with a 0.
 struct NodeNumbers {
-  float sine, cosine, radius, turn_rate, tangent, c, inverse_c;
-  float sigma0, y0, stretch0, inverse_V0, inverse_V0_squared;  ///< at rest
+  float sine, cosine, y0, inverse_V0, inverse_V0_squared;
   float rest_stretch, rest_bend1, rest_bend2;
 
-  NodeNumbers(const WireNode& node, const Rod<double>* parent_at_rest) {
+  NodeNumbers(const WireNode& node, const ParentAtRest& parent) {
     const Placement& p = node.place;
-    const double bend1 = parent_at_rest ? parent_at_rest->bend1.at[0] : 0;
-    const double bend2 = parent_at_rest ? parent_at_rest->bend2.at[0] : 0;
-    const double twist = parent_at_rest ? parent_at_rest->twist.at[0] : 0;
-    const double stretch = parent_at_rest ? parent_at_rest->stretch.at[0] : 1;
-    const double X = bend1 * p.sine.at[0] - bend2 * p.cosine.at[0];
+    const double X = parent.bend1 * p.sine.at[0] - parent.bend2 * p.cosine.at[0];
     sine = static_cast<float>(p.sine.at[0]);
     cosine = static_cast<float>(p.cosine.at[0]);
-    radius = static_cast<float>(p.radius);
-    turn_rate = static_cast<float>(p.turn_rate);
-    tangent = static_cast<float>(p.lay_tangent);
-    c = static_cast<float>(p.lay_cosine);
-    inverse_c = static_cast<float>(1 / p.lay_cosine);
-    sigma0 = static_cast<float>(p.turn_rate + twist);
-    y0 = static_cast<float>(stretch + p.radius * X);
-    stretch0 = static_cast<float>(stretch);
+    y0 = static_cast<float>(parent.stretch + p.radius * X);
     inverse_V0 = static_cast<float>(1 / node.rest_rate);
     inverse_V0_squared = static_cast<float>(1 / (node.rest_rate * node.rest_rate));
     rest_stretch = static_cast<float>(node.rest.stretch);
@@ -309,105 +314,123 @@ struct NodeNumbers {
   }
 };
 
+/// What the nodes of a layer share.
+struct LayerNumbers {
+  const BundlePointers& chain;
+  const WireNode* nodes;
+  float radius, turn_rate, tangent, c, inverse_c;
+  float sigma0, stretch0, pitch0, inverse_pitch0, second0, inverse_one_and_second0;
+  NodeNumbers node[waves_per_layer];
+
+  LayerNumbers(const BundlePointers& of, const WireNode* at, const ParentAtRest& parent)
+      : chain(of),
+        nodes(at),
+        node{{at[0], parent}, {at[1], parent}, {at[2], parent}, {at[3], parent}, {at[4], parent}} {
+    const Placement& p = at->place;
+    const double sigma = p.turn_rate + parent.twist, A = p.radius * p.radius * sigma * sigma;
+    const double y2 = parent.stretch * parent.stretch, inverse2 = 1 / (A + y2);
+    const double bend = p.radius * p.radius * (parent.bend1 * parent.bend1 + parent.bend2 * parent.bend2);
+    const double second =
+        0.25 * A * bend * inverse2 * inverse2 * (1 + 3.0 / 16 * bend * (4 * y2 - A) * inverse2 * inverse2);
+    radius = static_cast<float>(p.radius);
+    turn_rate = static_cast<float>(p.turn_rate);
+    tangent = static_cast<float>(p.lay_tangent);
+    c = static_cast<float>(p.lay_cosine);
+    inverse_c = static_cast<float>(1 / p.lay_cosine);
+    sigma0 = static_cast<float>(sigma);
+    stretch0 = static_cast<float>(parent.stretch);
+    pitch0 = static_cast<float>(A + y2);
+    inverse_pitch0 = static_cast<float>(inverse2);
+    second0 = static_cast<float>(second);
+    inverse_one_and_second0 = static_cast<float>(1 / (1 + second));
+  }
+};
+
 /// wire_state() with the glued strain in place of the stretch.
 struct NodeState {
   FloatPack strain, bend1, bend2, twist, inverse_stretch;
 };
 
-/// (13) as the thesis' equations use it.
-struct FloatAngle {
-  FloatPack cosine_squared, cosine, sine_cosine;
-  FloatAngle(const NodeNumbers& n, const PartState& part, std::size_t t) {
-    const FloatPack tangent = (n.tangent + n.radius * part(part_twist, t)) * inverse(part(part_stretch, t));
-    cosine = inverse_root(1.0f + tangent * tangent);
-    cosine_squared = cosine * cosine;
-    sine_cosine = tangent * cosine_squared;
-  }
-};
-
+/// A layer at a pack of samples.
 template <bool thesis, bool with_bend1>
-inline NodeState node_state(const NodeNumbers& n, const PartState& part, std::size_t t) {
-  const FloatPack stretch = part(part_stretch, t), bend1 = part(part_bend1, t), bend2 = part(part_bend2, t),
-                  twist = part(part_twist, t);
-  const FloatPack X = bend1 * n.sine - bend2 * n.cosine, radial = bend1 * n.cosine + bend2 * n.sine;
-  if constexpr (thesis) {
-    const FloatAngle a(n, part, t);
-    return {a.cosine_squared * (part(stretch_change, t) + n.radius * X) + n.radius * a.sine_cosine * twist,
-            -a.cosine * radial, a.cosine_squared * X, a.sine_cosine * X, FloatPack{} + 1.0f};
-  }
-  const FloatPack sigma = n.turn_rate + twist, y = stretch + n.radius * X, turning = n.radius * sigma;
-  const FloatPack V2 = turning * turning + y * y, inverse_V = inverse_root(V2);
-  const FloatPack y_change = part(stretch_change, t) +
-                             n.radius * (part(bend1_change, t) * n.sine - part(bend2_change, t) * n.cosine);
-  const FloatPack q =
-      (n.radius * n.radius * part(twist_change, t) * (sigma + n.sigma0) + y_change * (y + n.y0)) *
-      n.inverse_V0_squared;
-  NodeState state;
-  state.strain = q * inverse(1.0f + V2 * inverse_V * n.inverse_V0);
-  const FloatPack scale = n.c * inverse_V;
-  state.bend2 = scale * (turning * sigma + y * X);
-  state.twist = scale * sigma * stretch;
-  state.inverse_stretch = n.inverse_c * inverse_V;
-  state.bend1 = FloatPack{};
-  if constexpr (with_bend1) {
-    const FloatPack y_slope = part(stretch_slope, t) +
-                              n.radius * (part(bend1_slope, t) * n.sine - part(bend2_slope, t) * n.cosine) +
-                              n.radius * n.turn_rate * radial;
-    state.bend1 =
-        n.c * (n.radius * (part(twist_slope, t) * y - sigma * y_slope) * inverse_V * inverse_V - radial);
-  }
-  return state;
-}
+struct LayerAt {
+  const LayerNumbers& layer;
+  const PartState& part;
+  std::size_t t;
+  FloatPack stretch, bend1, bend2, twist, sigma, turning, twisting;  ///< turning: R sigma
+  FloatPack cosine, cosine_squared, sine_cosine;                     ///< of the thesis' angle (13)
 
-/// The strain of mean_path_rate() against that at rest, in the same way.
-struct PitchMean {
-  float radius, turn_rate, tangent, sigma0, stretch0, at_rest, inverse_at_rest, rest_second,
-      inverse_one_and_second;
-  bool thesis;
-
-  static float second_order(float A, float y2, float bend) {
-    const float inverse2 = 1 / (A + y2);
-    return 0.25f * A * bend * inverse2 * inverse2 * (1 + 0.1875f * bend * (4 * y2 - A) * inverse2 * inverse2);
-  }
-
-  PitchMean(const WireNode& node, const Rod<double>* parent_at_rest) {
-    const Placement& p = node.place;
-    thesis = p.kinematics == pipeline::Kinematics::thesis;
-    const double stretch = parent_at_rest ? parent_at_rest->stretch.at[0] : 1;
-    const double bend1 = parent_at_rest ? parent_at_rest->bend1.at[0] : 0;
-    const double bend2 = parent_at_rest ? parent_at_rest->bend2.at[0] : 0;
-    const double sigma = p.turn_rate + (parent_at_rest ? parent_at_rest->twist.at[0] : 0);
-    const double A = p.radius * p.radius * sigma * sigma;
-    radius = static_cast<float>(p.radius);
-    turn_rate = static_cast<float>(p.turn_rate);
-    tangent = static_cast<float>(p.lay_tangent);
-    sigma0 = static_cast<float>(sigma);
-    stretch0 = static_cast<float>(stretch);
-    at_rest = static_cast<float>(A + stretch * stretch);
-    inverse_at_rest = static_cast<float>(1 / (A + stretch * stretch));
-    rest_second = second_order(static_cast<float>(A), static_cast<float>(stretch * stretch),
-                               static_cast<float>(p.radius * p.radius * (bend1 * bend1 + bend2 * bend2)));
-    inverse_one_and_second = 1 / (1 + rest_second);
-  }
-
-  inline FloatPack strain(const PartState& part, std::size_t t) const {
-    const FloatPack stretch = part(part_stretch, t), bend1 = part(part_bend1, t), bend2 = part(part_bend2, t),
-                    twist = part(part_twist, t);
-    if (thesis) {
-      const FloatPack tan = (tangent + radius * twist) * inverse(stretch);
-      const FloatPack cosine_squared = inverse(1.0f + tan * tan);
-      return cosine_squared * part(stretch_change, t) + radius * (tan * cosine_squared) * twist;
+  LayerAt(const LayerNumbers& of, const PartState& in, std::size_t at)
+      : layer(of),
+        part(in),
+        t(at),
+        stretch(in(part_stretch, at)),
+        bend1(in(part_bend1, at)),
+        bend2(in(part_bend2, at)),
+        twist(in(part_twist, at)),
+        sigma(of.turn_rate + twist),
+        turning(of.radius * sigma),
+        twisting(of.radius * of.radius * in(twist_change, at) * (sigma + of.sigma0)) {
+    if constexpr (thesis) {
+      const FloatPack angle = (of.tangent + of.radius * twist) * inverse(stretch);
+      cosine = inverse_root(1.0f + angle * angle);
+      cosine_squared = cosine * cosine;
+      sine_cosine = angle * cosine_squared;
     }
-    const FloatPack sigma = turn_rate + twist, y2 = stretch * stretch,
-                    A = (radius * sigma) * (radius * sigma);
-    const FloatPack q = (radius * radius * part(twist_change, t) * (sigma + sigma0) +
-                         part(stretch_change, t) * (stretch + stretch0)) *
-                        inverse_at_rest;
-    const FloatPack root = inverse_root(1.0f + q), inverse2 = root * root * inverse_at_rest;
+  }
+
+  inline NodeState operator()(const NodeNumbers& n) const {
+    const FloatPack X = bend1 * n.sine - bend2 * n.cosine, radial = bend1 * n.cosine + bend2 * n.sine;
+    if constexpr (thesis)
+      return {
+          cosine_squared * (part(stretch_change, t) + layer.radius * X) + layer.radius * sine_cosine * twist,
+          -cosine * radial, cosine_squared * X, sine_cosine * X, FloatPack{} + 1.0f};
+    const FloatPack y = stretch + layer.radius * X, V2 = turning * turning + y * y,
+                    inverse_V = inverse_root(V2);
+    const FloatPack y_change = part(stretch_change, t) + layer.radius * (part(bend1_change, t) * n.sine -
+                                                                         part(bend2_change, t) * n.cosine);
+    const FloatPack q = (twisting + y_change * (y + n.y0)) * n.inverse_V0_squared;
+    const FloatPack scale = layer.c * inverse_V;
+    NodeState state;
+    state.strain = q * inverse(1.0f + V2 * inverse_V * n.inverse_V0);
+    state.bend1 = FloatPack{};
+    state.bend2 = scale * (turning * sigma + y * X);
+    state.twist = scale * sigma * stretch;
+    state.inverse_stretch = layer.inverse_c * inverse_V;
+    if constexpr (with_bend1) {
+      const FloatPack y_slope =
+          part(stretch_slope, t) +
+          layer.radius * (part(bend1_slope, t) * n.sine - part(bend2_slope, t) * n.cosine) +
+          layer.radius * layer.turn_rate * radial;
+      state.bend1 =
+          layer.c *
+          (layer.radius * (part(twist_slope, t) * y - sigma * y_slope) * inverse_V * inverse_V - radial);
+    }
+    return state;
+  }
+
+  /// mean_path_rate() against that at rest, minus one, in the same way.
+  inline FloatPack mean_over_pitch() const {
+    if constexpr (thesis)
+      return cosine_squared * part(stretch_change, t) + layer.radius * sine_cosine * twist;
+    const FloatPack y2 = stretch * stretch, A = turning * turning;
+    const FloatPack q =
+        (twisting + part(stretch_change, t) * (stretch + layer.stretch0)) * layer.inverse_pitch0;
+    const FloatPack root = inverse_root(1.0f + q), inverse2 = root * root * layer.inverse_pitch0;
     const FloatPack first = q * inverse(1.0f + (1.0f + q) * root);
-    const FloatPack bend = radius * radius * (bend1 * bend1 + bend2 * bend2) * (inverse2 * inverse2);
+    const FloatPack bend =
+        layer.radius * layer.radius * (bend1 * bend1 + bend2 * bend2) * (inverse2 * inverse2);
     const FloatPack second = 0.25f * A * bend * (1.0f + 0.1875f * bend * (4.0f * y2 - A));
-    return first + (second - rest_second) * (1.0f + first) * inverse_one_and_second;
+    return first + (second - layer.second0) * (1.0f + first) * layer.inverse_one_and_second0;
+  }
+
+  /// Strain of each node where it slides; glued nodes: nothing. waiting: what fill_part() left for this
+  /// layer.
+  inline void sliding(Sliding how, const float* waiting, std::size_t stride, FloatPack* strain) const {
+    const FloatPack of_layer = how == Sliding::over_pitch ? mean_over_pitch() : FloatPack{};
+    const bool from_afar = how == Sliding::clamp_to_clamp || how == Sliding::along_ancestor;
+    for (int n = 0; n < waves_per_layer; ++n)
+      strain[n] = from_afar ? load<FloatPack>(waiting + n * stride + t) : of_layer;
   }
 };
 
@@ -435,59 +458,28 @@ struct FiveToWaves {
   }
 };
 
-/// One wire layer of a chain: its nodes and how it slides.
-struct LayerNumbers {
-  const BundlePointers& chain;
-  const WireNode* nodes;
-  Sliding sliding;
-  NodeNumbers numbers[waves_per_layer];
-  PitchMean mean;
-
-  LayerNumbers(const BundlePointers& of, int layer)
-      : chain(of),
-        nodes(of.nodes + layer * waves_per_layer),
-        sliding(nodes[0].slide.sliding),
-        numbers{{nodes[0], rest()},
-                {nodes[1], rest()},
-                {nodes[2], rest()},
-                {nodes[3], rest()},
-                {nodes[4], rest()}},
-        mean(nodes[0], rest()) {}
-
-  const Rod<double>* rest() const {
-    return chain.step_count ? &chain.steps[chain.step_count - 1].rest : nullptr;
-  }
-
-  /// Strain of the nodes where they slide; glued nodes: nothing.
-  inline void slid(const PartState& part, std::size_t t, const float* waiting, std::size_t stride,
-                   FloatPack* strain) const {
-    const FloatPack of_layer = sliding == Sliding::over_pitch ? mean.strain(part, t) : FloatPack{};
-    for (int n = 0; n < waves_per_layer; ++n)
-      strain[n] = slides_from_afar(nodes[n].slide) ? load<FloatPack>(waiting + n * stride + t) : of_layer;
-  }
-};
-
 /// Waves of the strains of a layer's fibres at `count` samples.
-template <bool thesis, bool with_bend1>
+template <bool thesis, bool with_bend1, Sliding how>
 void strains_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
                       std::size_t stride) {
+  constexpr bool glued = how == Sliding::glued;
   const FiveToWaves to_waves;
   const BundlePointers& chain = layer.chain;
-  const bool glued = layer.sliding == Sliding::glued;
+  const auto factor_of_wall = static_cast<float>(layer.nodes[0].strain_factor);
   for (std::size_t t = 0; t < count; t += float_pack_size) {
+    const LayerAt<thesis, with_bend1> at(layer, part, t);
     FloatPack axial[waves_per_layer], bend1[waves_per_layer], bend2[waves_per_layer], strain[waves_per_layer];
-    if (!glued) layer.slid(part, t, out, stride, axial);
+    at.sliding(how, out, stride, axial);
     for (int n = 0; n < waves_per_layer; ++n) {
-      const NodeNumbers& numbers = layer.numbers[n];
-      const NodeState node = node_state<thesis, with_bend1>(numbers, part, t);
+      const NodeState node = at(layer.node[n]);
       if (glued) axial[n] = node.strain;
       // where it slides, curvature per path length stays (W11)
       const FloatPack factor = glued || thesis
                                    ? FloatPack{} + 1.0f
-                                   : (1.0f + axial[n]) * numbers.rest_stretch * node.inverse_stretch;
-      bend1[n] = node.bend1 * factor - numbers.rest_bend1;
-      bend2[n] = node.bend2 * factor - numbers.rest_bend2;
-      axial[n] *= static_cast<float>(layer.nodes[n].strain_factor);
+                                   : (1.0f + axial[n]) * layer.node[n].rest_stretch * node.inverse_stretch;
+      bend1[n] = node.bend1 * factor - layer.node[n].rest_bend1;
+      bend2[n] = node.bend2 * factor - layer.node[n].rest_bend2;
+      axial[n] *= factor_of_wall;
     }
     for (int f = 0; f < chain.fibre_count; ++f) {
       const Fibre& fibre = chain.fibres[f];
@@ -504,76 +496,113 @@ void strains_of_layer(const LayerNumbers& layer, const PartState& part, std::siz
 }
 
 /// Waves of the ingredients of a layer at `count` samples.
-template <bool thesis, bool with_bend1>
+template <bool thesis, bool with_bend1, Sliding how>
 void ingredients_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
                           std::size_t stride) {
   const FiveToWaves to_waves;
   const BundlePointers& chain = layer.chain;
+  const WireNode& of = layer.nodes[0];
+  const auto factor_of_wall = static_cast<float>(of.strain_factor);
   for (std::size_t t = 0; t < count; t += float_pack_size) {
+    const LayerAt<thesis, with_bend1> at(layer, part, t);
     NodeState node[waves_per_layer];
     FloatPack sliding[waves_per_layer], value[waves_per_layer];
-    layer.slid(part, t, out, stride, sliding);
-    for (int n = 0; n < waves_per_layer; ++n)
-      node[n] = node_state<thesis, with_bend1>(layer.numbers[n], part, t);
+    at.sliding(how, out, stride, sliding);
+    for (int n = 0; n < waves_per_layer; ++n) node[n] = at(layer.node[n]);
     const auto put = [&](int kind, const auto& of_node) {
-      for (int n = 0; n < waves_per_layer; ++n) value[n] = of_node(n, layer.nodes[n]);
+      for (int n = 0; n < waves_per_layer; ++n) value[n] = of_node(n);
       to_waves.store_waves(value, out + kind * waves_per_layer * stride + t, stride);
     };
-    put(mean_strain, [&](int n, const WireNode&) { return sliding[n]; });
-    put(deviation, [&](int n, const WireNode& at) {
-      return FloatPack(static_cast<float>(at.strain_factor) * node[n].strain - sliding[n]);
-    });
-    put(shear, [&](int n, const WireNode& at) {
-      return FloatPack(static_cast<float>(inverse_root_3 * at.strain_factor * at.shear_radius) *
+    put(mean_strain, [&](int n) { return sliding[n]; });
+    put(deviation, [&](int n) { return FloatPack(factor_of_wall * node[n].strain - sliding[n]); });
+    put(shear, [&](int n) {
+      return FloatPack(static_cast<float>(inverse_root_3 * of.strain_factor * of.shear_radius) *
                        node[n].twist);
     });
     for (int f = 0; f < chain.fibre_count; ++f) {
       const Fibre& fibre = chain.fibres[f];
-      put(first_bending + f, [&](int n, const WireNode& at) {
-        const double radius = fibre.on_axis ? 0 : at.wire_radius;
-        return FloatPack(node[n].bend1 * static_cast<float>(radius * fibre.phi_sine) -
-                         node[n].bend2 * static_cast<float>(radius * fibre.phi_cosine));
-      });
+      const double radius = fibre.on_axis ? 0 : of.wire_radius;
+      const auto by_bend1 = static_cast<float>(radius * fibre.phi_sine);
+      const auto by_bend2 = static_cast<float>(radius * fibre.phi_cosine);
+      put(first_bending + f,
+          [&](int n) { return FloatPack(node[n].bend1 * by_bend1 - node[n].bend2 * by_bend2); });
     }
   }
 }
 
 using OfLayer = void (*)(const LayerNumbers&, const PartState&, std::size_t, float*, std::size_t);
 
-/// Runs one of the two above over all layers, chunk by chunk. by: [thesis][with bend1]. kinds: of waves per
-/// layer.
+/// The loops of one kind for every way of sliding.
+struct BySliding {
+  OfLayer glued, over_pitch, clamp_to_clamp, along_ancestor;
+
+  OfLayer operator()(Sliding how) const {
+    switch (how) {
+      case Sliding::over_pitch:
+        return over_pitch;
+      case Sliding::clamp_to_clamp:
+        return clamp_to_clamp;
+      case Sliding::along_ancestor:
+        return along_ancestor;
+      case Sliding::glued:
+        break;
+    }
+    return glued;
+  }
+};
+
+template <bool thesis, bool with_bend1>
+constexpr BySliding strains_by_sliding{strains_of_layer<thesis, with_bend1, Sliding::glued>,
+                                       strains_of_layer<thesis, with_bend1, Sliding::over_pitch>,
+                                       strains_of_layer<thesis, with_bend1, Sliding::clamp_to_clamp>,
+                                       strains_of_layer<thesis, with_bend1, Sliding::along_ancestor>};
+template <bool thesis, bool with_bend1>
+constexpr BySliding ingredients_by_sliding{ingredients_of_layer<thesis, with_bend1, Sliding::glued>,
+                                           ingredients_of_layer<thesis, with_bend1, Sliding::over_pitch>,
+                                           ingredients_of_layer<thesis, with_bend1, Sliding::clamp_to_clamp>,
+                                           ingredients_of_layer<thesis, with_bend1, Sliding::along_ancestor>};
+
+/// Runs `by` over all layers, chunk by chunk. kinds: of waves per layer.
 void over_layers(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
-                 std::size_t count, int kinds, float* out, std::size_t stride, const OfLayer (&by)[2][2]) {
+                 std::size_t count, int kinds, float* out, std::size_t stride, const BySliding& by) {
   const int layers = chain.node_count / waves_per_layer;
-  if (layers == 0) return;
-  const bool thesis = chain.nodes[0].place.kinematics == pipeline::Kinematics::thesis;
-  const OfLayer of_layer = by[thesis][chain.order > 0 || thesis];
+  const ParentAtRest at_rest(chain);
+  const std::size_t per_layer = static_cast<std::size_t>(kinds) * waves_per_layer * stride;
   PartState part;
   for (std::size_t done = 0; done < count; done += chunk) {
     const std::size_t here = count - done < chunk ? count - done : chunk;
     fill_part(chain, in, first + done, here, part, out + done, stride, kinds);
-    for (int layer = 0; layer < layers; ++layer)
-      of_layer(LayerNumbers(chain, layer), part, here,
-               out + static_cast<std::size_t>(layer) * kinds * waves_per_layer * stride + done, stride);
+    for (int layer = 0; layer < layers; ++layer) {
+      const WireNode* nodes = chain.nodes + layer * waves_per_layer;
+      by(nodes->slide.sliding)(LayerNumbers(chain, nodes, at_rest), part, here,
+                               out + layer * per_layer + done, stride);
+    }
   }
+}
+
+bool is_thesis(const BundlePointers& chain) {
+  return chain.node_count > 0 && chain.nodes[0].place.kinematics == pipeline::Kinematics::thesis;
 }
 
 void layer_waves(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
                  std::size_t count, float* out, std::size_t stride) {
   over_layers(chain, in, first, count, chain.fibre_count, out, stride,
-              {{strains_of_layer<false, false>, strains_of_layer<false, true>},
-               {strains_of_layer<true, false>, strains_of_layer<true, true>}});
+              is_thesis(chain)  ? strains_by_sliding<true, true>
+              : chain.order > 0 ? strains_by_sliding<false, true>
+                                : strains_by_sliding<false, false>);
 }
 
 void ingredient_waves(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
                       std::size_t count, float* out, std::size_t stride) {
   over_layers(chain, in, first, count, ingredients(chain.fibre_count), out, stride,
-              {{ingredients_of_layer<false, false>, ingredients_of_layer<false, true>},
-               {ingredients_of_layer<true, false>, ingredients_of_layer<true, true>}});
+              is_thesis(chain)  ? ingredients_by_sliding<true, true>
+              : chain.order > 0 ? ingredients_by_sliding<false, true>
+                                : ingredients_by_sliding<false, false>);
 }
 
-void add_path_rates(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
-                    std::size_t count, double weight, double* sum, std::size_t stride) {
+__attribute__((flatten)) void add_path_rates(const BundlePointers& chain, const DeformationColumns& in,
+                                             std::size_t first, std::size_t count, double weight, double* sum,
+                                             std::size_t stride) {
   for (std::size_t t = 0; t < count; t += pack_size) {
     Descent descent;
     descend(chain, in, first + t, descent);
@@ -700,8 +729,8 @@ struct Scan {
     FloatPack extreme = toward.sign * load<FloatPack>(state.extreme + lane);
     IntPack extreme_at = load<IntPack>(state.extreme_at + lane);
     const FloatPack below_gate = FloatPack{} + state.below_gate;
-    for (std::size_t t = from; t < to; ++t) {
-      const IntPack sample = whole(state.sample + static_cast<std::int32_t>(t));
+    IntPack sample = whole(state.sample + static_cast<std::int32_t>(from));
+    for (std::size_t t = from; t < to; ++t, sample += 1) {
       const FloatPack y = toward.at(waves, t);
       extreme_at = select(greater(y, extreme), sample, extreme_at);
       extreme = larger(y, extreme);
@@ -815,12 +844,39 @@ void scan_strains(LaneState& state, const float* strain, std::size_t count, Turn
   scan_all<Strains>(state, strain, count, end);
 }
 
+StrainMeasures measures(const float* strain, std::size_t count) {
+  const FloatPack zero{};
+  FloatPack low = zero + strain[0], high = low, sum{};
+  const auto take = [&](const FloatPack& before, const FloatPack& now) {
+    low = -larger(-low, -now);
+    high = larger(high, now);
+    const FloatPack product = larger(larger(before, now), zero) * (now - before);
+    sum += larger(product, -product) * product * product;
+  };
+  std::size_t k = 1;
+  for (; k + float_pack_size <= count; k += float_pack_size)
+    take(load<FloatPack>(strain + k - 1), load<FloatPack>(strain + k));
+  for (; k < count; ++k) {  // one by one, in the first lane
+    FloatPack before = zero + strain[0], now = before;
+    before[0] = strain[k - 1];
+    now[0] = strain[k];
+    take(before, now);
+  }
+  StrainMeasures of{low[0], high[0], 0};
+  for (int lane = 0; lane < float_pack_size; ++lane) {
+    of.lowest = low[lane] < of.lowest ? low[lane] : of.lowest;
+    of.highest = high[lane] > of.highest ? high[lane] : of.highest;
+    of.cycle_sum += sum[lane];
+  }
+  return of;
+}
+
 }  // namespace
 
 extern const Kernels set;
-const Kernels set{
-    DRESSLIFE_MACHINE_NAME, node_strains, layer_waves,    deviations, part_states, node_ingredients,
-    ingredient_waves,       mix,          add_path_rates, scan,       scan_strains};
+const Kernels set{DRESSLIFE_MACHINE_NAME, node_strains,     layer_waves, deviations,     part_states,
+                  node_ingredients,       ingredient_waves, mix,         add_path_rates, scan,
+                  scan_strains,           measures};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain

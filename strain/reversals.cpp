@@ -54,9 +54,14 @@ LaneScan::LaneScan(std::span<const double> angles, float gate, const Kernels& ma
     state_.shape[1][lane] = static_cast<float>(std::cos(angle));
     state_.shape[2][lane] = static_cast<float>(std::sin(2 * angle));
     state_.shape[3][lane] = static_cast<float>(std::cos(2 * angle));
-    state_.direction[lane] = 0;
-    state_.extreme_at[lane] = state_.low_at[lane] = state_.high_at[lane] = 0;
   }
+  restart();
+}
+
+void LaneScan::restart() {
+  state_.sample = 0;
+  std::ranges::fill(state_.direction, 0.0f);
+  for (auto* at : {&state_.extreme_at, &state_.low_at, &state_.high_at}) std::ranges::fill(*at, 0);
 }
 
 void LaneScan::scan(const Waves& waves, std::size_t count, std::span<TurningList> out) {

@@ -44,6 +44,7 @@ class LaneScan {
   /// The same from the strains themselves, strain[t * lanes + wire].
   void scan_strains(const float* strain, std::size_t count, std::span<TurningList> out);
   void finish(std::span<TurningList> out);
+  void restart();  ///< for another history of the same wires
 
   int wires() const { return state_.used; }
 

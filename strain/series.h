@@ -137,23 +137,13 @@ Series<T> stretched(Series<T> series, double scale) {
   return series;
 }
 
-/// sin(angle + rate l) and, with angle advanced by a quarter turn, the cosine.
-inline Series<double> sine_series(double angle, double rate, int order) {
+/// sin(angle + rate l) from sine and cosine of the angle. The cosine is the sine a quarter turn on: give it
+/// (cosine, -sine).
+inline Series<double> sine_series(double sine, double cosine, double rate, int order) {
   assert(order < Series<double>::capacity);
-  const double pattern[4] = {std::sin(angle), std::cos(angle), -std::sin(angle), -std::cos(angle)};
+  const double pattern[4] = {sine, cosine, -sine, -cosine};
   Series<double> series;
   series.order = order;
-  double factor = 1;
-  for (int k = 0; k <= order; ++k) {
-    series.at[k] = factor * pattern[k % 4];
-    factor *= rate / (k + 1);
-  }
-  return series;
-}
-
-inline Series<double> cosine_series(double angle, double rate, int order) {
-  const double pattern[4] = {std::cos(angle), -std::sin(angle), -std::cos(angle), std::sin(angle)};
-  Series<double> series = sine_series(angle, rate, order);
   double factor = 1;
   for (int k = 0; k <= order; ++k) {
     series.at[k] = factor * pattern[k % 4];
