@@ -1,6 +1,7 @@
 #include "strain/evaluation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -200,15 +201,21 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
                               const std::function<void(const BundleSites&)>& use) {
   const std::size_t bundles = construction_.bundles().size(), threads = workers_.size();
   const std::size_t each = threads == 1 ? 1 : std::max<std::size_t>(1, samples_at_a_time / history.samples());
+  const std::size_t batch = std::min(bundles, threads * each);
   for (Worker& worker : workers_) worker.parent_is = {};
-  std::vector<BundleSites> found(std::min(bundles, threads * each));
-  for (std::size_t first = 0; first < bundles; first += found.size()) {
-    const std::size_t end = std::min(bundles, first + found.size());
-    pipeline::in_parallel(threads, [&](std::size_t part) {
-      for (std::size_t b = first + part * each; b < std::min(end, first + (part + 1) * each); ++b)
+  std::vector<BundleSites> found(batch), before(batch);
+  std::size_t to_use = 0;  // bundles in `before`
+  for (std::size_t first = 0; first < bundles + batch; first += batch) {
+    const std::size_t end = std::min(bundles, first + batch);
+    std::atomic<std::size_t> next =
+        first;  // each bundle is worked out alone: who takes it makes no difference
+    pipeline::in_parallel(first < bundles ? threads : 1, [&](std::size_t part) {
+      for (std::size_t k = 0; part == 0 && k < to_use; ++k) use(before[k]);  // while others work already
+      for (std::size_t b = next++; b < end; b = next++)
         scan_bundle(b, segment, means, history, row, with_rows, workers_[part], found[b - first]);
     });
-    for (std::size_t b = first; b < end; ++b) use(found[b - first]);
+    to_use = first < end ? end - first : 0;
+    std::swap(found, before);
   }
 }
 
@@ -387,17 +394,23 @@ void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& me
   for (const Worst& layer : worst)
     for (int by = 0; by < Worst::measures; ++by)
       if (layer.value[by] >= 0) sites.insert(layer.site[by]);
+  const std::vector<Site> list(sites.begin(), sites.end());
+  std::vector<TurningList> turning(list.size());
+  for (Worker& worker : workers_) worker.parent_is = {};
+  std::atomic<std::size_t> next = 0;
+  pipeline::in_parallel(workers_.size(), [&](std::size_t part) {
+    for (std::size_t k = next++; k < list.size(); k = next++) {
+      TurningPoints points(scan_.gate);
+      for (const double strain : history_of(list[k], segment, means, history, row, workers_[part]))
+        points.next(static_cast<float>(strain), turning[k]);
+      points.finish(turning[k]);
+    }
+  });
   SiteRows rows;
-  workers_[0].parent_is = {};
-  for (const Site site : sites) {
-    TurningPoints points(scan_.gate);
-    TurningList turning;
-    for (const double strain : history_of(site, segment, means, history, row, workers_[0]))
-      points.next(static_cast<float>(strain), turning);
-    points.finish(turning);
-    append_site(rows, site, segment,
-                helix_of(construction_.bundles()[wires_[site.wire].bundle].part, segment));
-    append_points(rows, turning.points());
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const int part = construction_.bundles()[wires_[list[k].wire].bundle].part;
+    append_site(rows, list[k], segment, helix_of(part, segment));
+    append_points(rows, turning[k].points());
   }
   sink(rows);
 }
