@@ -236,6 +236,15 @@ bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& 
          turns(0, n[3]) && turns(3, n[4]) && turns(5, n[5]);
 }
 
+bool InverseKinematics::may_end(const VectorXd& joints, const ArmConfiguration& programmed) const {
+  if (programmed.kind == ArmConfiguration::Kind::fanuc) return matches(joints, programmed, true);
+  if (programmed.kind != ArmConfiguration::Kind::abb) return true;
+  const ArmConfiguration reached = configuration(joints, programmed.kind);
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(reached.numbers[axis] - programmed.numbers[axis]) > 1) return false;
+  return true;
+}
+
 std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmConfiguration& configuration,
                                                  const VectorXd& near, std::string& reason) const {
   if (!unsupported_.empty()) {

@@ -232,6 +232,11 @@ class Layout {
     if (step.path == PathKind::circular)
       move.path->bend({step.via_position[0], step.via_position[1], step.via_position[2]});
     follow(move);
+    if (arm_.unsupported().empty() && !arm_.may_end(move.to, *configuration))
+      return refuse(
+          step, line,
+          fmt::format("is reached along its path in configuration {}, not in {}",
+                      arm_.configuration(move.to, configuration->kind).text(), configuration->text()));
     return true;
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "sim/program/tokens.h"
 
@@ -84,6 +85,9 @@ class Krl final : public Dialect {
   const RecordType* type_of(const std::string&) const override { return nullptr; }
   Value initial(const std::string&) const override { return {}; }
 
+  /// Indices of the instructions that are SPL points of spline blocks.
+  const std::set<std::size_t>& spline_points() const { return spline_points_; }
+
  private:
   static std::optional<Instruction::Kind> kind_of(const std::string& name) {
     std::string plain = name.starts_with("s") ? name.substr(1) : name;
@@ -102,6 +106,9 @@ class Krl final : public Dialect {
   Value frame_value(const Frame& frame) const { return record(numbers_of(frame), &frame_type_); }
 
   bool move(Instruction::Kind kind, const Statement& statement, Interpreter& run);
+  static bool has(const Statement& statement, const char* word) {
+    return (" " + statement.text + " ").find(fmt::format(" {} ", word)) != std::string::npos;
+  }
   bool read_target(const Expression& written, bool relative, Instruction& move, Interpreter& run);
   bool read_frames(const Statement& statement, Instruction& move, Interpreter& run);
   bool read_speed(const Statement& statement, Instruction& move, Interpreter& run);
@@ -120,6 +127,7 @@ class Krl final : public Dialect {
   bool has_axes_ = false;
   std::optional<Frame> last_pose_;
   std::string tool_name_ = "$TOOL", base_name_ = "$BASE";
+  std::set<std::size_t> spline_points_;
 };
 
 /// A number that a variable or an assigned part of one holds.
@@ -247,9 +255,7 @@ bool Krl::read_speed(const Statement& statement, Instruction& move, Interpreter&
 }
 
 void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& run) {
-  const auto has = [&](const char* word) {
-    return (" " + statement.text + " ").find(fmt::format(" {} ", word)) != std::string::npos;
-  };
+  const auto has = [&](const char* word) { return Krl::has(statement, word); };
   if (has("in_spline") && !has("last")) {
     move.zone.percent = 100;  // a spline does not stop between its points
     return;
@@ -309,6 +315,8 @@ bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& 
   whole = whole && read_frames(statement, move, run) && read_speed(statement, move, run);
   if (whole) {
     read_zone(statement, move, run);
+    if (statement.name.starts_with("spl") && has(statement, "in_spline"))
+      spline_points_.insert(run.program().instructions.size());
     run.emit(move, statement);
   }
   for (auto& [path, value] : before) value ? run.set(path, *value) : run.forget(path);
@@ -442,6 +450,63 @@ std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
   return {};
 }
 
+// ---- spline blocks
+// ---------------------------------------------------
+
+constexpr double spline_step = 0.02;  // between points that stand for the curve [m]
+constexpr int most_steps = 50;        // from one SPL point to the next
+
+/// Unit slope at point k of the curve through the points, of the parabola through three of them over the
+/// length of the chords.
+Vector3 slope_at(const std::vector<Frame>& points, std::size_t k) {
+  const auto chord = [&](std::size_t i) { return Vector3(points[i + 1].position - points[i].position); };
+  const auto along = [&](std::size_t i) { return Vector3(chord(i) / std::max(chord(i).norm(), 1e-12)); };
+  if (points.size() < 3) return along(0);
+  const auto mirrored = [](const Vector3& slope, const Vector3& across) {
+    return Vector3(2 * across.dot(slope) * across - slope);
+  };
+  if (k == 0) return mirrored(slope_at(points, 1), along(0));
+  if (k + 1 == points.size()) return mirrored(slope_at(points, k - 1), along(k - 1));
+  const double before = chord(k - 1).norm(), behind = chord(k).norm();
+  return (behind * along(k - 1) + before * along(k)).normalized();
+}
+
+/// KUKA does not tell its splines' law; here: cubics between the points, smooth where they meet. Each becomes
+/// lines.
+void bend_splines(const std::set<std::size_t>& spline_points, Program& program) {
+  std::vector<Instruction> bent;
+  for (std::size_t i = 0; i < program.instructions.size(); ++i) {
+    std::size_t end = i;
+    while (spline_points.contains(end)) ++end;
+    std::vector<Frame> points;  // from the one before the first SPL on
+    if (end > i && i > 0 && program.instructions[i - 1].target.joints.empty()) {
+      for (std::size_t k = i - 1; k < end; ++k) points.push_back(program.instructions[k].target.pose);
+      for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const Frame &from = points[k], &to = points[k + 1];
+        const double length = (to.position - from.position).norm();
+        const int steps =
+            points.size() < 3 ? 1 : std::clamp(static_cast<int>(length / spline_step), 1, most_steps);
+        const Vector3 begin = length * slope_at(points, k), finish = length * slope_at(points, k + 1);
+        for (int step = 1; step <= steps; ++step) {
+          const double u = static_cast<double>(step) / steps, v = 1 - u;
+          Instruction part = program.instructions[i + k];
+          if (step < steps) {
+            part.zone = {0, 100};
+            part.target.pose = {v * v * (1 + 2 * u) * from.position + u * u * (1 + 2 * v) * to.position +
+                                    u * v * (v * begin - u * finish),
+                                from.orientation.slerp(u, to.orientation)};
+          }
+          bent.push_back(std::move(part));
+        }
+      }
+      i = end - 1;
+      continue;
+    }
+    bent.push_back(program.instructions[i]);
+  }
+  program.instructions = std::move(bent);
+}
+
 }  // namespace
 
 void run_krl(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
@@ -464,6 +529,7 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
   }
   Krl krl(tools, work_objects);
   Interpreter(code, krl, options, program, problems).run(*routine);
+  bend_splines(krl.spline_points(), program);
   // KUKA writes zeros for axes that are not there.
   const auto at_zero = [](double e) { return e == 0; };
   const auto unused = [&](const Instruction& i) {

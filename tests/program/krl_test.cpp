@@ -85,6 +85,29 @@ TEST_CASE("krl: loops, calls, splines") {
   CHECK(r.move(5).zone.percent == 0);
 }
 
+TEST_CASE("krl: SPL points lie on a smooth curve") {
+  // A quarter circle of 300 mm, one point every 30 deg, chords c of 155 mm: unit slopes along the circle give
+  // arcs of the height c/4 sin(15 deg) = 10.05 mm; the circle's are 10.22 mm.
+  std::string block = "$VEL.CP=1\nLIN {X 300,Y 0,Z 0,A 0,B 0,C 0}\nSPLINE\n";
+  for (int angle = 30; angle <= 90; angle += 30)
+    block += fmt::format(" SPL {{X {:.6f},Y {:.6f}}}\n", 300 * std::cos(angle * degree),
+                         300 * std::sin(angle * degree));
+  const Reading r = run(block + "ENDSPLINE\nLIN {X 0}");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() > 20);
+  double off = 0, longest = 0;
+  for (std::size_t k = 1; k + 1 < r.program.instructions.size(); ++k) {
+    const Vector3 here = r.move(k).target.pose.position;
+    off = std::max(off, std::abs(here.norm() - 0.3));
+    longest = std::max(longest, (here - r.move(k - 1).target.pose.position).norm());
+  }
+  CHECK(off < 2e-4);
+  CHECK(longest < 0.04);
+  CHECK(r.move(5).kind == Instruction::Kind::linear);
+  CHECK(r.move(5).zone.percent == 100);
+  CHECK(r.move(5).where.line == 6);
+}
+
 TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one pass") {
   const std::string start = "INT i\n$VEL.CP=1\nPTP {X 500,Y 0,Z 500,A 0,B 0,C 0}\n";
   const Reading over = run(start + "GOTO done\nLIN {X 1}\ndone:\nLIN {X 2}");

@@ -173,6 +173,55 @@ TEST_CASE("legs: a joint move never takes its tool faster than told; a duration 
   CHECK(timed.duration() == Approx(2).epsilon(1e-9));
 }
 
+TEST_CASE("legs: a line must end in the configuration that its program says") {
+  const auto start = to(PathKind::joint, corner, 1, 0);
+  auto good = to(PathKind::linear, {1.2, -0.3, 1.2}, 0.3, 0), wrong = good;
+  const InverseKinematics kinematics(arm());
+  const JointMotion plain(motion({start, good}), arm());
+  const ArmConfiguration reached =
+      kinematics.configuration(plain.position(plain.duration()), ArmConfiguration::Kind::abb);
+  good.configuration = reached.text();
+  CHECK_NOTHROW(JointMotion(motion({start, good}), arm()));
+  ArmConfiguration other = reached;
+  other.numbers[1] += 1;  // axis 4 a quadrant off: the controller goes on
+  wrong.configuration = other.text();
+  CHECK_NOTHROW(JointMotion(motion({start, wrong}), arm()));
+  other.numbers[1] += 2;
+  wrong.configuration = other.text();
+  try {
+    JointMotion(motion({start, wrong}), arm());
+    FAIL("no problem was told");
+  } catch (const pipeline::InputError& error) {
+    CHECK(std::string(error.what())
+              .find("target of 'move 2' is reached along its path in configuration " + reached.text() +
+                    ", not in " + other.text()) != std::string::npos);
+  }
+}
+
+TEST_CASE("legs: a corner between an axis move and a line stays within its zone") {
+  const pipeline::Robot robot = arm();
+  const InverseKinematics kinematics(robot);
+  constexpr double zone = 0.08;
+  auto start = to(PathKind::joint, {1.0, -0.5, 1.0}, 1, 0), turn = to(PathKind::joint, corner, 1, zone);
+  turn.tool_speed = 0.5;
+  const Vector3 target(1.2, 0, 1.7);
+  const JointMotion run(motion({start, turn, to(PathKind::linear, target, 0.5, 0)}), robot);
+  double nearest = 10, off_line = 0, slowest = 10;
+  for (double t = 0; t < run.duration(); t += 0.002) {
+    const Vector3 here = kinematics.flange(run.position(t)).position;
+    const double away = (here - corner).norm();
+    nearest = std::min(nearest, away);
+    if (t > 0.3 && t < run.duration() - 0.3) slowest = std::min(slowest, run.velocity(t).norm());
+    // Behind the zone the tool is on the line, to the 13 um of its chords and what the controls round there.
+    if (here.z() > corner.z() + 1.1 * zone)
+      off_line = std::max(off_line, std::hypot(here.x() - 1.2, here.y()));
+  }
+  CHECK(nearest < zone);
+  CHECK(nearest > 0.1 * zone);  // it does cut the corner
+  CHECK(off_line < 2e-4);
+  CHECK(slowest > 0.05);
+}
+
 namespace {
 
 pipeline::Robot on_track(pipeline::ExternalAxis::Carries carries) {
