@@ -22,7 +22,8 @@ using Eigen::Vector3d;
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr double endless = 36000;  // of a continuous joint [deg]
 constexpr std::size_t largest_file = 8u << 20;
-constexpr int deepest = 50;  // elements in each other: urdfdom's XML reader recurses
+constexpr int most_elements = 2000;  // of links and joints: the tree is walked and given back recursively
+constexpr int deepest = 50;          // elements in each other: urdfdom's XML reader recurses
 
 // ---- places: urdfdom does not tell where anything stands --------------------------------------------------
 
@@ -104,6 +105,8 @@ class XmlPlaces {
       return;
     }
     any_ = true;
+    if ((name == "link" || name == "joint") && ++elements_ > most_elements)
+      fail(line, fmt::format("has more than {} links and joints", most_elements));
     lines_.try_emplace(name + " " + attribute(tag, "name"), line);
     if (empty) return;
     open_.emplace_back(name, line);
@@ -130,6 +133,7 @@ class XmlPlaces {
   std::size_t at_ = 0;
   int line_ = 1;
   bool any_ = false;
+  int elements_ = 0;
   std::vector<std::pair<std::string, int>> open_;
   std::map<std::string, int> lines_;  // "joint joint_1"
 };

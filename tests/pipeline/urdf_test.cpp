@@ -201,6 +201,9 @@ TEST_CASE("urdf: what is wrong is told with its line") {
   std::string deep;
   for (int i = 0; i < 60; ++i) deep += "<robot>";
   told(deep, "<robot>", "elements lie more than 50 deep in each other", request());
+  std::string crowd = "<robot name=\"crowd\">\n";
+  for (int i = 0; i < 2001; ++i) crowd += fmt::format("<link name=\"l{}\"/>\n", i);
+  told(crowd + "</robot>", "<link name=\"l2000\"", "has more than 2000 links and joints", request());
 }
 
 TEST_CASE("urdf: a small YAML beside it adds what a URDF lacks, by the names of joints and links") {

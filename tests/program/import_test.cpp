@@ -118,6 +118,17 @@ TEST_CASE("import: mutated programs never break a reader") {
   CHECK(refused < runs);
 }
 
+TEST_CASE("import: a damaged URDF becomes a robot or a message") {
+  REQUIRE(tests::fault_of_urdf(tests::palletizer) == "");
+  std::mt19937 random(13);
+  for (int k = 0; k < 300; ++k) {
+    const std::string text = mutated(tests::palletizer, random);
+    const std::string fault = tests::fault_of_urdf(text);
+    INFO(text);
+    REQUIRE(fault == "");
+  }
+}
+
 TEST_CASE("import: the example programs read without a problem") {
   const std::string folder = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/";
   // Home twice, two approaches, sixteen spots with their welds, two ways out; start, four times eight, end;
