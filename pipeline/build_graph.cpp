@@ -89,9 +89,9 @@ std::string job_edges(const StudyJob& job) {
 void write_job(const StudyJob& job, const StudyPlaces& places) {
   const fs::path folder = places.job(job.name);
   fs::create_directories(folder / ".stage");
-  write_text_if_changed(folder / "job.yaml", job_text(job.job));
+  write_text_if_changed(folder / "job.yaml", job_text(job.job), Sync::never);
   for (const StageEdge& edge : edges)
-    write_text_if_changed(folder / settings_file(edge), part_text(job.job, edge.part));
+    write_text_if_changed(folder / settings_file(edge), part_text(job.job, edge.part), Sync::never);
 }
 
 /// First line of a stage's log that tells an error, else its last line.
@@ -220,7 +220,7 @@ void join_logs(const Study& study, const StudyPlaces& places) {
       if (fs::is_regular_file(log, ignored))
         text += fmt::format("== {}\n{}", program_name(edge), read_text(log));
     }
-    write_text_if_changed(places.job(job.name) / "log", text);
+    write_text_if_changed(places.job(job.name) / "log", text, Sync::never);
   }
 }
 

@@ -235,18 +235,19 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
-void keep_if_changed(const std::filesystem::path& part, const std::filesystem::path& final_name) {
+void keep_if_changed(const std::filesystem::path& part, const std::filesystem::path& final_name, Sync when) {
   if (same_bytes(part, final_name)) {
     std::filesystem::remove(part);
     return;
   }
-  sync(part);
+  if (when == Sync::now) sync(part);
   std::filesystem::rename(part, final_name);
+  if (when == Sync::never) return;
   const auto folder = final_name.parent_path();
   sync(folder.empty() ? "." : folder);
 }
 
-void write_text_if_changed(const std::filesystem::path& file, const std::string& text) {
+void write_text_if_changed(const std::filesystem::path& file, const std::string& text, Sync when) {
   if (!file.parent_path().empty()) std::filesystem::create_directories(file.parent_path());
   auto part = file;
   part += ".part";
@@ -258,7 +259,7 @@ void write_text_if_changed(const std::filesystem::path& file, const std::string&
       throw InputError({file.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
                        "free space on the disk or choose another place");
   }
-  keep_if_changed(part, file);
+  keep_if_changed(part, file, when);
 }
 
 }  // namespace dresslife::pipeline

@@ -52,12 +52,17 @@ std::filesystem::path folder_of(const Where& where);
 /// The whole of a text file. Errors: InputError when it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 
+/// Whether a file's bytes reach the disk before its final name does. What every run compares and mends anyway
+/// needs no sync, and ten thousand jobs have forty thousand such files.
+enum class Sync { now, never };
+
 /// Writes a whole text file under its final name or not at all; leaves it untouched when it holds just that
 /// text.
-void write_text_if_changed(const std::filesystem::path& file, const std::string& text);
+void write_text_if_changed(const std::filesystem::path& file, const std::string& text, Sync when = Sync::now);
 
 /// Makes `.part` the final file: synced, then renamed; when the final file holds the same bytes, `.part`
 /// goes.
-void keep_if_changed(const std::filesystem::path& part, const std::filesystem::path& final_name);
+void keep_if_changed(const std::filesystem::path& part, const std::filesystem::path& final_name,
+                     Sync when = Sync::now);
 
 }  // namespace dresslife::pipeline

@@ -1,0 +1,96 @@
+// What the study runner costs itself: ten thousand jobs whose stages do nothing, so that all time is ours,
+// Ninja's and the operating system's.
+//
+// graph_10k_s: to read the study, expand it and write settings and build graph, the first time.
+// overhead_ms_per_job: wall time per job of running it, three stages as processes, two at a time.
+// noop_10k_s: to find that nothing is left to do: reading, expanding, comparing, Ninja.
+// gather_10k_s: to read the root attributes of all life files and rank them.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "pipeline/build_graph.h"
+#include "pipeline/digest.h"
+#include "pipeline/ranking.h"
+#include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/sample_life.h"
+
+namespace {
+
+using namespace dresslife::pipeline;
+namespace fs = std::filesystem;
+
+constexpr int side = 100, jobs = side * side;  // two varied keys
+
+/// A folder that lives as long as this.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / fmt::format("dresslife-bench-{}", ::getpid());
+  Folder() { fs::create_directories(path / "programs"); }
+  ~Folder() { fs::remove_all(path); }
+  fs::path write(const std::string& name, const std::string& text) const {
+    write_text_if_changed(path / name, text);
+    return path / name;
+  }
+};
+
+template <class Action>
+double seconds(const Action& action) {
+  const auto begin = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::string values(double first, double step) {
+  std::string text;
+  for (int k = 0; k < side; ++k) text += fmt::format("{}{}", k ? ", " : "", first + step * k);
+  return "[" + text + "]";
+}
+
+void write_stages(const Folder& folder) {
+  write_sample_life(folder.path / "life.h5",
+                    {.segments = 4, .samples = 100});  // only its attributes are read
+  const std::string find_output = "#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done\n";
+  for (const char* stage : {"sim", "strain", "fatigue"}) {
+    const bool last = std::string(stage) == "fatigue";
+    const std::string act =
+        last ? fmt::format("exec cp '{}' \"$2\"\n", (folder.path / "life.h5").string()) : ": > \"$2\"\n";
+    fs::permissions(folder.write(std::string("programs/dresslife-") + stage, find_output + act),
+                    fs::perms::owner_all);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const Folder folder;
+  write_stages(folder);
+  folder.write("job.yaml", sample_job);
+  const fs::path file = folder.write(
+      "many.yaml",
+      fmt::format("base: job.yaml\nvary:\n  dresspack.bending_stiffness_Nm2: {}\n  simulation.segments: {}\n",
+                  values(2, 0.01), values(20, 1)));
+  const StudyPlaces places{folder.path / "runs/many", folder.path / "programs"};
+  Study study;
+  const auto graph = [&] {
+    study = read_study(file);
+    write_build_graph(study, places);
+  };
+  std::printf("graph_10k_s %.3f\n", seconds(graph));
+  BuildResult built;
+  const double running = seconds([&] { built = run_build_graph(places, 2, false, {}); });
+  if (built.executed != 3 * jobs) return 1;
+  std::printf("overhead_ms_per_job %.3f\n", 1e3 * running / jobs);
+  const double nothing = seconds([&] {
+    graph();
+    built = run_build_graph(places, 2, false, {});
+  });
+  if (built.executed != 0) return 1;
+  std::printf("noop_10k_s %.3f\n", nothing);
+  std::vector<JobResult> results;
+  for (const StudyJob& job : study.jobs) results.push_back({job.name, places.life(job.name), job.failure});
+  std::string csv;
+  const double gathering = seconds([&] { csv = ranking_csv(read_ranking(results)); });
+  if (std::count(csv.begin(), csv.end(), '\n') != jobs + 1) return 1;
+  std::printf("gather_10k_s %.3f\n", gathering);
+}
