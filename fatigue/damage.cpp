@@ -1,6 +1,7 @@
 #include "fatigue/damage.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -212,9 +213,19 @@ bool alternates(std::span<const float> strains) {
   return strict;
 }
 
+constexpr std::size_t side_by_side = 8;  // independent extremes, which the compiler keeps in wide registers
+
 std::size_t largest_of(std::span<const float> strains) {
   float largest = 0;
-  for (const float strain : strains) largest = std::max(largest, std::fabs(strain));
+  std::array<float, side_by_side> of{};
+  std::size_t k = 0;
+  for (; k + side_by_side <= strains.size(); k += side_by_side)
+    for (std::size_t j = 0; j < side_by_side; ++j) {
+      const float size = std::fabs(strains[k + j]);
+      of[j] = size > of[j] ? size : of[j];
+    }
+  for (const float strain : strains.subspan(k)) largest = std::max(largest, std::fabs(strain));
+  for (const float strain : of) largest = std::max(largest, strain);
   const auto is_largest = [&](float strain) { return std::fabs(strain) == largest; };
   return std::find_if(strains.begin(), strains.end(), is_largest) - strains.begin();
 }

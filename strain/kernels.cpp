@@ -1,5 +1,10 @@
 #include "strain/kernels.h"
 
+#include <cstdlib>
+#include <string>
+
+#include "pipeline/errors.h"
+
 namespace dresslife::strain {
 
 namespace baseline_kernels {
@@ -26,9 +31,21 @@ std::vector<const Kernels*> kernels_of_this_machine() {
   return sets;
 }
 
+const Kernels& kernels_named(const std::string& name) {
+  std::string names;
+  for (const Kernels* set : kernels_of_this_machine()) {
+    if (name == set->machine) return *set;
+    names += (names.empty() ? "" : ", ") + std::string(set->machine);
+  }
+  throw pipeline::InputError(pipeline::Where{"DRESSLIFE_KERNELS"},
+                             fmt::format("is '{}' (this machine can run {})", name, names),
+                             "set it to one of these, or unset it for the widest");
+}
+
 const Kernels& kernels() {
-  static const Kernels& widest = *kernels_of_this_machine().back();
-  return widest;
+  static const char* const wanted = std::getenv("DRESSLIFE_KERNELS");
+  static const Kernels& set = wanted ? kernels_named(wanted) : *kernels_of_this_machine().back();
+  return set;
 }
 
 }  // namespace dresslife::strain

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "strain/helix.h"
@@ -178,7 +179,10 @@ struct Kernels {
 };
 // count is padded by the callee to a multiple of `padding`: columns and outputs have room for it.
 
-const Kernels& kernels();                               ///< the widest this machine can run
+/// The widest this machine can run, or the one that the environment variable DRESSLIFE_KERNELS names.
+const Kernels& kernels();
+/// Errors: InputError when this machine has none of that name.
+const Kernels& kernels_named(const std::string& name);
 std::vector<const Kernels*> kernels_of_this_machine();  ///< all it can run, plain one first
 
 inline BundlePointers pointers(const BundleChain& chain) {

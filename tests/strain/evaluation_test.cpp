@@ -377,6 +377,13 @@ TEST_CASE("every instruction set of this machine gives the same strains") {
     for (std::size_t k = 0; k < of.size(); ++k) REQUIRE(std::abs(of[k] - strains[0][k]) < contraction);
 }
 
+TEST_CASE("an instruction set can be asked for by name") {
+  for (const Kernels* set : kernels_of_this_machine()) CHECK(&kernels_named(set->machine) == set);
+  CHECK_THROWS_WITH(kernels_named("mmx"),
+                    Catch::StartsWith("DRESSLIFE_KERNELS: error: is 'mmx' (this machine can run "
+                                      "baseline"));
+}
+
 TEST_CASE("waves in single precision are the strains of their nodes on every instruction set") {
   const std::size_t samples = 250;  // not a multiple of any register
   const DeformationHistory history = moving(1, samples);
