@@ -25,9 +25,18 @@ std::string without_number(const std::string& part) {
 }
 
 float range_of(std::span<const float> strains) {
-  float low = strains.empty() ? 0 : strains[0], high = low;
-  for (const float strain : strains) low = std::min(low, strain), high = std::max(high, strain);
-  return high - low;
+  constexpr std::size_t side_by_side = 8;  // extremes that the compiler keeps in wide registers
+  float low[side_by_side], high[side_by_side];
+  for (std::size_t j = 0; j < side_by_side; ++j) low[j] = high[j] = strains.empty() ? 0 : strains[0];
+  const auto take = [&](std::size_t lane, float strain) {
+    low[lane] = strain < low[lane] ? strain : low[lane];
+    high[lane] = strain > high[lane] ? strain : high[lane];
+  };
+  std::size_t k = 0;
+  for (; k + side_by_side <= strains.size(); k += side_by_side)
+    for (std::size_t j = 0; j < side_by_side; ++j) take(j, strains[k + j]);
+  for (; k < strains.size(); ++k) take(0, strains[k]);
+  return *std::max_element(high, high + side_by_side) - *std::min_element(low, low + side_by_side);
 }
 
 }  // namespace
