@@ -1,10 +1,13 @@
 // The conductor CARDINAL 54/7 at 40 kN against the published curve (Foti and Martinelli 2016).
 #include "strain/strand_bending.h"
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include "strain/strand_contact.h"
 
 using namespace dresslife::strain;
 
@@ -20,11 +23,11 @@ const std::vector<std::pair<double, double>> published{
     {.368003, 81.42}, {.428452, 82.81}, {.500581, 84.89}};
 
 /// 1 + 6 steel wires of 3.34 mm, 12, 18, 24 aluminium wires of 3.32 mm, lay length 0.5 m.
-Strand cardinal() {
+Strand cardinal(double lay_length = 0.5) {
   Strand strand;
   strand.tension = tension;
   strand.friction = friction;
-  const double steel = 3.34e-3, aluminium = 3.32e-3, lay_length = 0.5;
+  const double steel = 3.34e-3, aluminium = 3.32e-3;
   double radius = 0;
   const int counts[] = {1, 6, 12, 18, 24};
   for (int k = 0; k < 5; ++k) {
@@ -36,8 +39,8 @@ Strand cardinal() {
 }
 
 /// Largest relative difference from the published curve, from its `first` point on.
-double largest_error(const Strand& strand, std::size_t first) {
-  StrandBending bending(strand);
+template <class Bending>
+double largest_error(Bending bending, std::size_t first) {
   double worst = 0;
   for (std::size_t k = 0; k < published.size(); ++k) {
     const double moment = bending.moment(published[k].first);
@@ -56,14 +59,126 @@ TEST_CASE("CARDINAL: slipped and stuck bending stiffness as published") {
 }
 
 TEST_CASE("CARDINAL: the published moment over curvature") {
-  // The first two points have a slope of 1570 N m2, below the published stuck 1964: no model with that
-  // stiffness meets them. They are left out; from the third on the aim is 10 %.
-  constexpr std::size_t first = 2;
-  Strand strand = cardinal();
-  // 12 % at the fourth point, where the layers change from sticking to sliding; below 3 % from 0.15 1/m on
-  constexpr double lay_uncertainty = 0.13;
-  CHECK(largest_error(strand, first) < lay_uncertainty);
-  CHECK(largest_error(strand, 12) < 0.035);
+  // The first two points have a slope of 1570 N m2, below the published stuck 1964: no model whose wires
+  // stick rigidly meets them. From the third on: 12 % at the fourth point, where layers change from sticking
+  // to sliding.
+  constexpr double changing = 0.13, sliding = 0.035;
+  CHECK(largest_error(StrandBending(cardinal()), 2) < changing);
+  CHECK(largest_error(StrandBending(cardinal()), 12) < sliding);
+  CHECK(largest_error(StrandBending(cardinal()), 0) > 0.24);
+}
+
+TEST_CASE("CARDINAL: with contacts that give, every point of the published curve") {
+  using enum StrandContact::Contacts;
+  // 12 % at worst, at the fourth point; the first two, 24 and 25 % off with rigid sticking, come to 9 and 10
+  // %
+  constexpr double everywhere = 0.12, first_points = 0.105;
+  CHECK(largest_error(StrandContact(cardinal(), elastic), 0) < everywhere);
+  StrandContact bending(cardinal(), elastic);
+  for (int k = 0; k < 2; ++k)
+    CHECK(std::abs(bending.moment(published[k].first) / published[k].second - 1) < first_points);
+  // The lay length is known as "about 0.5 m": 0.47 m brings all points within 10 % and the stuck stiffness to
+  // 1956.
+  CHECK(largest_error(StrandContact(cardinal(0.47), elastic), 0) < 0.1);
+  CHECK(StrandBending(cardinal(0.47)).stuck_stiffness() == Approx(1964).epsilon(5e-3));
+}
+
+TEST_CASE("published CARDINAL points are themselves not those of a curve that only softens") {
+  // Sliders that give way one by one make a concave curve. The second point lies below the chord of its
+  // neighbours by this share of itself, so single points of the early curve are no better known than that.
+  const auto [x0, y0] = published[0];
+  const auto [x1, y1] = published[1];
+  const auto [x2, y2] = published[2];
+  const double chord = y0 + (y2 - y0) * (x1 - x0) / (x2 - x0);
+  CHECK(chord / y1 - 1 > 0.08);
+}
+
+TEST_CASE("a strand on rigid contacts is that of sliders whose cap gathers from the neutral axis") {
+  // Equilibrium along every wire against a cap by angle: two derivations of one curve. They differ where a
+  // layer sticks beyond its sliding part: there the load of the layers outside counts per length of the
+  // strand in one, of the wire in the other (1 / cos of 10 degrees, 1.5 %).
+  constexpr double lengths = 0.01;
+  StrandContact contact(cardinal(), StrandContact::Contacts::rigid);
+  StrandBending sliders(cardinal());
+  for (const auto& [curvature, moment] : published)
+    CHECK(contact.moment(curvature) == Approx(sliders.moment(curvature)).epsilon(lengths));
+}
+
+TEST_CASE("a strand on contacts that give: stiffness before anything slides in closed form") {
+  // With everything sticking eps = A sin, u = B cos, and (W24) is one linear equation per layer.
+  const Strand strand = cardinal();
+  const int count = 4;
+  const double nu = 0.33, curvature = 1e-4;
+  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd right(count), amplitude(count), gradient(count), lever(count);
+  double stretch = 0, own = 0;
+  for (const StrandLayer& l : strand.layers) {
+    const double EA = l.youngs_modulus * pi * l.wire_radius * l.wire_radius;
+    stretch += l.count * EA * std::pow(std::cos(l.lay_angle), 3);
+    own += l.count * EA * l.wire_radius * l.wire_radius / 4 * std::cos(l.lay_angle);
+  }
+  std::vector<double> load(count + 1, 0.0), face(count + 1, 0.0);
+  for (int i = count - 1; i >= 0; --i) {
+    const StrandLayer& l = strand.layers[i + 1];
+    const double EA = l.youngs_modulus * pi * l.wire_radius * l.wire_radius, c = std::cos(l.lay_angle),
+                 s = std::sin(l.lay_angle);
+    load[i] = load[i + 1] + l.count / (2 * pi) * strand.tension * EA * c * s * s / (stretch * l.helix_radius);
+    if (i == 0) continue;
+    const StrandLayer& k = strand.layers[i];
+    const double crossings = l.count * k.count * (2 / 0.5) / (2 * pi);
+    const double E = 1 / ((1 - nu * nu) * (1 / l.youngs_modulus + 1 / k.youngs_modulus));
+    const double G = 1 / (2 * (2 - nu) * (1 + nu) * (1 / l.youngs_modulus + 1 / k.youngs_modulus));
+    const double R = std::sqrt(l.wire_radius * k.wire_radius) / std::sin(l.lay_angle + k.lay_angle);
+    face[i] = crossings * 8 * G * std::cbrt(0.75 * load[i] / crossings * R / E);
+  }
+  for (int i = 0; i < count; ++i) {
+    const StrandLayer& l = strand.layers[i + 1];
+    const double EA = l.youngs_modulus * pi * l.wire_radius * l.wire_radius, c = std::cos(l.lay_angle);
+    const double turn = 2 * pi / 0.5, force = l.count * EA * turn / (2 * pi);
+    amplitude[i] = c * c * l.helix_radius * curvature;
+    gradient[i] = turn * c;
+    lever[i] = l.count * EA * c * l.helix_radius / 2;
+    right[i] = force * amplitude[i];
+    left(i, i) += force * gradient[i] + face[i] + face[i + 1];
+    if (i > 0) left(i, i - 1) += face[i];
+    if (i + 1 < count) left(i, i + 1) += face[i + 1];
+  }
+  left.row(0).setZero();  // the innermost lies on the core in lines: u = 0
+  left(0, 0) = 1;
+  right[0] = 0;
+  const Eigen::VectorXd B = left.partialPivLu().solve(right);
+  double moment = own * curvature;
+  for (int i = 0; i < count; ++i) moment += lever[i] * (amplitude[i] - gradient[i] * B[i]);
+  constexpr double grid = 1e-3;  // 45 cells over a quarter of a sine
+  StrandContact contact(strand, StrandContact::Contacts::elastic);
+  CHECK(contact.moment(curvature) == Approx(moment).epsilon(grid));
+  CHECK(moment / curvature == Approx(1720).epsilon(0.01));
+}
+
+TEST_CASE("a strand on contacts that give loses energy in every loop and slides freely without friction") {
+  StrandContact bending(cardinal(), StrandContact::Contacts::elastic);
+  constexpr int steps = 20;
+  const double amplitude = 0.1;
+  double moment = 0, loss = 0, top = 0;
+  for (int k = 1; k <= steps; ++k) top = moment = bending.moment(amplitude * k / steps);
+  for (int loop = 0; loop < 2; ++loop) {
+    double lost = 0;
+    for (int half = 0; half < 2; ++half)
+      for (int k = 1; k <= steps; ++k) {
+        const double direction = half == 0 ? -1 : 1;
+        const double now = bending.moment(direction * amplitude * (2.0 * k / steps - 1));
+        lost += (now + moment) / 2 * direction * 2 * amplitude / steps;
+        moment = now;
+      }
+    CHECK(lost > 0);
+    if (loop > 0) CHECK(lost == Approx(loss).epsilon(1e-6));  // the loop has settled
+    loss = lost;
+    CHECK(moment == Approx(top).epsilon(1e-6));
+  }
+  Strand smooth = cardinal();
+  smooth.friction = 0;
+  StrandContact free(smooth, StrandContact::Contacts::elastic);
+  CHECK(free.moment(0.3) == Approx(0.3 * StrandBending(smooth).slipped_stiffness()));
 }
 
 TEST_CASE("a strand bent to and fro follows Masing's doubled curve and loses energy in every loop") {
