@@ -282,6 +282,14 @@ void describe(Fields& f, Component& component) {
   f.list("components", component.components, Need::optional, "the layers of parts inside");
 }
 
+void describe(Fields& f, Corrugation& corrugation) {
+  f.place(corrugation.where);
+  f.number("pitch_mm", corrugation.pitch, Need::required, above(0), "of one corrugation along the hose");
+  f.number("height_mm", corrugation.height, Need::required, above(0),
+           "half the difference of outer and inner diameter");
+  f.number("wall_mm", corrugation.wall, Need::required, above(0), "thickness of the material");
+}
+
 void describe(Fields& f, Dresspack& dresspack) {
   f.text("name", dresspack.name, Need::required, "name of the dresspack");
   f.text("source", dresspack.source, Need::required, "where the numbers come from");
@@ -300,8 +308,12 @@ void describe(Fields& f, Dresspack& dresspack) {
            "Coulomb, hose against robot");
   f.text("hose_material", dresspack.hose_material, Need::optional,
          "of the hose's wall, a name of config/materials; without it the hose's strain is not evaluated");
-  f.number("hose_strain_factor", dresspack.hose_strain_factor, Need::optional, between(1e-3, 100),
-           "strain of the corrugated wall over that of a smooth hose of the same diameter");
+  f.maybe_number(
+      "hose_strain_factor", dresspack.hose_strain_factor, between(1e-3, 100),
+      "strain of the wall over that of a smooth hose of the same diameter; without it 1, or that of "
+      "hose_corrugation");
+  f.maybe_group("hose_corrugation", dresspack.hose_corrugation,
+                "profile of the hose's wall, which gives the factor of its strain");
   f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only");
   f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
 }
@@ -363,9 +375,11 @@ void describe(Fields& f, Strain& strain) {
            "nested helices: the geometry itself, or (12)..(23)");
   f.choices("slip", strain.slip, {"free", "stick", "friction"},
             "between a part and its parent; one word, or one per level, outermost first");
-  f.choice("equivalent", strain.equivalent, {"axial", "shear_included"},
-           "strain that is counted: along the fibre, or with the shear of the wire's torsion, signed "
-           "sqrt(eps^2 + gamma^2/3)");
+  f.choice(
+      "equivalent", strain.equivalent, {"axial", "shear_included", "critical_plane"},
+      "strain that is counted: along the fibre; with the shear of the wire's torsion, signed "
+      "sqrt(eps^2 + gamma^2/3); or the latter and, for the likely worst wires, that across the plane that it "
+      "damages most");
   f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
             "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),
@@ -382,13 +396,16 @@ void describe(Fields& f, Fatigue& fatigue) {
            "rainflow of an endlessly repeated motion, or of one run");
   f.number("endurance_strain", fatigue.endurance_strain, Need::optional, between(0, 0.1),
            "amplitudes up to this do no damage");
-  f.text("material", fatigue.material, Need::optional, "of every wire, instead of its own");
+  f.text("material", fatigue.material, Need::optional,
+         "of every wire, instead of its own; the hose keeps hose_material");
   f.integer("listed_sites", fatigue.listed_sites, Need::optional, between(1, 10000),
             "worst sites whose cycles are written");
   f.number("operating_hours_per_week", fatigue.operating_hours_per_week, Need::optional, between(0.1, 168),
            "turns hours of motion into months");
-  f.number("scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
-           "standard deviation of log10 of a wire's life; ESTIMATE, as DNV-RP-C203 takes for steel");
+  f.number(
+      "scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
+      "standard deviation of log10 of a wire's life; ESTIMATE: lives of 20 equal wires spread over 0.75 of a "
+      "decade");
   f.number("failed_wires_percent", fatigue.failed_wires_percent, Need::optional, between(0, 100),
            "a conductor fails when so many of its wires are broken; 0: with the first");
   f.boolean("load_sharing", fatigue.load_sharing, Need::optional,
@@ -595,6 +612,23 @@ int check_component(const Component& component, const Component* parent) {
   return depth + 1;
 }
 
+/// A thin wall with round crests and roots fits the profile (strain/corrugation.h).
+void check_hose(const Dresspack& dresspack) {
+  if (!dresspack.hose_corrugation) return;
+  const Corrugation& c = *dresspack.hose_corrugation;
+  if (dresspack.hose_strain_factor)
+    throw InputError(c.where, "both hose_strain_factor and hose_corrugation are given",
+                     "keep one of the two");
+  if (c.height - c.wall < c.pitch / 2 || c.wall > c.pitch / 4 || c.height > dresspack.diameter / 2)
+    throw InputError(
+        c.where,
+        fmt::format(
+            "a corrugation of pitch {:.4g}, height {:.4g} and wall {:.4g} mm is not evaluated (height "
+            "less wall must be at least half the pitch, the wall at most a quarter of it)",
+            1e3 * c.pitch, 1e3 * c.height, 1e3 * c.wall),
+        "check the three, or give hose_strain_factor");
+}
+
 /// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
 void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
   if (slip[std::min(level, slip.size()) - 1] == Slip::friction &&
@@ -613,6 +647,7 @@ void check_dresspack(const Job& job, const Where& where) {
   int depth = 0;
   for (const Component& component : job.dresspack.components)
     depth = std::max(depth, check_component(component, &hose));
+  check_hose(job.dresspack);
   for (const Component& component : job.dresspack.components) check_friction(component, job.strain.slip, 1);
   if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
     throw InputError(
@@ -699,7 +734,8 @@ void describe_part(Fields& echo, Job copy, Part part) {
       copy.dresspack.components.clear();
       copy.dresspack.materials.clear();
       copy.dresspack.hose_material.clear();
-      copy.dresspack.hose_strain_factor = 1;
+      copy.dresspack.hose_strain_factor.reset();
+      copy.dresspack.hose_corrugation.reset();
       echo.group("motion", copy.motion, Need::required, "");
       echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
       echo.group("dresspack", copy.dresspack, Need::required, "");
@@ -714,8 +750,8 @@ void describe_part(Fields& echo, Job copy, Part part) {
         echo.list("materials", copy.dresspack.materials, Need::optional, "");
       if (!copy.dresspack.hose_material.empty()) {
         echo.text("hose_material", copy.dresspack.hose_material, Need::optional, "");
-        echo.number("hose_strain_factor", copy.dresspack.hose_strain_factor, Need::optional, any_number(),
-                    "");
+        echo.maybe_number("hose_strain_factor", copy.dresspack.hose_strain_factor, any_number(), "");
+        echo.maybe_group("hose_corrugation", copy.dresspack.hose_corrugation, "");
         echo.number("diameter_mm", copy.dresspack.diameter, Need::optional, any_number(), "");
       }
       echo.group("strain", copy.strain, Need::optional, "");
@@ -764,11 +800,28 @@ std::string job_manual() {
   return field_manual<Job>("job") + field_manual<UrdfRequest>("job.robot from a URDF");
 }
 
-const Material& material_of(const Job& job, const std::string& name) {
-  const std::string& wanted = job.fatigue.material.empty() ? name : job.fatigue.material;
+namespace {
+
+const Material& resolved_material(const Job& job, const std::string& wanted) {
   for (const Material& material : job.dresspack.materials)
     if (material.name == wanted) return material;
   throw std::logic_error("material '" + wanted + "' was not resolved");
+}
+
+}  // namespace
+
+const Material& material_of(const Job& job, const std::string& name) {
+  return resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material);
+}
+
+const Material& hose_material_of(const Job& job) {
+  return resolved_material(job, job.dresspack.hose_material);
+}
+
+bool is_hose_wall(const Dresspack& dresspack, std::string_view component) {
+  return !dresspack.hose_material.empty() && component.starts_with(hose_wall_name) &&
+         component.find_first_not_of("0123456789", hose_wall_name.size() + 1) == std::string_view::npos &&
+         component.size() > hose_wall_name.size() + 1 && component[hose_wall_name.size()] == ' ';
 }
 
 }  // namespace dresslife::pipeline

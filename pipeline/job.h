@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/document.h"
@@ -215,21 +216,35 @@ struct Component {
   Where where;
 };
 
+/// The profile of a hose's wall, as a caliper finds it.
+struct Corrugation {
+  double pitch = 0;   ///< of one corrugation along the hose [m]
+  double height = 0;  ///< half the difference of outer and inner diameter [m]
+  double wall = 0;    ///< thickness of the material [m]
+  Where where;
+};
+
 struct Dresspack {
   std::string name, source;
-  double diameter = 0;             ///< outer, of the hose [m]
-  double mass_per_length = 0;      ///< of the filled hose [kg/m]
-  double bending_stiffness = 0;    ///< EI [N m2]
-  double torsional_stiffness = 0;  ///< GJ [N m2]
-  double axial_stiffness = 0;      ///< EA [N]
-  double damping_time = 0;         ///< Kelvin-Voigt tau of bending and twist [s]
-  std::string damping_source;      ///< where the damping was measured or why it is guessed
-  double friction = 0;             ///< Coulomb, hose against robot
-  std::string hose_material;       ///< of the corrugated hose; empty: its strain is not evaluated
-  double hose_strain_factor = 1;   ///< strain of the corrugated wall over that of a smooth hose
+  double diameter = 0;                          ///< outer, of the hose [m]
+  double mass_per_length = 0;                   ///< of the filled hose [kg/m]
+  double bending_stiffness = 0;                 ///< EI [N m2]
+  double torsional_stiffness = 0;               ///< GJ [N m2]
+  double axial_stiffness = 0;                   ///< EA [N]
+  double damping_time = 0;                      ///< Kelvin-Voigt tau of bending and twist [s]
+  std::string damping_source;                   ///< where the damping was measured or why it is guessed
+  double friction = 0;                          ///< Coulomb, hose against robot
+  std::string hose_material;                    ///< of the hose's wall; empty: its strain is not evaluated
+  std::optional<double> hose_strain_factor;     ///< strain of the wall over that of a smooth hose
+  std::optional<Corrugation> hose_corrugation;  ///< gives that factor instead; neither: a smooth hose
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
 };
+
+/// The hose's wall as a part of the dresspack: "hose 1" to "hose 16" are places around it.
+constexpr std::string_view hose_wall_name = "hose";
+/// Whether a site's path names a place of the hose's wall, not a wire.
+bool is_hose_wall(const Dresspack& dresspack, std::string_view component);
 
 // ---- routing ----------------------------------------------------------------------------------------------
 
@@ -269,7 +284,7 @@ struct Simulation {
 enum class DeformationMeasure { rotation_vector, thesis };
 enum class Kinematics { exact, thesis };
 enum class Slip { free, stick, friction };
-enum class Equivalent { axial, shear_included };
+enum class Equivalent { axial, shear_included, critical_plane };
 
 struct Probe {
   int segment_from_tool = 1;
@@ -294,9 +309,9 @@ struct Fatigue {
   Stress stress = Stress::cyclic;
   MeanStress mean_stress = MeanStress::swt;
   Counting counting = Counting::repeating;
-  double endurance_strain = 0;           ///< amplitudes up to this do no damage
-  std::string material;                  ///< of every wire instead of its own; empty: its own
-  int listed_sites = 20;                 ///< worst sites whose cycles are written
+  double endurance_strain = 0;  ///< amplitudes up to this do no damage
+  std::string material;         ///< of every wire (not of the hose) instead of its own; empty: its own
+  int listed_sites = 20;        ///< worst sites whose cycles are written
   double operating_hours_per_week = 80;  ///< turns hours into months
   double scatter_log10 = 0.2;            ///< standard deviation of log10 of a wire's life
   double failed_wires_percent = 10;      ///< a conductor fails when so many of its wires have
@@ -331,9 +346,10 @@ std::string part_text(const Job& job, Part part);
 /// Files beyond the job and the catalogue that dresslife-sim reads.
 std::vector<std::filesystem::path> files_beside(const Job& job);
 
-/// The material that a wire of material `name` has under these settings. Precondition: the job was read
-/// above.
+/// The material that a wire of material `name` has under these settings, and that of the hose's wall, which
+/// fatigue.material leaves alone. Precondition: the job was read above.
 const Material& material_of(const Job& job, const std::string& name);
+const Material& hose_material_of(const Job& job);
 
 /// Folders of the catalogue: "robots", "programs", "dresspacks", "materials". A name is looked up beside the
 /// file that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml; the working folder for

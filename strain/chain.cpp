@@ -76,7 +76,8 @@ WireNode node_at(const Construction& construction, const std::vector<LayerSlip>&
   node.inverse_rest_stretch = 1 / node.rest.stretch;
   node.slide = sliding_numbers(plan[layer], chain, dresspack, node.place);
   const Layer& of = construction.layers()[layer];
-  node.shear_radius = of.part_radius;
+  node.shear_radius =
+      of.part_radius * of.shear_factor / of.strain_factor;  // the kernels multiply by the latter
   node.wire_radius = of.is_hose ? 0 : of.part_radius;
   node.strain_factor = of.strain_factor;
   return node;

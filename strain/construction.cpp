@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "strain/corrugation.h"
+
 namespace dresslife::strain {
 namespace {
 
@@ -41,14 +43,16 @@ Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinem
     : kinematics_(kinematics) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   if (!dresspack.hose_material.empty()) {
+    const WallFactors factors = wall_factors(dresspack);
     pipeline::Component wall;
-    wall.name = "hose";
+    wall.name = pipeline::hose_wall_name;
     wall.count = hose_places;
-    wall.radius = wall.helix_radius = dresspack.diameter / 2;
+    wall.radius = wall.helix_radius = factors.radius;
     wall.material = dresspack.hose_material;
     add(dresspack, wall, dresspack_itself, 1);
     layers_.back().is_hose = true;
-    layers_.back().strain_factor = dresspack.hose_strain_factor;
+    layers_.back().strain_factor = factors.strain;
+    layers_.back().shear_factor = factors.shear;
   }
   list_parts(dresspack_itself, dresspack_itself);
 }

@@ -31,7 +31,8 @@ struct Layer {
   double lay_angle = 0;           ///< negative = left hand [rad]
   double phase = 0;               ///< of part 1 at the base clamp [rad]
   bool is_hose = false;           ///< places around the hose's wall instead of wires
-  double strain_factor = 1;       ///< of the corrugated wall over a smooth one
+  double strain_factor = 1;       ///< of the corrugated wall over a smooth one, along the hose
+  double shear_factor = 1;        ///< the same of its shear by twist
   double friction = 0;            ///< Coulomb, of a part on what it lies against
   double line_load = 0;           ///< radial, from jacket and tape [N/m]
   double tension = 0;             ///< of a part at rest [N]

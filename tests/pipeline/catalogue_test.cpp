@@ -63,7 +63,7 @@ TEST_CASE("catalogue: the shipped entries are always there") {
                {"strain.slip=free"});
   CHECK(job.dresspack.diameter == 0.06);
   CHECK(job.dresspack.components[0].components[0].components.size() == 5);
-  REQUIRE(job.dresspack.materials.size() == 1);
+  REQUIRE(job.dresspack.materials.size() == 2);  // the wires' and the hose's
   CHECK(job.dresspack.materials[0].name == "copper");
 }
 

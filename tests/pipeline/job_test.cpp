@@ -296,6 +296,41 @@ TEST_CASE("job: joints that follow and external axes") {
   refused(edited(following, "follows: axis_1", "follows: axis_2"),
           "axis_2 follows 'axis_2', which is no driven joint");
   refused(edited(following, "ratio: -1", "ratio: -1, lower_deg: 3"), "unknown key");
+
+TEST_CASE("job: the hose's wall has a material of its own and a factor or a profile") {
+  const auto with = [&](const std::string& keys) {
+    return edited(sample_job, "  damping_source: guessed\n",
+                  "  damping_source: guessed\n  hose_material: hose_polyamide\n" + keys);
+  };
+  const std::string profile = "  hose_corrugation: {pitch_mm: 4, height_mm: 3.5, wall_mm: 0.5}\n";
+  const Job job = job_of_text(with(profile), {"fatigue.material=copper"});
+  CHECK(hose_material_of(job).name == "hose_polyamide");
+  CHECK(material_of(job, "hose_polyamide").name == "copper");
+  REQUIRE(job.dresspack.hose_corrugation);
+  CHECK(job.dresspack.hose_corrugation->height == Approx(0.0035));
+  CHECK_FALSE(job.dresspack.hose_strain_factor);
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
+  CHECK(part_text(job, Part::strain) != part_text(job_of_text(with("")), Part::strain));
+  CHECK(part_text(job, Part::sim) == part_text(job_of_text(with("")), Part::sim));
+
+  CHECK(is_hose_wall(job.dresspack, "hose 1"));
+  CHECK(is_hose_wall(job.dresspack, "hose 16"));
+  for (const char* other : {"hose", "hose ", "hose x", "hose 1/wire 2", "hoses 1", "a/hose 1"})
+    CHECK_FALSE(is_hose_wall(job.dresspack, other));
+  CHECK_FALSE(is_hose_wall(job_of_text(sample_job).dresspack, "hose 1"));
+
+  const auto refused = [&](const std::string& keys, const std::string& words) {
+    CHECK_THAT(message_of([&] { job_of_text(with(keys)); }), Catch::Contains(words));
+  };
+  refused(profile + "  hose_strain_factor: 0.2\n",
+          "both hose_strain_factor and hose_corrugation are given; keep one of the two");
+  refused("  hose_corrugation: {pitch_mm: 4, height_mm: 2, wall_mm: 0.5}\n",
+          "a corrugation of pitch 4, height 2 and wall 0.5 mm is not evaluated (height less wall must be at "
+          "least "
+          "half the pitch, the wall at most a quarter of it); check the three, or give hose_strain_factor");
+  refused("  hose_corrugation: {pitch_mm: 4, height_mm: 4, wall_mm: 1.5}\n", "is not evaluated");
+  refused("  hose_corrugation: {pitch_mm: 4, height_mm: 4}\n", "wall_mm");
+  refused("  hose_strain_factor: 0\n", "hose_strain_factor");
 }
 
 TEST_CASE("job: what contradicts itself is refused") {
