@@ -14,10 +14,11 @@ std::string parent_of(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash);
 }
 
-/// Damage of each wire: (component).
+/// Worst site of each wire: (component); no_site for places of the hose's wall.
 std::vector<std::size_t> worst_site_of_wires(const SiteDamage& all, const TextColumn& component) {
-  return worst_by_group(all, component.values.size(),
-                        [&](std::size_t site) { return static_cast<std::size_t>(component.index[site]); });
+  return worst_by_group(all, component.values.size(), [&](std::size_t site) {
+    return all.is_wire(site) ? static_cast<std::size_t>(component.index[site]) : no_site;
+  });
 }
 
 }  // namespace
@@ -35,6 +36,7 @@ Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
   std::unordered_map<std::string, std::size_t> known;
   const std::vector<std::size_t> worst = worst_site_of_wires(all, component);
   for (std::size_t wire = 0; wire < worst.size(); ++wire) {
+    if (worst[wire] == no_site) continue;  // the hose's wall
     const std::string path = conductor_of(component.values[wire], layer_names);
     const auto [entry, fresh] = known.emplace(path, result.path.size());
     if (fresh) {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <optional>
 #include <set>
 
+#include "fatigue/attribution.h"
 #include "fatigue/conductors.h"
+#include "fatigue/planes.h"
 #include "fatigue/stress_path.h"
 #include "fatigue/verdict.h"
 #include "pipeline/readable.h"
@@ -28,9 +30,11 @@ struct Context {
   std::vector<double> time, segment_length;
   std::vector<std::int32_t> step;
   std::vector<std::string> step_text;
-  std::vector<DamageCounter> counters;
+  SiteCounters counters;
   SiteDamage damage;
-  std::size_t worst = no_site;
+  std::optional<JudgedPlanes> planes;
+  std::size_t worst = no_site;       // of the wires
+  std::size_t worst_wall = no_site;  // of the hose
 
   Context(const FileReader& strain_file, const pipeline::Job& the_job, FileWriter& life_file,
           std::size_t thread_count)
@@ -44,14 +48,21 @@ struct Context {
         segment_length(strain.read<double>("/segment/length")),
         step(strain.read<std::int32_t>("/program/step")),
         step_text(strain.read<std::string>("/program/text")),
-        counters(counters_for(sites, job)) {}
+        counters(sites, component, job) {}
 
   double repeat_seconds() const { return time.empty() ? 0 : time.back() - time.front(); }
   const std::string* step_at(std::size_t sample) const {
     return step[sample] < 0 ? nullptr : &step_text[step[sample]];
   }
   std::vector<DamagingCycle> cycles_of(std::size_t site) const {
-    return counters[sites.material().index[site]].cycles(sites.reversals_of(site));
+    return site == no_site ? std::vector<DamagingCycle>{} : counters.of(site).cycles(reversals_of(site));
+  }
+  /// Of the strain that the site was judged by.
+  std::vector<Reversal> reversals_of(std::size_t site) const {
+    if (!planes || !planes->of(site)) return sites.reversals_of(site);
+    std::vector<Reversal> reversals = find_reversals(planes->strain_of(site));
+    for (Reversal& reversal : reversals) reversal.strain = static_cast<float>(reversal.strain);
+    return reversals;
   }
 };
 
@@ -108,7 +119,7 @@ void write_sites(const Context& c) {
 void write_listed_cycles(const Context& c) {
   std::vector<std::uint32_t> site, begin, end;
   std::vector<double> range, mean, count, damage;
-  for (const std::size_t listed : worst_sites(c.damage, c.job.fatigue.listed_sites)) {
+  for (const std::size_t listed : worst_wires(c.damage, c.job.fatigue.listed_sites)) {
     for (const DamagingCycle& d : c.cycles_of(listed)) {
       site.push_back(static_cast<std::uint32_t>(listed));
       begin.push_back(static_cast<std::uint32_t>(d.cycle.begin.sample));
@@ -128,44 +139,65 @@ void write_listed_cycles(const Context& c) {
   put(c.life, "/cycles/damage", damage);
 }
 
-void write_segments(const Context& c) {
-  const auto worst = worst_by_group(c.damage, c.segment_length.size(), [&](std::size_t site) {
-    return static_cast<std::size_t>(c.sites.segment(site));
+/// The worst wire, or place of the hose's wall, of each segment.
+std::vector<std::size_t> worst_by_segment(const Context& c, bool wires) {
+  return worst_by_group(c.damage, c.segment_length.size(), [&](std::size_t site) {
+    return c.damage.is_wire(site) == wires ? static_cast<std::size_t>(c.sites.segment(site)) : no_site;
   });
+}
+
+void write_segments(const Context& c) {
+  const auto worst = worst_by_segment(c, true);
   put(c.life, "/segment/length", c.segment_length);
   put(c.life, "/segment/worst_site", as_index(worst));
   put(c.life, "/segment/damage", damage_at(c, worst));
   c.life.set_axis("sample", c.time.size());
   for (const std::size_t site : worst) {
-    const auto cycles = site == no_site ? std::vector<DamagingCycle>{} : c.cycles_of(site);
+    const auto cycles = c.cycles_of(site);
     put(c.life, "/damage_rate", damage_over_time(cycles, c.time.size(), Moment::closes));
     put(c.life, "/damage_rate_opened", damage_over_time(cycles, c.time.size(), Moment::opens));
   }
 }
 
-void write_layers(const Context& c) {
+/// The layers of wires, and which one each component lies in; no_site: the hose's wall.
+struct Layers {
+  std::vector<std::string> name;
+  std::vector<std::size_t> of_component;
+};
+
+Layers layers_of(const Context& c) {
   const auto known_layers = layer_names(c.job.dresspack);
-  std::vector<std::string> layers;
-  std::vector<std::size_t> layer_of_component;
+  Layers result;
+  auto& [layers, layer_of_component] = result;
   for (const std::string& component : c.component.values) {
+    if (pipeline::is_hose_wall(c.job.dresspack, component)) {
+      layer_of_component.push_back(no_site);
+      continue;
+    }
     const std::string layer = layer_of(component, known_layers);
     const auto found = std::find(layers.begin(), layers.end(), layer);
     layer_of_component.push_back(found - layers.begin());
     if (found == layers.end()) layers.push_back(layer);
   }
-  const auto worst = worst_by_group(
-      c.damage, layers.size(), [&](std::size_t site) { return layer_of_component[c.component.index[site]]; });
-  put(c.life, "/layer/component", layers);
+  return result;
+}
+
+void write_layers(const Context& c) {
+  const Layers layers = layers_of(c);
+  const auto worst = worst_by_group(c.damage, layers.name.size(), [&](std::size_t site) {
+    return layers.of_component[c.component.index[site]];
+  });
+  put(c.life, "/layer/component", layers.name);
   put(c.life, "/layer/worst_site", as_index(worst));
   put(c.life, "/layer/damage", damage_at(c, worst));
 }
 
 /// The worst wire of a conductor, when its neighbours have left it their load.
 std::vector<double> sharing_rates_of(const Context& c, std::size_t worst, std::size_t wires) {
-  const DamageCounter& counter = c.counters[c.sites.material().index[worst]];
+  const DamageCounter& counter = c.counters.of(worst);
   DamageCounter::Workspace workspace;
   std::vector<float> strains, scaled;
-  for (const Reversal& r : c.sites.reversals_of(worst)) strains.push_back(static_cast<float>(r.strain));
+  for (const Reversal& r : c.reversals_of(worst)) strains.push_back(static_cast<float>(r.strain));
   return sharing_rates(wires, [&](double factor) {
     scaled.clear();
     for (const float strain : strains) scaled.push_back(static_cast<float>(factor * strain));
@@ -201,6 +233,7 @@ void write_scatter(const Context& c) {
 
 std::vector<double> worst_strain(const Context& c) {
   if (c.worst == no_site) return std::vector<double>(c.time.size(), 0.0);
+  if (c.planes && c.planes->of(c.worst)) return c.planes->strain_of(c.worst);
   const auto probed = c.strain.read<std::uint32_t>("/probe/site");
   const auto probe = std::find(probed.begin(), probed.end(), c.worst);
   if (probe == probed.end()) return strain_between_reversals(c.sites.reversals_of(c.worst), c.time.size());
@@ -220,60 +253,164 @@ void write_program(const Context& c, const std::vector<DamagingCycle>& cycles) {
   put(c.life, "/program/damage_opened", by_step(Moment::opens));
 }
 
-/// The worst site's life, place and moment. Returns the summary for the terminal.
-std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles) {
-  const bool any = c.worst != no_site;
-  const double damage = any ? c.damage.damage[c.worst] : 0, repeats = life_in_repeats(damage);
-  const double life_hours = hours(repeats, c.repeat_seconds());
-  const double life_months = months(life_hours, c.job.fatigue.operating_hours_per_week);
-  const std::size_t segment = any ? c.sites.segment(c.worst) : 0;
-  const std::size_t from_tool = any ? c.segment_length.size() - segment : 0;
-  const double position = any ? position_from_tool(c.segment_length, segment) : 0;
-  c.life.attribute("life_repeats", repeats);
-  c.life.attribute("life_hours", life_hours);
-  c.life.attribute("life_months", life_months);
-  c.life.attribute("damage_per_repeat", damage);
-  c.life.attribute("repeat_seconds", c.repeat_seconds());
-  c.life.attribute("worst_site", any ? double(c.worst) : -1);
-  c.life.attribute("worst_segment_from_tool", double(from_tool));
-  c.life.attribute("worst_position_from_tool", position);
+/// Which joint, and which clamp is near. Nothing of the joints when the motion was given by its clamps.
+void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles,
+                  const std::vector<double>& strain) {
+  const auto worst = worst_by_segment(c, true);
+  put(c.life, "/clamp/name", std::vector<std::string>{"base clamp", "tool clamp"});
+  put(c.life, "/clamp/damage", damage_by_clamp(damage_at(c, worst), c.segment_length));
+  const char* const joints = "/robot/joint_position";
+  const std::vector<bool> between = joints_between_clamps(c.job);
+  if (!c.strain.has(joints) || c.strain.row_size(joints) != between.size() || strain.empty()) return;
+  const auto position = c.strain.read<double>(joints);
+  const StrainOfJoints surface(position, strain, between);
+  const JointDamage by_joint = damage_by_joint(cycles, surface, c.step, c.step_text.size());
+  std::vector<std::string> names;
+  for (const pipeline::Joint& joint : c.job.robot.joints) names.push_back(joint.name);
+  names.push_back("carrying");
+  c.life.set_axis("cause", names.size());
+  put(c.life, "/joint/name", names);
+  put(c.life, "/joint/damage", by_joint.damage);
+  put(c.life, "/program/joint_damage", by_joint.by_line);
+  c.life.attribute("joint_explained", surface.explained());
+  const auto most =
+      std::max_element(by_joint.damage.begin(), by_joint.damage.end()) - by_joint.damage.begin();
+  const double total = sum_of_damage(cycles);
+  c.life.attribute("worst_joint", total > 0 ? names[most] : "");
+  c.life.attribute("worst_joint_share", total > 0 ? by_joint.damage[most] / total : 0);
+}
+
+/// What is told of a worst site: of the wires, or of the hose's wall.
+struct Worst {
+  double damage = 0, repeats = life_in_repeats(0), life_hours = repeats, life_months = repeats;
+  double segment_from_tool = 0, position_from_tool = 0, time = 0;
+  std::string component, step;
+};
+
+Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCycle>& cycles) {
+  Worst worst;
+  if (site == no_site) return worst;
+  worst.damage = c.damage.damage[site];
+  worst.repeats = life_in_repeats(worst.damage);
+  worst.life_hours = hours(worst.repeats, c.repeat_seconds());
+  worst.life_months = months(worst.life_hours, c.job.fatigue.operating_hours_per_week);
+  const std::size_t segment = c.sites.segment(site);
+  worst.segment_from_tool = double(c.segment_length.size() - segment);
+  worst.position_from_tool = position_from_tool(c.segment_length, segment);
+  worst.component = c.component[site];
   const auto most = std::max_element(cycles.begin(), cycles.end(),
                                      [](const auto& a, const auto& b) { return a.damage < b.damage; });
   const std::size_t sample = most == cycles.end() ? 0 : most->cycle.end.sample;
-  c.life.attribute("worst_time", c.time.empty() ? 0 : c.time[sample]);
-  const std::string* const step = any ? c.step_at(sample) : nullptr;
-  c.life.attribute("worst_component", any ? c.component[c.worst] : "");
-  c.life.attribute("worst_step", step ? *step : "");
-  if (!any) return "no wire was evaluated";
-  if (damage == 0) return "no wire is damaged";
+  worst.time = c.time.empty() ? 0 : c.time[sample];
+  if (const std::string* const step = c.step_at(sample)) worst.step = *step;
+  return worst;
+}
+
+/// The worst wire's life, place and moment. Returns the summary for the terminal.
+std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles) {
+  const Worst worst = worst_of(c, c.worst, cycles);
+  c.life.attribute("life_repeats", worst.repeats);
+  c.life.attribute("life_hours", worst.life_hours);
+  c.life.attribute("life_months", worst.life_months);
+  c.life.attribute("damage_per_repeat", worst.damage);
+  c.life.attribute("repeat_seconds", c.repeat_seconds());
+  c.life.attribute("worst_site", c.worst == no_site ? -1 : double(c.worst));
+  c.life.attribute("worst_segment_from_tool", worst.segment_from_tool);
+  c.life.attribute("worst_position_from_tool", worst.position_from_tool);
+  c.life.attribute("worst_time", worst.time);
+  c.life.attribute("worst_component", worst.component);
+  c.life.attribute("worst_step", worst.step);
+  if (c.worst == no_site) return "no wire was evaluated";
+  if (worst.damage == 0) return "no wire is damaged";
   return fmt::format("{} h ({} repeats, {} months) until {} breaks, {:.2f} m from the tool{}",
-                     pipeline::readable(life_hours), pipeline::readable(repeats),
-                     pipeline::readable(life_months), c.component[c.worst], position,
-                     step ? ", worst during '" + *step + "'" : "");
+                     pipeline::readable(worst.life_hours), pipeline::readable(worst.repeats),
+                     pipeline::readable(worst.life_months), worst.component, worst.position_from_tool,
+                     worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
 }
 
-/// Whether the job itself lets every level slip this way: then its own sites, which are all wires and not only the
-/// likely worst ones, are the bound.
+/// The hose's wall beside the wires. Returns what the terminal is told; nothing without a wall.
+std::string write_hose(const Context& c) {
+  if (c.worst_wall == no_site) return "";
+  const auto worst_sites = worst_by_segment(c, false);
+  put(c.life, "/hose/worst_site", as_index(worst_sites));
+  put(c.life, "/hose/damage", damage_at(c, worst_sites));
+  const Worst worst = worst_of(c, c.worst_wall, c.cycles_of(c.worst_wall));
+  c.life.attribute("hose_life_repeats", worst.repeats);
+  c.life.attribute("hose_life_hours", worst.life_hours);
+  c.life.attribute("hose_life_months", worst.life_months);
+  c.life.attribute("hose_damage_per_repeat", worst.damage);
+  c.life.attribute("hose_segment_from_tool", worst.segment_from_tool);
+  c.life.attribute("hose_position_from_tool", worst.position_from_tool);
+  c.life.attribute("hose_component", worst.component);
+  c.life.attribute("hose_time", worst.time);
+  c.life.attribute("hose_step", worst.step);
+  if (worst.damage == 0) return "; the hose's wall is not damaged";
+  return fmt::format("; the hose's wall lasts {} h", pipeline::readable(worst.life_hours));
+}
+
+/// Whether the job itself lets every level slip this way: then its own sites, which are all wires and not
+/// only the likely worst ones, are the bound.
 bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
-  return std::all_of(job.strain.slip.begin(), job.strain.slip.end(), [&](pipeline::Slip own) { return own == slip; });
+  return std::all_of(job.strain.slip.begin(), job.strain.slip.end(),
+                     [&](pipeline::Slip own) { return own == slip; });
 }
 
-void write_bound(const Context& c, const std::string& name, pipeline::Slip slip, const std::function<void(double)>& progress) {
+void write_bound(const Context& c, const std::string& name, pipeline::Slip slip,
+                 const std::function<void(double)>& progress) {
   const SiteSet sites(c.strain, "/bound_" + name);
   if (sites.size() == 0 && c.sites.size() > 0) {
     throw pipeline::InputError(c.strain.where(), fmt::format("/bound_{} holds no sites", name),
                                "make the file anew with dresslife-strain");
   }
+  const TextColumn component = read_column(c.strain, "/bound_" + name + "/site/component");
   const SiteDamage damage =
-      is_own_slip(c.job, slip) ? c.damage : damage_of(sites, counters_for(sites, c.job), c.threads, progress);
-  const double repeats = life_in_repeats(sites.size() == 0 ? 0 : damage.damage[damage.worst()]);
+      is_own_slip(c.job, slip) ? c.damage : damage_of(sites, {sites, component, c.job}, c.threads, progress);
+  const std::size_t worst = damage.worst_wire();
+  const double repeats = life_in_repeats(worst == no_site ? 0 : damage.damage[worst]);
   c.life.attribute("life_repeats_all_" + name, repeats);
   c.life.attribute("life_hours_all_" + name, hours(repeats, c.repeat_seconds()));
+}
+
+/// The shear of the worst wire, and what planes were judged.
+void write_shear(const Context& c) {
+  if (c.planes && !c.planes->empty()) {
+    std::vector<double> angle, damage;
+    for (const CriticalPlane& plane : c.planes->planes()) {
+      angle.push_back(plane.theta);
+      damage.push_back(plane.damage);
+    }
+    put(c.life, "/plane/site", as_index(c.planes->sites()));
+    put(c.life, "/plane/angle", angle);
+    put(c.life, "/plane/damage", damage);
+    if (const CriticalPlane* plane = c.planes->of(c.worst))
+      c.life.attribute("worst_plane_angle", plane->theta);
+  }
+  if (!c.strain.has("/probe/shear")) return;
+  const auto probed = c.strain.read<std::uint32_t>("/probe/site");
+  const auto probe = std::find(probed.begin(), probed.end(), c.worst);
+  if (probe == probed.end()) return;
+  std::vector<double> shear;
+  c.strain.read_rows("/probe/shear", probe - probed.begin(), 1, shear);
+  const auto [low, high] = std::minmax_element(shear.begin(), shear.end());
+  c.life.attribute("worst_shear_range", *high - *low);
+}
+
+/// Judges the planes, where the strain file asks for it, in the place of the equivalent strain.
+void judge_planes(Context& c) {
+  c.planes.emplace(c.strain, c.sites, c.counters, c.job, c.threads);
+  if (c.planes->empty()) return;
+  const Layers layers = layers_of(c);
+  const std::size_t of_segment = layers.name.size();
+  c.planes->apply(c.damage, of_segment * c.segment_length.size(), [&](std::size_t site) {
+    const std::size_t layer = layers.of_component[c.component.index[site]];
+    return layer == no_site ? no_site : static_cast<std::size_t>(c.sites.segment(site)) * of_segment + layer;
+  });
 }
 
 std::vector<std::string> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
   std::set<std::string> warnings;  // sorted and once each
   for (const std::string& name : c.sites.material().values) {
+    if (name == c.job.dresspack.hose_material) continue;
     const pipeline::Material& material = pipeline::material_of(c.job, name);
     if (c.job.fatigue.stress != pipeline::Stress::cyclic || !material.strain_life_table.empty()) continue;
     const std::string warning = compatibility_warning(material);
@@ -286,32 +423,37 @@ std::vector<std::string> warnings_of(const Context& c, const std::vector<Damagin
     warnings.insert(
         fmt::format("warning: {} of the worst wire's cycles tear it on their first reversal (strain up to "
                     "{:.3g}); check slip, lay angles and bend radii, no wire is meant for this",
-                    torn, *std::max_element(c.damage.range.begin(), c.damage.range.end())));
+                    torn, c.damage.range[c.worst]));
   }
   return {warnings.begin(), warnings.end()};
 }
 
 }  // namespace
 
-Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter& life, std::size_t threads,
-                 const std::function<void(double)>& progress) {
-  Context c(strain, job, life, threads);
+Notes write_life(const FileReader& strain_file, const pipeline::Job& job, FileWriter& life,
+                 std::size_t threads, const std::function<void(double)>& progress) {
+  Context c(strain_file, job, life, threads);
   check_steps(c);
   // The three sets are about equally large.
   c.damage = damage_of(c.sites, c.counters, threads, [&](double share) { progress(share / 3); });
-  c.worst = c.damage.worst();
+  judge_planes(c);
+  c.worst = c.damage.worst_wire();
+  c.worst_wall = c.damage.worst_wall();
   write_bound(c, "stick", pipeline::Slip::stick, [&](double share) { progress((1 + share) / 3); });
   write_bound(c, "free", pipeline::Slip::free, [&](double share) { progress((2 + share) / 3); });
-  const auto cycles = c.worst == no_site ? std::vector<DamagingCycle>{} : c.cycles_of(c.worst);
+  const auto cycles = c.cycles_of(c.worst);
   write_sites(c);
   write_listed_cycles(c);
   write_segments(c);
   write_layers(c);
   write_scatter(c);
+  write_shear(c);
   write_program(c, cycles);
-  put(life, "/worst/strain", worst_strain(c));
+  const std::vector<double> strain = worst_strain(c);
+  put(life, "/worst/strain", strain);
+  write_causes(c, cycles, strain);
   const std::string summary = write_worst(c, cycles);
-  return {warnings_of(c, cycles), summary};
+  return {warnings_of(c, cycles), summary + write_hose(c)};
 }
 
 }  // namespace dresslife::fatigue

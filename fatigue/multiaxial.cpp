@@ -37,4 +37,20 @@ CriticalPlane critical_plane(std::span<const double> strain, std::span<const dou
   return worst;
 }
 
+CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,
+                             double poisson_ratio, const DamageCounter& counter,
+                             DamageCounter::Workspace& workspace, int planes) {
+  CriticalPlane worst;
+  std::vector<float> reversals;
+  for (int plane = 0; plane < planes; ++plane) {
+    const double theta = std::numbers::pi * (double(plane) / planes - 0.5);
+    reversals.clear();
+    for (const Reversal& reversal : find_reversals(plane_strain(strain, shear, poisson_ratio, theta)))
+      reversals.push_back(static_cast<float>(reversal.strain));
+    const double damage = counter(reversals, workspace);
+    if (damage > worst.damage) worst = {theta, damage};
+  }
+  return worst;
+}
+
 }  // namespace dresslife::fatigue

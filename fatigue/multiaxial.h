@@ -38,4 +38,9 @@ CriticalPlane critical_plane(std::span<const double> strain, std::span<const dou
                              const pipeline::Material& material, const pipeline::Fatigue& settings,
                              int planes = 36);
 
+/// The same by a counter's tables, as the stage counts.
+CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,
+                             double poisson_ratio, const DamageCounter& counter,
+                             DamageCounter::Workspace& workspace, int planes = 36);
+
 }  // namespace dresslife::fatigue

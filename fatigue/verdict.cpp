@@ -47,30 +47,40 @@ bool SiteDamage::worse(std::size_t a, std::size_t b) const {
   return a < b;
 }
 
-std::size_t SiteDamage::worst() const {
-  return worst_by_group(*this, 1, [](std::size_t) { return 0; }).front();
+std::size_t SiteDamage::worst_wire() const {
+  return worst_by_group(*this, 1, [&](std::size_t site) { return is_wire(site) ? 0 : no_site; }).front();
 }
 
-std::vector<DamageCounter> counters_for(const SiteSet& sites, const pipeline::Job& job) {
-  std::vector<DamageCounter> counters;
-  for (const std::string& name : sites.material().values) {
-    counters.emplace_back(pipeline::material_of(job, name), job.fatigue);
-  }
-  return counters;
+std::size_t SiteDamage::worst_wall() const {
+  return worst_by_group(*this, 1, [&](std::size_t site) { return is_wire(site) ? no_site : 0; }).front();
 }
 
-SiteDamage damage_of(const SiteSet& sites, const std::vector<DamageCounter>& counters, std::size_t threads,
+SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job)
+    : component_(component.index), material_(sites.material().index) {
+  for (const std::string& path : component.values)
+    wall_of_component_.push_back(pipeline::is_hose_wall(job.dresspack, path));
+  for (const std::string& name : sites.material().values)
+    by_material_.emplace_back(pipeline::material_of(job, name), job.fatigue);
+  if (!job.dresspack.hose_material.empty()) wall_.emplace_back(pipeline::hose_material_of(job), job.fatigue);
+}
+
+const DamageCounter& SiteCounters::of(std::size_t site) const {
+  return is_wall(site) ? wall_.front() : by_material_[material_[site]];
+}
+
+SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::size_t threads,
                      const std::function<void(double)>& progress) {
   SiteDamage all;
   all.damage.resize(sites.size());
   all.range.resize(sites.size());
+  for (std::size_t site = 0; site < sites.size(); ++site) all.wall.push_back(counters.is_wall(site));
   std::vector<DamageCounter::Workspace> workspaces(threads);
   sites.for_each_block([&](const SiteSet::Block& block) {
     const std::vector<std::size_t> cuts = block.cuts(threads);
     pipeline::in_parallel(threads, [&](std::size_t part) {
       for (std::size_t site = cuts[part]; site < cuts[part + 1]; ++site) {
         const std::span<const float> strains = block.strains_of(site);
-        all.damage[site] = counters[sites.material().index[site]](strains, workspaces[part]);
+        all.damage[site] = counters.of(site)(strains, workspaces[part]);
         all.range[site] = range_of(strains);
       }
     });
@@ -83,16 +93,18 @@ std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t group
                                         const std::function<std::size_t(std::size_t)>& group_of) {
   std::vector<std::size_t> worst(groups, no_site);
   for (std::size_t site = 0; site < all.damage.size(); ++site) {
-    std::size_t& leader = worst[group_of(site)];
+    const std::size_t group = group_of(site);
+    if (group == no_site) continue;
+    std::size_t& leader = worst[group];
     if (leader == no_site || all.worse(site, leader)) leader = site;
   }
   return worst;
 }
 
-std::vector<std::size_t> worst_sites(const SiteDamage& all, std::size_t count) {
+std::vector<std::size_t> worst_wires(const SiteDamage& all, std::size_t count) {
   std::vector<std::size_t> sites;
   for (std::size_t site = 0; site < all.damage.size(); ++site) {
-    if (all.damage[site] > 0) sites.push_back(site);
+    if (all.damage[site] > 0 && all.is_wire(site)) sites.push_back(site);
   }
   const std::size_t kept = std::min(count, sites.size());
   std::partial_sort(sites.begin(), sites.begin() + kept, sites.end(),

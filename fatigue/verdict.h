@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,28 +18,45 @@ constexpr std::size_t no_site = 0xffffffff;
 
 /// Damage of every site of a set, with what ranks equals.
 struct SiteDamage {
-  std::vector<double> damage;  ///< (site) per repeat of the motion
-  std::vector<float> range;    ///< (site) largest minus smallest strain
+  std::vector<double> damage;      ///< (site) per repeat of the motion
+  std::vector<float> range;        ///< (site) largest minus smallest strain
+  std::vector<std::uint8_t> wall;  ///< (site) 1: a place of the hose's wall, 0: a wire; empty: all wires
 
+  bool is_wire(std::size_t site) const { return wall.empty() || wall[site] == 0; }
   /// Larger damage first; where equal (often 0), larger range first, then lower index.
   bool worse(std::size_t a, std::size_t b) const;
-  std::size_t worst() const;  ///< no_site for an empty set
+  std::size_t worst_wire() const;  ///< no_site without wires
+  std::size_t worst_wall() const;  ///< no_site without a wall
 };
 
-/// A counter for each material of a set, in the order of its materials.
-std::vector<DamageCounter> counters_for(const SiteSet& sites, const pipeline::Job& job);
+/// What damages each site of a set: one counter for each of its materials, in the order of
+/// SiteSet::material(), and one for the hose's wall, which keeps its material when the job gives all wires
+/// another.
+class SiteCounters {
+ public:
+  SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job);
+  const DamageCounter& of(std::size_t site) const;
+  bool is_wall(std::size_t site) const { return wall_of_component_[component_[site]] != 0; }
+
+ private:
+  std::vector<DamageCounter> by_material_;
+  std::vector<DamageCounter> wall_;              // one, or none without a wall
+  std::vector<std::uint8_t> wall_of_component_;  // (component)
+  std::span<const int> component_, material_;    // (site)
+};
 
 /// Damage of all sites, on `threads` threads: each site's is worked out alone, so that any number gives the
 /// same. progress is told the share done.
-SiteDamage damage_of(const SiteSet& sites, const std::vector<DamageCounter>& counters, std::size_t threads,
+SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::size_t threads,
                      const std::function<void(double)>& progress);
 
-/// The worst site of each group, (group); no_site where a group is empty. group_of(site) < groups.
+/// The worst site of each group, (group); no_site where a group is empty. group_of(site) < groups, or no_site
+/// for a site of no group.
 std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t groups,
                                         const std::function<std::size_t(std::size_t)>& group_of);
 
-/// The `count` worst sites that are damaged at all, worst first.
-std::vector<std::size_t> worst_sites(const SiteDamage& all, std::size_t count);
+/// The `count` worst wires that are damaged at all, worst first.
+std::vector<std::size_t> worst_wires(const SiteDamage& all, std::size_t count);
 
 /// Path of a wire without the numbers of its parts: "signal cable 3/conductor 2/layer 1/wire 17" of a job
 /// whose components name a layer "layer 1" is "signal cable/conductor/layer 1/wire".

@@ -195,6 +195,13 @@ LifeSummary read_life(const std::filesystem::path& life_file) {
   life.layer_damage = file.read<double>("/layer/damage");
   life.job = file.text_attribute("job");
   life.history = file.text_attribute("history");
+  if (file.has("/clamp/damage")) life.clamp_damage = file.read<double>("/clamp/damage");
+  if (file.has("/joint/name")) {
+    life.cause = file.read<std::string>("/joint/name");
+    life.cause_damage = file.read<double>("/joint/damage");
+    life.line_cause_damage = file.read<double>("/program/joint_damage");
+    life.explained = file.number_attribute("joint_explained");
+  }
   const double worst = file.number_attribute("worst_site");
   const auto segments = static_cast<double>(life.segment_length.size());
   const double row = segments - file.number_attribute("worst_segment_from_tool");

@@ -23,11 +23,16 @@ struct LifeSummary {
   std::vector<std::string> step_text;  ///< (line)
   std::vector<double> step_damage;  ///< (line) of the worst wire, per repeat, by the line that closes a cycle
   std::vector<double> step_opened;  ///< (line) the same by the line that opens it; empty: not told
-  std::vector<double> segment_length;  ///< (segment) from the base [m]
-  std::vector<double> segment_damage;  ///< (segment) of its worst wire, per repeat
-  std::vector<std::string> layer;      ///< (layer) path of a layer of wires
-  std::vector<double> layer_damage;    ///< (layer) of its worst wire, per repeat
-  std::vector<WorstCycle> cycles;      ///< of the worst wire
+  std::vector<double> segment_length;     ///< (segment) from the base [m]
+  std::vector<double> segment_damage;     ///< (segment) of its worst wire, per repeat
+  std::vector<std::string> layer;         ///< (layer) path of a layer of wires
+  std::vector<double> layer_damage;       ///< (layer) of its worst wire, per repeat
+  std::vector<WorstCycle> cycles;         ///< of the worst wire
+  std::vector<std::string> cause;         ///< joints, then `carrying`; empty: not told
+  std::vector<double> cause_damage;       ///< (cause) of the worst wire
+  std::vector<double> line_cause_damage;  ///< (line, cause) of those of its cycles that close in the line
+  double explained = 0;                   ///< share of its strain's variance that follows from the joints
+  std::vector<double> clamp_damage;       ///< base, tool: of the segments near each; empty: not told
   std::string job, history;
 };
 

@@ -11,13 +11,19 @@
 namespace dresslife::pipeline {
 namespace {
 
+/// Without the sign of what rounds to nothing.
+std::string rounded(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.find_first_not_of("-0.") == std::string::npos && text.starts_with('-') ? text.substr(1) : text;
+}
+
 /// As cell designers say it: mm, deg/m, turns.
 std::string in_words(double value, const std::string& unit) {
   if (std::isinf(value)) return "";
-  if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
-  if (unit == "rad/m") return fmt::format("{:.0f} deg/m", value * 180 / std::numbers::pi);
-  if (unit == "rad") return fmt::format("{:.2f} turns", value / (2 * std::numbers::pi));
-  return fmt::format("{:.0f} {}", value, unit);
+  if (unit == "m") return rounded(1e3 * value, 1) + " mm";
+  if (unit == "rad/m") return rounded(value * 180 / std::numbers::pi, 0) + " deg/m";
+  if (unit == "rad") return rounded(value / (2 * std::numbers::pi), 2) + " turns";
+  return rounded(value, 0) + " " + unit;
 }
 
 std::string repeats_words(const FileReader& file) {
@@ -49,7 +55,7 @@ std::string check_table(const std::filesystem::path& motion_file) {
         "<tr><td>{}</td><td class=\"number{}\">{}</td><td class=\"number\">{}</td><td "
         "class=\"number\">{}</td><td class=\"number\">{:.1f} s</td><td>{}</td></tr>\n",
         escaped(names[i]), warnings[i] ? " failed" : "", in_words(values[i], units[i]),
-        in_words(limits[i], units[i]), positions[i] < 0 ? "" : fmt::format("{:.2f} m", length - positions[i]),
+        in_words(limits[i], units[i]), positions[i] < 0 ? "" : rounded(length - positions[i], 2) + " m",
         times[i], known ? escaped(texts[static_cast<std::size_t>(steps[i])]) : "");
   }
   return fmt::format(

@@ -24,6 +24,18 @@ void read_scatter(const FileReader& file, RankingRow& row) {
   }
 }
 
+void read_hose(const FileReader& file, RankingRow& row) {
+  if (!file.has_attribute("hose_life_hours")) return;
+  HoseLife hose;
+  hose.hours = file.number_attribute("hose_life_hours");
+  hose.months = file.number_attribute("hose_life_months");
+  hose.segment_from_tool = static_cast<int>(file.number_attribute("hose_segment_from_tool"));
+  hose.position_from_tool = file.number_attribute("hose_position_from_tool");
+  hose.component = file.text_attribute("hose_component");
+  hose.step = file.text_attribute("hose_step");
+  row.hose = hose;
+}
+
 RankingRow read_row(const JobResult& result) {
   RankingRow row;
   row.job = result.name;
@@ -40,12 +52,17 @@ RankingRow read_row(const JobResult& result) {
     row.repeat_seconds = file.number_attribute("repeat_seconds");
     row.damage_per_repeat = file.number_attribute("damage_per_repeat");
     read_scatter(file, row);
+    read_hose(file, row);
     if (file.number_attribute("worst_site") < 0) return row;
     row.worst_segment_from_tool = static_cast<int>(file.number_attribute("worst_segment_from_tool"));
     row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
     row.worst_time = file.number_attribute("worst_time");
     if (file.has_attribute("worst_component")) row.worst_component = file.text_attribute("worst_component");
     if (file.has_attribute("worst_step")) row.worst_step = file.text_attribute("worst_step");
+    if (file.has_attribute("worst_shear_range"))
+      row.worst_shear_range = file.number_attribute("worst_shear_range");
+    if (file.has_attribute("worst_joint")) row.worst_joint = file.text_attribute("worst_joint");
+    if (!row.worst_joint.empty()) row.worst_joint_share = file.number_attribute("worst_joint_share");
   } catch (const InputError& problem) {
     row.failure = problem.what();
   }
@@ -86,6 +103,8 @@ struct Column {
 
 std::string life_text(double life) { return std::isinf(life) ? "no damage" : readable(life); }
 
+std::string calendar_text(double months) { return std::isinf(months) ? "no damage" : calendar_words(months); }
+
 std::string bounds_text(const RankingRow& row) {
   return fmt::format("{} .. {}", life_text(row.hours_of(row.life_repeats_all_stick)),
                      life_text(row.hours_of(row.life_repeats_all_free)));
@@ -101,13 +120,23 @@ std::string story(const RankingRow& row) {
   if (row.worst_component.empty()) return "no wire was evaluated";
   if (!(row.damage_per_repeat > 0)) return "no damage";
   const std::string during = row.worst_step.empty() ? "" : " during '" + row.worst_step + "'";
+  const std::string joint =
+      row.worst_joint.empty() ? ""
+                              : fmt::format(", {:.0f} % by {}", 100 * row.worst_joint_share, row.worst_joint);
   const std::string scatter =
       std::isnan(row.first_wire_hours[0])
           ? ""
-          : fmt::format("; first break {} .. {} h by scatter", life_text(row.first_wire_hours[0]),
+          : fmt::format("; first break after {} .. {} h in 10 .. 90 %", life_text(row.first_wire_hours[0]),
                         life_text(row.first_wire_hours[2]));
-  return fmt::format("{} breaks first, worst at {:.1f} s{}{}", row.worst_component, row.worst_time, during,
-                     scatter);
+  return fmt::format("{} breaks first, worst at {:.1f} s{}{}{}", row.worst_component, row.worst_time, during,
+                     joint, scatter);
+}
+
+/// The hose's wall; the third line of a job that evaluates it.
+std::string hose_story(const HoseLife& hose) {
+  if (std::isinf(hose.hours)) return "the hose's wall is not damaged";
+  return fmt::format("the hose's wall lasts {} h, worst {:.2f} m from the tool{}", readable(hose.hours),
+                     hose.position_from_tool, hose.step.empty() ? "" : " during '" + hose.step + "'");
 }
 
 std::string one_line(std::string text) {
@@ -132,10 +161,11 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,life_months,"
       "life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,worst_time_s,worst_step,"
       "status,message,life_hours_p10,life_hours_p50,life_hours_p90,conductor_life_hours_p10,"
-      "conductor_life_hours_p50,conductor_life_hours_p90\n";
+      "conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,hose_segment_from_tool,"
+      "hose_position_from_tool_m,worst_joint,worst_joint_share\n";
   for (const RankingRow& row : rows) {
     if (!row.done()) {
-      text += fmt::format("{},,,,,,,,,,,,failed,{},,,,,,\n", csv_cell(row.job), csv_cell(row.failure));
+      text += fmt::format("{},,,,,,,,,,,,failed,{},,,,,,,,,,,\n", csv_cell(row.job), csv_cell(row.failure));
       continue;
     }
     const bool evaluated = row.worst_segment_from_tool > 0;
@@ -155,6 +185,11 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
                                    ""};
     for (const auto* lives : {&row.first_wire_hours, &row.conductor_hours})
       for (const double life : *lives) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
+    cells.push_back(row.hose ? shortest_text(row.hose->hours) : "");
+    cells.push_back(row.hose ? std::to_string(row.hose->segment_from_tool) : "");
+    cells.push_back(row.hose ? shortest_text(row.hose->position_from_tool) : "");
+    cells.push_back(row.worst_joint);
+    cells.push_back(row.worst_joint.empty() ? "" : shortest_text(row.worst_joint_share));
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }
@@ -167,16 +202,19 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
                                  {"job", false, {}},
                                  {"life [h]", true, {}},
                                  {"all stick .. all free [h]", true, {}},
-                                 {"months", true, {}},
+                                 {"calendar", true, {}},
                                  {"repeats", true, {}},
-                                 {"worst segment from tool", true, {}}}};
+                                 {"segment from tool", true, {}}}};
   std::size_t rank = 0;
   for (const RankingRow& row : rows) {
     ++rank;
     const std::array<std::string, 7> cells =
-        row.done() ? std::array<std::string, 7>{std::to_string(rank),       "",
-                                                life_text(row.life_hours),  bounds_text(row),
-                                                life_text(row.life_months), life_text(row.life_repeats),
+        row.done() ? std::array<std::string, 7>{std::to_string(rank),
+                                                "",
+                                                life_text(row.life_hours),
+                                                bounds_text(row),
+                                                calendar_text(row.life_months),
+                                                life_text(row.life_repeats),
                                                 segment_text(row)}
                    : std::array<std::string, 7>{"-", "", "failed", "", "", "", ""};
     for (std::size_t i = 0; i < columns.size(); ++i)
@@ -194,6 +232,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const std::string second = one_line(rows[i].done() ? story(rows[i]) : rows[i].failure);
     // A reason for failure is kept whole: its end is the remedy.
     text += indent + (rows[i].done() ? shortened(second, width - indent.size()) : second) + '\n';
+    if (rows[i].done() && rows[i].hose)
+      text += indent + shortened(one_line(hose_story(*rows[i].hose)), width - indent.size()) + '\n';
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,14 @@ struct JobResult {
   std::string name;
   std::filesystem::path life_file;
   std::string failure;  ///< why there is no life file, one line; empty: the job is done
+};
+
+/// The hose's wall of a job, whose life is told beside that of the wires.
+struct HoseLife {
+  double hours = 0, months = 0;   ///< of motion until it cracks; infinite without damage
+  int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool
+  double position_from_tool = 0;  ///< [m]
+  std::string component, step;    ///< "hose 5"; the program line that costs most
 };
 
 /// What the ranking says of one job. Lives are infinite where there is no damage.
@@ -38,6 +47,10 @@ struct RankingRow {
   /// NaN: the file does not tell.
   std::array<double, 3> first_wire_hours{unknown, unknown, unknown};
   std::array<double, 3> conductor_hours{unknown, unknown, unknown};
+  double worst_shear_range = 0;  ///< of the worst wire's surface; 0: unknown
+  std::string worst_joint;  ///< whose motion costs most; "carrying": none between the clamps; empty: unknown
+  double worst_joint_share = 0;  ///< of the worst wire's damage; above 1 where other joints relieve
+  std::optional<HoseLife> hose;  ///< absent: not evaluated
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   bool done() const { return failure.empty(); }
@@ -52,7 +65,8 @@ std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
 /// exactly, "inf" where there is no damage, empty cells for a failed job.
 std::string ranking_csv(const std::vector<RankingRow>& rows);
 
-/// The ranking for a terminal, two lines per job, at most `width` columns; ends with a line feed.
+/// The ranking for a terminal, two lines per job and one more for its hose, at most `width` columns; ends
+/// with a line feed.
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width = 120);
 
 }  // namespace dresslife::pipeline

@@ -37,6 +37,15 @@ std::string readable(double value, int figures) {
   return grouped(fmt::format("{:.{}f}", rounded, decimals));
 }
 
+std::string calendar_words(double months) {
+  constexpr double days_per_month = 365.2425 / 12, months_of_years = 36;
+  if (std::isfinite(months) && months >= months_of_years) return readable(months / 12, 2) + " years";
+  if (!(months < 1))
+    return std::isinf(months) || std::isnan(months) ? readable(months) : readable(months) + " months";
+  const double days = months * days_per_month;
+  return days < 1 ? "less than a day" : readable(days, 2) + " days";
+}
+
 std::size_t columns_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char byte) { return !continues(byte); }));

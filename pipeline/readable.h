@@ -10,6 +10,10 @@ namespace dresslife::pipeline {
 /// "-" for NaN.
 std::string readable(double value, int figures = 3);
 
+/// A time in calendar months as people say it: "5.7 years", "13.2 months", "1.6 days", "less than a day",
+/// "unlimited".
+std::string calendar_words(double months);
+
 /// The digits of a whole part in groups of three: "1234567.5" -> "1,234,567.5".
 std::string grouped(std::string digits);
 

@@ -56,7 +56,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       fibres_(strain::surface_fibres(settings.surface_fibres)),
       surface_fibres_(settings.surface_fibres),
       scan_{static_cast<int>(fibres_.size()), static_cast<float>(settings.gate),
-            settings.equivalent == pipeline::Equivalent::shear_included, settings.surface_fibres == 0},
+            settings.equivalent != pipeline::Equivalent::axial, settings.surface_fibres == 0},
+      with_planes_(settings.equivalent == pipeline::Equivalent::critical_plane),
       means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
       stick_{{construction, plan_slip(construction, {pipeline::Slip::stick}, total(lengths_)), lengths_,
               arcs_, samples},
@@ -219,36 +220,62 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
   }
 }
 
-std::vector<double> Evaluation::history_of(Site site, std::size_t segment, const ClampMeans& means,
-                                           const DeformationHistory& history, std::size_t row,
-                                           Worker& worker) const {
+BundleChain Evaluation::site_chain(Site site, std::size_t segment, const ClampMeans& means,
+                                   std::vector<double>& sliding) const {
   const Wire& wire = wires_[site.wire];
   const int part = construction_.bundles()[wire.bundle].part;
   BundleChain chain = part_chain(part, segment, means, {fibres_[site.fibre]});
   chain.nodes.push_back(
       node_at(construction_, means.plan(), chain, wire.layer, wire.number, part, arcs_[segment], 0));
-  std::vector<double> sliding;
   if (chain.nodes[0].slide.sliding == Sliding::clamp_to_clamp) {
     sliding = means.at_angle(part, wire.layer,
                              2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
     chain.nodes[0].slide.clamp_strain = sliding.data();
   }
+  return chain;
+}
+
+std::vector<double> Evaluation::history_of(Site site, std::size_t segment, const ClampMeans& means,
+                                           const DeformationHistory& history, std::size_t row,
+                                           Worker& worker) const {
   const std::size_t samples = history.samples(), stride = padded(samples);
+  if (mixed(means)) {
+    FibreHistory both = fibre_history(site, segment, means, history, row, worker);
+    for (std::size_t t = 0; scan_.with_shear && t < samples; ++t)
+      both.strain[t] =
+          std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
+    return both.strain;
+  }
+  std::vector<double> sliding, strain(stride);
+  const BundleChain chain = site_chain(site, segment, means, sliding);
+  const int part = construction_.bundles()[wires_[site.wire].bundle].part;
   const BundlePointers from = from_parent(chain, part, segment, means, history, row, worker);
-  if (mixed(means))
-    return mixed_history(chain, from, means.plan()[wire.layer], history.columns(row), samples);
-  std::vector<double> strain(stride);
   kernels().node_strains(from, history.columns(row), 0, samples, strain.data(), stride);
   strain.resize(samples);
   return strain;
 }
 
+FibreHistory Evaluation::fibre_history(Site site, std::size_t segment, const ClampMeans& means,
+                                       const DeformationHistory& history, std::size_t row,
+                                       Worker& worker) const {
+  std::vector<double> sliding;
+  const BundleChain chain = site_chain(site, segment, means, sliding);
+  const Wire& wire = wires_[site.wire];
+  const int part = construction_.bundles()[wire.bundle].part;
+  const BundlePointers from = from_parent(chain, part, segment, means, history, row, worker);
+  FibreHistory both =
+      mixed_history(chain, from, means.plan()[wire.layer], history.columns(row), history.samples());
+  both.site = site_row(segment, site);
+  return both;
+}
+
 /// What Kernels::mix does, of one fibre in double precision.
-std::vector<double> Evaluation::mixed_history(const BundleChain& chain, const BundlePointers& from,
-                                              const LayerSlip& slip, const DeformationColumns& columns,
-                                              std::size_t samples) const {
+FibreHistory Evaluation::mixed_history(const BundleChain& chain, const BundlePointers& from,
+                                       const LayerSlip& slip, const DeformationColumns& columns,
+                                       std::size_t samples) const {
   const std::size_t stride = padded(samples);
-  std::vector<double> rows(ingredients(1) * stride), strain(samples);
+  std::vector<double> rows(ingredients(1) * stride);
+  FibreHistory both{0, std::vector<double>(samples), std::vector<double>(samples)};
   kernels().node_ingredients(from, columns, 0, samples, rows.data(), stride);
   const WireNode& node = chain.nodes[0];
   const Fibre& fibre = chain.fibres[0];
@@ -262,12 +289,10 @@ std::vector<double> Evaluation::mixed_history(const BundleChain& chain, const Bu
       const double cap = slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, mean);
       const double axial = mean + slider.next(away, cap);
       const double scale = scales ? (1 + axial) / (1 + mean + away) : 1;
-      strain[t] = axial + (fibre.on_axis ? 0 : rows[first_bending * stride + t] * scale - rest_bending);
-      if (!scan_.with_shear) continue;
-      const double torsion = rows[shear * stride + t] * scale - rest_shear;
-      strain[t] = std::copysign(std::hypot(strain[t], torsion), strain[t]);
+      both.strain[t] = axial + (fibre.on_axis ? 0 : rows[first_bending * stride + t] * scale - rest_bending);
+      both.shear[t] = std::numbers::sqrt3 * (rows[shear * stride + t] * scale - rest_shear);
     }
-  return strain;
+  return both;
 }
 
 /// Radius, lay angle and phase of every level down to `part`; wires' own level and those below are 0.
@@ -360,13 +385,16 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   }
   workers_[0].parent_is = {};
   auto probe = [&](Site site) {
-    const std::size_t index = (segment * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
-    sink.probe({index, history_of(site, segment, means_, history, row, workers_[0])});
+    sink.probe({site_row(segment, site), history_of(site, segment, means_, history, row, workers_[0]),
+                fibre_history(site, segment, means_, history, row, workers_[0]).shear});
   };
-  const auto of_all = std::max_element(worst.begin(), worst.end(), [](const Worst& a, const Worst& b) {
-    return a.value[Worst::range] < b.value[Worst::range];
+  const auto wire_range = [&](const Worst& of) {  // the hose's wall is no wire
+    return construction_.layers()[&of - worst.data()].is_hose ? -1 : of.value[Worst::range];
+  };
+  const auto of_all = std::max_element(worst.begin(), worst.end(), [&](const Worst& a, const Worst& b) {
+    return wire_range(a) < wire_range(b);
   });
-  if (of_all != worst.end() && of_all->value[Worst::range] >= 0) {
+  if (of_all != worst.end() && wire_range(*of_all) >= 0) {
     probe(of_all->site[Worst::range]);
     if (of_all->value[Worst::range] > worst_range_) {
       worst_range_ = of_all->value[Worst::range];
@@ -377,6 +405,12 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   for (const auto& [at, site] : probes_)
     if (at == segment) probe(site);
   if (sink.progress) sink.progress((static_cast<double>(segment) + 1) / static_cast<double>(segments()));
+  if (!with_planes_) return;
+  std::set<Site> likely;
+  for (const Worst& layer : worst)
+    for (int by = 0; by < Worst::measures; ++by)
+      if (layer.value[by] >= 0 && wire_range(layer) >= 0) likely.insert(layer.site[by]);
+  for (const Site site : likely) sink.fibre(fibre_history(site, segment, means_, history, row, workers_[0]));
 }
 
 std::vector<Evaluation::Worst> Evaluation::worst_of_bound(Bound& bound, std::size_t segment,

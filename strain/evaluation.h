@@ -34,14 +34,22 @@ struct SiteRows {
 
 struct Probe {
   std::size_t site;            ///< row of the job's own sites
-  std::vector<double> strain;  ///< (sample)
+  std::vector<double> strain;  ///< (sample) as it is counted
+  std::vector<double> shear;   ///< (sample) gamma of the surface, by the wire's torsion
+};
+
+/// What a fibre feels: both are needed to judge planes.
+struct FibreHistory {
+  std::size_t site;                   ///< row of the job's own sites
+  std::vector<double> strain, shear;  ///< (sample) along the fibre, and gamma
 };
 
 /// Where results go. Rows are the sink's to read until it returns.
 struct Sink {
   std::function<void(const SiteRows&)> sites, bound_stick, bound_free;
   std::function<void(const Probe&)> probe;
-  std::function<void(double share)> progress;  ///< of the second pass; may be empty
+  std::function<void(const FibreHistory&)> fibre;  ///< of the likely worst wires, for critical_plane only
+  std::function<void(double share)> progress;      ///< of the second pass; may be empty
 };
 
 class Evaluation {
@@ -121,9 +129,17 @@ class Evaluation {
                              const DeformationHistory& history, std::size_t row, Worker& worker) const;
   std::vector<double> history_of(Site site, std::size_t segment, const ClampMeans& means,
                                  const DeformationHistory& history, std::size_t row, Worker& worker) const;
-  std::vector<double> mixed_history(const BundleChain& chain, const BundlePointers& from,
-                                    const LayerSlip& slip, const DeformationColumns& columns,
-                                    std::size_t samples) const;
+  /// Strain along the fibre and shear of a site, in double precision.
+  FibreHistory fibre_history(Site site, std::size_t segment, const ClampMeans& means,
+                             const DeformationHistory& history, std::size_t row, Worker& worker) const;
+  FibreHistory mixed_history(const BundleChain& chain, const BundlePointers& from, const LayerSlip& slip,
+                             const DeformationColumns& columns, std::size_t samples) const;
+  /// The chain to one site, whose only node it is. sliding: keeps the clamp means that the node points to.
+  BundleChain site_chain(Site site, std::size_t segment, const ClampMeans& means,
+                         std::vector<double>& sliding) const;
+  std::size_t site_row(std::size_t segment, Site site) const {
+    return (segment * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
+  }
   std::vector<double> helix_of(int part, std::size_t segment) const;
   void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;
   static std::span<const float> append_points(SiteRows& rows, std::span<const TurningPoint> points);
@@ -144,6 +160,7 @@ class Evaluation {
   std::vector<Fibre> fibres_;
   int surface_fibres_;
   ScanSettings scan_;
+  bool with_planes_;
   ClampMeans means_;
   std::optional<HeldStrains> held_;  ///< of the segment being evaluated, with friction
   Bound stick_, free_;

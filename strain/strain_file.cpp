@@ -110,6 +110,14 @@ void copy_program(const FileReader& motion, FileWriter& strain) {
   strain.append("/segment/length", motion.read<double>("/segment/length"));
   strain.append("/program/step", motion.read<std::int32_t>("/program/step"));
   strain.append("/program/text", motion.read<std::string>("/program/text"));
+  const char* const joints = "/robot/joint_position";
+  if (!motion.has(joints)) return;
+  strain.set_axis("joint", motion.row_size(joints));
+  std::vector<double> block;
+  for (std::size_t first = 0; first < motion.rows(joints); first += block_samples) {
+    motion.read_rows(joints, first, std::min(block_samples, motion.rows(joints) - first), block);
+    strain.append(joints, block);
+  }
 }
 
 void check(const FileReader& motion, const pipeline::Job& job, const MotionReader& reader) {
@@ -168,6 +176,12 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   sink.probe = [&](const Probe& probe) {
     strain.append("/probe/site", std::vector<std::uint32_t>{static_cast<std::uint32_t>(probe.site)});
     strain.append("/probe/strain", probe.strain);
+    strain.append("/probe/shear", probe.shear);
+  };
+  sink.fibre = [&](const FibreHistory& fibre) {
+    strain.append("/plane/site", std::vector<std::uint32_t>{static_cast<std::uint32_t>(fibre.site)});
+    strain.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
+    strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
   };
   sink.progress = [&](double share) { progress(first_pass_share + (1 - first_pass_share) * share); };
   for (std::size_t segment = 0; segment < segments; ++segment) {

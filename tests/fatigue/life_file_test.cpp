@@ -47,6 +47,12 @@ struct StrainFile {
   std::vector<std::uint32_t> probes;  // sites; their histories are 1000 + sample
   std::vector<std::int32_t> step = std::vector<std::int32_t>(samples, 0);
   std::uint64_t wrong_offset = 0;  // added to the last offset
+  std::vector<double> joints;      // (sample, 6); empty: none
+  struct Fibre {
+    std::uint32_t site;
+    std::vector<float> strain, shear;  // (sample)
+  };
+  std::vector<Fibre> fibres;  // whose planes are judged
 };
 
 /// 0, a, -a, 0 at samples 0, 20, 60, 100: one closed cycle of amplitude a.
@@ -95,6 +101,10 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   file.append("/time", std::span<const double>(time));
   file.append("/program/step", std::span<const std::int32_t>(f.step));
   file.append("/program/text", std::span<const std::string>(text));
+  if (!f.joints.empty()) {
+    file.set_axis("joint", f.joints.size() / samples);
+    file.append("/robot/joint_position", std::span<const double>(f.joints));
+  }
   file.append("/segment/length", std::span<const double>(lengths));
   file.append("/deformation/curvature", std::span<const double>(pairs));
   file.append("/deformation/twist", std::span<const double>(rows));
@@ -107,6 +117,13 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   }
   file.append("/probe/site", std::span<const std::uint32_t>(f.probes));
   file.append("/probe/strain", std::span<const double>(probe));
+  for (double& value : probe) value = (value - 1000) * 1e-5;  // shear: a ramp from 0 to 1e-3
+  file.append("/probe/shear", std::span<const double>(probe));
+  for (const StrainFile::Fibre& fibre : f.fibres) {
+    file.append("/plane/site", std::span<const std::uint32_t>(&fibre.site, 1));
+    file.append("/plane/strain", std::span<const float>(fibre.strain));
+    file.append("/plane/shear", std::span<const float>(fibre.shear));
+  }
   file.attribute("job", "made by a test");
   file.attribute("history", "");
   file.attribute("input_sha256", "");
@@ -382,6 +399,193 @@ TEST_CASE("life.h5: a material whose cyclic curve contradicts its life curve is 
   CHECK(run(folder, example(), job).notes.warnings.empty());
 }
 
+TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  for (int k = 0; k < 3; ++k)
+    job.robot.joints.push_back({"axis " + std::to_string(k + 1), {}, {}, {}, 0, 0, 0, 0});
+  for (int k = 0; k < 4; ++k) job.robot.links.push_back({"link " + std::to_string(k), {}, {}, {}});
+  job.routing.base_clamp.emplace().link = "link 1";
+  job.routing.tool_clamp.emplace().link = "link 3";
+  StrainFile f = example();
+  f.probes = {3};
+  for (std::size_t t = 0; t < samples; ++t) {
+    // the probe's strain is 1000 + sample: made of axes 2 and 3 alone, 3 to 1 over the whole
+    const double s = double(t);
+    f.joints.insert(f.joints.end(),
+                    {std::sin(s), 0.02 * s + 0.1 * std::sin(0.3 * s), 0.1 * std::sin(0.3 * s)});
+  }
+  const Result result = run(folder, f, job);
+  const FileReader life(result.file, pipeline::life_format());
+  CHECK(life.read<std::string>("/joint/name") ==
+        std::vector<std::string>{"axis 1", "axis 2", "axis 3", "carrying"});
+  const auto damage = life.read<double>("/joint/damage"),
+             by_line = life.read<double>("/program/joint_damage"),
+             line = life.read<double>("/program/damage");
+  REQUIRE(damage.size() == 4);
+  CHECK(damage[0] == 0);  // it lies below the base clamp
+  CHECK(sum(damage) == Approx(life.number_attribute("damage_per_repeat")).epsilon(same_sum));
+  REQUIRE(by_line.size() == 12);
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(by_line[4 * k] + by_line[4 * k + 1] + by_line[4 * k + 2] + by_line[4 * k + 3] ==
+          Approx(line[k]).epsilon(same_sum));
+  constexpr double ridge_pull = 1e-4;
+  CHECK(life.number_attribute("joint_explained") == Approx(1).epsilon(ridge_pull));
+  CHECK(life.text_attribute("worst_joint") != "");
+  const auto segment = life.read<double>("/segment/damage"), clamp = life.read<double>("/clamp/damage");
+  CHECK(life.read<std::string>("/clamp/name") == std::vector<std::string>{"base clamp", "tool clamp"});
+  CHECK(clamp == std::vector<double>{segment[0] + segment[1] + segment[2], segment[3]});
+
+  // without joints in the file only the clamps are told
+  f.joints.clear();
+  const Result bare = run(folder, f, job, "bare.h5");
+  const FileReader without(bare.file, pipeline::life_format());
+  CHECK_FALSE(without.has("/joint/name"));
+  CHECK_FALSE(without.has_attribute("worst_joint"));
+  CHECK(without.has("/clamp/damage"));
+}
+
+TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equivalent strain") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  job.dresspack.materials[0].poisson_ratio = 0.34;
+  StrainFile f = example();
+  f.sites[4].segment = 2;
+  f.sites[4].component = "cable 2/layer 1/wire 12";  // shares segment and layer with site 3
+  const auto wave = [](float amplitude, double phase) {
+    std::vector<float> values;
+    for (std::size_t t = 0; t < samples; ++t)
+      values.push_back(amplitude *
+                       static_cast<float>(std::sin(2 * M_PI * double(t) / (samples - 1) + phase)));
+    return values;
+  };
+  const Result plain = run(folder, f, job, "plain.h5");
+  // Site 0: sheared in proportion, 2 theta = 60 deg. Site 3: strain alone.
+  const float eps = 0.004f, gamma = static_cast<float>(std::sqrt(3) * 1.34 * eps);
+  f.fibres = {{0, wave(eps, 0), wave(gamma, 0)}, {3, wave(0.02f, 0), wave(0, 0)}};
+  const Result result = run(folder, f, job);
+  const FileReader life(result.file, pipeline::life_format()), before(plain.file, pipeline::life_format());
+  const auto damage = life.read<double>("/damage"), old = before.read<double>("/damage");
+  const auto exact = [&](double amplitude) {
+    return sum_of_damage(evaluate_cycles({{{0, 0}, {amplitude, 25}, {-amplitude, 75}, {0, 100}}},
+                                         job.dresspack.materials[0], job.fatigue));
+  };
+  constexpr double single = 1e-5;  // histories in single precision, and 101 samples that miss no peak
+  CHECK(damage[0] ==
+        Approx(exact(eps * ((1 - 0.34) / 2 + 1.34))).epsilon(DamageCounter::table_error + single));
+  CHECK(damage[3] == Approx(exact(0.02)).epsilon(DamageCounter::table_error + single));
+  CHECK(life.read<std::uint32_t>("/plane/site") == std::vector<std::uint32_t>{0, 3});
+  constexpr double rounding = 1e-9;
+  CHECK(life.read<double>("/plane/angle")[0] == Approx(M_PI / 6).epsilon(rounding));
+  CHECK(life.read<double>("/plane/angle")[1] == Approx(0).margin(1e-15));
+  CHECK(life.read<double>("/plane/damage") == std::vector<double>{damage[0], damage[3]});
+  // A wire beside a judged one takes its ratio; wires of other segments and layers stay.
+  CHECK(damage[4] == Approx(old[4] * damage[3] / old[3]).epsilon(same_sum));
+  CHECK(damage[1] == old[1]);
+  CHECK(damage[2] == old[2]);
+  // The verdict, its cycles and its strain are of the plane.
+  CHECK(life.number_attribute("worst_site") == 3);
+  CHECK(life.number_attribute("worst_plane_angle") == Approx(0).margin(1e-15));
+  CHECK(life.number_attribute("life_repeats") == 1 / damage[3]);
+  const auto cycle_site = life.read<std::uint32_t>("/cycles/site");
+  const auto cycle_damage = life.read<double>("/cycles/damage");
+  double listed = 0;
+  for (std::size_t k = 0; k < cycle_site.size(); ++k) listed += cycle_site[k] == 3 ? cycle_damage[k] : 0;
+  CHECK(listed == Approx(damage[3]).epsilon(same_sum));
+  CHECK(life.read<double>("/worst/strain")[25] == Approx(0.02));
+  CHECK_FALSE(before.has("/plane/site"));
+  // Any number of threads, the same bytes.
+  const auto alone = bytes(run(folder, f, job, "one.h5").file),
+             shared = bytes(run(folder, f, job, "three.h5", 3).file);
+  const bool same = alone == shared;
+  CHECK(same);
+  f.fibres[1].site = 77;
+  CHECK_THROWS_WITH(run(folder, f, job), Catch::Contains("/plane/site names site 77 (there are 6)"));
+}
+
+TEST_CASE("life.h5: out of phase shear opens no plane further than the strain alone") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  job.dresspack.materials[0].poisson_ratio = 0.34;
+  StrainFile f = example();
+  StrainFile::Fibre fibre{3, {}, {}};
+  for (std::size_t t = 0; t < samples; ++t) {
+    const double turn = 2 * M_PI * double(t) / (samples - 1);
+    fibre.strain.push_back(static_cast<float>(0.02 * std::sin(turn)));
+    fibre.shear.push_back(static_cast<float>(0.02 * 1.34 * std::cos(turn)));
+  }
+  f.fibres = {fibre};
+  const Result shifted = run(folder, f, job);
+  f.fibres[0].shear.assign(samples, 0);
+  const Result alone = run(folder, f, job, "alone.h5");
+  constexpr double single = 1e-5;
+  CHECK(FileReader(shifted.file, pipeline::life_format()).number_attribute("life_repeats") ==
+        Approx(FileReader(alone.file, pipeline::life_format()).number_attribute("life_repeats"))
+            .epsilon(single));
+}
+
+TEST_CASE("life.h5: the shear of the worst wire is told from its probe") {
+  const Folder folder;
+  StrainFile f = example();
+  const FileReader none(run(folder, f).file, pipeline::life_format());
+  CHECK_FALSE(none.has_attribute("worst_shear_range"));
+  f.probes = {3};
+  const FileReader told(run(folder, f, test_job(), "told.h5").file, pipeline::life_format());
+  CHECK(told.number_attribute("worst_shear_range") == Approx(1e-3));
+}
+
+TEST_CASE("life.h5: the hose's wall is told beside the wires and not among them") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  pipeline::Material hose;
+  hose.name = "polyamide";
+  hose.youngs_modulus = 1.6e9;
+  hose.strain_life_table = {{0.1, 1e3}, {0.01, 1e6}};
+  job.dresspack.materials.push_back(hose);
+  job.dresspack.hose_material = "polyamide";
+  StrainFile f = example();
+  const Result without = run(folder, f, job, "without.h5");
+  f.sites.push_back(swing(3, "hose 1", 0.03f, "polyamide"));
+  f.sites.push_back(swing(1, "hose 16", 0.06f, "polyamide"));
+  f.stick.push_back(swing(1, "hose 16", 0.06f, "polyamide"));
+  f.free.push_back(swing(1, "hose 16", 0.06f, "polyamide"));
+  const Result result = run(folder, f, job);
+  const FileReader life(result.file, pipeline::life_format()), wires(without.file, pipeline::life_format());
+  // a cycle of amplitude 0.06: log-log between the two points, exponent -3
+  CHECK(life.number_attribute("hose_life_repeats") ==
+        Approx(1e3 * std::pow(0.06f / 0.1, -3)).epsilon(DamageCounter::table_error));
+  CHECK(life.number_attribute("hose_life_hours") ==
+        Approx(hours(life.number_attribute("hose_life_repeats"), duration)));
+  CHECK(life.text_attribute("hose_component") == "hose 16");
+  CHECK(life.number_attribute("hose_segment_from_tool") == 3);
+  CHECK(life.number_attribute("hose_position_from_tool") == Approx(0.4 + 0.3 + 0.1));
+  CHECK(life.number_attribute("hose_time") == Approx(30));
+  CHECK(life.text_attribute("hose_step") == "weld");
+  CHECK(life.read<std::uint32_t>("/hose/worst_site") ==
+        std::vector<std::uint32_t>{0xffffffff, 7, 0xffffffff, 6});
+  CHECK(life.read<double>("/hose/damage")[1] == life.read<double>("/damage")[7]);
+  CHECK_THAT(
+      result.notes.summary,
+      Catch::Contains("breaks") && Catch::EndsWith(fmt::format("the hose's wall lasts {:.3g} h",
+                                                               life.number_attribute("hose_life_hours"))));
+  // everything about wires is as if there were no wall, although it lives shorter
+  CHECK_FALSE(wires.has_attribute("hose_life_hours"));
+  CHECK(life.number_attribute("hose_life_hours") < life.number_attribute("life_hours"));
+  for (const char* name : {"life_hours", "life_hours_all_stick", "life_hours_all_free", "worst_site",
+                           "life_hours_p10", "life_hours_p90", "conductor_life_hours_p50"})
+    CHECK(life.number_attribute(name) == wires.number_attribute(name));
+  for (const char* dataset : {"/layer/component", "/conductor/component"})
+    CHECK(life.read<std::string>(dataset) == wires.read<std::string>(dataset));
+  for (const char* dataset : {"/segment/worst_site", "/cycles/site"})
+    CHECK(life.read<std::uint32_t>(dataset) == wires.read<std::uint32_t>(dataset));
+  // a material for all wires leaves the hose alone
+  job.fatigue.material = "aluminium";
+  const Result other = run(folder, f, job, "other.h5");
+  const FileReader changed(other.file, pipeline::life_format());
+  CHECK(changed.number_attribute("hose_life_hours") == life.number_attribute("hose_life_hours"));
+  CHECK(changed.number_attribute("life_hours") != life.number_attribute("life_hours"));
+}
+
 TEST_CASE("life.h5: the same input gives the same bytes") {
   const Folder folder;
   const auto once = bytes(run(folder, example(), test_job(), "once.h5").file);
@@ -456,7 +660,8 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
   CHECK(all_equal);
 
   // Every site is evaluated once, whoever does it.
-  const std::vector<DamageCounter> counters = counters_for(sites, test_job());
+  const TextColumn component = read_column(strain, "/site/component");
+  const SiteCounters counters(sites, component, test_job());
   const SiteDamage alone = damage_of(sites, counters, 1, [](double) {});
   CHECK(alone.damage[3 * 336] > 10 * alone.damage[3 * 100]);
   CHECK(alone.damage[3 * 100] > 0);

@@ -81,3 +81,48 @@ TEST_CASE("critical plane: out of phase no plane sees both loads at once") {
   CHECK(shifted < in_phase);
   CHECK(shifted >= strain_alone * (1 - rounding));
 }
+
+TEST_CASE(
+    "critical plane: 90 degrees out of phase with gamma = (1 + nu) eps is no worse than the strain alone") {
+  // Mohr's circle then turns without growing (Kanazawa, Miller and Brown 1977): the radius of strain and the
+  // half shear are always (1 + nu) eps / 2, so every plane sees the same shear, and the largest normal strain
+  // is eps across the axis. In phase the same loads stretch a plane by eps ((1 - nu) + sqrt(2) (1 + nu)) / 2.
+  auto m = copper();
+  m.poisson_ratio = 0.34;
+  const double eps = 0.003, gamma = (1 + m.poisson_ratio) * eps;
+  const CriticalPlane shifted = critical_plane(swing(eps, 0), swing(gamma, pi / 2), m, {});
+  CHECK(shifted.theta == Approx(0).margin(1e-15));
+  CHECK(shifted.damage == Approx(damage_of_history(swing(eps, 0), m)).epsilon(rounding));
+  const auto grid = [&](double phase) {  // amplitude on each of 3600 planes by its closed form
+    double largest = 0;
+    for (int k = 0; k < 3600; ++k) {
+      const double theta = pi * k / 3600, c = std::cos(theta), s = std::sin(theta);
+      const double axial = eps * (c * c - m.poisson_ratio * s * s), sheared = gamma * s * c;
+      largest = std::max(largest, phase == 0 ? std::abs(axial + sheared) : std::hypot(axial, sheared));
+    }
+    return largest;
+  };
+  CHECK(grid(pi / 2) == Approx(eps).epsilon(rounding));
+  constexpr double fine_planes = 1e-6;
+  const double together = eps * ((1 - m.poisson_ratio) + std::sqrt(2) * (1 + m.poisson_ratio)) / 2;
+  CHECK(grid(0) == Approx(together).epsilon(fine_planes));
+  const CriticalPlane in_phase =
+      critical_plane(swing(eps, 0), swing(gamma, 0), m, {}, 16);  // 22.5 deg is among them
+  CHECK(in_phase.theta == Approx(pi / 8).epsilon(rounding));
+  CHECK(in_phase.damage == Approx(damage_of_history(swing(together, 0), m)).epsilon(rounding));
+}
+
+TEST_CASE("critical plane: by tables as exactly") {
+  auto m = copper();
+  m.poisson_ratio = 0.34;
+  const DamageCounter counter(m, {});
+  DamageCounter::Workspace workspace;
+  constexpr double single = 2e-6;  // reversals in single precision, times the slope of the life curve
+  for (const double phase : {0.0, 0.4, pi / 2}) {
+    const auto strain = swing(0.004, 0.1), shear = swing(0.007, phase);
+    const CriticalPlane exact = critical_plane(strain, shear, m, {});
+    const CriticalPlane counted = critical_plane(strain, shear, m.poisson_ratio, counter, workspace);
+    CHECK(counted.theta == exact.theta);
+    CHECK(counted.damage == Approx(exact.damage).epsilon(DamageCounter::table_error + single));
+  }
+}

@@ -296,6 +296,7 @@ TEST_CASE("job: joints that follow and external axes") {
   refused(edited(following, "follows: axis_1", "follows: axis_2"),
           "axis_2 follows 'axis_2', which is no driven joint");
   refused(edited(following, "ratio: -1", "ratio: -1, lower_deg: 3"), "unknown key");
+}
 
 TEST_CASE("job: the hose's wall has a material of its own and a factor or a profile") {
   const auto with = [&](const std::string& keys) {

@@ -10,7 +10,8 @@ namespace dresslife::pipeline {
 namespace {
 
 /// One sample of two segments of half a metre; with two checks, or as an older version wrote it.
-void write_motion(const std::filesystem::path& name, bool checked, bool returns = true) {
+void write_motion(const std::filesystem::path& name, bool checked, bool returns = true,
+                  const std::vector<double>& values = {0.25, 3.14159265358979}, double position = 0.9) {
   FileWriter file(name, motion_format());
   file.set_axis("segment", 2);
   file.set_axis("clamp", 2);
@@ -28,12 +29,12 @@ void write_motion(const std::filesystem::path& name, bool checked, bool returns 
   if (checked) {
     file.append("/check/name", std::vector<std::string>{"smallest bend radius", "largest net twist"});
     file.append("/check/unit", std::vector<std::string>{"m", "rad"});
-    file.append("/check/value", std::vector<double>{0.25, 3.14159265358979});
+    file.append("/check/value", values);
     file.append("/check/limit", std::vector<double>{0.4, std::numeric_limits<double>::infinity()});
     file.append("/check/warning", std::vector<std::int32_t>{1, 0});
     file.append("/check/time", std::vector<double>{1.25, 2});
     file.append("/check/step", std::vector<std::int32_t>{1, 0});
-    file.append("/check/position", std::vector<double>{0.9, -1});
+    file.append("/check/position", std::vector<double>{position, -1});
     file.attribute("repeats", 3.0);
     if (returns) file.attribute("repeat_distance", 2e-4);
   }
@@ -58,6 +59,16 @@ TEST_CASE("motion checks: a table in the units of cell designers") {
                  "<td>largest net twist</td><td class=\"number\">0.50 turns</td><td class=\"number\"></td>"));
   write_motion(scratch / "once.h5", true, false);
   CHECK(contains(check_table(scratch / "once.h5"), "was run once"));
+}
+
+TEST_CASE("motion checks: nothing has no sign") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5", true, true, {-1e-7, -1e-9}, 1 + 1e-9);
+  const std::string table = check_table(scratch / "motion.h5");
+  CHECK(contains(table, ">0.0 mm<"));
+  CHECK(contains(table, ">0.00 turns<"));
+  CHECK(contains(table, ">0.00 m<"));
+  CHECK_FALSE(contains(table, "-0"));
 }
 
 TEST_CASE("motion checks: a file without them has no table") {

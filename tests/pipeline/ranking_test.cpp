@@ -78,7 +78,8 @@ TEST_CASE("ranking: a dresspack without wires has no worst place") {
   CHECK(rows[0].done());
   CHECK(std::isinf(rows[0].life_hours));
   CHECK(rows[0].worst_segment_from_tool == 0);
-  CHECK(ranking_csv(rows).find("\nempty hose,inf,inf,,,0,inf,inf,inf,,,,done,,,,,,,\n") != std::string::npos);
+  CHECK(ranking_csv(rows).find("\nempty hose,inf,inf,,,0,inf,inf,inf,,,,done,,,,,,,,,,,,\n") !=
+        std::string::npos);
   CHECK(ranking_table(rows).find("no wire was evaluated") != std::string::npos);
 }
 
@@ -128,7 +129,32 @@ TEST_CASE("ranking: the CSV has the contract's columns first and reads back exac
   CHECK(table[2][1].empty());
   CHECK(table[2][12] == "failed");
   CHECK(table[2][13] == "line 1\nline \"2\"");
+  CHECK(table[0][20] == "hose_life_hours");
+  CHECK(table[1][20].empty());
   CHECK(ranking_csv({}) == ranking_csv(rows).substr(0, ranking_csv(rows).find('\n') + 1));
+}
+
+TEST_CASE("ranking: the hose's wall has columns and a line of its own and does not rank its job") {
+  const Scratch scratch;
+  SampleLife with_hose = living(12000);
+  with_hose.hose_hours = 2.5;
+  SampleLife sound = living(11000);
+  sound.hose_hours = infinity;
+  const auto rows =
+      read_ranking({job_with(scratch, "short hose", with_hose), job_with(scratch, "sound", sound),
+                    job_with(scratch, "unknown", living(10000))});
+  CHECK(names(rows) == std::vector<std::string>{"short hose", "sound", "unknown"});
+  REQUIRE(rows[0].hose);
+  CHECK_FALSE(rows[2].hose);
+  const auto table = read_csv(ranking_csv(rows));
+  CHECK(table[1][20] == "2.5");
+  CHECK(table[1][21] == "2");
+  CHECK(std::stod(table[1][22]) == rows[0].hose->position_from_tool);
+  CHECK(table[2][20] == "inf");
+  const std::string text = ranking_table(rows);
+  CHECK(text.find("\n   the hose's wall lasts 2.50 h, worst 0.07 m from the tool during 'weld spot 1") !=
+        std::string::npos);
+  CHECK(text.find("\n   the hose's wall is not damaged\n") != std::string::npos);
 }
 
 TEST_CASE("ranking: the terminal's table is aligned, within its width, and says what breaks") {

@@ -61,6 +61,36 @@ void check_page(const std::string& page) {
   }
 }
 
+TEST_CASE("report: which joint and which clamp cost the life, and the hose beside the wires") {
+  const Scratch scratch;
+  SampleLife life;
+  life.causes = true;
+  life.hose_hours = 3400;
+  write_sample_life(scratch / "one.h5", life);
+  const auto rows = read_ranking({{"one", scratch / "one.h5", ""}});
+  const std::string page = report_page("causes", rows);
+  CHECK(page.find("What moved when the damage was done") != std::string::npos);
+  CHECK(page.find("75 % of the strain's variance follows from these joints: the shares are rough") !=
+        std::string::npos);
+  CHECK(page.find("80.0 %") != std::string::npos);
+  CHECK(page.find("-10.0 %: moves against the others, relieves") != std::string::npos);
+  CHECK(page.find("<td>joint_5 80 %, carrying 30 %</td>") != std::string::npos);
+  CHECK(page.find("25 % of it lies nearer to the base clamp, 75 % nearer to the tool clamp.") !=
+        std::string::npos);
+  CHECK(page.find("<dt>hose's wall</dt><dd>3,400 h of motion") != std::string::npos);
+  CHECK(page.find("<td>weld spot") != std::string::npos);
+  CHECK(page.find("80 % by joint_5</span>") != std::string::npos);
+  CHECK(page.find("hose 5, segment 2 from the tool (0.07 m)") != std::string::npos);
+  CHECK(ranking_table(rows).find(", 80 % by joint_5") != std::string::npos);
+  CHECK(ranking_csv(rows).find(",joint_5,0.8\n") != std::string::npos);
+  life.causes = false;
+  life.hose_hours = 0;
+  write_sample_life(scratch / "old.h5", life);
+  const std::string old = report_page("old", read_ranking({{"old", scratch / "old.h5", ""}}));
+  CHECK(old.find("What moved") == std::string::npos);
+  CHECK(old.find("hose's wall") == std::string::npos);
+}
+
 TEST_CASE("report: a page for a study stands alone and is whole") {
   const Scratch scratch;
   SampleLife calm;

@@ -16,7 +16,9 @@ struct SampleLife {
   double repeats = 12000;  ///< of the worst wire; infinite: no damage
   int segments = 50, lines = 28, samples = 4500;
   int worst_from_tool = 3;
-  bool wires = true;  ///< false: the dresspack holds none
+  bool causes = false;    ///< whether it tells which joint costs the life
+  double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
+  bool wires = true;      ///< false: the dresspack holds none
   std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
   std::string line_name = "weld spot";
   std::string job = "robot:\n  name: <R&D> \"two\"\n";
@@ -114,6 +116,19 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   put(writer, "/program/text", text);
   put(writer, "/program/damage", line_damage);
 
+  if (sample.causes) {  // two joints and carrying: 80, -10 and 30 % of every line
+    writer.set_axis("cause", 3);
+    put(writer, "/joint/name", std::vector<std::string>{"joint_5", "joint_6", "carrying"});
+    put(writer, "/joint/damage", std::vector<double>{0.8 * damage, -0.1 * damage, 0.3 * damage});
+    std::vector<double> by_line;
+    for (const double of : line_damage) by_line.insert(by_line.end(), {0.8 * of, -0.1 * of, 0.3 * of});
+    put(writer, "/program/joint_damage", by_line);
+    put(writer, "/clamp/name", std::vector<std::string>{"base clamp", "tool clamp"});
+    put(writer, "/clamp/damage", std::vector<double>{damage, 3 * damage});
+    writer.attribute("joint_explained", 0.75);
+    writer.attribute("worst_joint", damaged ? "joint_5" : "");
+    writer.attribute("worst_joint_share", damaged ? 0.8 : 0.0);
+  }
   const double repeats = damaged ? sample.repeats : infinity, seconds = time.back();
   const auto hours = [&](double times) { return times * seconds / 3600; };
   writer.attribute("life_repeats", repeats);
@@ -133,6 +148,17 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   writer.attribute("worst_component", sample.wires ? sample.worst_component : "");
   writer.attribute("worst_time", damaged ? time[end[0]] : 0.0);
   writer.attribute("worst_step", damaged ? text[static_cast<std::size_t>(step[end[0]])] : "");
+  if (sample.hose_hours > 0) {
+    writer.attribute("hose_life_repeats", sample.hose_hours * 3600 / seconds);
+    writer.attribute("hose_life_hours", sample.hose_hours);
+    writer.attribute("hose_life_months", sample.hose_hours / 80 * 7 * 12 / 365.25);
+    writer.attribute("hose_damage_per_repeat", seconds / 3600 / sample.hose_hours);
+    writer.attribute("hose_component", "hose 5");
+    writer.attribute("hose_segment_from_tool", 2);
+    writer.attribute("hose_position_from_tool", 1.5 * free_length / sample.segments);
+    writer.attribute("hose_time", time[samples / 3]);
+    writer.attribute("hose_step", text[1]);
+  }
   writer.attribute("job", sample.job);
   writer.attribute(
       "history",

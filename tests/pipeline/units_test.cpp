@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -76,6 +77,12 @@ TEST_CASE("units: the shortest text of any number reads back to it") {
 }
 
 TEST_CASE("readable: three figures, thousands apart, powers of ten only far out") {
+  CHECK(calendar_words(68.24) == "5.7 years");
+  CHECK(calendar_words(13.24) == "13.2 months");
+  CHECK(calendar_words(1) == "1.00 months");
+  CHECK(calendar_words(0.0525) == "1.6 days");
+  CHECK(calendar_words(0.001) == "less than a day");
+  CHECK(calendar_words(std::numeric_limits<double>::infinity()) == "unlimited");
   CHECK(readable(0) == "0");
   CHECK(readable(1) == "1.00");
   CHECK(readable(0.0123456) == "0.0123");

@@ -1,0 +1,160 @@
+// Which joint costs the life, on histories whose causes are known.
+#include "fatigue/attribution.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "tests/fatigue/materials.h"
+
+using namespace dresslife;
+using namespace dresslife::fatigue;
+using namespace dresslife::fatigue_tests;
+
+namespace {
+
+constexpr double same_sum = 1e-12;   // relative: the same terms in another order
+constexpr double ridge_pull = 1e-4;  // the ridge of 1e-6 against the least varied term of these motions
+
+/// A motion of three joints that wander apart, each to another rhythm.
+struct Wandering {
+  std::size_t samples = 900;
+  std::vector<double> position;
+  Wandering() {
+    for (std::size_t t = 0; t < samples; ++t) {
+      const double s = 2 * std::numbers::pi * double(t) / double(samples);
+      position.insert(position.end(),
+                      {0.9 * std::sin(3 * s), 0.4 + 0.7 * std::cos(5 * s), 0.5 * std::sin(7 * s + 1)});
+    }
+  }
+  double at(std::size_t t, std::size_t joint) const { return position[3 * t + joint]; }
+  template <class Strain>
+  std::vector<double> strain(const Strain& of) const {
+    std::vector<double> values;
+    for (std::size_t t = 0; t < samples; ++t) values.push_back(of(at(t, 0), at(t, 1), at(t, 2)));
+    return values;
+  }
+};
+
+std::vector<DamagingCycle> cycles_of(const std::vector<double>& strain) {
+  return evaluate_cycles(find_reversals(strain), copper(), {});
+}
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+}  // namespace
+
+TEST_CASE("attribution: joints of a linear strain cost what they contribute") {
+  const Wandering motion;
+  const auto strain = motion.strain([](double a, double b, double) { return 0.01 * a - 0.004 * b; });
+  const StrainOfJoints surface(motion.position, strain, {true, true, true});
+  CHECK(surface.explained() == Approx(1).epsilon(ridge_pull));
+  for (const auto [from, to] : {std::pair<std::size_t, std::size_t>{0, 140}, {500, 20}, {899, 1}}) {
+    const std::vector<double> change = surface.change(from, to);
+    CHECK(change[0] == Approx(0.01 * (motion.at(to, 0) - motion.at(from, 0))).margin(0.01 * ridge_pull));
+    CHECK(change[1] == Approx(-0.004 * (motion.at(to, 1) - motion.at(from, 1))).margin(0.01 * ridge_pull));
+    CHECK(change[2] == Approx(0).margin(0.01 * ridge_pull));
+  }
+}
+
+TEST_CASE("attribution: a quadratic strain is followed exactly from any sample to any other") {
+  const Wandering motion;
+  const auto strain = motion.strain([](double a, double b, double c) {
+    return 0.003 + 0.01 * a + 0.02 * a * b - 0.005 * c * c + 0.004 * b;
+  });
+  const StrainOfJoints surface(motion.position, strain, {true, true, true});
+  std::mt19937 random(5);
+  for (int draw = 0; draw < 200; ++draw) {
+    const std::size_t from = random() % motion.samples, to = random() % motion.samples;
+    CHECK(sum(surface.change(from, to)) == Approx(strain[to] - strain[from]).margin(0.02 * ridge_pull));
+  }
+}
+
+TEST_CASE("attribution: shares of the joints and of carrying add up to the damage") {
+  const Wandering motion;
+  // the third joint lies outside the clamps, the last term is swinging
+  std::vector<double> strain =
+      motion.strain([](double a, double b, double c) { return 0.012 * a + 0.006 * b * b + 0.004 * c; });
+  for (std::size_t t = 0; t < motion.samples; ++t) strain[t] += 0.001 * std::sin(0.37 * double(t));
+  const auto cycles = cycles_of(strain);
+  const StrainOfJoints surface(motion.position, strain, {true, true, false});
+  std::vector<std::int32_t> step;
+  for (std::size_t t = 0; t < motion.samples; ++t) step.push_back(t < 30 ? -1 : static_cast<int>(t / 300));
+  const JointDamage by_joint = damage_by_joint(cycles, surface, step, 3);
+  const double total = sum_of_damage(cycles);
+  REQUIRE(total > 0);
+  REQUIRE(by_joint.damage.size() == 4);
+  CHECK(sum(by_joint.damage) == Approx(total).epsilon(same_sum));
+  CHECK(by_joint.damage[2] == 0);
+  CHECK(by_joint.damage[0] > 0.5 * total);
+  CHECK(by_joint.damage[3] > 0.01 * total);
+  // and line by line
+  const auto by_line = damage_by_step(damage_over_time(cycles, motion.samples, Moment::closes), step, 3);
+  for (std::size_t line = 0; line < 3; ++line)
+    CHECK(std::accumulate(by_joint.by_line.begin() + 4 * line, by_joint.by_line.begin() + 4 * (line + 1),
+                          0.0) == Approx(by_line[line]).epsilon(same_sum));
+}
+
+TEST_CASE("attribution: a joint that moves against the others relieves") {
+  // one swing: the first joint pulls by 3, the second gives back 1
+  std::vector<double> position, strain;
+  for (int t = 0; t <= 40; ++t) {
+    const double s = std::sin(2 * std::numbers::pi * t / 40),
+                 wiggle = 0.3 * std::sin(2 * std::numbers::pi * t / 8);
+    position.insert(position.end(), {s, s + wiggle});
+    strain.push_back(0.003 * s - 0.001 * (s + wiggle));
+  }
+  const auto cycles = cycles_of(strain);
+  const StrainOfJoints surface(position, strain, {true, true});
+  const JointDamage by_joint = damage_by_joint(cycles, surface, std::vector<std::int32_t>(41, 0), 1);
+  CHECK(by_joint.damage[0] > sum_of_damage(cycles));
+  CHECK(by_joint.damage[1] < 0);
+  CHECK(std::abs(by_joint.damage[2]) < 1e-3 * sum_of_damage(cycles));
+}
+
+TEST_CASE("attribution: joints that always move together share evenly and those that stand cost nothing") {
+  std::vector<double> position, strain;
+  for (int t = 0; t <= 40; ++t) {
+    const double s = std::sin(2 * std::numbers::pi * t / 40);
+    position.insert(position.end(), {s, 2 * s, 0.7});
+    strain.push_back(0.004 * s);
+  }
+  const StrainOfJoints surface(position, strain, {true, true, true});
+  const std::vector<double> change = surface.change(0, 10);
+  constexpr double numerics = 1e-5;
+  CHECK(change[0] == Approx(0.002).epsilon(numerics));
+  CHECK(change[1] == Approx(0.002).epsilon(numerics));
+  CHECK(change[2] == 0);
+  // nothing moves, or nothing is strained
+  const StrainOfJoints still(std::vector<double>(12, 0.1), std::vector<double>{1e-3, 2e-3, 0, 1e-3},
+                             {true, true, true});
+  CHECK(still.explained() == 0);
+  CHECK(still.change(0, 1) == std::vector<double>{0, 0, 0});
+  const StrainOfJoints calm(position, std::vector<double>(41, 0.0), {true, true, true});
+  CHECK(calm.explained() == 0);
+  CHECK(calm.change(3, 17) == std::vector<double>{0, 0, 0});
+}
+
+TEST_CASE("attribution: only joints between the clamps' links bend the dresspack") {
+  pipeline::Job job;
+  job.robot.joints.resize(6);
+  for (int k = 0; k <= 6; ++k) job.robot.links.push_back({"link_" + std::to_string(k), {}, {}, {}});
+  CHECK(joints_between_clamps(job) == std::vector<bool>(6, false));
+  job.routing.base_clamp.emplace().link = "link_3";
+  job.routing.tool_clamp.emplace().link = "link_6";
+  const std::vector<bool> wrist{false, false, false, true, true, true};
+  CHECK(joints_between_clamps(job) == wrist);
+  std::swap(job.routing.base_clamp, job.routing.tool_clamp);
+  CHECK(joints_between_clamps(job) == wrist);
+  job.routing.base_clamp->link = "link_3";
+  job.routing.tool_clamp->link = "link_3";
+  CHECK(joints_between_clamps(job) == std::vector<bool>(6, false));
+}
+
+TEST_CASE("attribution: segments count for the nearer clamp") {
+  const std::vector<double> length{0.1, 0.2, 0.3, 0.4}, damage{1, 2, 4, 8};
+  // centres at 0.05, 0.2, 0.45 and 0.8 of 1 m
+  CHECK(damage_by_clamp(damage, length) == std::vector<double>{7, 8});
+}
