@@ -402,6 +402,14 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
       worst_segment_ = segment;
     }
   }
+  // The wire that is damaged most is likelier that of the largest sum over cycles.
+  const auto of_cycles = std::max_element(worst.begin(), worst.end(), [&](const Worst& a, const Worst& b) {
+    return (wire_range(a) < 0 ? -1 : a.value[Worst::cycles]) <
+           (wire_range(b) < 0 ? -1 : b.value[Worst::cycles]);
+  });
+  if (of_cycles != worst.end() && wire_range(*of_cycles) >= 0 && of_cycles->value[Worst::cycles] > 0 &&
+      of_cycles->site[Worst::cycles] != of_all->site[Worst::range])
+    probe(of_cycles->site[Worst::cycles]);
   for (const auto& [at, site] : probes_)
     if (at == segment) probe(site);
   if (sink.progress) sink.progress((static_cast<double>(segment) + 1) / static_cast<double>(segments()));
