@@ -1,6 +1,7 @@
 #include "pipeline/ranking.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -120,23 +121,21 @@ std::string story(const RankingRow& row) {
   if (row.worst_component.empty()) return "no wire was evaluated";
   if (!(row.damage_per_repeat > 0)) return "no damage";
   const std::string during = row.worst_step.empty() ? "" : " during '" + row.worst_step + "'";
-  const std::string joint =
-      row.worst_joint.empty() ? ""
-                              : fmt::format(", {:.0f} % by {}", 100 * row.worst_joint_share, row.worst_joint);
-  const std::string scatter =
-      std::isnan(row.first_wire_hours[0])
-          ? ""
-          : fmt::format("; first break after {} .. {} h in 10 .. 90 %", life_text(row.first_wire_hours[0]),
-                        life_text(row.first_wire_hours[2]));
-  return fmt::format("{} breaks first, worst at {:.1f} s{}{}{}", row.worst_component, row.worst_time, during,
-                     joint, scatter);
+  return fmt::format("{} breaks first, worst at {:.1f} s{}", row.worst_component, row.worst_time, during);
 }
 
-/// The hose's wall; the third line of a job that evaluates it.
-std::string hose_story(const HoseLife& hose) {
-  if (std::isinf(hose.hours)) return "the hose's wall is not damaged";
-  return fmt::format("the hose's wall lasts {} h, worst {:.2f} m from the tool{}", readable(hose.hours),
-                     hose.position_from_tool, hose.step.empty() ? "" : " during '" + hose.step + "'");
+/// When first wires break in a fleet, which joint does it, and the hose; the third line, empty where nothing
+/// is known.
+std::string more_story(const RankingRow& row) {
+  std::vector<std::string> parts;
+  const bool damaged = !row.worst_component.empty() && row.damage_per_repeat > 0;
+  if (damaged && !std::isnan(row.first_wire_hours[0]))
+    parts.push_back(fmt::format("first break after {} .. {} h in 10 .. 90 %",
+                                life_text(row.first_wire_hours[0]), life_text(row.first_wire_hours[2])));
+  if (damaged && !row.worst_joint.empty())
+    parts.push_back(fmt::format("{:.0f} % by {}", 100 * row.worst_joint_share, row.worst_joint));
+  if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string one_line(std::string text) {
@@ -147,6 +146,13 @@ std::string one_line(std::string text) {
 }
 
 }  // namespace
+
+std::string hose_life_words(double hours) {
+  constexpr double beyond_all_plans = 1e6;
+  if (std::isinf(hours)) return "not damaged";
+  return hours > beyond_all_plans ? "more than " + readable(beyond_all_plans, 1) + " h"
+                                  : readable(hours) + " h";
+}
 
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
   std::vector<RankingRow> rows;
@@ -232,8 +238,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const std::string second = one_line(rows[i].done() ? story(rows[i]) : rows[i].failure);
     // A reason for failure is kept whole: its end is the remedy.
     text += indent + (rows[i].done() ? shortened(second, width - indent.size()) : second) + '\n';
-    if (rows[i].done() && rows[i].hose)
-      text += indent + shortened(one_line(hose_story(*rows[i].hose)), width - indent.size()) + '\n';
+    const std::string third = rows[i].done() ? one_line(more_story(rows[i])) : "";
+    if (!third.empty()) text += indent + shortened(third, width - indent.size()) + '\n';
   }
   return text;
 }

@@ -65,8 +65,11 @@ std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
 /// exactly, "inf" where there is no damage, empty cells for a failed job.
 std::string ranking_csv(const std::vector<RankingRow>& rows);
 
-/// The ranking for a terminal, two lines per job and one more for its hose, at most `width` columns; ends
-/// with a line feed.
+/// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".
+std::string hose_life_words(double hours);
+
+/// The ranking for a terminal, two lines per job and a third on its scatter, joint and hose where they are
+/// known, at most `width` columns; ends with a line feed.
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width = 120);
 
 }  // namespace dresslife::pipeline

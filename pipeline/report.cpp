@@ -34,7 +34,7 @@ h3 { font-size: 1rem; margin: 1.6rem 0 .2rem; } p { margin: .3rem 0 .6rem; max-w
 a { color: var(--blue); } .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
-th { color: var(--soft); font-weight: 600; } .number { text-align: right; white-space: nowrap; } .failed { color: var(--hot); font-weight: 600; }
+th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { text-align: right; white-space: nowrap; } th.number { white-space: normal; } .failed { color: var(--hot); font-weight: 600; }
 .meter { display: inline-block; width: 8rem; height: .7rem; background: var(--band); margin-right: .5rem; }
 .meter > span { display: block; height: 100%; background: var(--hot); }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: .5rem 0; } dt { color: var(--soft); } dd { margin: 0; }
@@ -49,6 +49,7 @@ svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg
 svg line { stroke-linecap: round; } svg .arm { stroke: var(--arm); } svg .arm-2 { stroke: var(--arm-2); } svg .halo { stroke: var(--page); stroke-linecap: butt; }
 svg .hose { stroke: var(--blue); } svg .hose-hot { stroke: var(--hot); }
 svg .costly { fill: var(--hot); fill-opacity: .55; }
+svg .scatter { stroke: var(--hot); stroke-width: 5; }
 svg .whisker { stroke: var(--blue); stroke-width: 5; stroke-opacity: .35; stroke-linecap: round; }
 @media print { details { display: none; } h2 { break-before: page; } }
 )";
@@ -110,15 +111,16 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
   return text;
 }
 
-/// Lives beside each other on one axis of decades: a dot, and the bounds as a bar behind it.
+/// Lives beside each other on one axis of decades: a dot, the bounds as a bar behind it, and when first wires
+/// break in 10 to 90 % of such dresspacks.
 std::string comparison_chart(const std::vector<RankingRow>& rows) {
   std::vector<const RankingRow*> shown;
   double low = INFINITY, high = 0;
   for (const RankingRow& row : rows) {
     if (!row.done() || !damaged(row) || shown.size() == most_compared) continue;
     shown.push_back(&row);
-    for (const double repeats : {row.life_repeats, row.life_repeats_all_stick, row.life_repeats_all_free}) {
-      const double hours = row.hours_of(repeats);
+    for (const double hours : {row.life_hours, row.hours_of(row.life_repeats_all_stick),
+                               row.hours_of(row.life_repeats_all_free), row.first_wire_hours[0]}) {
       if (!(hours > 0) || std::isinf(hours)) continue;
       low = std::min(low, hours);
       high = std::max(high, hours);
@@ -132,8 +134,9 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
               row_height * static_cast<double>(shown.size()),
               decades_axis("life [h of motion]", low, high),
               {"", 0, 1}};
-  Picture picture(width, panel.bottom() + 44, "Lives compared",
-                  "Life in hours with the bounds all stick and all free.");
+  Picture picture(
+      width, panel.bottom() + 44, "Lives compared",
+      "Life in hours with the bounds all stick and all free, and the first break in 10 to 90 percent.");
   for (const Tick& tick : panel.x.ticks(8)) {
     picture.line(panel.across(tick.value), panel.top, panel.across(tick.value), panel.bottom(), "grid");
     picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
@@ -146,6 +149,9 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
     picture.text(names - 10, y + 4, shortened(row.job, 32), "name", Picture::Anchor::end);
     const auto x = [&](double repeats) { return panel.across(row.hours_of(repeats)); };
     picture.line(x(row.life_repeats_all_stick), y, x(row.life_repeats_all_free), y, "whisker");
+    if (row.first_wire_hours[0] > 0 && std::isfinite(row.first_wire_hours[2]))
+      picture.line(panel.across(row.first_wire_hours[0]), y, panel.across(row.first_wire_hours[2]), y,
+                   "scatter");
     picture.dot(x(row.life_repeats), y, 5, "dot",
                 fmt::format("{}: {} h", row.job, life_cell(row.life_hours)));
   }
@@ -169,7 +175,11 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "comes earlier than the worst wire's own life, in 10 to 90 % of such dresspacks between the hours "
       "given (for "
       "parts that slip as in the job). Plan by those, and by the bounds.</p>\n",
-      ranking_rows(rows, detailed), chart.empty() ? "" : "<h3>Lives compared</h3>\n" + chart);
+      ranking_rows(rows, detailed),
+      chart.empty() ? ""
+                    : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the worst wire's life. Blue bar: all "
+                      "stick to all free. Orange: first break in 10 to 90 % of such dresspacks.</p>\n" +
+                          chart);
 }
 
 // ---- one job ----------------------------------------------------------------------------------------------
@@ -312,16 +322,16 @@ std::string facts(const RankingRow& row) {
   };
   scatter("first broken wire", row.first_wire_hours);
   scatter("first failed conductor", row.conductor_hours);
-  if (row.hose)
+  if (row.hose) {
+    const HoseLife& hose = *row.hose;
     fact("hose's wall",
-         std::isinf(row.hose->hours)
-             ? "no damage"
-             : fmt::format("{} of motion = {} by the calendar until it cracks, {}, segment {} from the tool "
-                           "({:.2f} m){}",
-                           hours_words(row.hose->hours), calendar_words(row.hose->months),
-                           escaped(row.hose->component), row.hose->segment_from_tool,
-                           row.hose->position_from_tool,
-                           row.hose->step.empty() ? "" : ", worst during '" + escaped(row.hose->step) + "'"));
+         std::isinf(hose.hours)
+             ? "not damaged"
+             : fmt::format("{} of motion until it cracks, {}, segment {} from the tool ({:.2f} m){}",
+                           hose_life_words(hose.hours), escaped(hose.component), hose.segment_from_tool,
+                           hose.position_from_tool,
+                           hose.step.empty() ? "" : ", worst during '" + escaped(hose.step) + "'"));
+  }
   if (damaged(row)) {
     fact("breaks first",
          escaped(row.worst_component) + (row.worst_shear_range > 0
