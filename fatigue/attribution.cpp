@@ -20,10 +20,6 @@ void fill_terms(const Eigen::VectorXd& q, Eigen::VectorXd& terms) {
     for (Eigen::Index k = i; k < n; ++k) terms[at++] = q[i] * q[k];
 }
 
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-}
-
 std::size_t link_index(const pipeline::Robot& robot, const std::string& name) {
   const auto found = std::find_if(robot.links.begin(), robot.links.end(),
                                   [&](const pipeline::Link& link) { return link.name == name; });
@@ -44,11 +40,11 @@ std::vector<bool> joints_between_clamps(const pipeline::Job& job) {
   return between;
 }
 
-StrainOfJoints::StrainOfJoints(std::span<const double> position, std::span<const double> strain,
+StrainOfJoints::StrainOfJoints(std::span<const double> position, std::span<const Reversal> known,
                                const std::vector<bool>& between)
     : position_(position), middle_(between.size()), scale_(between.size()) {
-  const std::size_t samples = strain.size(), joints = between.size();
-  assert(samples > 0 && position.size() == samples * joints);
+  const std::size_t joints = between.size(), samples = joints > 0 ? position.size() / joints : 0;
+  assert(!known.empty() && position.size() == samples * joints);
   for (std::size_t j = 0; j < joints; ++j) {
     double low = position[j], high = low;
     for (std::size_t t = 0; t < samples; ++t) {
@@ -67,19 +63,21 @@ StrainOfJoints::StrainOfJoints(std::span<const double> position, std::span<const
   // Normal equations of the deviations from the means.
   Eigen::VectorXd term(terms), mean = Eigen::VectorXd::Zero(terms), right = mean;
   Eigen::MatrixXd left = Eigen::MatrixXd::Zero(terms, terms);
-  const double mean_strain = mean_of(strain);
-  for (std::size_t t = 0; t < samples; ++t) {
-    fill_terms(scaled(t), term);
+  double mean_strain = 0;
+  for (const Reversal& at : known) {
+    fill_terms(scaled(at.sample), term);
     mean += term;
+    mean_strain += at.strain;
   }
-  mean /= double(samples);
+  mean /= double(known.size());
+  mean_strain /= double(known.size());
   double variance = 0;
-  for (std::size_t t = 0; t < samples; ++t) {
-    fill_terms(scaled(t), term);
+  for (const Reversal& at : known) {
+    fill_terms(scaled(at.sample), term);
     term -= mean;
     left.selfadjointView<Eigen::Lower>().rankUpdate(term);
-    right += term * (strain[t] - mean_strain);
-    variance += (strain[t] - mean_strain) * (strain[t] - mean_strain);
+    right += term * (at.strain - mean_strain);
+    variance += (at.strain - mean_strain) * (at.strain - mean_strain);
   }
   left.diagonal().array() += ridge * left.diagonal().mean();
   const Eigen::VectorXd fit = left.selfadjointView<Eigen::Lower>().ldlt().solve(right);
@@ -92,9 +90,9 @@ StrainOfJoints::StrainOfJoints(std::span<const double> position, std::span<const
 
   if (!(variance > 0)) return;
   double left_over = 0;
-  for (std::size_t t = 0; t < samples; ++t) {
-    fill_terms(scaled(t), term);
-    const double away = strain[t] - mean_strain - fit.dot(term - mean);
+  for (const Reversal& at : known) {
+    fill_terms(scaled(at.sample), term);
+    const double away = at.strain - mean_strain - fit.dot(term - mean);
     left_over += away * away;
   }
   explained_ = std::max(0.0, 1 - left_over / variance);

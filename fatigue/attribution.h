@@ -34,9 +34,10 @@ std::vector<bool> joints_between_clamps(const pipeline::Job& job);
 /// The surface (F19).
 class StrainOfJoints {
  public:
-  /// position: (sample, joint) [rad]; strain: (sample); between: (joint) those that may count. Joints that
-  /// stand still do not. Precondition: sizes agree, at least one sample.
-  StrainOfJoints(std::span<const double> position, std::span<const double> strain,
+  /// position: (sample, joint) [rad]; known: where the strain is known, its sample and value; between:
+  /// (joint) those that may count. Joints that stand still do not. Precondition: at least one sample, one
+  /// known.
+  StrainOfJoints(std::span<const double> position, std::span<const Reversal> known,
                  const std::vector<bool>& between);
 
   std::size_t joints() const { return scale_.size(); }

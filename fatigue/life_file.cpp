@@ -231,15 +231,34 @@ void write_scatter(const Context& c) {
   }
 }
 
-std::vector<double> worst_strain(const Context& c) {
-  if (c.worst == no_site) return std::vector<double>(c.time.size(), 0.0);
+/// The whole strain history of the worst wire; empty where only its turning points are known.
+std::vector<double> worst_history(const Context& c) {
+  if (c.worst == no_site) return {};
   if (c.planes && c.planes->of(c.worst)) return c.planes->strain_of(c.worst);
   const auto probed = c.strain.read<std::uint32_t>("/probe/site");
   const auto probe = std::find(probed.begin(), probed.end(), c.worst);
-  if (probe == probed.end()) return strain_between_reversals(c.sites.reversals_of(c.worst), c.time.size());
   std::vector<double> strain;
-  c.strain.read_rows("/probe/strain", probe - probed.begin(), 1, strain);
+  if (probe != probed.end()) c.strain.read_rows("/probe/strain", probe - probed.begin(), 1, strain);
   return strain;
+}
+
+/// Writes it; straight between the turning points where there is none. Returns what is known of it.
+std::vector<Reversal> write_worst_strain(const Context& c) {
+  const char* const dataset = "/worst/strain";
+  const std::vector<double> history = worst_history(c);
+  if (c.worst == no_site) {
+    put(c.life, dataset, std::vector<double>(c.time.size(), 0.0));
+    return {};
+  }
+  if (history.empty()) {
+    std::vector<Reversal> turns = c.reversals_of(c.worst);
+    put(c.life, dataset, strain_between_reversals(turns, c.time.size()));
+    return turns;
+  }
+  put(c.life, dataset, history);
+  std::vector<Reversal> known;
+  for (const double strain : history) known.push_back({strain, static_cast<std::int64_t>(known.size())});
+  return known;
 }
 
 void write_program(const Context& c, const std::vector<DamagingCycle>& cycles) {
@@ -255,15 +274,15 @@ void write_program(const Context& c, const std::vector<DamagingCycle>& cycles) {
 
 /// Which joint, and which clamp is near. Nothing of the joints when the motion was given by its clamps.
 void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles,
-                  const std::vector<double>& strain) {
+                  const std::vector<Reversal>& known) {
   const auto worst = worst_by_segment(c, true);
   put(c.life, "/clamp/name", std::vector<std::string>{"base clamp", "tool clamp"});
   put(c.life, "/clamp/damage", damage_by_clamp(damage_at(c, worst), c.segment_length));
   const char* const joints = "/robot/joint_position";
   const std::vector<bool> between = joints_between_clamps(c.job);
-  if (!c.strain.has(joints) || c.strain.row_size(joints) != between.size() || strain.empty()) return;
+  if (!c.strain.has(joints) || c.strain.row_size(joints) != between.size() || known.empty()) return;
   const auto position = c.strain.read<double>(joints);
-  const StrainOfJoints surface(position, strain, between);
+  const StrainOfJoints surface(position, known, between);
   const JointDamage by_joint = damage_by_joint(cycles, surface, c.step, c.step_text.size());
   std::vector<std::string> names;
   for (const pipeline::Joint& joint : c.job.robot.joints) names.push_back(joint.name);
@@ -430,9 +449,9 @@ std::vector<std::string> warnings_of(const Context& c, const std::vector<Damagin
 
 }  // namespace
 
-Notes write_life(const FileReader& strain_file, const pipeline::Job& job, FileWriter& life,
-                 std::size_t threads, const std::function<void(double)>& progress) {
-  Context c(strain_file, job, life, threads);
+Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter& life, std::size_t threads,
+                 const std::function<void(double)>& progress) {
+  Context c(strain, job, life, threads);
   check_steps(c);
   // The three sets are about equally large.
   c.damage = damage_of(c.sites, c.counters, threads, [&](double share) { progress(share / 3); });
@@ -449,9 +468,7 @@ Notes write_life(const FileReader& strain_file, const pipeline::Job& job, FileWr
   write_scatter(c);
   write_shear(c);
   write_program(c, cycles);
-  const std::vector<double> strain = worst_strain(c);
-  put(life, "/worst/strain", strain);
-  write_causes(c, cycles, strain);
+  write_causes(c, cycles, write_worst_strain(c));
   const std::string summary = write_worst(c, cycles);
   return {warnings_of(c, cycles), summary + write_hose(c)};
 }

@@ -229,50 +229,77 @@ std::string cause_table(const LifeSummary& life) {
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td></tr>\n",
         last ? "carrying: gravity, swinging, and what the joints do not explain" : escaped(life.cause[cause]),
-        damage < 0 ? fmt::format("{:.1f} %: moves against the others, relieves", 100 * damage / total)
+        damage < 0 ? fmt::format("{:.1f} %{}", 100 * damage / total,
+                                 last ? "" : ": moves against the others, relieves")
                    : meter(damage / total, largest / total));
   }
   return fmt::format(
       "<h3>What moved when the damage was done</h3>\n<p class=\"soft\">Damage of the worst wire by the "
       "joints "
       "that move the two clamps against each other, by how much each changed the wire's strain while a cycle "
-      "ran. {:.0f} % of the strain's variance follows from these joints{}.</p>\n<div "
+      "ran. {} % of the strain's variance follows from these joints{}.</p>\n<div "
       "class=\"wide\"><table>\n<thead><tr><th>moved</th><th>share of the "
       "damage</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
-      100 * life.explained, life.explained < 0.8 ? ": the shares are rough" : "", rows);
+      printed(100 * life.explained), life.explained < 0.8 ? ": the shares are rough" : "", rows);
+}
+
+/// (line) half of the damage of the cycles that a line opens and half of those that it completes.
+std::vector<double> damage_of_lines(const LifeSummary& life) {
+  std::vector<double> damage = life.step_damage;
+  for (std::size_t line = 0; line < life.step_opened.size(); ++line)
+    damage[line] = (damage[line] + life.step_opened[line]) / 2;
+  return damage;
+}
+
+/// When a line runs, and its run in which most damage is completed.
+struct LineRuns {
+  std::size_t times = 0;
+  const ProgramRun* costliest = nullptr;
+};
+
+LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs) {
+  LineRuns of;
+  for (const ProgramRun& run : runs) {
+    if (run.step != static_cast<std::int32_t>(line)) continue;
+    ++of.times;
+    if (!of.costliest || run.damage > of.costliest->damage) of.costliest = &run;
+  }
+  return of;
 }
 
 std::string program_table(const LifeSummary& life) {
-  const double total = std::accumulate(life.step_damage.begin(), life.step_damage.end(), 0.0);
+  constexpr double least_listed = 5e-4;  // of the damage: 0.1 % when rounded
+  const std::vector<double> damage = damage_of_lines(life);
+  const double total = std::accumulate(damage.begin(), damage.end(), 0.0);
   const std::vector<ProgramRun> runs = program_runs(life);
-  double largest = 0;
-  for (const double damage : life.step_damage) largest = std::max(largest, damage);
+  const auto share = [&](const std::vector<double>& of, std::size_t line) {
+    return of.empty() ? "" : fmt::format("{:.1f} %", 100 * of[line] / total);
+  };
   std::string rows;
-  for (const std::size_t line : largest_first(life.step_damage, listed_lines)) {
-    std::size_t times = 0;
-    const ProgramRun* costliest = nullptr;
-    for (const ProgramRun& run : runs) {
-      if (run.step != static_cast<std::int32_t>(line)) continue;
-      ++times;
-      if (!costliest || run.damage > costliest->damage) costliest = &run;
-    }
+  double largest = 0;
+  for (const std::size_t line : largest_first(damage, listed_lines)) {
+    largest = std::max(largest, damage[line]);
+    if (damage[line] < least_listed * total) break;
+    const LineRuns of = runs_of(line, runs);
     rows += fmt::format(
         "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td "
-        "class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
-        line + 1, escaped(life.step_text[line]), times,
-        costliest ? fmt::format("{:.1f} .. {:.1f} s", costliest->begin, costliest->end) : "",
-        meter(life.step_damage[line] / total, largest / total),
-        life.step_opened.empty() ? "" : fmt::format("{:.1f} %", 100 * life.step_opened[line] / total),
-        main_causes(life, line), printed(life.step_damage[line]));
+        "class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
+        line + 1, escaped(life.step_text[line]), of.times,
+        of.costliest ? fmt::format("{:.1f} .. {:.1f} s", of.costliest->begin, of.costliest->end) : "",
+        meter(damage[line] / total, largest / total), share(life.step_opened, line),
+        share(life.step_damage, line), main_causes(life, line), printed(damage[line]));
   }
   if (rows.empty()) return "";
-  return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">A cycle of strain counts for the line in "
-         "which its range is "
-         "reached; the share of those that open in a line stands beside it.</p>\n<div "
+  return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">It takes two lines to make a cycle of "
+         "strain: "
+         "one in which it opens and one in which its range is reached. Each is blamed for half of its "
+         "damage.</p>\n<div "
          "class=\"wide\"><table>\n<thead><tr><th "
          "class=\"number\">line</th><th>program</th>"
          "<th class=\"number\">runs</th><th>costliest at</th><th>share of the damage</th><th "
-         "class=\"number\">opened here</th><th>mostly by</th><th class=\"number\">damage per repeat</th></tr>"
+         "class=\"number\">opened here</th><th class=\"number\">reached here</th><th>reached mostly "
+         "by</th><th "
+         "class=\"number\">damage per repeat</th></tr>"
          "</thead>\n<tbody>\n" +
          rows + "</tbody></table></div>\n";
 }

@@ -42,6 +42,13 @@ std::vector<DamagingCycle> cycles_of(const std::vector<double>& strain) {
   return evaluate_cycles(find_reversals(strain), copper(), {});
 }
 
+/// Known at every sample.
+std::vector<Reversal> known(const std::vector<double>& strain) {
+  std::vector<Reversal> all;
+  for (const double value : strain) all.push_back({value, static_cast<std::int64_t>(all.size())});
+  return all;
+}
+
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 }  // namespace
@@ -49,7 +56,7 @@ double sum(const std::vector<double>& values) { return std::accumulate(values.be
 TEST_CASE("attribution: joints of a linear strain cost what they contribute") {
   const Wandering motion;
   const auto strain = motion.strain([](double a, double b, double) { return 0.01 * a - 0.004 * b; });
-  const StrainOfJoints surface(motion.position, strain, {true, true, true});
+  const StrainOfJoints surface(motion.position, known(strain), {true, true, true});
   CHECK(surface.explained() == Approx(1).epsilon(ridge_pull));
   for (const auto [from, to] : {std::pair<std::size_t, std::size_t>{0, 140}, {500, 20}, {899, 1}}) {
     const std::vector<double> change = surface.change(from, to);
@@ -64,12 +71,24 @@ TEST_CASE("attribution: a quadratic strain is followed exactly from any sample t
   const auto strain = motion.strain([](double a, double b, double c) {
     return 0.003 + 0.01 * a + 0.02 * a * b - 0.005 * c * c + 0.004 * b;
   });
-  const StrainOfJoints surface(motion.position, strain, {true, true, true});
+  const StrainOfJoints surface(motion.position, known(strain), {true, true, true});
   std::mt19937 random(5);
   for (int draw = 0; draw < 200; ++draw) {
     const std::size_t from = random() % motion.samples, to = random() % motion.samples;
     CHECK(sum(surface.change(from, to)) == Approx(strain[to] - strain[from]).margin(0.02 * ridge_pull));
   }
+}
+
+TEST_CASE("attribution: a few known samples make the same surface") {
+  const Wandering motion;
+  const auto strain = motion.strain([](double a, double b, double) { return 0.01 * a - 0.02 * a * b; });
+  std::vector<Reversal> few;
+  for (std::size_t t = 0; t < motion.samples; t += 37)
+    few.push_back({strain[t], static_cast<std::int64_t>(t)});
+  const StrainOfJoints all(motion.position, known(strain), {true, true, true});
+  const StrainOfJoints some(motion.position, few, {true, true, true});
+  for (std::size_t joint = 0; joint < 3; ++joint)
+    CHECK(some.change(11, 333)[joint] == Approx(all.change(11, 333)[joint]).margin(0.02 * ridge_pull));
 }
 
 TEST_CASE("attribution: shares of the joints and of carrying add up to the damage") {
@@ -79,7 +98,7 @@ TEST_CASE("attribution: shares of the joints and of carrying add up to the damag
       motion.strain([](double a, double b, double c) { return 0.012 * a + 0.006 * b * b + 0.004 * c; });
   for (std::size_t t = 0; t < motion.samples; ++t) strain[t] += 0.001 * std::sin(0.37 * double(t));
   const auto cycles = cycles_of(strain);
-  const StrainOfJoints surface(motion.position, strain, {true, true, false});
+  const StrainOfJoints surface(motion.position, known(strain), {true, true, false});
   std::vector<std::int32_t> step;
   for (std::size_t t = 0; t < motion.samples; ++t) step.push_back(t < 30 ? -1 : static_cast<int>(t / 300));
   const JointDamage by_joint = damage_by_joint(cycles, surface, step, 3);
@@ -107,7 +126,7 @@ TEST_CASE("attribution: a joint that moves against the others relieves") {
     strain.push_back(0.003 * s - 0.001 * (s + wiggle));
   }
   const auto cycles = cycles_of(strain);
-  const StrainOfJoints surface(position, strain, {true, true});
+  const StrainOfJoints surface(position, known(strain), {true, true});
   const JointDamage by_joint = damage_by_joint(cycles, surface, std::vector<std::int32_t>(41, 0), 1);
   CHECK(by_joint.damage[0] > sum_of_damage(cycles));
   CHECK(by_joint.damage[1] < 0);
@@ -121,18 +140,17 @@ TEST_CASE("attribution: joints that always move together share evenly and those 
     position.insert(position.end(), {s, 2 * s, 0.7});
     strain.push_back(0.004 * s);
   }
-  const StrainOfJoints surface(position, strain, {true, true, true});
+  const StrainOfJoints surface(position, known(strain), {true, true, true});
   const std::vector<double> change = surface.change(0, 10);
   constexpr double numerics = 1e-5;
   CHECK(change[0] == Approx(0.002).epsilon(numerics));
   CHECK(change[1] == Approx(0.002).epsilon(numerics));
   CHECK(change[2] == 0);
   // nothing moves, or nothing is strained
-  const StrainOfJoints still(std::vector<double>(12, 0.1), std::vector<double>{1e-3, 2e-3, 0, 1e-3},
-                             {true, true, true});
+  const StrainOfJoints still(std::vector<double>(12, 0.1), known({1e-3, 2e-3, 0, 1e-3}), {true, true, true});
   CHECK(still.explained() == 0);
   CHECK(still.change(0, 1) == std::vector<double>{0, 0, 0});
-  const StrainOfJoints calm(position, std::vector<double>(41, 0.0), {true, true, true});
+  const StrainOfJoints calm(position, known(std::vector<double>(41, 0.0)), {true, true, true});
   CHECK(calm.explained() == 0);
   CHECK(calm.change(3, 17) == std::vector<double>{0, 0, 0});
 }

@@ -568,12 +568,15 @@ TEST_CASE("life.h5: the hose's wall is told beside the wires and not among them"
       result.notes.summary,
       Catch::Contains("breaks") && Catch::EndsWith(fmt::format("the hose's wall lasts {:.3g} h",
                                                                life.number_attribute("hose_life_hours"))));
+  // strains are kept to 7 decimals from the least of their pack on, which other sites shift; times the life's
+  // slope
+  constexpr double packed = 1e-5;
   // everything about wires is as if there were no wall, although it lives shorter
   CHECK_FALSE(wires.has_attribute("hose_life_hours"));
   CHECK(life.number_attribute("hose_life_hours") < life.number_attribute("life_hours"));
   for (const char* name : {"life_hours", "life_hours_all_stick", "life_hours_all_free", "worst_site",
                            "life_hours_p10", "life_hours_p90", "conductor_life_hours_p50"})
-    CHECK(life.number_attribute(name) == wires.number_attribute(name));
+    CHECK(life.number_attribute(name) == Approx(wires.number_attribute(name)).epsilon(packed));
   for (const char* dataset : {"/layer/component", "/conductor/component"})
     CHECK(life.read<std::string>(dataset) == wires.read<std::string>(dataset));
   for (const char* dataset : {"/segment/worst_site", "/cycles/site"})

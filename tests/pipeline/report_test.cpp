@@ -70,7 +70,7 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   const auto rows = read_ranking({{"one", scratch / "one.h5", ""}});
   const std::string page = report_page("causes", rows);
   CHECK(page.find("What moved when the damage was done") != std::string::npos);
-  CHECK(page.find("75 % of the strain's variance follows from these joints: the shares are rough") !=
+  CHECK(page.find("75.0 % of the strain's variance follows from these joints: the shares are rough") !=
         std::string::npos);
   CHECK(page.find("80.0 %") != std::string::npos);
   CHECK(page.find("-10.0 %: moves against the others, relieves") != std::string::npos);
