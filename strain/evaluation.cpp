@@ -18,7 +18,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t thinned_samples = 256;  // at least so many of them pick the wires of the bounds
 // Of all bundles that a thread takes in a row: enough to be worth a thread, few enough to hold their results.
-constexpr std::size_t samples_at_a_time = 1 << 16;
+constexpr std::size_t samples_at_a_time = 1 << 14;
 
 std::vector<double> centres(const std::vector<double>& lengths) {
   std::vector<double> arcs;
@@ -204,19 +204,20 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
   const std::size_t each = threads == 1 ? 1 : std::max<std::size_t>(1, samples_at_a_time / history.samples());
   const std::size_t batch = std::min(bundles, threads * each);
   for (Worker& worker : workers_) worker.parent_is = {};
-  std::vector<BundleSites> found(batch), before(batch);
-  std::size_t to_use = 0;  // bundles in `before`
+  found_.resize(batch);
+  before_.resize(batch);
+  std::size_t to_use = 0;  // bundles in `before_`
   for (std::size_t first = 0; first < bundles + batch; first += batch) {
     const std::size_t end = std::min(bundles, first + batch);
     std::atomic<std::size_t> next =
         first;  // each bundle is worked out alone: who takes it makes no difference
     pipeline::in_parallel(first < bundles ? threads : 1, [&](std::size_t part) {
-      for (std::size_t k = 0; part == 0 && k < to_use; ++k) use(before[k]);  // while others work already
+      for (std::size_t k = 0; part == 0 && k < to_use; ++k) use(before_[k]);  // while others work already
       for (std::size_t b = next++; b < end; b = next++)
-        scan_bundle(b, segment, means, history, row, with_rows, workers_[part], found[b - first]);
+        scan_bundle(b, segment, means, history, row, with_rows, workers_[part], found_[b - first]);
     });
     to_use = first < end ? end - first : 0;
-    std::swap(found, before);
+    std::swap(found_, before_);
   }
 }
 

@@ -164,9 +164,10 @@ class Evaluation {
   ClampMeans means_;
   std::optional<HeldStrains> held_;  ///< of the segment being evaluated, with friction
   Bound stick_, free_;
-  std::vector<Worker> workers_;          ///< one a thread
-  std::vector<Wire> wires_;              ///< bundle by bundle
-  std::vector<std::size_t> first_wire_;  ///< of each bundle
+  std::vector<Worker> workers_;              ///< one a thread
+  std::vector<BundleSites> found_, before_;  ///< batches of bundles: being scanned, being used
+  std::vector<Wire> wires_;                  ///< bundle by bundle
+  std::vector<std::size_t> first_wire_;      ///< of each bundle
   Site worst_;
   std::size_t worst_segment_ = 0;
   float worst_range_ = -1;
