@@ -49,7 +49,7 @@ void add_checks(std::vector<Dataset>& datasets) {
   const auto add = [&](const char* path, Type type, const char* axis, const char* unit, const char* meaning) {
     datasets.push_back({path, type, {axis}, unit, meaning, true, true});
   };
-  const char *line = "check", *link = "segment+1";
+  const char *line = "check", *link = "hose_link";
   add("/check/name", Type::text, line, "1", "what is checked");
   add("/check/value", Type::f64, line, "see /check/unit",
       "its worst value; inf: a bend radius without any bend");
@@ -61,7 +61,8 @@ void add_checks(std::vector<Dataset>& datasets) {
   add("/check/position", Type::f64, line, "m",
       "where, from the base clamp along the dresspack; -1: of the whole");
   add("/check/curvature", Type::f64, link, "1/m",
-      "largest bending curvature of each link, every step counted; link j lies j lengths from the base");
+      "largest bending curvature of each elastic link, every step counted: at the joints of the segments, "
+      "with one on either side of a clamp between two spans");
   add("/check/curvature_time", Type::f64, link, "s", "when");
   add("/check/twist", Type::f64, link, "rad/m", "largest twist by size, with its sign");
   add("/check/twist_time", Type::f64, link, "s", "when");
@@ -91,6 +92,20 @@ Format make_motion_format() {
        {"sample", "clamp", "4"},
        "1",
        "unit quaternion w x y z of the clamps"},
+      {"/clamp/segment",
+       Type::i32,
+       {"clamp"},
+       "1",
+       "segments on the base side of each clamp: 0 at the base clamp; absent: two clamps, at the ends",
+       false,
+       true},
+      {"/clamp/travel",
+       Type::f64,
+       {"sample", "dresspack"},
+       "m",
+       "how far a retraction unit has let each dresspack's base clamp out; absent without one",
+       false,
+       true},
       {"/robot/joint_position", Type::f64, {"sample", "joint"}, "rad", "joint angles", false, true},
       {"/robot/link_pose",
        Type::f64,

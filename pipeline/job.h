@@ -231,6 +231,7 @@ struct Dresspack {
   double bending_stiffness = 0;                 ///< EI [N m2]
   double torsional_stiffness = 0;               ///< GJ [N m2]
   double axial_stiffness = 0;                   ///< EA [N]
+  double rest_curvature = 0;                    ///< of the unloaded hose, toward x of its base clamp [1/m]
   double damping_time = 0;                      ///< Kelvin-Voigt tau of bending and twist [s]
   std::string damping_source;                   ///< where the damping was measured or why it is guessed
   double friction = 0;                          ///< Coulomb, hose against robot
@@ -252,14 +253,51 @@ struct Clamp {
   std::string link;                        ///< of the robot
   Vector3d position = Vector3d::Zero();    ///< in the link's frame [m]
   Vector3d direction = Vector3d::UnitZ();  ///< of the dresspack there, base to tool, in the link's frame
-  std::optional<double> roll;              ///< about the direction [rad]; tool clamp only, absent: twist-free
+  std::optional<double> roll;  ///< about the direction [rad]; absent: 0 at the base clamp, else twist-free
   Where where;
   std::string mounting_point{};  ///< of the robot, instead of link, position, direction; empty once read
 };
 
+/// A clamp between the two ends: the dresspack is gripped there, in position, direction and twist.
+struct IntermediateClamp {
+  Clamp clamp;
+  double at_length = 0;  ///< of the dresspack from the base clamp, unstretched [m]
+};
+
+/// A ring through which the dresspack slides and turns.
+struct GuideRing {
+  std::string link;
+  Vector3d position = Vector3d::Zero();    ///< of its centre, in the link's frame [m]
+  Vector3d direction = Vector3d::UnitZ();  ///< of its axis, base to tool, in the link's frame
+  double radius = 0;                       ///< clear inner [m]
+  double friction = 0;                     ///< Coulomb
+  double width = 0;                        ///< along its axis: a short tube [m]
+  std::optional<double> at_length;         ///< of dresspack from the base clamp to the ring when mounted [m]
+  Where where;
+};
+
+/// Spring-returned slack: the base clamp slides along its direction and is pulled back.
+struct Retraction {
+  double force = 0;     ///< at travel 0 [N]
+  double spring = 0;    ///< more per way pulled out [N/m]
+  double stroke = 0;    ///< [m]
+  double damping = 0;   ///< [N s/m]
+  double friction = 0;  ///< Coulomb [N]
+  double mass = 1;      ///< of what slides, without the hose between the clamps [kg]
+  Where where;
+};
+
+enum class ToolEnd { clamped, free };
+
 struct Routing {
   double free_length = 0;                       ///< of dresspack between the clamps, unstretched [m]
   std::optional<Clamp> base_clamp, tool_clamp;  ///< absent with clamp_poses only
+  std::vector<IntermediateClamp> clamps;        ///< between them, in order along the dresspack
+  std::vector<GuideRing> rings;                 ///< in order along the dresspack
+  std::optional<Retraction> retraction;         ///< of the base clamp
+  double pre_twist = 0;                         ///< of the tool clamp on top of twist-free [rad]
+  ToolEnd tool_end = ToolEnd::clamped;          ///< free: it hangs from its last clamp, no tool_clamp
+  double tool_mass = 0;                         ///< at a free end [kg]
   std::vector<double>
       mounting_pose;  ///< joints when the dresspack was clamped free of twist [rad]; empty: start
   Where where;

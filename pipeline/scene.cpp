@@ -64,6 +64,35 @@ void add_robot(std::vector<Stroke>& strokes, const FileReader& file, const Robot
   }
 }
 
+/// Guide rings and the clamps between the ends, as circles of short strokes about the hose.
+void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Job& job, std::size_t sample) {
+  if (!file.has("/robot/link_pose")) return;
+  constexpr int corners = 20;
+  constexpr double thick = 0.006;  // [m]
+  std::vector<double> pose;
+  file.read_rows("/robot/link_pose", sample, 1, pose);
+  const auto circle = [&](const std::string& name, const Vector3d& centre, const Vector3d& axis,
+                          double radius) {
+    std::size_t link = 0;
+    while (link < job.robot.links.size() && job.robot.links[link].name != name) ++link;
+    if (7 * link + 6 >= pose.size()) return;
+    const double* p = &pose[7 * link];
+    const Eigen::Quaterniond turn(p[3], p[4], p[5], p[6]);
+    const Vector3d middle = Vector3d(p[0], p[1], p[2]) + turn * centre, z = turn * axis.normalized();
+    const Vector3d x = z.unitOrthogonal(), y = z.cross(x);
+    const auto corner = [&](int k) {
+      const double angle = 2 * std::numbers::pi * k / corners;
+      return Vector3d(middle + radius * (std::cos(angle) * x + std::sin(angle) * y));
+    };
+    for (int k = 0; k < corners; ++k) strokes.push_back({corner(k), corner(k + 1), thick, "arm-2"});
+  };
+  for (const GuideRing& ring : job.routing.rings)
+    circle(ring.link, ring.position, ring.direction, ring.radius + thick);
+  for (const IntermediateClamp& between : job.routing.clamps)
+    circle(between.clamp.link, between.clamp.position, between.clamp.direction,
+           job.dresspack.diameter / 2 + thick);
+}
+
 std::vector<Vector3d> hose_points(const FileReader& file, std::size_t sample) {
   std::vector<double> clamps, centres;
   file.read_rows("/clamp/position", sample, 1, clamps);
@@ -142,6 +171,7 @@ std::string scene_picture(const std::filesystem::path& motion_file, double time,
   const std::size_t sample = sample_at(file, time);
   std::vector<Stroke> strokes;
   add_robot(strokes, file, job.robot, sample);
+  add_rings(strokes, file, job, sample);
   add_hose(strokes, hose_points(file, sample), job.dresspack.diameter / 2, worst_from_tool);
 
   double height = 0;

@@ -31,9 +31,16 @@ void Extreme::see(double candidate, bool larger, double when, int where) {
 }
 
 MotionChecks::MotionChecks(const Rod& rod)
-    : rod_(rod), curvature_(rod.links()), twist_(rod.links()), tension_(rod.links()) {}
+    : rod_(rod),
+      curvature_(rod.links()),
+      twist_(rod.links()),
+      tension_(rod.links()),
+      least_slack_(rod.spans().size()),
+      most_slack_(rod.spans().size()),
+      travel_(rod.spans().size()) {}
 
-void MotionChecks::see(const RodState& state, const std::vector<Contact>& contacts, double time) {
+void MotionChecks::see(const RodState& state, const std::vector<Contact>& contacts, double time,
+                       const std::vector<double>& ways) {
   net_twist_ = 0;
   const std::vector<double> pull = rod_.tensions(state);
   for (int j = 0; j < rod_.links(); ++j) {
@@ -45,10 +52,15 @@ void MotionChecks::see(const RodState& state, const std::vector<Contact>& contac
     twist_[j].see(twist, std::abs(twist) > std::abs(twist_[j].value), time, j);
     tension_[j].see(pull[j], pull[j] > tension_[j].value, time, j);
   }
-  const double slack =
-      rod_.properties().length - (state.clamps.tool.position - state.clamps.base.position).norm();
-  least_slack_.see(slack, slack < least_slack_.value, time, -1);
-  most_slack_.see(slack, slack > most_slack_.value, time, -1);
+  for (int k = 0; k < static_cast<int>(rod_.spans().size()); ++k) {
+    const RodProperties& p = rod_.spans()[k].properties;
+    if (p.slider) travel_[k].see(state.travel[k].way, state.travel[k].way > travel_[k].value, time, k);
+    if (p.tool_end == End::free) continue;
+    const Vector3 way = state.clamps.end(2 * k + 1).position - state.clamps.end(2 * k).position;
+    const double slack = p.length - (ways.empty() ? way.norm() : ways[k]);
+    least_slack_[k].see(slack, slack < least_slack_[k].value, time, k);
+    most_slack_[k].see(slack, slack > most_slack_[k].value, time, k);
+  }
   most_net_twist_.see(net_twist_, std::abs(net_twist_) > std::abs(most_net_twist_.value), time, -1);
   for (const Contact& contact : contacts) {
     if (contact.depth > depth_.value) depth_.see(contact.depth, true, time, contact.segment);
@@ -60,14 +72,19 @@ void MotionChecks::see(const RodState& state, const std::vector<Contact>& contac
 }
 
 std::vector<Check> MotionChecks::table() const {
-  const double l = rod_.segment_length(), length = rod_.properties().length;
-  const auto link = [&](const Extreme& e) { return e.place * l; };
-  const auto segment = [&](const Extreme& e) { return e.place < 0 ? -1 : (e.place + 0.5) * l; };
+  const auto link = [&](const Extreme& e) { return rod_.link_arc(e.place); };
+  const auto segment = [&](const Extreme& e) {
+    return e.place < 0 ? -1 : rod_.span_of(e.place).arc(e.place);
+  };
+  const auto length = [&](const Extreme& e) { return rod_.spans()[e.place].properties.length; };
+  const auto share = [&](const Extreme& e) { return e.value / length(e); };
+  const auto middle = [&](const Extreme& e) {
+    return rod_.spans().size() == 1 ? -1 : rod_.spans()[e.place].first_arc + length(e) / 2;
+  };
   const Extreme &bend = largest(curvature_), &twist = largest_by_size(twist_), &pull = largest(tension_);
   const double radius = bend.value > 0 ? 1 / bend.value : unlimited;
-  const double least_radius = least_bend_diameters * rod_.properties().diameter;
-  const double least = least_slack_share * length, most = most_slack_share * length;
-  return {
+  const double least_radius = least_bend_diameters * rod_.span_of_link(bend.place).properties.diameter;
+  std::vector<Check> checks = {
       {"smallest bend radius", "m", radius, least_radius, radius < least_radius, bend.time, link(bend)},
       {"largest twist", "rad/m", twist.value, most_twist, std::abs(twist.value) > most_twist, twist.time,
        link(twist)},
@@ -76,12 +93,30 @@ std::vector<Check> MotionChecks::table() const {
       {"largest tension", "N", pull.value, unlimited, false, pull.time, link(pull)},
       {"deepest contact", "m", depth_.value, unlimited, false, depth_.time, segment(depth_)},
       {"largest contact force", "N", force_.value, unlimited, false, force_.time, segment(force_)},
-      {"least slack: too short below", "m", least_slack_.value, least, least_slack_.value < least,
-       least_slack_.time, -1},
-      {"least slack: too long above", "m", least_slack_.value, most, least_slack_.value > most,
-       least_slack_.time, -1},
-      {"most slack", "m", most_slack_.value, unlimited, false, most_slack_.time, -1},
   };
+  const Extreme *tight = nullptr, *loose = nullptr, *most = nullptr;
+  for (size_t k = 0; k < least_slack_.size(); ++k) {
+    const Extreme &least = least_slack_[k], &greatest = most_slack_[k];
+    if (!least.seen) continue;  // a free end
+    if (!tight || share(least) < share(*tight)) tight = &least;
+    if (!loose || share(least) > share(*loose)) loose = &least;
+    if (!most || share(greatest) > share(*most)) most = &greatest;
+  }
+  if (tight) {
+    const double shortest = least_slack_share * length(*tight), longest = most_slack_share * length(*loose);
+    checks.push_back({"least slack: too short below", "m", tight->value, shortest, tight->value < shortest,
+                      tight->time, middle(*tight)});
+    checks.push_back({"least slack: too long above", "m", loose->value, longest, loose->value > longest,
+                      loose->time, middle(*loose)});
+    checks.push_back({"most slack", "m", most->value, unlimited, false, most->time, middle(*most)});
+  }
+  for (const Extreme& travel : travel_)
+    if (travel.seen) {
+      const double stroke = rod_.spans()[travel.place].properties.slider->stroke;
+      checks.push_back({"travel of the retraction unit", "m", travel.value, stroke, travel.value >= stroke,
+                        travel.time, rod_.spans()[travel.place].first_arc});
+    }
+  return checks;
 }
 
 }  // namespace dresslife::sim

@@ -4,7 +4,8 @@
 // (R9) Every step, at link j, s = j l from the base clamp: bend radius 1/|kappa|, kappa and twist = the
 // link's turn over its compliance length (S5); tension (S9). Net twist is the sum of all links' turns about
 // the tangent, so whole turns count; what is left of it after a repeat is its end minus its begin. Slack is
-// the free length minus the straight distance of the clamps.
+// the free length of a span minus the straight distance of its clamps; of several spans the one with least of
+// it for its length counts.
 #pragma once
 
 #include <string>
@@ -46,7 +47,9 @@ class MotionChecks {
   explicit MotionChecks(const Rod& rod);
 
   /// Looks at the state at one time; the first call of a repeat is at its begin.
-  void see(const RodState& state, const std::vector<Contact>& contacts, double time);
+  /// ways: (span) straight ways through guide rings [m]; empty: from clamp to clamp.
+  void see(const RodState& state, const std::vector<Contact>& contacts, double time,
+           const std::vector<double>& ways = {});
 
   double net_twist() const { return net_twist_; }                       ///< of the last state seen [rad]
   const std::vector<Extreme>& curvature() const { return curvature_; }  ///< (link) largest [1/m]
@@ -58,7 +61,9 @@ class MotionChecks {
  private:
   const Rod& rod_;
   std::vector<Extreme> curvature_, twist_, tension_;
-  Extreme least_slack_, most_slack_, most_net_twist_, depth_, force_;
+  std::vector<Extreme> least_slack_, most_slack_;  // (span)
+  std::vector<Extreme> travel_;                    // (span)
+  Extreme most_net_twist_, depth_, force_;
   bool begun_ = false;
   double net_twist_ = 0, net_twist_at_begin_ = 0, end_ = 0;
 };

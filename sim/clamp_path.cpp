@@ -20,11 +20,19 @@ Frame clamp_frame(const pipeline::Clamp& clamp) {
 RobotPath::RobotPath(const pipeline::Job& job)
     : kinematics_(job.robot),
       motion_(resolved_motion(job.motion), job.robot),
-      base_link_(find_link(job.robot, job.routing.base_clamp->link, job.routing.base_clamp->where)),
-      tool_link_(find_link(job.robot, job.routing.tool_clamp->link, job.routing.tool_clamp->where)),
-      base_clamp_(clamp_frame(*job.routing.base_clamp)),
-      tool_clamp_(clamp_frame(*job.routing.tool_clamp)),
+      free_tool_end_(job.routing.tool_end == pipeline::ToolEnd::free),
       mounting_pose_(motion_.position(0)) {
+  const auto add = [&](const pipeline::Clamp& clamp) {
+    clamp_links_.push_back(find_link(job.robot, clamp.link, clamp.where));
+    clamps_.push_back(clamp_frame(clamp));
+  };
+  add(*job.routing.base_clamp);
+  for (const pipeline::IntermediateClamp& between : job.routing.clamps) add(between.clamp);
+  if (!free_tool_end_) add(*job.routing.tool_clamp);
+  for (const pipeline::GuideRing& ring : job.routing.rings) {
+    ring_links_.push_back(find_link(job.robot, ring.link, ring.where));
+    rings_.push_back(clamp_frame({ring.link, ring.position, ring.direction, {}, ring.where}));
+  }
   const std::vector<double>& mounting = job.routing.mounting_pose;
   if (mounting.empty()) return;
   check_joint_limits(job.robot, mounting, "routing.mounting_pose_deg", job.routing.where);
@@ -37,10 +45,15 @@ Pose RobotPath::pose(const Eigen::VectorXd& joints) const {
   pose.joints = joints;
   pose.links.resize(kinematics_.links());
   kinematics_.link_frames({joints.data(), static_cast<size_t>(joints.size())}, pose.links);
-  pose.clamps = {pose.links[base_link_] * base_clamp_, pose.links[tool_link_] * tool_clamp_};
+  const auto placed = [&](size_t k) { return pose.links[clamp_links_[k]] * clamps_[k]; };
+  const size_t last = clamps_.size() - (free_tool_end_ ? 0 : 1);
+  pose.clamps.base = placed(0);
+  for (size_t k = 1; k < last; ++k) pose.clamps.between.insert(pose.clamps.between.end(), 2, placed(k));
+  pose.clamps.tool = placed(clamps_.size() - 1);  // a free end has none of its own and does not use it
+  for (size_t k = 0; k < rings_.size(); ++k) pose.rings.push_back(pose.links[ring_links_[k]] * rings_[k]);
   return pose;
 }
 
-void RobotPath::turn_tool_clamp(double roll) { tool_clamp_ = rolled(tool_clamp_, roll); }
+void RobotPath::turn_clamp(int k, double roll) { clamps_[k] = rolled(clamps_[k], roll); }
 
 }  // namespace dresslife::sim

@@ -1,4 +1,4 @@
-// Where both clamps (and the robot's links) are at any time of a motion: from a robot and its routing, or
+// Where the clamps (and the robot's links) are at any time of a motion: from a robot and its routing, or
 // from a file of recorded clamp poses.
 //
 // (R2) clamp = F_link (p, R_clamp):  p [m] and the direction d lie in the link's frame, z of R_clamp is d,
@@ -29,6 +29,7 @@ namespace dresslife::sim {
 struct Pose {
   ClampFrames clamps;
   std::vector<Frame> links;  ///< of the robot; empty without one
+  std::vector<Frame> rings;  ///< guide rings, z = their axes
   Eigen::VectorXd joints;    ///< of the robot, then of its external axes (robot.h); empty without one
 };
 
@@ -44,7 +45,7 @@ class ClampPath {
 /// The clamps carried by a robot that runs a joint program.
 class RobotPath final : public ClampPath {
  public:
-  /// Throws InputError: joint limits, wrong links. Precondition: the job has both clamps.
+  /// Throws InputError: joint limits, wrong links. Precondition: the job has its clamps.
   explicit RobotPath(const pipeline::Job& job);
 
   double duration() const override { return motion_.duration(); }
@@ -54,18 +55,22 @@ class RobotPath final : public ClampPath {
 
   const JointMotion& motion() const { return motion_; }
   Pose pose(const Eigen::VectorXd& joints) const;
-  int base_link() const { return base_link_; }
-  int tool_link() const { return tool_link_; }
+  /// Of every clamp, from base to tool: index of the link that carries it.
+  const std::vector<int>& clamp_links() const { return clamp_links_; }
+  const std::vector<int>& ring_links() const { return ring_links_; }
+  /// Of each ring in its link's frame.
+  const std::vector<Frame>& rings() const { return rings_; }
   /// Joint angles at which the dresspack was clamped [rad].
   const Eigen::VectorXd& mounting_pose() const { return mounting_pose_; }
-  /// Turns the tool clamp about its direction by roll [rad], for good.
-  void turn_tool_clamp(double roll);
+  /// Turns clamp k (0: base) about its direction by roll [rad], for good.
+  void turn_clamp(int k, double roll);
 
  private:
   RobotKinematics kinematics_;
   JointMotion motion_;
-  int base_link_, tool_link_;
-  Frame base_clamp_, tool_clamp_;  // in their links' frames (R2)
+  std::vector<int> clamp_links_, ring_links_;
+  std::vector<Frame> clamps_, rings_;  // in their links' frames (R2)
+  bool free_tool_end_;
   Eigen::VectorXd mounting_pose_;
 };
 

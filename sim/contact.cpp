@@ -26,10 +26,10 @@ void add(Twist6& sum, double factor, const Twist6& x) {
   for (int k = 0; k < 6; ++k) sum.value[k] += factor * x.value[k];
 }
 
-// Row of J: velocity of a segment's matter at the contact along an axis.
-Twist6 direction_at(const Vector3& arm, const Vector3& axis) {
+// Row of J: velocity of a segment's matter at the contact along an axis, its linear part weighed.
+Twist6 direction_at(const Vector3& arm, const Vector3& axis, double weight = 1) {
   const Vector3 turn = arm.cross(axis);
-  return {{axis.x(), axis.y(), axis.z(), turn.x(), turn.y(), turn.z()}};
+  return {{weight * axis.x(), weight * axis.y(), weight * axis.z(), turn.x(), turn.y(), turn.z()}};
 }
 
 // Unit tangents that make a right-handed triad with the normal.
@@ -49,6 +49,14 @@ Vector3 relative_velocity(const RodState& state, std::span<const Twist6> change,
     const Vector3 spin = state.angular_velocity[i] + change[i].angular();
     return Vector3(state.velocity[i] + change[i].linear() + spin.cross(contact.point - state.position[i]));
   };
+  if (contact.share > 0) {
+    const int i = contact.segment, j = contact.other;
+    return (1 - contact.share) * (state.velocity[i] + change[i].linear()) +
+           (state.angular_velocity[i] + change[i].angular()).cross(contact.arm) +
+           contact.share * (state.velocity[j] + change[j].linear()) +
+           (state.angular_velocity[j] + change[j].angular()).cross(contact.other_arm) -
+           contact.obstacle_velocity;
+  }
   const Vector3 velocity = matter(contact.segment) - contact.obstacle_velocity;
   return contact.other < 0 ? velocity : Vector3(velocity - matter(contact.other));
 }
@@ -63,9 +71,14 @@ void ContactSolver::set_up(const RodState& state, std::span<const Twist6> change
     const Vector3 velocity = relative_velocity(state, change, c);
     const Vector3 axes[3] = {c.normal, first, second};
     for (int q = 0; q < 3; ++q) {
+      velocity_[3 * k + q] = velocity.dot(axes[q]);
+      if (c.share > 0) {
+        direction_[3 * k + q] = direction_at(c.arm, axes[q], 1 - c.share);
+        opposite_[3 * k + q] = direction_at(c.other_arm, axes[q], c.share);
+        continue;
+      }
       direction_[3 * k + q] = direction_at(c.point - state.position[c.segment], axes[q]);
       if (c.other >= 0) opposite_[3 * k + q] = direction_at(c.point - state.position[c.other], -axes[q]);
-      velocity_[3 * k + q] = velocity.dot(axes[q]);
     }
     velocity_[3 * k] -= c.depth > 0 ? std::min(overlap_share * c.depth / h, push_speed) : c.depth / h;
   }
@@ -133,7 +146,7 @@ double ContactSolver::rub(int row, double limit) {
   return std::hypot(change[0], change[1]);
 }
 
-void ContactSolver::iterate(double friction, double h) {
+void ContactSolver::iterate(const std::vector<Contact>& contacts, double h) {
   const int rows = static_cast<int>(direction_.size());
   for (int row = 0; row < rows; ++row) {
     const double start = answer_[row];
@@ -143,7 +156,7 @@ void ContactSolver::iterate(double friction, double h) {
     double largest = 0;
     for (int row = 0; row < rows; row += 3) {
       largest = std::max(largest, press(row, h));
-      largest = std::max(largest, rub(row + 1, friction * answer_[row]));
+      largest = std::max(largest, rub(row + 1, contacts[row / 3].friction * answer_[row]));
     }
     if (largest < smallest_change) break;
   }
@@ -164,7 +177,7 @@ void ContactSolver::start_from_last_step(const std::vector<Contact>& contacts, d
   }
 }
 
-void ContactSolver::solve(const RodState& state, double friction, double h, RodSolver& solver,
+void ContactSolver::solve(const RodState& state, double h, RodSolver& solver,
                           std::vector<Contact>& contacts) {
   if (contacts.empty()) {
     last_.clear();
@@ -176,7 +189,7 @@ void ContactSolver::solve(const RodState& state, double friction, double h, RodS
   set_up(state, change, contacts, h);
   start_from_last_step(contacts, h);
   condense(solver, contacts);
-  iterate(friction, h);
+  iterate(contacts, h);
   impulse_.assign(change.size(), Twist6{});
   for (size_t row = 0; row < direction_.size(); ++row) {
     const Contact& c = contacts[row / 3];

@@ -72,6 +72,11 @@ double Statics::unbalance(const RodState& state) {
     push(i, rod_.segment_mass() * rod_.properties().gravity, Vector3::Zero());
     if (!loads_.empty()) push(i, loads_[i].force, loads_[i].torque);
   }
+  if (const double mass = rod_.properties().tip_mass; mass > 0) {
+    const Vector3 arm = rod_.tip(state) - state.position.back(), weight = mass * rod_.properties().gravity;
+    push(n - 1, weight, arm.cross(weight));
+    scale = std::max(scale, weight.norm());
+  }
   for (int j = 0; j <= n; ++j) {
     if (rod_.gap_stiffness(j) == 0) continue;
     const LinkEnds ends = link_ends(rod_, state, j);
@@ -152,6 +157,12 @@ int Statics::solve(const RodState& state, double shift) {
     std::copy_n(unbalanced_[i].value, 6, block_[i].value);
   }
   for (int j = 0; j <= n; ++j) add_link(state, j);
+  if (const double mass = rod_.properties().tip_mass;
+      mass > 0) {  // its weight pulls as a link force would (S12)
+    const Vector3 arm = rod_.tip(state) - state.position.back(), f = mass * rod_.properties().gravity;
+    add_block(block_[n - 1].diagonal + 21,
+              f.dot(arm) * Matrix3::Identity() - 0.5 * (f * arm.transpose() + arm * f.transpose()));
+  }
   int not_positive = 0;
   for (int i = 0; i < n; ++i) not_positive += eliminate(block_[i], i + 1 < n ? &block_[i + 1] : nullptr);
   for (int i = n - 1; i >= 0; --i) {
@@ -234,8 +245,8 @@ double furthest(std::span<const Twist6> step, double l) {
 
 void take_to_rest(const Rod& rod, RodState& state) {
   for (int i = 0; i < rod.segments(); ++i) state.velocity[i].setZero(), state.angular_velocity[i].setZero();
-  state.clamp_velocity.fill(Vector3::Zero());
-  state.clamp_angular_velocity.fill(Vector3::Zero());
+  state.clamp_velocity.assign(2, Vector3::Zero());
+  state.clamp_angular_velocity.assign(2, Vector3::Zero());
   for (int j = 0; j < rod.links(); ++j)
     state.link_force[j] = rod.gap_stiffness(j) * rod.link_state(state, j).gap;
 }
@@ -335,6 +346,7 @@ class Descent {
 
 Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const RodState& start,
                              std::span<const Load> loads, const EquilibriumSettings& settings) {
+  assert(rod.spans().size() == 1);
   assert(loads.empty() || static_cast<int>(loads.size()) == rod.segments());
   return Descent(rod, clamps, start, loads, settings).run();
 }
@@ -383,13 +395,14 @@ TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
 
 Equilibrium settle(World& world, std::span<const Frame> links, int steps, double speed) {
   const Rod& rod = world.rod();
-  const ClampFrames clamps = world.state().clamps;
+  const ClampFrames clamps = rod.home(world.state());
   Equilibrium result;
   double energy_before = 0, speed_before = 0;
   for (result.iterations = 1; result.iterations <= steps; ++result.iterations) {
     if (!world.advance(clamps, links).finite) return result;
     double fastest = 0;
     for (const Vector3& v : world.state().velocity) fastest = std::max(fastest, v.norm());
+    for (const Travel& travel : world.state().travel) fastest = std::max(fastest, std::abs(travel.speed));
     const double kinetic = rod.energy(world.state()).kinetic;
     if (kinetic >= energy_before) {
       energy_before = kinetic, speed_before = fastest;
@@ -400,6 +413,7 @@ Equilibrium settle(World& world, std::span<const Frame> links, int steps, double
     if (result.residual < speed) result.status = EquilibriumStatus::converged;
     RodState state = world.state();
     for (int i = 0; i < rod.segments(); ++i) state.velocity[i].setZero(), state.angular_velocity[i].setZero();
+    for (Travel& travel : state.travel) travel.speed = 0;
     world.set_state(state);
     energy_before = speed_before = 0;
     if (result.status == EquilibriumStatus::converged) break;

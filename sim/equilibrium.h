@@ -13,6 +13,8 @@
 
 namespace dresslife::sim {
 
+// Of one span: several do not feel each other until they touch.
+
 enum class EquilibriumStatus {
   converged,
   not_converged,  ///< residual above the tolerance after the allowed iterations
@@ -56,8 +58,8 @@ TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
                                const EquilibriumSettings& settings = {});
 
 /// Lets the chain come to rest in the world, among its obstacles, by steps whose velocities are taken away as
-/// soon as the kinetic energy falls. Clamps and links stay. iterations counts steps; residual is the largest
-/// speed left [m/s].
+/// soon as the kinetic energy falls. Any number of spans; clamps and links stay. iterations counts steps;
+/// residual is the largest speed left [m/s].
 Equilibrium settle(World& world, std::span<const Frame> links = {}, int steps = 20000, double speed = 1e-4);
 
 }  // namespace dresslife::sim

@@ -57,13 +57,17 @@ struct LinkEnds {
 };
 
 inline LinkEnds link_ends(const Rod& rod, const RodState& state, int link) {
-  const bool has_a = link > 0, has_b = link < rod.segments();
+  const Span& span = rod.span_of_link(link);
+  const int k = link - span.first_link, before = span.first_segment + k - 1;
+  const bool has_a = k > 0, has_b = k < span.segments();
+  const int first_end = 2 * static_cast<int>(&span - rod.spans().data());
+  const Frame &base = state.clamps.end(first_end), &tool = state.clamps.end(first_end + 1);
   LinkEnds ends;
-  ends.position_a = has_a ? &state.position[link - 1] : &state.clamps.base.position;
-  ends.orientation_a = has_a ? &state.orientation[link - 1] : &state.clamps.base.orientation;
-  ends.position_b = has_b ? &state.position[link] : &state.clamps.tool.position;
-  ends.orientation_b = has_b ? &state.orientation[link] : &state.clamps.tool.orientation;
-  const double a = rod.segment_length() / 2;
+  ends.position_a = has_a ? &state.position[before] : &base.position;
+  ends.orientation_a = has_a ? &state.orientation[before] : &base.orientation;
+  ends.position_b = has_b ? &state.position[before + 1] : &tool.position;
+  ends.orientation_b = has_b ? &state.orientation[before + 1] : &tool.orientation;
+  const double a = span.segment_length / 2;
   ends.arm_a = has_a ? Vector3(a * tangent(*ends.orientation_a)) : Vector3(Vector3::Zero());
   ends.arm_b = has_b ? Vector3(a * tangent(*ends.orientation_b)) : Vector3(Vector3::Zero());
   return ends;

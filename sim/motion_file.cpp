@@ -18,12 +18,17 @@ void put(std::vector<double>& row, const Quaternion& q) {
 MotionFile::MotionFile(pipeline::FileWriter& file, const RunDescription& description)
     : file_(file), description_(description) {
   file_.set_axis("segment", description.segment_length.size());
-  file_.set_axis("clamp", 2);
+  file_.set_axis("clamp", description.clamp_segment.size());
+  file_.set_axis("hose_link", description.links);
+  file_.set_axis("dresspack", 1);
   if (description.joints > 0) {
     file_.set_axis("joint", description.joints);
     file_.set_axis("link", description.link_names.size());
   }
   file_.append("/segment/length", std::span<const double>(description.segment_length));
+  if (description.clamp_segment.size() > 2)
+    file_.append("/clamp/segment", std::span<const std::int32_t>(description.clamp_segment.data(),
+                                                                 description.clamp_segment.size()));
   file_.append("/program/text", std::span<const std::string>(description.step_texts));
 }
 
@@ -40,12 +45,13 @@ void MotionFile::add(const Sample& sample) {
   rows("/segment/orientation", orientations_);
   positions_.clear();
   orientations_.clear();
-  for (const Frame& clamp : {sample.pose.clamps.base, sample.pose.clamps.tool}) {
+  for (const Frame& clamp : sample.clamps) {
     put(positions_, clamp.position);
     put(orientations_, clamp.orientation);
   }
   rows("/clamp/position", positions_);
   rows("/clamp/orientation", orientations_);
+  if (!sample.travel.empty()) rows("/clamp/travel", sample.travel);
   if (description_.joints > 0) add_robot(sample.pose);
   file_.append("/program/step", std::span<const std::int32_t>(std::array<std::int32_t, 1>{sample.step}));
   file_.append("/contact/count", std::span<const std::int32_t>(std::array<std::int32_t, 1>{sample.contacts}));

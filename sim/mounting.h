@@ -1,10 +1,11 @@
 // How the dresspack comes onto the robot: the state in which a simulation starts.
 //
-// (R7) As an installer does it: the robot stands in the mounting pose; the hose is held clear of the robot,
-// clamped, its tool end turned until it carries no torsion (unless the routing gives a roll), and let down
-// until it rests on whatever it meets. Then the robot goes slowly to the first waypoint, which keeps whole
-// turns of the hose. "Held clear": static equilibria under gravity as it is, absent, reversed and to either
-// side are found without obstacles; the one that overlaps the robot least is where the hose is let down from.
+// (R7) As an installer does it: the robot stands in the mounting pose; span by span from the base the hose is
+// held clear of the robot and clamped, its far end turned until it carries no torsion (unless that clamp has
+// a roll), and let down until it rests on whatever it meets. Then the robot goes slowly to the first
+// waypoint, which keeps whole turns of the hose. "Held clear": static equilibria under gravity as it is,
+// absent, reversed and to either side are found without obstacles; the one that overlaps the robot least is
+// where the hose is let down from.
 #pragma once
 
 #include <memory>
@@ -16,11 +17,12 @@
 
 namespace dresslife::sim {
 
-/// The chain in `state` among the links of the robot (null: none) and on the floor, as the job says.
+/// The chain in `state` among the links of the robot (null: none), in the guide rings and on the floor, as
+/// the job says.
 std::unique_ptr<World> make_world(const pipeline::Job& job, const Rod& rod, const RobotPath* robot,
                                   const RodState& state, const Pose& pose);
 
-/// The chain at rest in the clamps of time 0. Turns the robot's tool clamp for good. robot: `path` if it is
+/// The chain at rest in the clamps of time 0. Turns the robot's clamps for good. robot: `path` if it is
 /// one. Throws InputError at the routing when the hose cannot be clear of the robot, is too short or does not
 /// come to rest.
 RodState mount(const pipeline::Job& job, const Rod& rod, const ClampPath& path, RobotPath* robot);

@@ -16,10 +16,10 @@ bool same(const Frame& a, const Frame& b) {
 }  // namespace
 
 double state_distance(const Rod& rod, const RodState& a, const RodState& b) {
-  const double radius = rod.properties().diameter / 2;
   double largest = 0;
   for (int i = 0; i < rod.segments(); ++i) {
     const double turn = rotation_vector(a.orientation[i].conjugate() * b.orientation[i]).norm();
+    const double radius = rod.span_of(i).properties.diameter / 2;
     largest = std::max(largest, (a.position[i] - b.position[i]).norm() + radius * turn +
                                     sway_time * (a.velocity[i] - b.velocity[i]).norm());
   }

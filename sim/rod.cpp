@@ -49,26 +49,53 @@ Vector3 end_mask(const RodProperties& p, int link) {
 
 // ---- what is built once -----------------------------------------------------------------------------------
 
-Rod::Rod(const RodProperties& p) : properties_(p) {
+Rod::Rod(const RodProperties& properties) { add(properties, true); }
+
+Rod::Rod(const std::vector<RodProperties>& spans, const std::vector<int>& first_of_dresspack) {
+  assert(!spans.empty());
+  for (size_t k = 0; k < spans.size(); ++k)
+    add(spans[k], k == 0 || std::find(first_of_dresspack.begin(), first_of_dresspack.end(),
+                                      static_cast<int>(k)) != first_of_dresspack.end());
+}
+
+void Rod::add(const RodProperties& p, bool new_dresspack) {
   assert(p.segments >= 2 && p.length > 0 && p.mass_per_length > 0 && p.diameter > 0);
   assert(p.bending_stiffness > 0 && p.torsional_stiffness > 0 && p.axial_stiffness > 0 &&
          p.damping_time >= 0);
   assert(p.base_end != End::free);
+  Span span;
+  span.properties = p;
+  span.first_segment = segments(), span.first_link = links();
+  if (!spans_.empty()) {
+    const Span& before = spans_.back();
+    span.dresspack = before.dresspack + (new_dresspack ? 1 : 0);
+    span.first_arc = new_dresspack ? 0 : before.first_arc + before.properties.length;
+  }
   const int n = p.segments;
   const double l = p.length / n, radius2 = p.diameter * p.diameter / 4;
-  segment_length_ = l;
-  segment_mass_ = p.mass_per_length * l;
-  axial_inertia_ = segment_mass_ * inertia_shape * radius2;
-  transverse_inertia_ = segment_mass_ * (l * l / 12 + inertia_shape * radius2 / 2);
+  span.segment_length = l;
+  span.segment_mass = p.mass_per_length * l;
+  span.axial_inertia = span.segment_mass * inertia_shape * radius2;
+  span.transverse_inertia = span.segment_mass * (l * l / 12 + inertia_shape * radius2 / 2);
   for (int j = 0; j <= n; ++j) {
     const bool end = j == 0 || j == n, tied = j < n || p.tool_end != End::free;
     const double length = compliance_length(p, j, l);
     const Vector3 stiffness{p.bending_stiffness, p.bending_stiffness, p.torsional_stiffness};
     bending_length_.push_back(length);
-    gap_stiffness_.push_back(tied ? p.axial_stiffness / (end ? l / 2 : l) : 0);
+    // before a free end the last link stretches for the half segment beyond it too
+    const bool before_free = j == n - 1 && p.tool_end == End::free;
+    gap_stiffness_.push_back(tied ? p.axial_stiffness / (end ? l / 2 : before_free ? 1.5 * l : l) : 0);
     turn_stiffness_.push_back(end_mask(p, j).cwiseProduct(stiffness) / length);
     rest_turn_.push_back(p.rest_curvature * length);
   }
+  span_of_segment_.insert(span_of_segment_.end(), n, static_cast<int>(spans_.size()));
+  span_of_link_.insert(span_of_link_.end(), n + 1, static_cast<int>(spans_.size()));
+  spans_.push_back(span);
+}
+
+double Rod::link_arc(int link) const {
+  const Span& span = span_of_link(link);
+  return span.first_arc + (link - span.first_link) * span.segment_length;
 }
 
 // ---- what the state says ----------------------------------------------------------------------------------
@@ -76,15 +103,35 @@ Rod::Rod(const RodProperties& p) : properties_(p) {
 RodState Rod::straight(const Frame& base) const {
   RodState state;
   const Vector3 t = tangent(base.orientation);
-  for (int i = 0; i < segments(); ++i) {
-    state.position.push_back(base.position + t * (segment_length_ * (i + 0.5)));
-    state.orientation.push_back(base.orientation);
+  Frame frame = base;
+  const int ends = 2 * static_cast<int>(spans_.size());
+  state.clamps.between.resize(ends - 2);
+  for (size_t k = 0; k < spans_.size(); ++k) {
+    const Span& span = spans_[k];
+    state.clamps.end(2 * static_cast<int>(k)) = frame;
+    for (int i = 0; i < span.segments(); ++i) {
+      state.position.push_back(frame.position + t * (span.segment_length * (i + 0.5)));
+      state.orientation.push_back(base.orientation);
+    }
+    frame.position += t * span.properties.length;
+    state.clamps.end(2 * static_cast<int>(k) + 1) = frame;
   }
   state.velocity.assign(segments(), Vector3::Zero());
   state.angular_velocity.assign(segments(), Vector3::Zero());
   state.link_force.assign(links(), Vector3::Zero());
-  state.clamps = {base, {base.position + t * properties_.length, base.orientation}};
+  state.clamp_velocity.assign(ends, Vector3::Zero());
+  state.clamp_angular_velocity.assign(ends, Vector3::Zero());
+  state.travel.resize(spans_.size());
   return state;
+}
+
+ClampFrames Rod::home(const RodState& state) const {
+  ClampFrames home = state.clamps;
+  for (size_t k = 0; k < spans_.size(); ++k) {
+    Frame& base = home.end(2 * static_cast<int>(k));
+    if (spans_[k].properties.slider) base.position -= state.travel[k].way * tangent(base.orientation);
+  }
+  return home;
 }
 
 LinkState Rod::link_state(const RodState& state, int link) const {
@@ -97,7 +144,11 @@ LinkState Rod::link_state(const RodState& state, int link) const {
 
 double Rod::potential_energy(const RodState& state) const {
   double energy = 0;
-  for (const Vector3& x : state.position) energy -= segment_mass_ * properties_.gravity.dot(x);
+  for (int i = 0; i < segments(); ++i)
+    energy -= span_of(i).segment_mass * span_of(i).properties.gravity.dot(state.position[i]);
+  for (const Span& span : spans_)
+    if (span.properties.tip_mass > 0)
+      energy -= span.properties.tip_mass * span.properties.gravity.dot(tip_frame(state, span).position);
   for (int j = 0; j < links(); ++j) {
     const LinkState link = link_state(state, j);
     energy += 0.5 * (gap_stiffness_[j] * link.gap.squaredNorm() + link.moment.dot(link.turn - rest_turn_[j]));
@@ -111,12 +162,14 @@ Energy Rod::energy(const RodState& state) const {
   Energy energy;
   for (int i = 0; i < segments(); ++i) {
     const Vector3& w = state.angular_velocity[i];
+    const Span& span = span_of(i);
     const double axial = w.dot(tangent(state.orientation[i]));
-    energy.kinetic +=
-        0.5 * (segment_mass_ * state.velocity[i].squaredNorm() +
-               transverse_inertia_ * (w.squaredNorm() - axial * axial) + axial_inertia_ * axial * axial);
-    energy.gravitational -= segment_mass_ * properties_.gravity.dot(state.position[i]);
+    energy.kinetic += 0.5 * (span.segment_mass * state.velocity[i].squaredNorm() +
+                             span.transverse_inertia * (w.squaredNorm() - axial * axial) +
+                             span.axial_inertia * axial * axial);
+    energy.gravitational -= span.segment_mass * span.properties.gravity.dot(state.position[i]);
   }
+  for (size_t k = 0; k < spans_.size(); ++k) add_ends(state, static_cast<int>(k), energy);
   for (int j = 0; j < links(); ++j) {
     if (gap_stiffness_[j] == 0) continue;
     const LinkState link = link_state(state, j);
@@ -126,14 +179,38 @@ Energy Rod::energy(const RodState& state) const {
   return energy;
 }
 
-double Rod::mean_elongation(const RodState& state) const {
+// What hangs at the tip and what slides at the base.
+void Rod::add_ends(const RodState& state, int k, Energy& energy) const {
+  const Span& span = spans_[k];
+  const RodProperties& p = span.properties;
+  if (p.tip_mass > 0) {
+    const int last = span.first_segment + span.segments() - 1;
+    const Vector3 tip = tip_frame(state, span).position, arm = tip - state.position[last];
+    energy.kinetic +=
+        0.5 * p.tip_mass * (state.velocity[last] + state.angular_velocity[last].cross(arm)).squaredNorm();
+    energy.gravitational -= p.tip_mass * p.gravity.dot(tip);
+  }
+  if (!p.slider) return;
+  const double way = state.travel[k].way;
+  energy.kinetic += 0.5 * p.slider->mass * state.clamp_velocity[2 * k].squaredNorm();
+  energy.elastic += (p.slider->force + 0.5 * p.slider->spring * way) * way;
+  energy.gravitational -= p.slider->mass * p.gravity.dot(state.clamps.end(2 * k).position);
+}
+
+double Rod::mean_elongation(const RodState& state, const Span& span) const {
   double stretch = 0;
-  for (int j = 0; j < links(); ++j) {
+  for (int j = span.first_link; j <= span.last_link(); ++j) {
     const LinkEnds ends = link_ends(*this, state, j);
     const Vector3 t = tangent(*ends.orientation_a) + tangent(*ends.orientation_b);
     stretch += link_state(state, j).gap.dot(t) / std::max(t.norm(), 1e-12);
   }
-  return stretch / properties_.length;
+  return stretch / span.properties.length;
+}
+
+double Rod::mean_elongation(const RodState& state) const {
+  double largest = mean_elongation(state, spans_.front());
+  for (size_t k = 1; k < spans_.size(); ++k) largest = std::max(largest, mean_elongation(state, spans_[k]));
+  return largest;
 }
 
 std::vector<double> Rod::tensions(const RodState& state) const {
@@ -146,8 +223,10 @@ std::vector<double> Rod::tensions(const RodState& state) const {
   return tension;
 }
 
-Vector3 Rod::tip(const RodState& state) const {
-  return state.position.back() + tangent(state.orientation.back()) * (segment_length_ / 2);
+Frame Rod::tip_frame(const RodState& state, const Span& span) const {
+  const int last = span.first_segment + span.segments() - 1;
+  const Quaternion& orientation = state.orientation[last];
+  return {state.position[last] + (span.segment_length / 2) * tangent(orientation), orientation};
 }
 
 bool Rod::finite(const RodState& state) const {
@@ -159,12 +238,42 @@ bool Rod::finite(const RodState& state) const {
   return std::isfinite(sum);
 }
 
-double missing_length(const Rod& rod, const ClampFrames& clamps) {
-  if (rod.properties().tool_end == End::free) return 0;
-  return std::max(0.0, (clamps.tool.position - clamps.base.position).norm() - rod.properties().length);
+double shortest_way(const Rod& rod, const ClampFrames& clamps, int k, std::span<const Vector3> through) {
+  const RodProperties& p = rod.spans()[k].properties;
+  const Vector3 target = through.empty() ? clamps.end(2 * k + 1).position : through.front();
+  Vector3 from = clamps.end(2 * k).position;
+  if (p.slider) {
+    const Vector3 d = tangent(clamps.end(2 * k).orientation);
+    from += std::clamp(d.dot(target - from), 0.0, p.slider->stroke) * d;
+  }
+  double way = 0;
+  for (const Vector3& point : through) way += (point - from).norm(), from = point;
+  return way + (clamps.end(2 * k + 1).position - from).norm();
+}
+
+double missing_length(const Rod& rod, const ClampFrames& clamps, int k) {
+  const RodProperties& p = rod.spans()[k].properties;
+  if (p.tool_end == End::free) return 0;
+  return std::max(0.0, shortest_way(rod, clamps, k) - p.length);
 }
 
 // ---- one step ---------------------------------------------------------------------------------------------
+
+namespace {
+
+/// The equation of a sliding base clamp's change of speed w (S14): pivot w = right + coupling e . dv_0, with
+/// dv_0 of the first segment and e = row: how far that moves the link's far end along the clamp's direction.
+struct SlideEquation {
+  double coupling = 0, pivot = 1, right = 0;
+  double row[6] = {};
+  Vector3 direction = Vector3::Zero();
+  Travel travel;      ///< mode that is assumed
+  double locked = 0;  ///< w where the clamp does not slide
+
+  bool slides() const { return travel.mode == Travel::Mode::sliding; }
+};
+
+}  // namespace
 
 struct RodSystem {
   std::vector<TridiagonalBlock> block;
@@ -172,7 +281,8 @@ struct RodSystem {
   std::vector<Vector3> arm;                           ///< (segment) l/2 along its tangent
   std::vector<Vector3> force;                         ///< (link) explicit part of the gap's force
   ClampFrames end;                                    ///< clamps at the end of the step
-  std::array<Vector3, 2> velocity, angular_velocity;  ///< of the clamps over the step
+  std::vector<Vector3> velocity, angular_velocity;    ///< (end) of the clamps over the step
+  std::vector<SlideEquation> slide;                   ///< (span)
   double step = 0;
 };
 
@@ -198,13 +308,19 @@ inline void add_outer(double* m, double c, const Vector3& x, const Vector3& y) {
 
 inline void add_diagonal(double* m, double c) { m[0] += c, m[7] += c, m[14] += c; }
 
-/// One step's assembly. Written as a class so that each part sees the same names.
+/// One step's assembly of one span. Written as a class so that each part sees the same names.
 class Assembly {
  public:
-  Assembly(const Rod& rod, const RodState& state, RodSystem& system, double h)
-      : rod_(rod), state_(state), system_(system), h_(h), p_(rod.properties()) {
+  Assembly(const Rod& rod, int span, const RodState& state, RodSystem& system, double h)
+      : rod_(rod),
+        span_(rod.spans()[span]),
+        first_end_(2 * span),
+        state_(state),
+        system_(system),
+        h_(h),
+        p_(span_.properties) {
     damping_ = std::max(p_.damping_time, least_damping_steps * h);
-    const double l = rod.segment_length();
+    const double l = span_.segment_length;
     free_force_ = free_tension * p_.mass_per_length * l * l / (h * h);
   }
 
@@ -212,9 +328,9 @@ class Assembly {
   void begin_segment(int i, std::span<const Load> loads) {
     TridiagonalBlock& b = system_.block[i];
     const Vector3 t = tangent(state_.orientation[i]);
-    const double m = rod_.segment_mass(), transverse = rod_.transverse_inertia();
-    const double excess = rod_.axial_inertia() - transverse;
-    system_.arm[i] = (rod_.segment_length() / 2) * t;
+    const double m = span_.segment_mass, transverse = span_.transverse_inertia;
+    const double excess = span_.axial_inertia - transverse;
+    system_.arm[i] = (span_.segment_length / 2) * t;
     std::fill(b.diagonal, b.diagonal + 36, 0.0);
     add_diagonal(b.diagonal, m);
     add_diagonal(b.diagonal + 21, transverse);
@@ -222,6 +338,8 @@ class Assembly {
     const Vector3& w = state_.angular_velocity[i];
     Vector3 force = m * p_.gravity, torque = -(excess * t.dot(w)) * w.cross(t);
     if (!loads.empty()) force += loads[i].force, torque += loads[i].torque;
+    if (p_.tip_mass > 0 && i + 1 == span_.first_segment + span_.segments())
+      hang_tip(b, w, system_.arm[i], force, torque);
     for (int k = 0; k < 3; ++k) b.value[k] = h_ * force[k], b.value[3 + k] = h_ * torque[k];
   }
 
@@ -230,21 +348,22 @@ class Assembly {
       system_.force[j].setZero();
       return;
     }
-    const int n = rod_.segments();
-    const bool has_a = j > 0, has_b = j < n;
-    const Side a = has_a ? segment_side(j - 1) : clamp_side(state_.clamps.base, 0);
-    const Side b = has_b ? segment_side(j) : clamp_side(state_.clamps.tool, 1);
+    const bool has_a = j > span_.first_link, has_b = j < span_.last_link();
+    const int after = span_.first_segment + j - span_.first_link, before = after - 1;
+    const Side a = has_a ? segment_side(before) : clamp_side(first_end_);
+    const Side b = has_b ? segment_side(after) : clamp_side(first_end_ + 1);
     const LinkTurn turn = link_turn(*a.orientation, *b.orientation);
     const Vector3 moment = turn_moment(j, turn, *b.angular_velocity - *a.angular_velocity);
     const Vector3 force = gap_force(j, a, b);
     const TurnMatrix turning = turn_matrix(j, turn);
     const double k = rod_.gap_stiffness(j) * gap_beta * h_ * h_;
     const double taut_a = tautness(j, a.arm), taut_b = tautness(j, b.arm);
-    if (has_a) add_own(j - 1, k, a.arm, 1, force, moment, turning, taut_a);
-    if (has_b) add_own(j, k, b.arm, -1, force, moment, turning, taut_b);
-    if (has_a && has_b) couple(j - 1, k, a.arm, b.arm, turning);
-    if (!has_a) drive(0, k, b.arm, -1, turning);
-    if (!has_b) drive(1, k, a.arm, 1, turning);
+    if (has_a) add_own(before, k, a.arm, 1, force, moment, turning, taut_a);
+    if (has_b) add_own(after, k, b.arm, -1, force, moment, turning, taut_b);
+    if (has_a && has_b) couple(before, k, a.arm, b.arm, turning);
+    if (!has_a) drive(first_end_, after, k, b.arm, -1, turning);
+    if (!has_a && p_.slider) slide(after, k, b.arm, force);
+    if (!has_b) drive(first_end_ + 1, before, k, a.arm, 1, turning);
   }
 
  private:
@@ -257,8 +376,9 @@ class Assembly {
     return {&state_.position[i], &state_.velocity[i], &state_.angular_velocity[i], &state_.orientation[i],
             system_.arm[i]};
   }
-  Side clamp_side(const Frame& frame, int which) const {
-    return {&frame.position, &state_.clamp_velocity[which], &state_.clamp_angular_velocity[which],
+  Side clamp_side(int end) const {
+    const Frame& frame = state_.clamps.end(end);
+    return {&frame.position, &state_.clamp_velocity[end], &state_.clamp_angular_velocity[end],
             &frame.orientation, Vector3::Zero()};
   }
 
@@ -299,7 +419,7 @@ class Assembly {
 
   // (S8) Tension-only geometric stiffness a T (1 - t t^T) on the turning of a segment; arm = a t.
   double tautness(int j, const Vector3& arm) const {
-    const double a = rod_.segment_length() / 2;
+    const double a = span_.segment_length / 2;
     const double excess = state_.link_force[j].dot(arm) - free_force_ * a;
     return excess > 0 ? tension_beta * h_ * h_ * excess : 0;
   }
@@ -309,7 +429,7 @@ class Assembly {
   void add_own(int i, double k, const Vector3& arm, double side, const Vector3& force, const Vector3& moment,
                const TurnMatrix& turning, double taut) {
     TridiagonalBlock& b = system_.block[i];
-    const double a2 = rod_.segment_length() * rod_.segment_length() / 4;
+    const double a2 = span_.segment_length * span_.segment_length / 4;
     add_diagonal(b.diagonal, k);
     add_skew(b.diagonal + 3, (-side * k) * arm);
     double* m = b.diagonal + 21;
@@ -334,17 +454,62 @@ class Assembly {
       for (int c = 0; c < 3; ++c) u[21 + 6 * r + c] -= turning.value[3 * r + c];
   }
 
+  // A point mass at the end of the arm moves with v + w x arm. (Kept out of the loop over the segments.)
+  [[gnu::noinline]] void hang_tip(TridiagonalBlock& b, const Vector3& w, const Vector3& arm, Vector3& force,
+                                  Vector3& torque) const {
+    const double m = p_.tip_mass;
+    add_diagonal(b.diagonal, m);
+    add_skew(b.diagonal + 3, -m * arm);
+    add_diagonal(b.diagonal + 21, m * arm.squaredNorm());
+    add_outer(b.diagonal + 21, -m, arm, arm);
+    const Vector3 pull = m * (p_.gravity - w.cross(w.cross(arm)));
+    force += pull, torque += arm.cross(pull);
+    const double excess = pull.dot(arm) - free_force_ * arm.norm();  // (S8), as from a link there
+    if (excess <= 0) return;
+    const double taut = tension_beta * h_ * h_ * excess;
+    add_diagonal(b.diagonal + 21, taut);
+    add_outer(b.diagonal + 21, -taut / arm.squaredNorm(), arm, arm);
+  }
+
+  // (S14) The clamp of mass m slides by w more than system_.velocity says, along d:
+  //   m (d.c + w) = h (d.f - F - spring u - damping u' + m g.d - friction) + k (e.dv_0 - d.c - w) - (..) w,
+  // c its change of velocity without w, k e.dv_0 as in drive(). Eliminating w adds -k^2/pivot e e^T to the
+  // first segment's block.
+  [[gnu::noinline]] void slide(int segment, double k, const Vector3& arm, const Vector3& pull) {
+    const Slider& slider = *p_.slider;
+    SlideEquation& s = system_.slide[first_end_ / 2];
+    const Vector3 d = tangent(state_.clamps.end(first_end_).orientation), turn = -arm.cross(d);
+    s.direction = d;
+    for (int q = 0; q < 3; ++q) s.row[q] = d[q], s.row[3 + q] = turn[q];
+    const double along = d.dot(system_.velocity[first_end_] - state_.clamp_velocity[first_end_]);
+    s.coupling = k;
+    s.pivot = slider.mass + k + turn_beta * h_ * h_ * slider.spring + turn_theta * h_ * slider.damping;
+    s.right = h_ * (d.dot(pull) - slider.force - slider.spring * s.travel.way -
+                    slider.damping * s.travel.speed + slider.mass * d.dot(p_.gravity)) -
+              (slider.mass + k) * along;
+    TridiagonalBlock& b = system_.block[segment];
+    if (s.slides()) {
+      s.right -= h_ * slider.friction * s.travel.sense;
+      for (int r = 0; r < 6; ++r)
+        for (int c = r; c < 6; ++c) b.diagonal[6 * r + c] -= k * k / s.pivot * s.row[r] * s.row[c];
+    }
+    const double share = s.slides() ? s.right / s.pivot : s.locked;
+    for (int r = 0; r < 6; ++r) b.value[r] += k * share * s.row[r];
+  }
+
   // A clamp moves as prescribed: its velocity change goes to the right-hand side.
-  void drive(int which, double k, const Vector3& arm, double side, const TurnMatrix& turning) {
-    TridiagonalBlock& b = which == 0 ? system_.block.front() : system_.block.back();
-    const Vector3 change = k * (system_.velocity[which] - state_.clamp_velocity[which]);
-    const Vector3 spin = system_.angular_velocity[which] - state_.clamp_angular_velocity[which];
+  void drive(int end, int segment, double k, const Vector3& arm, double side, const TurnMatrix& turning) {
+    TridiagonalBlock& b = system_.block[segment];
+    const Vector3 change = k * (system_.velocity[end] - state_.clamp_velocity[end]);
+    const Vector3 spin = system_.angular_velocity[end] - state_.clamp_angular_velocity[end];
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> m(turning.value);
     add(b.value, change);
     add(b.value + 3, side * arm.cross(change) + m * spin);
   }
 
   const Rod& rod_;
+  const Span& span_;
+  const int first_end_;
   const RodState& state_;
   RodSystem& system_;
   double h_, damping_, free_force_;
@@ -354,10 +519,11 @@ class Assembly {
 }  // namespace
 
 RodSolver::RodSolver(const Rod& rod) : rod_(rod), system_(std::make_unique<RodSystem>()) {
-  system_->block.resize(rod.segments());
+  system_->block.resize(rod.segments());  // zeros: couplings between spans stay so
   system_->change.resize(rod.segments());
   system_->arm.resize(rod.segments());
   system_->force.resize(rod.links());
+  system_->slide.resize(rod.spans().size());
 }
 
 RodSolver::~RodSolver() = default;
@@ -366,31 +532,106 @@ std::span<const Twist6> RodSolver::velocity_change() const { return system_->cha
 
 bool RodSolver::solve(const RodState& state, const ClampFrames& end, double h, std::span<const Load> loads) {
   RodSystem& s = *system_;
-  const Frame* before[2] = {&state.clamps.base, &state.clamps.tool};
-  const Frame* after[2] = {&end.base, &end.tool};
-  for (int k = 0; k < 2; ++k) {
-    s.velocity[k] = (after[k]->position - before[k]->position) / h;
-    s.angular_velocity[k] = rotation_vector(after[k]->orientation * before[k]->orientation.conjugate()) / h;
-  }
+  const int spans = static_cast<int>(rod_.spans().size());
+  assert(state.clamps.ends() == 2 * spans && end.ends() == 2 * spans);
+  s.velocity.resize(2 * spans), s.angular_velocity.resize(2 * spans);
   s.end = end;
   s.step = h;
-  Assembly assembly(rod_, state, s, h);
-  const int n = rod_.segments();
-  int not_positive = 0;
-  assembly.begin_segment(0, loads);
-  assembly.add_link(0);
-  for (int i = 0; i < n; ++i) {
-    if (i + 1 < n) assembly.begin_segment(i + 1, loads);
-    assembly.add_link(i + 1);
-    not_positive += eliminate(s.block[i], i + 1 < n ? &s.block[i + 1] : nullptr);
+  for (int e = 0; e < 2 * spans; ++e) {
+    const RodProperties& p = rod_.spans()[e / 2].properties;
+    const Frame& before = state.clamps.end(e);
+    Frame& after = s.end.end(e);
+    if (e % 2 == 1 && p.tool_end == End::free) after = before;
+    if (e % 2 == 0 && p.slider)
+      after.position +=
+          (state.travel[e / 2].way + h * state.travel[e / 2].speed) * tangent(after.orientation);
+    s.velocity[e] = (after.position - before.position) / h;
+    s.angular_velocity[e] = rotation_vector(after.orientation * before.orientation.conjugate()) / h;
   }
-  for (int i = n - 1; i >= 0; --i) {
+  int not_positive = 0;
+  for (int k = 0; k < spans; ++k)
+    not_positive +=
+        rod_.spans()[k].properties.slider ? solve_sliding(state, k, loads) : solve_span(state, k, loads);
+  return not_positive == 0;
+}
+
+// Whether the clamp slides, which way, or is held, is found by trying: first what it did in the step before.
+int RodSolver::solve_sliding(const RodState& state, int k, std::span<const Load> loads) {
+  constexpr int attempts = 8;
+  SlideEquation& slide = system_->slide[k];
+  slide.travel = state.travel[k];
+  const double friction = rod_.spans()[k].properties.slider->friction;
+  if (friction > 0 && slide.slides() && slide.travel.sense == 0) slide.travel.mode = Travel::Mode::held;
+  int not_positive = 0;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const Travel& t = slide.travel;
+    const double target = t.mode == Travel::Mode::at_end ? rod_.spans()[k].properties.slider->stroke : 0;
+    slide.locked = (t.mode == Travel::Mode::held ? 0 : (target - t.way) / system_->step) - t.speed;
+    not_positive = solve_span(state, k, loads);
+    if (not_positive > 0 || !choose_mode(state, k)) break;
+  }
+  return not_positive;
+}
+
+// w after whatever has changed dv_0 since.
+double RodSolver::travel_change(int k) const {
+  const SlideEquation& s = system_->slide[k];
+  if (!s.slides()) return s.locked;
+  const Twist6& first = system_->change[rod_.spans()[k].first_segment];
+  double moved = 0;
+  for (int r = 0; r < 6; ++r) moved += s.row[r] * first.value[r];
+  return (s.right + s.coupling * moved) / s.pivot;
+}
+
+// Whether the assumed mode contradicts its own answer; then the next one to try. A held clamp is held by
+// `support` along its direction: stops only push, friction up to its limit.
+bool RodSolver::choose_mode(const RodState& state, int k) {
+  using Mode = Travel::Mode;
+  const Slider& slider = *rod_.spans()[k].properties.slider;
+  SlideEquation& s = system_->slide[k];
+  const Travel& t = state.travel[k];
+  const Mode mode = s.travel.mode;
+  const int moving = slider.friction > 0 ? 1 : 0;
+  if (mode == Mode::sliding) {
+    const double speed = t.speed + travel_change(k), way = t.way + system_->step * speed;
+    if (way < 0)
+      s.travel.mode = Mode::at_home;
+    else if (way > slider.stroke)
+      s.travel.mode = Mode::at_end;
+    else if (s.travel.sense * speed < 0)
+      s.travel.mode = Mode::held;
+    return s.travel.mode != mode;
+  }
+  const Twist6& first = system_->change[rod_.spans()[k].first_segment];
+  double moved = 0;
+  for (int r = 0; r < 6; ++r) moved += s.row[r] * first.value[r];
+  const double support = (s.pivot * s.locked - s.right - s.coupling * moved) / system_->step;
+  const bool out = mode != Mode::at_end && support < -slider.friction;
+  const bool in = mode != Mode::at_home && support > slider.friction;
+  if (out || in) s.travel.mode = Mode::sliding, s.travel.sense = out ? moving : -moving;
+  return out || in;
+}
+
+int RodSolver::solve_span(const RodState& state, int k, std::span<const Load> loads) {
+  RodSystem& s = *system_;
+  const Span& span = rod_.spans()[k];
+  Assembly assembly(rod_, k, state, s, s.step);
+  const int begin = span.first_segment, end = begin + span.segments();
+  int not_positive = 0;
+  assembly.begin_segment(begin, loads);
+  assembly.add_link(span.first_link);
+  for (int i = begin; i < end; ++i) {
+    if (i + 1 < end) assembly.begin_segment(i + 1, loads);
+    assembly.add_link(span.first_link + i + 1 - begin);
+    not_positive += eliminate(s.block[i], i + 1 < end ? &s.block[i + 1] : nullptr);
+  }
+  for (int i = end - 1; i >= begin; --i) {
     double* x = s.change[i].value;
     std::copy_n(s.block[i].value, 6, x);
-    if (i + 1 < n) carry_up(s.block[i].diagonal, s.block[i].upper, s.change[i + 1].value, x);
+    if (i + 1 < end) carry_up(s.block[i].diagonal, s.block[i].upper, s.change[i + 1].value, x);
     solve_lower_transposed(s.block[i].diagonal, x);
   }
-  return not_positive == 0;
+  return not_positive;
 }
 
 void RodSolver::unit_response(int segment, const Twist6& e, int other, const Twist6& e_other, int first,
@@ -430,16 +671,36 @@ void RodSolver::apply_impulses(std::span<Twist6> impulses) {
 }
 
 // (S9) lambda = f + beta h^2 K B dv / h: the force that acted over the step. k g alone rings by O(h^2).
-void RodSolver::finish(RodState& state) const {
-  const RodSystem& s = *system_;
-  const int n = rod_.segments();
-  for (int j = 0; j <= n; ++j) {
-    const Vector3 after = j < n ? Vector3(s.change[j].linear() - s.change[j].angular().cross(s.arm[j]))
-                                : Vector3(s.velocity[1] - state.clamp_velocity[1]);
-    const Vector3 before =
-        j > 0 ? Vector3(s.change[j - 1].linear() + s.change[j - 1].angular().cross(s.arm[j - 1]))
-              : Vector3(s.velocity[0] - state.clamp_velocity[0]);
-    state.link_force[j] = s.force[j] + (rod_.gap_stiffness(j) * gap_beta * s.step) * (after - before);
+void RodSolver::finish(RodState& state) {
+  RodSystem& s = *system_;
+  for (int k = 0; k < static_cast<int>(rod_.spans().size()); ++k) {
+    const Span& span = rod_.spans()[k];
+    if (span.properties.tool_end == End::free) s.end.end(2 * k + 1) = rod_.tip_frame(state, span);
+    if (!span.properties.slider) continue;
+    // system_->velocity holds the travel's speed as it was
+    Travel next = s.slide[k].travel;
+    const double before = next.way, wanted = before + s.step * (next.speed + travel_change(k));
+    next.way = std::clamp(wanted, 0.0, span.properties.slider->stroke);
+    const double speed = (next.way - before) / s.step;
+    Frame& clamp = s.end.end(2 * k);
+    clamp.position += s.step * (speed - next.speed) * tangent(clamp.orientation);
+    s.velocity[2 * k] = (clamp.position - state.clamps.end(2 * k).position) / s.step;
+    next.speed = speed;
+    state.travel[k] = next;
+  }
+  for (size_t k = 0; k < rod_.spans().size(); ++k) {
+    const Span& span = rod_.spans()[k];
+    for (int j = 0; j <= span.segments(); ++j) {
+      const int i = span.first_segment + j, link = span.first_link + j;
+      const Vector3 after = j < span.segments()
+                                ? Vector3(s.change[i].linear() - s.change[i].angular().cross(s.arm[i]))
+                                : Vector3(s.velocity[2 * k + 1] - state.clamp_velocity[2 * k + 1]);
+      const Vector3 before =
+          j > 0 ? Vector3(s.change[i - 1].linear() + s.change[i - 1].angular().cross(s.arm[i - 1]))
+                : Vector3(s.velocity[2 * k] - state.clamp_velocity[2 * k]);
+      state.link_force[link] =
+          s.force[link] + (rod_.gap_stiffness(link) * gap_beta * s.step) * (after - before);
+    }
   }
   state.clamps = s.end;
   state.clamp_velocity = s.velocity;

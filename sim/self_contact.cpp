@@ -15,25 +15,36 @@ constexpr double coincident = 1e-6;
 class Search {
  public:
   Search(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts)
-      : rod_(rod), state_(state), contacts_(contacts), diameter_(rod.properties().diameter),
-        near_(diameter_ + reach) {
+      : rod_(rod), state_(state), reach_(reach), contacts_(contacts) {
     for (int i = 0; i < rod.segments(); ++i)
-      arm_.push_back((rod.segment_length() / 2) * tangent(state.orientation[i]));
+      arm_.push_back((rod.span_of(i).segment_length / 2) * tangent(state.orientation[i]));
   }
 
   void run() {
-    const int n = rod_.segments();
-    const double l = rod_.segment_length();
-    const int neighbours = 2 + static_cast<int>(std::numbers::pi / 2 * diameter_ / l);
-    for (int i = 0; i < n; ++i)
-      for (int j = i + neighbours; j < n;) {
-        const double free_way = (state_.position[j] - state_.position[i]).norm() - l - near_;
-        if (free_way < 0) touch(i, j);
-        j += std::max(1, static_cast<int>(free_way / (stretched * l)));
-      }
+    const auto& spans = rod_.spans();
+    for (size_t a = 0; a < spans.size(); ++a)
+      for (size_t b = a; b < spans.size(); ++b) run(spans[a], spans[b]);
   }
 
  private:
+  void run(const Span& a, const Span& b) {
+    const double l = b.segment_length, half_lengths = (a.segment_length + l) / 2;
+    diameter_ = (a.properties.diameter + b.properties.diameter) / 2;
+    near_ = diameter_ + reach_;
+    const bool same = a.dresspack == b.dresspack;
+    const double neighbourhood = std::numbers::pi / 2 * diameter_;  // along the hose, between the nearer ends
+    const int end = b.first_segment + b.segments();
+    for (int i = a.first_segment; i < a.first_segment + a.segments(); ++i) {
+      int j = b.first_segment;
+      if (same) j += std::max(0, static_cast<int>((a.arc(i) + neighbourhood - b.first_arc) / l + 1.5));
+      for (; j < end;) {
+        const double free_way = (state_.position[j] - state_.position[i]).norm() - half_lengths - near_;
+        if (free_way < 0) touch(i, j);
+        j += std::max(1, static_cast<int>(free_way / (stretched * l)));
+      }
+    }
+  }
+
   // The nearest points, and, where the pieces lie side by side, each end against the other piece: one point would
   // let them rock.
   void touch(int i, int j) {
@@ -64,14 +75,15 @@ class Search {
     contact.depth = diameter_ - distance;
     contact.point = (on_i + on_j) / 2;
     for (size_t k = first; k < contacts_.size(); ++k)
-      if ((contacts_[k].point - contact.point).norm() < rod_.segment_length() / 4) return;
+      if ((contacts_[k].point - contact.point).norm() < rod_.span_of(i).segment_length / 4) return;
     contacts_.push_back(contact);
   }
 
   const Rod& rod_;
   const RodState& state_;
+  const double reach_;
   std::vector<Contact>& contacts_;
-  double diameter_, near_;
+  double diameter_ = 0, near_ = 0;  // of the two spans being searched
   std::vector<Vector3> arm_;  // (segment) half of it
 };
 

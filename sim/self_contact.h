@@ -18,8 +18,9 @@ struct NearestPoints {
 };
 NearestPoints nearest_points(const Vector3& a0, const Vector3& a1, const Vector3& b0, const Vector3& b1);
 
-/// Adds the contacts of the hose with itself that are nearer than `reach` [m] to touching. Costs O(n) where the hose
-/// is spread out: from a distance D of two segments the next (D - reach)/l along the hose cannot be near.
+/// Adds the contacts of the hose with itself, and of one hose with another, that are nearer than `reach` [m]
+/// to touching. Costs O(n) for a hose that is spread out: from a distance D of two segments the next (D -
+/// reach)/l along the span cannot be near.
 void find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts);
 
 }  // namespace dresslife::sim

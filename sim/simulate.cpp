@@ -5,26 +5,12 @@
 
 #include "sim/mounting.h"
 #include "sim/periodic.h"
+#include "sim/routing.h"
 
 namespace dresslife::sim {
 namespace {
 
 using pipeline::InputError;
-
-RodProperties properties_of(const pipeline::Job& job) {
-  const pipeline::Dresspack& hose = job.dresspack;
-  RodProperties properties;
-  properties.segments = job.simulation.segments;
-  properties.length = job.routing.free_length;
-  properties.mass_per_length = hose.mass_per_length;
-  properties.diameter = hose.diameter;
-  properties.bending_stiffness = hose.bending_stiffness;
-  properties.torsional_stiffness = hose.torsional_stiffness;
-  properties.axial_stiffness = hose.axial_stiffness;
-  properties.damping_time = hose.damping_time;
-  properties.gravity = job.simulation.gravity;
-  return properties;
-}
 
 std::unique_ptr<ClampPath> path_of(const pipeline::Job& job) {
   if (!job.motion.clamp_poses.empty()) return std::make_unique<RecordedPath>(job.motion.clamp_poses);
@@ -40,12 +26,14 @@ int intervals(double duration, double rate) { return static_cast<int>(std::ceil(
 
 }  // namespace
 
-Simulation::Simulation(const pipeline::Job& job)
-    : job_(job), rod_(properties_of(job_)), path_(path_of(job_)) {
+Simulation::Simulation(const pipeline::Job& job) : job_(job), rod_(rod_of(job_)), path_(path_of(job_)) {
   if (job_.simulation.choose_time_step) job_.simulation.time_step = first_step(job_.simulation.sample_rate);
   robot_ = dynamic_cast<RobotPath*>(path_.get());
   description_.samples = intervals(path_->duration(), job_.simulation.sample_rate) + 1;
-  description_.segment_length.assign(rod_.segments(), rod_.segment_length());
+  for (int i = 0; i < rod_.segments(); ++i)
+    description_.segment_length.push_back(rod_.span_of(i).segment_length);
+  description_.clamp_segment = clamp_segments(rod_);
+  description_.links = rod_.links();
   description_.joints = static_cast<int>(robot_ ? job_.robot.axes() : 0);
   description_.step_texts = path_->step_texts();
   if (robot_)
@@ -61,23 +49,35 @@ std::string Simulation::moment(double time) const {
   return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, path_->step_texts()[step]);
 }
 
-/// The straight line between the clamps is the least length that every moment needs; the worst one is
+/// The straight line between the ends of a span is the least length that every moment needs; the worst one is
 /// reported.
 void Simulation::check_reach() const {
   double worst = 0, when = 0;
+  size_t where = 0;
   const int steps = intervals(path_->duration(), 1 / job_.simulation.time_step);
   for (int k = 0; k <= steps; ++k) {
     const double time = k * job_.simulation.time_step;
-    const double missing = missing_length(rod_, path_->at(time).clamps);
-    if (missing > worst) worst = missing, when = time;
+    const Pose pose = path_->at(time);
+    const std::vector<double> ways = shortest_ways(job_, rod_, pose.clamps, pose.rings);
+    for (size_t span = 0; span < ways.size(); ++span) {
+      const RodProperties& p = rod_.spans()[span].properties;
+      const double missing = p.tool_end == End::free ? 0 : ways[span] - p.length;
+      if (missing > worst) worst = missing, when = time, where = span;
+    }
   }
   if (worst == 0) return;
+  const double length = rod_.spans()[where].properties.length;
   throw InputError(
       job_.routing.where,
-      fmt::format("dresspack is {:.1f} mm too short {} (routing.free_length_m is {}, the clamps are "
-                  "{:.4f} m apart there)",
-                  1e3 * worst, moment(when), job_.routing.free_length, job_.routing.free_length + worst),
+      fmt::format("dresspack is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
+                  1e3 * worst, moment(when), length_in_words(where), length, length + worst),
       "give it more free length, with slack to bend, or move a clamp");
+}
+
+std::string Simulation::length_in_words(size_t span) const {
+  if (rod_.spans().size() == 1) return "routing.free_length_m is";
+  return fmt::format("its length between clamps {} and {} of {} is", span + 1, span + 2,
+                     rod_.spans().size() + 1);
 }
 
 void Simulation::check_step(const StepReport& report, double time) const {
@@ -88,13 +88,19 @@ void Simulation::check_step(const StepReport& report, double time) const {
 }
 
 void Simulation::check_taut(const RodState& state, double time) const {
-  const double elongation = rod_.mean_elongation(state);
-  if (elongation <= longest_elongation) return;
-  throw InputError(
-      job_.routing.where,
-      fmt::format("dresspack is drawn taut {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
-                  moment(time), 1e3 * elongation * job_.routing.free_length, 1e2 * elongation),
-      "give it more free length, or keep the motion from winding it around the robot");
+  for (size_t k = 0; k < rod_.spans().size(); ++k) {
+    const Span& span = rod_.spans()[k];
+    const double elongation = rod_.mean_elongation(state, span);
+    if (elongation <= longest_elongation) continue;
+    const std::string where = rod_.spans().size() == 1 ? ""
+                                                       : fmt::format(" between clamps {} and {} of {}", k + 1,
+                                                                     k + 2, rod_.spans().size() + 1);
+    throw InputError(
+        job_.routing.where,
+        fmt::format("dresspack is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
+                    where, moment(time), 1e3 * elongation * span.properties.length, 1e2 * elongation),
+        "give it more free length, or keep the motion from winding it around the robot");
+  }
 }
 
 std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {
@@ -190,19 +196,28 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
   Pose pose = path_->at(0);
   std::vector<double> tension(rod_.segments());
   StepReport since;
-  Touch touch(rod_.segments(), description_.link_names);
+  Touch touch(rod_.segments(), description_.link_names, static_cast<int>(job_.routing.rings.size()));
   const auto hand_over = [&](int sample) {
     const double time = sample / job_.simulation.sample_rate;
     const RodState& state = world.state();
     const std::vector<double> pull = rod_.tensions(state);
-    for (int i = 0; i < rod_.segments(); ++i) tension[i] = (pull[i] + pull[i + 1]) / 2;
-    sinks.take({time, path_->step(time), state, pose, rod_.energy(state), tension, since.touching,
-                since.max_depth, checks.net_twist(), touch});
+    for (const Span& span : rod_.spans())
+      for (int i = 0; i < span.segments(); ++i)
+        tension[span.first_segment + i] = (pull[span.first_link + i] + pull[span.first_link + i + 1]) / 2;
+    const std::vector<Frame> clamps = listed_clamps(rod_, state.clamps);
+    std::vector<double> travel;
+    if (rod_.properties().slider) travel.push_back(state.travel.front().way);
+    sinks.take({time, path_->step(time), state, clamps, travel, pose, rod_.energy(state), tension,
+                since.touching, since.max_depth, checks.net_twist(), touch});
     since = {};
     touch.begin_sample();
     if (sinks.progress) sinks.progress((sample + 1.0) / description_.samples);
   };
-  checks.see(world.state(), {}, 0);
+  const auto ways = [&] {
+    return pose.rings.empty() ? std::vector<double>{}
+                              : shortest_ways(job_, rod_, world.state().clamps, pose.rings);
+  };
+  checks.see(world.state(), {}, 0, ways());
   repeat.error.see(0, world.state());
   hand_over(0);
   for (int sample = 1; sample < description_.samples; ++sample) {  // (R6)
@@ -212,7 +227,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
       pose = path_->at(time);
       const StepReport report = world.advance(pose.clamps, pose.links);
       check_step(report, time);
-      checks.see(world.state(), world.contacts(), time);
+      checks.see(world.state(), world.contacts(), time, ways());
       touch.add(world.contacts(), step);
       repeat.error.see(count, world.state());
       since.touching = std::max(since.touching, report.touching);

@@ -27,7 +27,9 @@ class Simulation;
 struct RunDescription {
   int samples = 0;
   std::vector<double> segment_length;   ///< (segment) unstretched [m]
+  std::vector<int> clamp_segment;       ///< (clamp) segments on its base side
   std::vector<std::string> link_names;  ///< of the robot; empty without one
+  int links = 0;                        ///< of the chain
   int joints = 0;                       ///< of the robot
   std::vector<std::string> step_texts;  ///< (line) of the program
 };
@@ -37,6 +39,8 @@ struct Sample {
   double time = 0;                     ///< [s]
   int step = 0;                        ///< program line
   const RodState& state;               ///< of the chain
+  const std::vector<Frame>& clamps;    ///< (clamp) where they are
+  const std::vector<double>& travel;   ///< (dresspack) of retraction units [m]; empty without one
   const Pose& pose;                    ///< what the motion prescribes
   Energy energy;                       ///< [J]
   const std::vector<double>& tension;  ///< (segment) mean pull of the links at its ends [N]
@@ -97,6 +101,7 @@ class Simulation {
   void run_once(World& world, Repeat& repeat, const RunSinks& sinks) const;
   int steps_per_sample(double step) const;
   void check_reach() const;
+  std::string length_in_words(size_t span) const;
   void check_step(const StepReport& report, double time) const;
   void check_taut(const RodState& state, double time) const;
 

@@ -17,14 +17,14 @@ void append_curvatures(const Rod& rod, const RodState& state, std::vector<double
     values.push_back(rod.link_state(state, j).turn.head<2>().norm() / rod.bending_length(j));
 }
 
-/// (step) square of both clamps' acceleration, by second differences.
+/// (step) square of all ends' acceleration, by second differences.
 std::vector<double> liveliness(const ClampPath& path, double h, int steps) {
   std::vector<double> squares(steps + 1);
   ClampFrames before = path.at(0).clamps, now = before;
   for (int k = 0; k <= steps; ++k) {
     const ClampFrames next = path.at((k + 1) * h).clamps;
-    squares[k] = (next.tool.position - 2 * now.tool.position + before.tool.position).squaredNorm() +
-                 (next.base.position - 2 * now.base.position + before.base.position).squaredNorm();
+    for (int e = 0; e < next.ends(); ++e)
+      squares[k] += (next.end(e).position - 2 * now.end(e).position + before.end(e).position).squaredNorm();
     before = now;
     now = next;
   }
@@ -42,6 +42,8 @@ RodState with_half_step(const RodState& state, const RodState& before) {
     later(start.velocity[i], before.velocity[i]);
     later(start.angular_velocity[i], before.angular_velocity[i]);
   }
+  for (size_t k = 0; k < state.travel.size(); ++k)
+    start.travel[k].speed += (state.travel[k].speed - before.travel[k].speed) / 4;
   for (size_t end = 0; end < state.clamp_velocity.size(); ++end) {
     later(start.clamp_velocity[end], before.clamp_velocity[end]);
     later(start.clamp_angular_velocity[end], before.clamp_angular_velocity[end]);

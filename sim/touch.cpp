@@ -4,8 +4,10 @@
 
 namespace dresslife::sim {
 
-Touch::Touch(int segments, const std::vector<std::string>& links) : links_(links.size()), obstacles_(links) {
+Touch::Touch(int segments, const std::vector<std::string>& links, int rings)
+    : links_(links.size()), obstacles_(links) {
   for (const char* other : {"floor", "dresspack", "cell"}) obstacles_.push_back(other);
+  for (int k = 1; k <= rings; ++k) obstacles_.push_back("ring " + std::to_string(k));
   const size_t pairs = static_cast<size_t>(segments) * obstacles_.size();
   work_.assign(pairs, 0), largest_force_.assign(pairs, 0), step_force_.assign(pairs, 0);
   sample_force_.resize(segments), sample_work_.resize(segments), sample_obstacle_.resize(segments);
@@ -27,7 +29,7 @@ size_t Touch::column(int obstacle) const {
     case cell_obstacle:
       return links_ + 2;
     default:
-      return static_cast<size_t>(obstacle);
+      return obstacle <= first_ring ? links_ + 3 + (first_ring - obstacle) : static_cast<size_t>(obstacle);
   }
 }
 
@@ -49,7 +51,7 @@ void Touch::add(const std::vector<Contact>& contacts, double h) {
   for (const Contact& contact : contacts) {
     if (contact.normal_force <= 0) continue;
     const double work = contact.friction_force.norm() * contact.sliding_speed * h;
-    const bool itself = contact.other >= 0;
+    const bool itself = contact.obstacle == hose_obstacle;
     add_segment(contact.segment, contact, itself ? work / 2 : work);
     if (itself) add_segment(contact.other, contact, work / 2);
   }

@@ -14,8 +14,8 @@ namespace dresslife::sim {
 
 class Touch {
  public:
-  /// Obstacles: the robot's links, then floor, dresspack (itself) and cell.
-  Touch(int segments, const std::vector<std::string>& links);
+  /// Obstacles: the robot's links, then floor, dresspack (itself), cell and guide rings.
+  Touch(int segments, const std::vector<std::string>& links, int rings = 0);
 
   /// The contacts of one step of h [s].
   void add(const std::vector<Contact>& contacts, double h);

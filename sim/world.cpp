@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 
 #include "sim/self_contact.h"
@@ -53,6 +54,12 @@ struct Shape {
   double reach;  // of the shape about its own origin [m]
 };
 
+struct GuideRing {
+  RingShape shape;
+  int link;
+  double place = std::numeric_limits<double>::quiet_NaN();  // where the axis passes it; not sought yet
+};
+
 struct MeshShape {
   std::shared_ptr<const Mesh> mesh;
   int link;
@@ -82,6 +89,7 @@ struct World::Parts {
   dGeomID end_sphere = nullptr;
   std::vector<Shape> shapes;
   std::vector<MeshShape> meshes;
+  std::vector<GuideRing> rings;
   double margin = least_margin;
 
   void build();
@@ -97,6 +105,7 @@ struct World::Parts {
   Frame placed(int link, const Frame& local, std::span<const Frame> frames) const;
   void add_contact(int segment, int shape, const dContactGeom& geometry);
   void keep(int shape, const Contact& contact);
+  double radius(int segment) const { return rod.span_of(segment).properties.diameter / 2; }
   bool held_by_clamp(int segment, int link) const;
   Vector3 obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const;
   void push_bodies();
@@ -129,11 +138,12 @@ void World::Parts::build() {
   dWorldSetStepThreadingImplementation(world, dThreadingImplementationGetFunctions(threading), threading);
   dWorldSetStepIslandsProcessingMaxThreadCount(world, 1);
   dWorldSetAutoDisableFlag(world, 0);
-  dMass mass;
-  const double transverse = rod.transverse_inertia();
-  dMassSetParameters(&mass, rod.segment_mass(), 0, 0, 0, transverse, transverse, rod.axial_inertia(), 0, 0,
-                     0);
   for (int i = 0; i < rod.segments(); ++i) {
+    const Span& span = rod.span_of(i);
+    const double transverse = span.transverse_inertia;
+    dMass mass;
+    dMassSetParameters(&mass, span.segment_mass, 0, 0, 0, transverse, transverse, span.axial_inertia, 0, 0,
+                       0);
     const dBodyID body = dBodyCreate(world);
     dBodySetMass(body, &mass);
     dBodySetFiniteRotationMode(body, 1);
@@ -147,14 +157,13 @@ void World::Parts::build() {
 void World::Parts::build_hose() {
   hose = dSimpleSpaceCreate(nullptr);
   obstacles = dSimpleSpaceCreate(nullptr);
-  const double radius = rod.properties().diameter / 2 + margin;
   for (int i = 0; i < rod.segments(); ++i) {
-    const dGeomID capsule = dCreateCapsule(hose, radius, rod.segment_length());
+    const dGeomID capsule = dCreateCapsule(hose, radius(i) + margin, rod.span_of(i).segment_length);
     dGeomSetBody(capsule, bodies[i]);
     dGeomSetData(capsule, tag(i));
     capsules.push_back(capsule);
   }
-  end_sphere = dCreateSphere(nullptr, radius);
+  end_sphere = dCreateSphere(nullptr, radius(0) + margin);
 }
 
 void World::Parts::add_shape(dGeomID geom, int link, const Frame& local, double reach) {
@@ -185,6 +194,11 @@ void World::add(int link, std::shared_ptr<const Mesh> mesh, const Frame& local) 
   parts_->meshes.push_back({std::move(mesh), link, local});
 }
 
+void World::add(int link, const RingShape& ring) {
+  assert(link < static_cast<int>(parts_->links.size()));
+  parts_->rings.push_back({ring, link});
+}
+
 // ---- collision --------------------------------------------------------------------------------------------
 
 // What moves v relative to an obstacle can reach it from v h away.
@@ -192,7 +206,12 @@ void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Fram
   double speed2 = 0;
   for (const Vector3& v : state.velocity) speed2 = std::max(speed2, v.squaredNorm());
   const double h = settings.time_step;
-  speed2 = std::max(speed2, (clamps.tool.position - state.clamps.tool.position).squaredNorm() / (h * h));
+  for (int e = 0; e < clamps.ends(); ++e) {
+    const RodProperties& p = rod.spans()[e / 2].properties;
+    if ((e % 2 == 0 && p.slider) || (e % 2 == 1 && p.tool_end == End::free)) continue;  // not prescribed
+    speed2 =
+        std::max(speed2, (clamps.end(e).position - state.clamps.end(e).position).squaredNorm() / (h * h));
+  }
   double obstacle = settings.self_contact ? std::sqrt(speed2) * h : 0;
   const auto consider = [&](int link, const Frame& local, double reach) {
     const Frame then = next[link] * local, now = links[link] * local;
@@ -203,20 +222,23 @@ void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Fram
     if (shape.link >= 0) consider(shape.link, shape.local, shape.reach);
   for (const MeshShape& shape : meshes)
     if (shape.link >= 0) consider(shape.link, shape.local, shape.mesh->radius());
+  for (const GuideRing& ring : rings)
+    if (ring.link >= 0) consider(ring.link, ring.shape.frame, ring.shape.radius);
   const double wanted = std::max(least_margin, margin_steps * (std::sqrt(speed2) * h + obstacle));
   if (wanted <= margin && wanted > 0.4 * margin) return;
   margin = 1.5 * wanted;
   if (hose == nullptr) return;
-  const double radius = rod.properties().diameter / 2 + margin;
-  for (const dGeomID capsule : capsules) dGeomCapsuleSetParams(capsule, radius, rod.segment_length());
-  dGeomSphereSetRadius(end_sphere, radius);
+  for (int i = 0; i < rod.segments(); ++i)
+    dGeomCapsuleSetParams(capsules[i], radius(i) + margin, rod.span_of(i).segment_length);
 }
 
 bool World::Parts::held_by_clamp(int segment, int link) const {
   if (link < 0) return false;
-  const double l = rod.segment_length(), diameter = rod.properties().diameter;
-  return (link == settings.base_link && segment * l < diameter) ||
-         (link == settings.tool_link && (rod.segments() - 1 - segment) * l < diameter);
+  const Span& span = rod.span_of(segment);
+  const int k = static_cast<int>(&span - rod.spans().data()), place = segment - span.first_segment;
+  const double l = span.segment_length, diameter = span.properties.diameter;
+  return (link == settings.end_link(2 * k) && place * l < diameter) ||
+         (link == settings.end_link(2 * k + 1) && (span.segments() - 1 - place) * l < diameter);
 }
 
 Vector3 World::Parts::obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const {
@@ -226,7 +248,7 @@ Vector3 World::Parts::obstacle_velocity(int link, const Vector3& point, std::spa
 }
 
 void World::Parts::add_contact(int segment, int shape, const dContactGeom& geometry) {
-  const double depth = geometry.depth - margin, l = rod.segment_length();
+  const double depth = geometry.depth - margin, l = rod.span_of(segment).segment_length;
   const Vector3 t = tangent(state.orientation[segment]), centre = state.position[segment];
   const Vector3 where(geometry.pos[0], geometry.pos[1], geometry.pos[2]);
   Contact contact;
@@ -236,14 +258,14 @@ void World::Parts::add_contact(int segment, int shape, const dContactGeom& geome
   contact.depth = depth;
   // On the hose's own surface, whatever the margin: from the nearest point of its axis against the normal.
   const double s = std::clamp((where - centre).dot(t), -l / 2, l / 2);
-  contact.point = centre + s * t - (rod.properties().diameter / 2) * contact.normal;
+  contact.point = centre + s * t - radius(segment) * contact.normal;
   keep(shape, contact);
 }
 
 void World::Parts::keep(int shape, const Contact& contact) {
   for (const auto& [other, known] : found)  // the same place through another shape of the segment
     if (other == shape && known.segment == contact.segment && known.normal.dot(contact.normal) > 0.99 &&
-        (known.point - contact.point).norm() < rod.segment_length() / 8)
+        (known.point - contact.point).norm() < rod.span_of(contact.segment).segment_length / 8)
       return;
   found.emplace_back(shape, contact);
 }
@@ -256,7 +278,7 @@ Frame World::Parts::placed(int link, const Frame& local, std::span<const Frame> 
 void World::Parts::collide(int segment, size_t mesh, const Frame& frame) {
   const MeshShape& shape = meshes[mesh];
   if (held_by_clamp(segment, shape.link)) return;
-  const double l = rod.segment_length(), radius = rod.properties().diameter / 2, reach = radius + margin;
+  const double l = rod.span_of(segment).segment_length, thick = radius(segment), reach = thick + margin;
   const Quaternion back = frame.orientation.conjugate();
   const Vector3 centre = back * (state.position[segment] - frame.position);
   if (centre.norm() > shape.mesh->radius() + l / 2 + reach) return;
@@ -266,8 +288,8 @@ void World::Parts::collide(int segment, size_t mesh, const Frame& frame) {
     contact.segment = segment;
     contact.obstacle = shape.link;
     contact.normal = frame.orientation * touching.normal;
-    contact.depth = touching.distance > 0 ? radius - touching.distance : 2 * radius;
-    contact.point = frame.point(touching.on_axis) - radius * contact.normal;
+    contact.depth = touching.distance > 0 ? thick - touching.distance : 2 * thick;
+    contact.point = frame.point(touching.on_axis) - thick * contact.normal;
     keep(static_cast<int>(shapes.size() + mesh), contact);
   }
 }
@@ -282,7 +304,8 @@ void World::Parts::collide(dGeomID a, dGeomID b) {
   for (int k = 0; k < count; ++k) add_contact(segment, shape, points[k]);
   if (dGeomGetClass(b) != dBoxClass) return;
   // A capsule on a box gets one point and rocks about it: its two end spheres give it a base.
-  const Vector3 arm = (rod.segment_length() / 2) * tangent(state.orientation[segment]);
+  const Vector3 arm = (rod.span_of(segment).segment_length / 2) * tangent(state.orientation[segment]);
+  dGeomSphereSetRadius(end_sphere, radius(segment) + margin);
   for (const double side : {-1.0, 1.0}) {
     const Vector3 end = state.position[segment] + side * arm;
     dGeomSetPosition(end_sphere, end.x(), end.y(), end.z());
@@ -309,6 +332,15 @@ void World::Parts::find_contacts(std::span<const Frame> next) {
     contacts.push_back(contact);
   }
   if (settings.self_contact) find_self_contacts(rod, state, margin, contacts);
+  for (Contact& contact : contacts) contact.friction = settings.friction;
+  for (size_t k = 0; k < rings.size(); ++k) {
+    GuideRing& ring = rings[k];
+    const Frame frame = placed(ring.link, ring.shape.frame, links);
+    const size_t before = contacts.size();
+    find_ring_contacts(rod, state, ring.shape, frame, static_cast<int>(k), margin, ring.place, contacts);
+    for (size_t c = before; c < contacts.size(); ++c)
+      contacts[c].obstacle_velocity = obstacle_velocity(ring.link, contacts[c].point, next);
+  }
   drop_distant_contacts();
 }
 
@@ -348,14 +380,17 @@ void World::Parts::pull_state() {
 
 // The velocity changes as the force m dv/h and torque I dv/h that make ODE's own step bring them about.
 void World::Parts::push_bodies() {
-  const double h = settings.time_step, mass = rod.segment_mass() / h;
-  const double transverse = rod.transverse_inertia() / h, excess = rod.axial_inertia() / h - transverse;
+  const double h = settings.time_step;
   const std::span<const Twist6> change = solver.velocity_change();
-  for (int i = 0; i < rod.segments(); ++i) {
-    const Vector3 t = tangent(state.orientation[i]), dw = change[i].angular();
-    const Vector3 force = mass * change[i].linear(), torque = transverse * dw + (excess * t.dot(dw)) * t;
-    dBodyAddForce(bodies[i], force.x(), force.y(), force.z());
-    dBodyAddTorque(bodies[i], torque.x(), torque.y(), torque.z());
+  for (const Span& span : rod.spans()) {
+    const double mass = span.segment_mass / h, transverse = span.transverse_inertia / h;
+    const double excess = span.axial_inertia / h - transverse;
+    for (int i = span.first_segment; i < span.first_segment + span.segments(); ++i) {
+      const Vector3 t = tangent(state.orientation[i]), dw = change[i].angular();
+      const Vector3 force = mass * change[i].linear(), torque = transverse * dw + (excess * t.dot(dw)) * t;
+      dBodyAddForce(bodies[i], force.x(), force.y(), force.z());
+      dBodyAddTorque(bodies[i], torque.x(), torque.y(), torque.z());
+    }
   }
   dWorldStep(world, h);
 }
@@ -376,10 +411,10 @@ StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> link
   report.finite = p.solver.solve(p.state, clamps, h, loads);
   if (!report.finite) return report;
   p.contacts.clear();
-  if (p.hose != nullptr || p.settings.self_contact || !p.meshes.empty()) {
+  if (p.hose != nullptr || p.settings.self_contact || !p.meshes.empty() || !p.rings.empty()) {
     p.choose_margin(clamps, next);
     p.find_contacts(next);
-    p.contact_solver.solve(p.state, p.settings.friction, h, p.solver, p.contacts);
+    p.contact_solver.solve(p.state, h, p.solver, p.contacts);
   }
   report.finite = believable(p.solver.velocity_change());
   if (!report.finite) return report;

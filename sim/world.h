@@ -12,6 +12,7 @@
 
 #include "sim/contact.h"
 #include "sim/mesh.h"
+#include "sim/ring.h"
 #include "sim/rod.h"
 
 namespace dresslife::sim {
@@ -23,9 +24,16 @@ struct WorldSettings {
   double friction = 0.3;     ///< Coulomb, hose against obstacles
   bool floor = false;        ///< plane z = 0
   bool self_contact = false;  ///< whether the hose feels itself
-  /// Link to which each end is clamped: contacts of the hose's first or last piece, one diameter long beyond
+  /// Link to which each end is clamped: contacts of a span's first or last piece, one diameter long beyond
   /// the clamp, with that link do not push (the clamp holds it there). no_link: none.
   int base_link = no_link, tool_link = no_link;
+  std::vector<int> between_links{};  ///< of the other ends, as ClampFrames::between; empty: none
+
+  int end_link(int e) const {
+    if (e == 0) return base_link;
+    if (between_links.empty()) return e == 1 ? tool_link : no_link;
+    return e <= static_cast<int>(between_links.size()) ? between_links[e - 1] : tool_link;
+  }
 };
 
 /// A capsule of a robot link, in the link's frame.
@@ -60,6 +68,8 @@ class World {
   void add(int link, const BoxShape& shape);
   /// A mesh, in the frame `local` of the link. link: of the robot, or cell_obstacle for what stands still in the world.
   void add(int link, std::shared_ptr<const Mesh> mesh, const Frame& local = {});
+  /// A guide ring, its frame that of the link; link: of the robot, or cell_obstacle.
+  void add(int link, const RingShape& ring);
 
   /// One time step, at whose end the clamps and links are as given.
   StepReport advance(const ClampFrames& clamps, std::span<const Frame> links = {});

@@ -9,7 +9,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Rod<double> dresspack_at_rest() { return uniform_rod<double>(0, 0, 0, 0, Series<double>::capacity - 1); }
+// (W22) In the delivered shape.
+Rod<double> dresspack_at_rest(const Construction& construction) {
+  return uniform_rod<double>(0, 0, construction.rest_curvature(), 0, Series<double>::capacity - 1);
+}
 
 /// The undeformed parent at the end of a chain; turn < 0: as it is, else with the helical ancestor moved on.
 const Rod<double>& rest_at_end(const BundleChain& chain, const Rod<double>& dresspack, int turn = -1) {
@@ -42,9 +45,10 @@ BundleChain chain_to(const Construction& construction, const std::vector<LayerSl
                      double arc, const std::vector<Fibre>& fibres) {
   BundleChain chain;
   chain.fibres = fibres;
+  chain.rest_curvature = construction.rest_curvature();
   for (const Fibre& fibre : fibres)
     if (!fibre.on_axis && std::abs(fibre.phi_sine) > 1e-12) chain.order = 1;
-  const Rod<double> dresspack = dresspack_at_rest();
+  const Rod<double> dresspack = dresspack_at_rest(construction);
   const bool any_turned = std::any_of(plan.begin(), plan.end(), [](const LayerSlip& slip) {
     return slip.sliding == Sliding::along_ancestor;
   });
@@ -67,7 +71,7 @@ BundleChain chain_to(const Construction& construction, const std::vector<LayerSl
 
 WireNode node_at(const Construction& construction, const std::vector<LayerSlip>& plan,
                  const BundleChain& chain, int layer, int number, int part, double arc, double turn) {
-  const Rod<double> dresspack = dresspack_at_rest();
+  const Rod<double> dresspack = dresspack_at_rest(construction);
   const Rod<double>& rest = rest_at_end(chain, dresspack);
   WireNode node;
   node.place = construction.placement(layer, number, part, arc, turn);

@@ -40,7 +40,7 @@ double Layer::pitch() const {
 }
 
 Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics)
-    : kinematics_(kinematics) {
+    : kinematics_(kinematics), rest_curvature_(dresspack.rest_curvature) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   if (!dresspack.hose_material.empty()) {
     const WallFactors factors = wall_factors(dresspack);

@@ -64,6 +64,8 @@ class Construction {
   const std::vector<Bundle>& bundles() const { return bundles_; }
   pipeline::Kinematics kinematics() const { return kinematics_; }
   int levels() const { return levels_; }  ///< of the deepest wire
+  /// Of the delivered dresspack, about d2 [1/m]: the shape in which its parts are free of strain.
+  double rest_curvature() const { return rest_curvature_; }
 
   /// Parts from the outermost to `part` itself; empty for the dresspack.
   std::vector<int> ancestry(int part) const;
@@ -83,6 +85,7 @@ class Construction {
   double lay_angle(const Layer& layer) const;
 
   pipeline::Kinematics kinematics_;
+  double rest_curvature_ = 0;
   std::vector<Layer> layers_;
   std::vector<Part> parts_;
   std::vector<Bundle> bundles_;

@@ -20,9 +20,8 @@ constexpr std::size_t thinned_samples = 256;  // at least so many of them pick t
 // Of all bundles that a thread takes in a row: enough to be worth a thread, few enough to hold their results.
 constexpr std::size_t samples_at_a_time = 1 << 14;
 
-std::vector<double> centres(const std::vector<double>& lengths) {
+std::vector<double> centres(const std::vector<double>& lengths, double start) {
   std::vector<double> arcs;
-  double start = 0;
   for (const double length : lengths) {
     arcs.push_back(start + length / 2);
     start += length;
@@ -48,10 +47,12 @@ void SiteRows::clear() {
 }
 
 Evaluation::Evaluation(const Construction& construction, const pipeline::Strain& settings,
-                       std::vector<double> lengths, std::size_t samples, std::size_t threads)
+                       std::vector<double> lengths, std::size_t samples, std::size_t threads,
+                       const SpanPlace& place)
     : construction_(construction),
+      place_(place),
       lengths_(std::move(lengths)),
-      arcs_(centres(lengths_)),
+      arcs_(centres(lengths_, place.first_arc)),
       samples_(samples),
       fibres_(strain::surface_fibres(settings.surface_fibres)),
       surface_fibres_(settings.surface_fibres),
@@ -65,6 +66,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       free_{{construction, plan_slip(construction, {pipeline::Slip::free}, total(lengths_)), lengths_, arcs_,
              samples},
             {}} {
+  if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   for (std::size_t k = 0; k < threads; ++k) workers_.push_back({{construction, scan_}, {}, {}});
   for (std::size_t b = 0; b < construction.bundles().size(); ++b) {
     const Bundle& bundle = construction.bundles()[b];
@@ -88,7 +90,7 @@ void Evaluation::find_probes(const std::vector<pipeline::Probe>& probes) {
                       "inward)",
                       probe.component),
           fmt::format("write it like '{}'", wires_.empty() ? "" : wires_.front().path));
-    const int segments = static_cast<int>(lengths_.size());
+    const int segments = static_cast<int>(place_.segments_in_all);
     if (probe.segment_from_tool < 1 || probe.segment_from_tool > segments)
       throw pipeline::InputError(
           {},
@@ -96,8 +98,10 @@ void Evaluation::find_probes(const std::vector<pipeline::Probe>& probes) {
                       "{})",
                       probe.segment_from_tool, segments),
           "count from 1 at the tool");
-    probes_.push_back(
-        {lengths_.size() - probe.segment_from_tool, {static_cast<std::size_t>(wire - wires_.begin()), 0}});
+    const std::size_t segment = place_.segments_in_all - probe.segment_from_tool;
+    if (segment >= place_.first_segment && segment < place_.first_segment + lengths_.size())
+      probes_.push_back(
+          {segment - place_.first_segment, {static_cast<std::size_t>(wire - wires_.begin()), 0}});
   }
 }
 
@@ -116,7 +120,8 @@ std::size_t Evaluation::longest_material() const {
 std::string Evaluation::summary() const {
   if (worst_range_ < 0) return "no wire was evaluated";
   return fmt::format("{} sites; largest strain range {:.3f} %, segment {} from the tool, {}", sites(),
-                     100 * worst_range_, segments() - worst_segment_, wires_[worst_.wire].path);
+                     100 * worst_range_, place_.segments_in_all - place_.first_segment - worst_segment_,
+                     wires_[worst_.wire].path);
 }
 
 void Evaluation::add(const DeformationHistory& block) {
@@ -314,7 +319,7 @@ void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment,
   const Wire& wire = wires_[site.wire];
   const Layer& layer = construction_.layers()[wire.layer];
   const int part = construction_.bundles()[wire.bundle].part;
-  rows.segment.push_back(static_cast<std::int32_t>(segment));
+  rows.segment.push_back(static_cast<std::int32_t>(place_.first_segment + segment));
   rows.component.push_back(wire.path);
   rows.material.push_back(layer.material);
   rows.helix.insert(rows.helix.end(), helix.begin(), helix.end());
@@ -413,7 +418,9 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
     probe(of_cycles->site[Worst::cycles]);
   for (const auto& [at, site] : probes_)
     if (at == segment) probe(site);
-  if (sink.progress) sink.progress((static_cast<double>(segment) + 1) / static_cast<double>(segments()));
+  if (sink.progress)
+    sink.progress(static_cast<double>(place_.first_segment + segment + 1) /
+                  static_cast<double>(place_.segments_in_all));
   if (!with_planes_) return;
   std::set<Site> likely;
   for (const Worst& layer : worst)

@@ -52,23 +52,34 @@ struct Sink {
   std::function<void(double share)> progress;      ///< of the second pass; may be empty
 };
 
+/// Where the evaluated segments lie: a span between two clamps, which holds what slides at both its ends.
+struct SpanPlace {
+  std::size_t first_segment = 0;    ///< in the file
+  std::size_t segments_in_all = 0;  ///< of the file; 0: the span is all
+  double first_arc = 0;             ///< of the span's base end, from the dresspack's base clamp [m]
+};
+
 class Evaluation {
  public:
   /// lengths: rest lengths of the segments [m]. threads: share the bundles of a segment; any number gives the
   /// same. Errors: InputError for a probe that names no wire or no segment.
   Evaluation(const Construction& construction, const pipeline::Strain& settings, std::vector<double> lengths,
-             std::size_t samples, std::size_t threads = 1);
+             std::size_t samples, std::size_t threads = 1, const SpanPlace& place = {});
 
   std::size_t segments() const { return lengths_.size(); }
-  std::size_t sites() const { return segments() * wires_.size() * scan_.fibre_count; }
+  std::size_t sites() const {
+    return place_.segments_in_all * wires_.size() * scan_.fibre_count;
+  }  ///< of the file
 
   std::size_t longest_path() const;  ///< of a site's component [bytes]
   std::size_t longest_material() const;
   std::string summary() const;  ///< one line on the site with the largest strain range so far
+  float worst_range() const { return worst_range_; }
 
   void add(const DeformationHistory& block);  ///< first pass, in order of time
 
-  /// Second pass: segment `segment`, whose history is `row` of `history`. Call for segments in order.
+  /// Second pass: segment `segment` of the span, whose history is `row` of `history`. Call for segments in
+  /// order.
   void evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row, const Sink& sink);
 
  private:
@@ -138,7 +149,7 @@ class Evaluation {
   BundleChain site_chain(Site site, std::size_t segment, const ClampMeans& means,
                          std::vector<double>& sliding) const;
   std::size_t site_row(std::size_t segment, Site site) const {
-    return (segment * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
+    return ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
   }
   std::vector<double> helix_of(int part, std::size_t segment) const;
   void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;
@@ -155,6 +166,7 @@ class Evaluation {
                  const std::function<void(const SiteRows&)>& sink);
 
   const Construction& construction_;
+  SpanPlace place_;
   std::vector<double> lengths_, arcs_;
   std::size_t samples_;
   std::vector<Fibre> fibres_;
@@ -171,7 +183,7 @@ class Evaluation {
   Site worst_;
   std::size_t worst_segment_ = 0;
   float worst_range_ = -1;
-  std::vector<std::pair<std::size_t, Site>> probes_;  ///< (segment, site) that the job names
+  std::vector<std::pair<std::size_t, Site>> probes_;  ///< (segment of the span, site) that the job names
 };
 
 }  // namespace dresslife::strain

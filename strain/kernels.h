@@ -72,6 +72,7 @@ struct BundleChain {
   std::vector<WireNode> nodes;  ///< for waves: waves_per_layer nodes a layer, evenly spaced
   std::vector<Fibre> fibres;
   int order = 0;  ///< of the part's state: 1 when fibres feel bend1
+  double rest_curvature = 0;  ///< of the undeformed dresspack, about d2 [1/m]
 };
 
 struct BundlePointers {
@@ -83,6 +84,7 @@ struct BundlePointers {
   /// followed from the dresspack.
   const double* parent = nullptr;
   std::size_t parent_stride = 0;
+  double rest_curvature = 0;
 };
 
 /// Rows of a part's state: stretch, bend1, bend2, twist, each with its powers 0 .. order.
@@ -194,7 +196,8 @@ inline BundlePointers pointers(const BundleChain& chain) {
           static_cast<int>(chain.fibres.size()),
           chain.order,
           nullptr,
-          0};
+          0,
+          chain.rest_curvature};
 }
 
 }  // namespace dresslife::strain

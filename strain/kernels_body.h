@@ -250,6 +250,7 @@ struct ParentAtRest {
   double stretch = 1, bend1 = 0, bend2 = 0, twist = 0;
 
   explicit ParentAtRest(const BundlePointers& chain) {
+    bend2 = chain.rest_curvature;
     if (chain.step_count == 0) return;
     const Rod<double>& rest = chain.steps[chain.step_count - 1].rest;
     stretch = rest.stretch.at[0];

@@ -1,6 +1,8 @@
 #include "strain/strain_file.h"
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <span>
 
 #include "strain/evaluation.h"
@@ -18,13 +20,19 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 class MotionReader {
  public:
   MotionReader(const FileReader& file, pipeline::DeformationMeasure measure)
-      : file_(file),
-        lengths_(file.read<double>("/segment/length")),
-        samples_(file.rows("/time")),
-        gauge_(lengths_, measure) {}
+      : file_(file), lengths_(file.read<double>("/segment/length")), samples_(file.rows("/time")) {
+    for (const SpanPlace& place : list_spans())
+      spans_.push_back({place, DeformationGauge(lengths_of(spans_.size()), measure)});
+  }
 
   std::size_t samples() const { return samples_; }
   const std::vector<double>& lengths() const { return lengths_; }
+  std::size_t spans() const { return spans_.size(); }
+  const SpanPlace& place(std::size_t span) const { return spans_[span].place; }
+  /// Of the segments between one clamp and the next.
+  std::vector<double> lengths_of(std::size_t span) const {
+    return {lengths_.begin() + ends_[span], lengths_.begin() + ends_[span + 1]};
+  }
 
   /// Calls put(first sample, deformations (sample, segment)) for one block after the other.
   void run(const std::function<void(std::size_t, std::span<const Deformation>)>& put) {
@@ -43,19 +51,54 @@ class MotionReader {
         auto row = [&](const std::vector<double>& of, std::size_t size) {
           return std::span(of).subspan(t * size, size);
         };
-        gauge_.measure({row(position, 3 * segments), row(orientation, 4 * segments),
-                        row(clamp_position, 3 * clamps), row(clamp_orientation, 4 * clamps)},
-                       std::span(deformation).subspan(t * segments, segments));
+        for (std::size_t k = 0; k < spans_.size(); ++k) {
+          const std::size_t begin = ends_[k], size = ends_[k + 1] - begin;
+          // A file that does not say where its clamps are has two that count, the first and the last.
+          const std::size_t held = spans_.size() == 1 ? clamps : 2, clamp = spans_.size() == 1 ? 0 : k;
+          spans_[k].gauge.measure({row(position, 3 * segments).subspan(3 * begin, 3 * size),
+                                   row(orientation, 4 * segments).subspan(4 * begin, 4 * size),
+                                   row(clamp_position, 3 * clamps).subspan(3 * clamp, 3 * held),
+                                   row(clamp_orientation, 4 * clamps).subspan(4 * clamp, 4 * held)},
+                                  std::span(deformation).subspan(t * segments + begin, size));
+        }
       }
       put(first, deformation);
     }
   }
 
  private:
+  struct OneSpan {
+    SpanPlace place;
+    DeformationGauge gauge;
+  };
+
+  /// Fills ends_: segments before each clamp.
+  std::vector<SpanPlace> list_spans() {
+    ends_ = {0, lengths_.size()};
+    if (file_.has("/clamp/segment")) {
+      const auto before = file_.read<std::int32_t>("/clamp/segment");
+      const bool rises = std::is_sorted(before.begin(), before.end(), std::less_equal<>());
+      if (before.size() < 2 || !rises || before.front() != 0 ||
+          before.back() != static_cast<int>(lengths_.size()))
+        throw pipeline::InputError(file_.where(),
+                                   "/clamp/segment does not rise from 0 to the number of segments",
+                                   "run dresslife-sim again");
+      ends_.assign(before.begin(), before.end());
+    }
+    std::vector<SpanPlace> places;
+    double arc = 0;
+    for (std::size_t k = 0; k + 1 < ends_.size(); ++k) {
+      places.push_back({ends_[k], lengths_.size(), arc});
+      for (std::size_t i = ends_[k]; i < ends_[k + 1]; ++i) arc += lengths_[i];
+    }
+    return places;
+  }
+
   const FileReader& file_;
   std::vector<double> lengths_;
   std::size_t samples_;
-  DeformationGauge gauge_;
+  std::vector<std::size_t> ends_;
+  std::vector<OneSpan> spans_;
 };
 
 void append_deformation(FileWriter& file, std::span<const Deformation> block) {
@@ -143,13 +186,16 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   const Construction construction(job.dresspack, job.strain.kinematics);
-  Evaluation evaluation(construction, job.strain, reader.lengths(), samples, threads);
+  std::vector<std::unique_ptr<Evaluation>> evaluations;  // (span): each slips from clamp to clamp
+  for (std::size_t k = 0; k < reader.spans(); ++k)
+    evaluations.push_back(std::make_unique<Evaluation>(construction, job.strain, reader.lengths_of(k),
+                                                       samples, threads, reader.place(k)));
   strain.set_axis("segment", segments);
   strain.set_axis("level", construction.levels());
   strain.set_axis("sample", samples);
   copy_program(motion, strain);
-  SiteWriter sites(strain, "", evaluation), stick(strain, "/bound_stick", evaluation),
-      free(strain, "/bound_free", evaluation);
+  SiteWriter sites(strain, "", *evaluations[0]), stick(strain, "/bound_stick", *evaluations[0]),
+      free(strain, "/bound_free", *evaluations[0]);
 
   const std::size_t per_pass =
       std::clamp<std::size_t>(history_bytes / (samples * sizeof(Deformation)), 1, segments);
@@ -162,9 +208,14 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   };
   reader.run([&](std::size_t first, std::span<const Deformation> block) {
     append_deformation(strain, block);
-    DeformationHistory all(segments, block.size() / segments);
-    for (std::size_t k = 0; k < block.size(); ++k) all.set(k % segments, k / segments, block[k]);
-    evaluation.add(all);
+    const std::size_t count = block.size() / segments;
+    for (std::size_t k = 0; k < evaluations.size(); ++k) {
+      const std::size_t begin = reader.place(k).first_segment, size = evaluations[k]->segments();
+      DeformationHistory all(size, count);
+      for (std::size_t t = 0; t < count; ++t)
+        for (std::size_t i = 0; i < size; ++i) all.set(i, t, block[t * segments + begin + i]);
+      evaluations[k]->add(all);
+    }
     keep(0, first, block);
     progress(first_pass_share * static_cast<double>(first) / static_cast<double>(samples));
   });
@@ -184,13 +235,18 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
     strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
   };
   sink.progress = [&](double share) { progress(first_pass_share + (1 - first_pass_share) * share); };
+  std::size_t span = 0;
   for (std::size_t segment = 0; segment < segments; ++segment) {
+    if (segment == reader.place(span).first_segment + evaluations[span]->segments()) ++span;
     const std::size_t row = segment % per_pass;
     if (row == 0 && segment > 0)
       reader.run([&](std::size_t first, std::span<const Deformation> block) { keep(segment, first, block); });
-    evaluation.evaluate(segment, history, row, sink);
+    evaluations[span]->evaluate(segment - reader.place(span).first_segment, history, row, sink);
   }
-  return evaluation.summary();
+  const auto worst =
+      std::max_element(evaluations.begin(), evaluations.end(),
+                       [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
+  return (*worst)->summary();
 }
 
 }  // namespace dresslife::strain

@@ -194,8 +194,7 @@ pipeline::Job turning_job() {
 
 TEST_CASE("clamp path: the tool clamp goes round with its link for more than two turns without a jump") {
   const RobotPath path(turning_job());
-  CHECK(path.base_link() == 0);
-  CHECK(path.tool_link() == 1);
+  CHECK(path.clamp_links() == std::vector<int>{0, 1});
   Quaternion before = path.at(0).clamps.tool.orientation;
   for (double t = 0; t <= path.duration(); t += 0.01) {
     const Pose pose = path.at(t);
@@ -212,7 +211,7 @@ TEST_CASE("clamp path: the tool clamp goes round with its link for more than two
 TEST_CASE("clamp path: the tool clamp can be turned about its direction") {
   RobotPath path(turning_job());
   const Quaternion before = path.at(0).clamps.tool.orientation;
-  path.turn_tool_clamp(0.5);
+  path.turn_clamp(1, 0.5);
   const Vector3 turn = rotation_vector(before.conjugate() * path.at(0).clamps.tool.orientation);
   CHECK((turn - Vector3(0, 0, 0.5)).norm() < rounding);
 }

@@ -1,0 +1,33 @@
+// From the job's dresspack and routing to the chain's spans.
+//
+// Segments are dealt to the spans by their lengths: of `simulation.segments` = n over the length L, the span
+// from s_a to s_b has round(n s_b/L) - round(n s_a/L) segments, at least fewest_segments.
+#pragma once
+
+#include "pipeline/job.h"
+#include "sim/rod.h"
+
+namespace dresslife::sim {
+
+/// Of a span: below, its end corrections (S5) overlap.
+inline constexpr int fewest_segments = 4;
+
+Rod rod_of(const pipeline::Job& job);
+
+/// Span that passes each ring.
+std::vector<int> ring_spans(const pipeline::Job& job);
+/// (span) length of the straight ways from end to end through the rings' centres, less what an off-centre
+/// hose saves at most: no shorter hose reaches.
+std::vector<double> shortest_ways(const pipeline::Job& job, const Rod& rod, const ClampFrames& clamps,
+                                  const std::vector<Frame>& rings);
+
+/// The states of single spans as one state of the whole rod.
+RodState joined(const Rod& rod, const std::vector<RodState>& spans);
+
+/// Clamps of a state in the order of motion.h5: of each dresspack the base clamp, those between, the tool
+/// clamp.
+std::vector<Frame> listed_clamps(const Rod& rod, const ClampFrames& clamps);
+/// (clamp) segments before it, in the same order.
+std::vector<int> clamp_segments(const Rod& rod);
+
+}  // namespace dresslife::sim
