@@ -132,8 +132,7 @@ std::string more_story(const RankingRow& row) {
   if (damaged && !std::isnan(row.first_wire_hours[0]))
     parts.push_back(fmt::format("first break after {} .. {} h in 10 .. 90 %",
                                 life_text(row.first_wire_hours[0]), life_text(row.first_wire_hours[2])));
-  if (damaged && !row.worst_joint.empty())
-    parts.push_back(fmt::format("{:.0f} % by {}", 100 * row.worst_joint_share, row.worst_joint));
+  if (damaged && !row.worst_joint.empty()) parts.push_back(joint_words(row));
   if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -160,6 +159,11 @@ std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
   for (const JobResult& result : results) rows.push_back(read_row(result));
   std::stable_sort(rows.begin(), rows.end(), better);
   return rows;
+}
+
+std::string joint_words(const RankingRow& row) {
+  if (row.worst_joint_share > 1) return fmt::format("all by {}, which others relieve", row.worst_joint);
+  return fmt::format("{:.0f} % by {}", 100 * row.worst_joint_share, row.worst_joint);
 }
 
 std::string ranking_csv(const std::vector<RankingRow>& rows) {

@@ -68,6 +68,9 @@ std::string ranking_csv(const std::vector<RankingRow>& rows);
 /// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".
 std::string hose_life_words(double hours);
 
+/// What the worst joint's motion costs, in words: "41 % by joint_6", "all by joint_4, which others relieve".
+std::string joint_words(const RankingRow& row);
+
 /// The ranking for a terminal, two lines per job and a third on its scatter, joint and hose where they are
 /// known, at most `width` columns; ends with a line feed.
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width = 120);

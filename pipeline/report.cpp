@@ -93,13 +93,13 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
                                   ? "no wire is damaged"
                                   : fmt::format("{}<br>{}", escaped(row.worst_component), place_words(row));
     const std::string moved =
-        !damaged(row) ? ""
-                      : fmt::format("{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
-                                    escaped(row.worst_step), row.worst_time, row.repeat_seconds) +
-                            (row.worst_joint.empty()
-                                 ? ""
-                                 : fmt::format("<br><span class=\"soft\">{:.0f} % by {}</span>",
-                                               100 * row.worst_joint_share, escaped(row.worst_joint)));
+        !damaged(row)
+            ? ""
+            : fmt::format("{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
+                          escaped(row.worst_step), row.worst_time, row.repeat_seconds) +
+                  (row.worst_joint.empty()
+                       ? ""
+                       : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
     text += fmt::format(
         "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\"><b>{}</b></td><td "
         "class=\"number\">{} .. {}</td>"

@@ -187,5 +187,14 @@ TEST_CASE("ranking: the terminal's table is aligned, within its width, and says 
   CHECK(all[8] == "   job.yaml:3:1: error: too short; make it longer");
 }
 
+TEST_CASE("ranking: a joint that costs more than the whole is told in words") {
+  RankingRow row;
+  row.worst_joint = "joint_4";
+  row.worst_joint_share = 0.413;
+  CHECK(joint_words(row) == "41 % by joint_4");
+  row.worst_joint_share = 1.29;
+  CHECK(joint_words(row) == "all by joint_4, which others relieve");
+}
+
 }  // namespace
 }  // namespace dresslife::pipeline
