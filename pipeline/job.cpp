@@ -309,6 +309,10 @@ void describe(Fields& f, Dresspack& dresspack) {
          "where the damping comes from: life depends on it");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
            "Coulomb, hose against robot");
+  f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
+                 "that the maker allows in motion; tighter is warned of; without it ten diameters");
+  f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
+                 "that the maker allows in motion; more is warned of; without it 180");
   f.text("hose_material", dresspack.hose_material, Need::optional,
          "of the hose's wall, a name of config/materials; without it the hose's strain is not evaluated");
   f.maybe_number(

@@ -24,6 +24,7 @@ constexpr std::array units{
     Unit{"Hz", "Hz", 1},
     Unit{"m_per_s2", "m/s2", 1},
     Unit{"1_per_m", "1/m", 1},
+    Unit{"deg_per_m", "deg/m", degree},
     Unit{"kg", "kg", 1},
     Unit{"kg_per_m", "kg/m", 1},
     Unit{"N", "N", 1},

@@ -30,8 +30,14 @@ void Extreme::see(double candidate, bool larger, double when, int where) {
   seen = true;
 }
 
-MotionChecks::MotionChecks(const Rod& rod)
+MotionLimits limits_of(const pipeline::Dresspack& dresspack) {
+  return {dresspack.least_bend_radius.value_or(least_bend_diameters * dresspack.diameter),
+          dresspack.most_twist.value_or(most_twist)};
+}
+
+MotionChecks::MotionChecks(const Rod& rod, const MotionLimits& limits)
     : rod_(rod),
+      limits_(limits),
       curvature_(rod.links()),
       twist_(rod.links()),
       tension_(rod.links()),
@@ -83,11 +89,11 @@ std::vector<Check> MotionChecks::table() const {
   };
   const Extreme &bend = largest(curvature_), &twist = largest_by_size(twist_), &pull = largest(tension_);
   const double radius = bend.value > 0 ? 1 / bend.value : unlimited;
-  const double least_radius = least_bend_diameters * rod_.span_of_link(bend.place).properties.diameter;
   std::vector<Check> checks = {
-      {"smallest bend radius", "m", radius, least_radius, radius < least_radius, bend.time, link(bend)},
-      {"largest twist", "rad/m", twist.value, most_twist, std::abs(twist.value) > most_twist, twist.time,
-       link(twist)},
+      {"smallest bend radius", "m", radius, limits_.least_bend_radius, radius < limits_.least_bend_radius,
+       bend.time, link(bend)},
+      {"largest twist", "rad/m", twist.value, limits_.most_twist, std::abs(twist.value) > limits_.most_twist,
+       twist.time, link(twist)},
       {"largest net twist", "rad", most_net_twist_.value, unlimited, false, most_net_twist_.time, -1},
       {"net twist left by a repeat", "rad", net_twist_ - net_twist_at_begin_, unlimited, false, end_, -1},
       {"largest tension", "N", pull.value, unlimited, false, pull.time, link(pull)},

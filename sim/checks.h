@@ -17,9 +17,11 @@
 
 namespace dresslife::sim {
 
-/// Limits that are warned of. Bend radius: the usual rule of cable makers for moved cables. Twist: what
-/// makers of cables for torsion promise. Slack: below the first it has no length left to bend, above the
-/// second more hangs loose than the motion ever needs; both of the free length, both ESTIMATES.
+/// Limits that are warned of, where the dresspack does not name its maker's. Bend radius: the usual rule for
+/// moved cables (Parker, for instance, prefers 10 diameters of its flex cables and allows 5). Twist: +-180
+/// degrees in a metre, for which cables for torsion are usually sold. Slack: below the first it has no length
+/// left to bend, above the second more hangs loose than the motion ever needs; both of the free length, both
+/// ESTIMATES.
 inline constexpr double least_bend_diameters = 10;
 inline constexpr double most_twist = EIGEN_PI;  // [rad/m]
 inline constexpr double least_slack_share = 0.02, most_slack_share = 1.0 / 3;
@@ -42,9 +44,16 @@ struct Check {
   double position = -1;  ///< from the base clamp along the dresspack [m]; -1: of the whole
 };
 
+/// What this dresspack allows in motion.
+struct MotionLimits {
+  double least_bend_radius = 0;  ///< [m]
+  double most_twist = 0;         ///< [rad/m]
+};
+MotionLimits limits_of(const pipeline::Dresspack& dresspack);
+
 class MotionChecks {
  public:
-  explicit MotionChecks(const Rod& rod);
+  MotionChecks(const Rod& rod, const MotionLimits& limits);
 
   /// Looks at the state at one time; the first call of a repeat is at its begin.
   /// ways: (span) straight ways through guide rings [m]; empty: from clamp to clamp.
@@ -60,6 +69,7 @@ class MotionChecks {
 
  private:
   const Rod& rod_;
+  const MotionLimits limits_;
   std::vector<Extreme> curvature_, twist_, tension_;
   std::vector<Extreme> least_slack_, most_slack_;  // (span)
   std::vector<Extreme> travel_;                    // (span)

@@ -115,7 +115,7 @@ int Simulation::steps_per_sample(double step) const {
 
 struct Simulation::Repeat {
   Repeat(const Simulation& s, double step)
-      : checks(s.rod_),
+      : checks(s.rod_, limits_of(s.job_.dresspack)),
         error(
             s.rod_, *s.path_,
             [&s](const RodState& state, const Pose& pose, double h) { return s.world_at(state, pose, h); },

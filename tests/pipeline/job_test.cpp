@@ -334,6 +334,18 @@ TEST_CASE("job: the hose's wall has a material of its own and a factor or a prof
   refused("  hose_strain_factor: 0\n", "hose_strain_factor");
 }
 
+TEST_CASE("job: a dresspack may have limits of its maker") {
+  const auto with = [](const std::string& key) {
+    return edited(sample_job, "  damping_source: guessed\n", "  damping_source: guessed\n  " + key + "\n");
+  };
+  const Job job = job_of_text(with("least_bend_radius_mm: 250\n  most_twist_deg_per_m: 90"));
+  CHECK(job.dresspack.least_bend_radius.value() == Approx(0.25));
+  CHECK(job.dresspack.most_twist.value() == Approx(90 * degree));
+  CHECK_FALSE(job_of_text(sample_job).dresspack.most_twist);
+  CHECK_THAT(message_of([&] { job_of_text(with("most_twist_deg_per_m: 0")); }),
+             Catch::Matchers::Contains("dresspack.most_twist_deg_per_m is 0 (must be > 0 deg/m); give that"));
+}
+
 TEST_CASE("job: what contradicts itself is refused") {
   check_case({"lower_deg: -60.1", "lower_deg: 90", "{name: axis_2",
               "limits of axis_2 are empty (lower >= upper); mend them"});

@@ -29,7 +29,7 @@ TEST_CASE("checks: an evenly bent and twisted chain has one radius and one twist
     q = q * rotation(rate * rod.bending_length(j));
     (j < rod.segments() ? state.orientation[j] : state.clamps.tool.orientation) = q;
   }
-  MotionChecks checks(rod);
+  MotionChecks checks(rod, limits_of(job.dresspack));
   checks.see(state, {}, 0.5);
   const std::vector<Check> table = checks.table();
   const Check& radius = find(table, "smallest bend radius");
@@ -40,8 +40,23 @@ TEST_CASE("checks: an evenly bent and twisted chain has one radius and one twist
   const Check& twist = find(table, "largest twist");
   CHECK(twist.value == Approx(-2));
   CHECK_FALSE(twist.warning);
+  CHECK(twist.limit == Approx(pi));
   CHECK(find(table, "largest net twist").value == Approx(-2 * job.routing.free_length));
   CHECK(find(table, "net twist left by a repeat").value == 0);
+}
+
+TEST_CASE("checks: a maker's own limits count more than the usual ones") {
+  pipeline::Job job = simple_job();
+  job.dresspack.least_bend_radius = 0.15;
+  job.dresspack.most_twist = 0.5;
+  job.simulation.most_repeats = 1;
+  const RunSummary summary = Simulation(job).run({[](const Sample&) {}});
+  const Check& radius = find(summary.checks, "smallest bend radius");
+  CHECK(radius.limit == 0.15);
+  CHECK(radius.warning == (radius.value < 0.15));
+  const Check& twist = find(summary.checks, "largest twist");  // the motion turns by 2 rad over 1 m
+  CHECK(twist.limit == 0.5);
+  CHECK(twist.warning);
 }
 
 TEST_CASE("checks: every step counts, with its time, place and value") {
