@@ -15,6 +15,7 @@
 
 namespace dresslife::sim {
 
+inline constexpr int no_link = -2;  ///< of the robot
 /// Obstacles that are not links of the robot.
 inline constexpr int floor_obstacle = -1, hose_obstacle = -3, cell_obstacle = -4;
 /// Guide ring k is first_ring - k.

@@ -93,6 +93,13 @@ void Rod::add(const RodProperties& p, bool new_dresspack) {
   spans_.push_back(span);
 }
 
+int Rod::first_span(int dresspack) const {
+  return static_cast<int>(
+      std::partition_point(spans_.begin(), spans_.end(),
+                           [&](const Span& span) { return span.dresspack < dresspack; }) -
+      spans_.begin());
+}
+
 double Rod::link_arc(int link) const {
   const Span& span = span_of_link(link);
   return span.first_arc + (link - span.first_link) * span.segment_length;
@@ -207,10 +214,10 @@ double Rod::mean_elongation(const RodState& state, const Span& span) const {
   return stretch / span.properties.length;
 }
 
-double Rod::mean_elongation(const RodState& state) const {
-  double largest = mean_elongation(state, spans_.front());
-  for (size_t k = 1; k < spans_.size(); ++k) largest = std::max(largest, mean_elongation(state, spans_[k]));
-  return largest;
+const Span& Rod::most_stretched(const RodState& state) const {
+  return *std::max_element(spans_.begin(), spans_.end(), [&](const Span& a, const Span& b) {
+    return mean_elongation(state, a) < mean_elongation(state, b);
+  });
 }
 
 std::vector<double> Rod::tensions(const RodState& state) const {

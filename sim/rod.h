@@ -132,6 +132,9 @@ class Rod {
   explicit Rod(const std::vector<RodProperties>& spans, const std::vector<int>& first_of_dresspack = {});
 
   const std::vector<Span>& spans() const { return spans_; }
+  int dresspacks() const { return spans_.back().dresspack + 1; }
+  /// Its first span; that of `dresspacks()` is the number of spans.
+  int first_span(int dresspack) const;
   const Span& span_of(int segment) const { return spans_[span_of_segment_[segment]]; }
   const Span& span_of_link(int link) const { return spans_[span_of_link_[link]]; }
   int segments() const { return static_cast<int>(span_of_segment_.size()); }
@@ -157,8 +160,9 @@ class Rod {
   double potential_energy(const RodState& state) const;
   /// Mean over a span of the stretch along the tangents [m/m]; > 0: pulled longer than the free length.
   double mean_elongation(const RodState& state, const Span& span) const;
-  /// The same of the span that is stretched most.
-  double mean_elongation(const RodState& state) const;
+  /// The span that is stretched most, and how much.
+  const Span& most_stretched(const RodState& state) const;
+  double mean_elongation(const RodState& state) const { return mean_elongation(state, most_stretched(state)); }
   /// Pull along the tangent in each link, from RodState::link_force [N].
   std::vector<double> tensions(const RodState& state) const;
   /// End of the last segment: the tip of a free end [m].

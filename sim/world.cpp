@@ -105,6 +105,7 @@ struct World::Parts {
   Frame placed(int link, const Frame& local, std::span<const Frame> frames) const;
   void add_contact(int segment, int shape, const dContactGeom& geometry);
   void keep(int shape, const Contact& contact);
+  double friction(const Contact& contact) const;
   double radius(int segment) const { return rod.span_of(segment).properties.diameter / 2; }
   bool held_by_clamp(int segment, int link) const;
   Vector3 obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const;
@@ -332,7 +333,7 @@ void World::Parts::find_contacts(std::span<const Frame> next) {
     contacts.push_back(contact);
   }
   if (settings.self_contact) find_self_contacts(rod, state, margin, contacts);
-  for (Contact& contact : contacts) contact.friction = settings.friction;
+  for (Contact& contact : contacts) contact.friction = friction(contact);
   for (size_t k = 0; k < rings.size(); ++k) {
     GuideRing& ring = rings[k];
     const Frame frame = placed(ring.link, ring.shape.frame, links);
@@ -342,6 +343,13 @@ void World::Parts::find_contacts(std::span<const Frame> next) {
       contacts[c].obstacle_velocity = obstacle_velocity(ring.link, contacts[c].point, next);
   }
   drop_distant_contacts();
+}
+
+// Coefficients are those against a robot's paint; two hoses slide where it is easier.
+double World::Parts::friction(const Contact& contact) const {
+  if (settings.frictions.empty()) return settings.friction;
+  const auto of = [&](int segment) { return settings.frictions[rod.span_of(segment).dresspack]; };
+  return contact.other < 0 ? of(contact.segment) : std::min(of(contact.segment), of(contact.other));
 }
 
 // Those that cannot close within the step would only add idle rows to the contact problem.

@@ -17,13 +17,12 @@
 
 namespace dresslife::sim {
 
-inline constexpr int no_link = -2;
-
 struct WorldSettings {
   double time_step = 0.005;  ///< [s]
-  double friction = 0.3;     ///< Coulomb, hose against obstacles
+  double friction = 0.3;     ///< Coulomb, hose against obstacles and itself
+  std::vector<double> frictions{};  ///< (dresspack) instead, between two the smaller; empty: all alike
   bool floor = false;        ///< plane z = 0
-  bool self_contact = false;  ///< whether the hose feels itself
+  bool self_contact = false;  ///< whether dresspacks feel themselves and each other
   /// Link to which each end is clamped: contacts of a span's first or last piece, one diameter long beyond
   /// the clamp, with that link do not push (the clamp holds it there). no_link: none.
   int base_link = no_link, tool_link = no_link;
