@@ -495,8 +495,10 @@ class FieldManual final : public Fields {
   }
 
   bool enter(Key key, Need need, bool, std::string_view meaning, const char* type) override {
-    row(key, "map", need == Need::required ? "required" : "see below", meaning);
-    return open(key, "", type);
+    const bool above = stands_above(key, type);
+    row(key, "map", need == Need::required ? "required" : "see below",
+        fmt::format("{}{}", meaning, above ? "; its keys are those above" : ""));
+    return !above && open(key, "", type);
   }
 
   void leave() override {
@@ -529,6 +531,12 @@ class FieldManual final : public Fields {
   void row(Key key, const std::string& allowed, const std::string& fallback, std::string_view meaning) {
     open_.back().rows +=
         fmt::format("| `{}` | {} | {} | {} | {} |\n", key, unit_of_key(key).name, allowed, fallback, meaning);
+  }
+
+  /// Whether a key of the root has this name and type.
+  bool stands_above(Key key, const char* type) const {
+    return std::any_of(done_.begin(), done_.end(),
+                       [&](const Table& table) { return table.path == key && table.type == type; });
   }
 
   bool open(Key key, const std::string& suffix, const char* type) {
