@@ -29,7 +29,7 @@ std::size_t link_index(const pipeline::Robot& robot, const std::string& name) {
 }  // namespace
 
 std::vector<bool> joints_between_clamps(const pipeline::Job& job) {
-  const pipeline::Routing& routing = job.routing;
+  const pipeline::Routing& routing = job.dresspacks.front().routing;
   std::vector<bool> between(job.robot.joints.size(), false);
   if (!routing.base_clamp || !routing.tool_clamp) return between;
   const std::size_t one = link_index(job.robot, routing.base_clamp->link),

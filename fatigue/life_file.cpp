@@ -166,11 +166,11 @@ struct Layers {
 };
 
 Layers layers_of(const Context& c) {
-  const auto known_layers = layer_names(c.job.dresspack);
+  const auto known_layers = layer_names(c.job.dresspacks.front().dresspack);
   Layers result;
   auto& [layers, layer_of_component] = result;
   for (const std::string& component : c.component.values) {
-    if (pipeline::is_hose_wall(c.job.dresspack, component)) {
+    if (pipeline::is_hose_wall(c.job.dresspacks.front().dresspack, component)) {
       layer_of_component.push_back(no_site);
       continue;
     }
@@ -206,7 +206,7 @@ std::vector<double> sharing_rates_of(const Context& c, std::size_t worst, std::s
 }
 
 void write_scatter(const Context& c) {
-  Conductors conductors = conductors_of(c.damage, c.component, layer_names(c.job.dresspack));
+  Conductors conductors = conductors_of(c.damage, c.component, layer_names(c.job.dresspacks.front().dresspack));
   std::vector<std::uint32_t> wires;
   std::vector<double> lives;
   for (std::size_t k = 0; k < conductors.path.size(); ++k) {
@@ -429,7 +429,7 @@ void judge_planes(Context& c) {
 std::vector<std::string> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
   std::set<std::string> warnings;  // sorted and once each
   for (const std::string& name : c.sites.material().values) {
-    if (name == c.job.dresspack.hose_material) continue;
+    if (name == c.job.dresspacks.front().dresspack.hose_material) continue;
     const pipeline::Material& material = pipeline::material_of(c.job, name);
     if (c.job.fatigue.stress != pipeline::Stress::cyclic || !material.strain_life_table.empty()) continue;
     const std::string warning = compatibility_warning(material);

@@ -58,10 +58,10 @@ std::size_t SiteDamage::worst_wall() const {
 SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job)
     : component_(component.index), material_(sites.material().index) {
   for (const std::string& path : component.values)
-    wall_of_component_.push_back(pipeline::is_hose_wall(job.dresspack, path));
+    wall_of_component_.push_back(pipeline::is_hose_wall(job.dresspacks.front().dresspack, path));
   for (const std::string& name : sites.material().values)
     by_material_.emplace_back(pipeline::material_of(job, name), job.fatigue);
-  if (!job.dresspack.hose_material.empty()) wall_.emplace_back(pipeline::hose_material_of(job), job.fatigue);
+  if (!job.dresspacks.front().dresspack.hose_material.empty()) wall_.emplace_back(pipeline::hose_material_of(job, job.dresspacks.front().dresspack), job.fatigue);
 }
 
 const DamageCounter& SiteCounters::of(std::size_t site) const {

@@ -117,9 +117,17 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
   entry = std::move(base);
 }
 
-const char* shelf_of(std::string_view key) {
+/// Of a key path: "dresspack", "dresspacks.2.dresspack"; null: no catalogue entry stands there.
+const char* shelf_of(std::string_view path) {
+  constexpr std::string_view list = "dresspacks.";
+  if (path.starts_with(list)) {
+    const std::size_t item = path.find('.', list.size());
+    if (item == std::string_view::npos) return nullptr;
+    path = path.substr(item + 1);
+    if (path != "dresspack") return nullptr;
+  }
   for (const Shelf& shelf : shelves)
-    if (key == shelf.key) return shelf.folder;
+    if (path == shelf.key) return shelf.folder;
   return nullptr;
 }
 
@@ -130,8 +138,7 @@ void collect_materials(const Node& components, std::vector<const Node*>& names) 
   }
 }
 
-void add_materials(Node& job) {
-  Node* dresspack = job.find("dresspack");
+void add_materials(Node* dresspack, const Node& job) {
   if (!dresspack || !dresspack->is_map()) return;
   std::vector<const Node*> names;
   if (const Node* components = dresspack->find("components")) collect_materials(*components, names);
@@ -224,7 +231,7 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     const std::string word = path.substr(begin, dot - begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
     // A catalogue entry is looked up as soon as a path leads into it.
-    if (begin > 0 && path.find('.') == begin - 1 && word != "from")
+    if (begin > 0 && word != "from")
       if (const char* folder = shelf_of(path.substr(0, begin - 1))) resolve(*node, folder, job.where);
     node = step_into(*node, word, where, path);
     begin = dot + 1;
@@ -246,7 +253,14 @@ void apply_set(Node& job, const std::string& set) {
 void resolve_job(Node& job) {
   for (const Shelf& shelf : shelves)
     if (Node* entry = job.find(shelf.key)) resolve(*entry, shelf.folder, job.where);
-  add_materials(job);
+  add_materials(job.find("dresspack"), job);
+  Node* list = job.find("dresspacks");
+  if (!list) return;
+  for (Node& mounted : list->items) {
+    Node* entry = mounted.find("dresspack");
+    if (entry) resolve(*entry, shelf_of("dresspack"), job.where);
+    add_materials(entry, job);
+  }
 }
 
 }  // namespace dresslife::pipeline

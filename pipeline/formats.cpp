@@ -60,6 +60,7 @@ void add_checks(std::vector<Dataset>& datasets) {
   add("/check/step", Type::i32, line, "1", "index of the program line being executed then");
   add("/check/position", Type::f64, line, "m",
       "where, from the base clamp along the dresspack; -1: of the whole");
+  add("/check/dresspack", Type::i32, line, "1", "of which dresspack; absent: there is only one");
   add("/check/curvature", Type::f64, link, "1/m",
       "largest bending curvature of each elastic link, every step counted: at the joints of the segments, "
       "with one on either side of a clamp between two spans");
@@ -68,7 +69,7 @@ void add_checks(std::vector<Dataset>& datasets) {
   add("/check/twist_time", Type::f64, link, "s", "when");
   add("/check/tension", Type::f64, link, "N", "largest pull");
   add("/check/tension_time", Type::f64, link, "s", "when");
-  add("/check/net_twist", Type::f64, "sample", "rad", "twist of the whole dresspack, whole turns counted");
+  add("/check/net_twist", Type::f64, "sample", "rad", "twist of the whole dresspack, whole turns counted; of several the sum");
 }
 
 Format make_motion_format() {
@@ -82,11 +83,26 @@ Format make_motion_format() {
        "1",
        "unit quaternion w x y z, body to world; body z is the tangent toward the tool"},
       {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
+      {"/segment/dresspack",
+       Type::i32,
+       {"segment"},
+       "1",
+       "dresspack that each segment belongs to, 0 first: one after the other, each from base to tool; absent: "
+       "one dresspack",
+       false,
+       true},
+      {"/dresspack/name",
+       Type::text,
+       {"dresspack"},
+       "1",
+       "names of the dresspacks; empty: the only one of a job without a list",
+       false,
+       true},
       {"/clamp/position",
        Type::f64,
        {"sample", "clamp", "3"},
        "m",
-       "clamps in the world: base side first, tool side last"},
+       "clamps in the world, dresspack by dresspack: base side first, tool side last"},
       {"/clamp/orientation",
        Type::f64,
        {"sample", "clamp", "4"},
@@ -96,7 +112,8 @@ Format make_motion_format() {
        Type::i32,
        {"clamp"},
        "1",
-       "segments on the base side of each clamp: 0 at the base clamp; absent: two clamps, at the ends",
+       "segments of the file before each clamp: 0 at the first, all at the last; where a further dresspack "
+       "begins, its base clamp repeats the number of the tool clamp before it; absent: two clamps, at the ends",
        false,
        true},
       {"/clamp/travel",
@@ -155,7 +172,7 @@ Format make_motion_format() {
        {"segment", "obstacle"},
        "J",
        "work of friction over the motion; attribute `obstacles` names the robot's links, floor, dresspack "
-       "(itself), cell",
+       "(itself or another), cell, guide rings",
        false,
        true},
       {"/contact/largest_force",

@@ -308,7 +308,7 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.text("damping_source", dresspack.damping_source, Need::required,
          "where the damping comes from: life depends on it");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
-           "Coulomb, hose against robot");
+           "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts");
   f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
                  "that the maker allows in motion; tighter is warned of; without it ten diameters");
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
@@ -394,11 +394,13 @@ void describe(Fields& f, Routing& routing) {
   f.number("tool_mass_kg", routing.tool_mass, Need::optional, at_least(0),
            "hung at the end of a dresspack whose tool_end is free");
   f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
-            "joint angles at which the dresspack was clamped free of twist; without it the first target");
+            "joint angles at which the dresspack was clamped free of twist; without it the first target; of "
+            "several dresspacks all that give one give the same, and all are clamped in it");
 }
 
 void describe(Fields& f, Simulation& simulation) {
-  f.integer("segments", simulation.segments, Need::optional, between(4, 2000), "rigid segments of the chain");
+  f.integer("segments", simulation.segments, Need::optional, between(4, 2000),
+            "rigid segments of each dresspack's chain");
   f.number_or_auto(
       "time_step_ms", simulation.time_step, simulation.choose_time_step, between(0.01, 20),
       "integration step; auto: the first repeat chooses the one that keeps to curvature_error_percent");
@@ -409,7 +411,8 @@ void describe(Fields& f, Simulation& simulation) {
            "of motion.h5; a whole number of steps lies between samples");
   f.vector("gravity_m_per_s2", simulation.gravity, Need::optional, "acceleration of free fall in the world");
   f.boolean("contact", simulation.contact, Need::optional, "whether the dresspack touches the robot's links");
-  f.boolean("self_contact", simulation.self_contact, Need::optional, "whether the dresspack touches itself");
+  f.boolean("self_contact", simulation.self_contact, Need::optional,
+            "whether dresspacks touch themselves and each other");
   f.boolean("floor", simulation.floor, Need::optional, "whether the plane z = 0 is a floor");
   f.number("periodic_tolerance_mm", simulation.periodic_tolerance, Need::optional, above(0),
            "a motion that returns is repeated until the dresspack begins two repeats this much alike; the "
@@ -468,19 +471,49 @@ void describe(Fields& f, Fatigue& fatigue) {
             "whether the rest of a conductor takes over the load of its broken wires");
 }
 
-void describe(Fields& f, Job& job) {
+void describe(Fields& f, MountedDresspack& mounted) {
+  f.place(mounted.where);
+  f.text("name", mounted.name, Need::required, "a name that tells it from the others, without '/'");
+  f.group("dresspack", mounted.dresspack, Need::required,
+          "a name of config/dresspacks, a file, or the entry itself");
+  f.group("routing", mounted.routing, Need::required, "clamps and free length");
+}
+
+namespace {
+
+/// How a job gives its dresspacks: one by two keys of its own, or a list. The manual tells of both.
+struct Forms {
+  bool one = true, list = false;
+};
+/// Precondition of reading: the job's list is empty when the document has one.
+Forms forms_of(const Job& job) {
+  const bool one = job.dresspacks.size() == 1 && job.dresspacks.front().name.empty();
+  return {one, !one};
+}
+
+void describe_keys(Fields& f, Job& job, const Forms& forms) {
   // The motion first: whether it brings its own clamp poses decides whether a robot is needed.
   f.group("motion", job.motion, Need::required, "a name of config/programs, a file, or the entry itself");
   f.group("robot", job.robot, job.motion.clamp_poses.empty() ? Need::required : Need::optional,
           "a name of config/robots, a file, or the entry itself", !job.robot.joints.empty());
-  f.group("dresspack", job.dresspack, Need::required,
-          "a name of config/dresspacks, a file, or the entry itself");
-  f.group("routing", job.routing, Need::required, "clamps and free length");
+  if (forms.one) {
+    MountedDresspack& only = job.dresspacks.front();
+    f.group("dresspack", only.dresspack, Need::required,
+            "a name of config/dresspacks, a file, or the entry itself");
+    f.group("routing", only.routing, Need::required, "clamps and free length");
+  }
+  if (forms.list)
+    f.list("dresspacks", job.dresspacks, forms.one ? Need::optional : Need::required,
+           "several on one robot, instead of dresspack and routing");
   f.group("cell", job.cell, Need::optional, "what stands still around the robot: obstacles of the dresspack");
   f.group("simulation", job.simulation, Need::optional, "settings of dresslife-sim");
   f.group("strain", job.strain, Need::optional, "settings of dresslife-strain");
   f.group("fatigue", job.fatigue, Need::optional, "settings of dresslife-fatigue");
 }
+
+}  // namespace
+
+void describe(Fields& f, Job& job) { describe_keys(f, job, forms_of(job)); }
 
 namespace {
 
@@ -629,8 +662,7 @@ void check_clamp(const std::optional<Clamp>& clamp, const std::string& name, con
 }
 
 /// What the robot's links carry cannot go with recorded poses.
-void check_robot_only(const Job& job) {
-  const Routing& routing = job.routing;
+void check_robot_only(const Routing& routing) {
   const auto refuse = [&](bool given, const char* key, const Where& where) {
     if (given)
       throw InputError(
@@ -644,17 +676,17 @@ void check_robot_only(const Job& job) {
   refuse(routing.pre_twist != 0, "pre_twist_deg", routing.where);
 }
 
-void check_rings(const Job& job) {
-  const Routing& routing = job.routing;
+void check_rings(const MountedDresspack& mounted, const Robot& robot) {
+  const Routing& routing = mounted.routing;
   double before = 0;
   for (std::size_t k = 0; k < routing.rings.size(); ++k) {
     const GuideRing& ring = routing.rings[k];
     const std::string name = fmt::format("rings[{}]", k + 1);
-    check_place(ring.link, ring.direction, name, ring.where, job.robot);
-    if (2 * ring.radius <= job.dresspack.diameter)
+    check_place(ring.link, ring.direction, name, ring.where, robot);
+    if (2 * ring.radius <= mounted.dresspack.diameter)
       throw InputError(ring.where,
                        fmt::format("routing.{}.radius_mm is {} (the dresspack's own radius is {} mm)", name,
-                                   1e3 * ring.radius, 1e3 * job.dresspack.diameter / 2),
+                                   1e3 * ring.radius, 1e3 * mounted.dresspack.diameter / 2),
                        "give a ring that lets it through");
     if (!ring.at_length) continue;
     if (!(*ring.at_length > before && *ring.at_length < routing.free_length))
@@ -674,12 +706,11 @@ void check_rings(const Job& job) {
                          "give the length of dresspack from the base clamp to the ring");
 }
 
-void check_intermediate_clamps(const Job& job) {
-  const Routing& routing = job.routing;
+void check_intermediate_clamps(const Routing& routing, const Robot& robot) {
   double before = 0;
   for (std::size_t k = 0; k < routing.clamps.size(); ++k) {
     const auto& [clamp, at_length] = routing.clamps[k];
-    check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, job.robot);
+    check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot);
     if (!(at_length > before && at_length < routing.free_length))
       throw InputError(
           clamp.where,
@@ -691,8 +722,8 @@ void check_intermediate_clamps(const Job& job) {
   }
 }
 
-void check_routing(const Job& job) {
-  const Routing& routing = job.routing;
+void check_routing(const MountedDresspack& mounted, const Job& job) {
+  const Routing& routing = mounted.routing;
   if (job.motion.clamp_poses.empty()) {
     check_clamp(routing.base_clamp, "base_clamp", routing, job.robot);
     if (routing.tool_end == ToolEnd::clamped)
@@ -701,9 +732,9 @@ void check_routing(const Job& job) {
     throw InputError(routing.where, "clamps are given although motion.clamp_poses brings their poses",
                      "keep one of the two");
   }
-  if (!job.motion.clamp_poses.empty()) check_robot_only(job);
-  check_intermediate_clamps(job);
-  check_rings(job);
+  if (!job.motion.clamp_poses.empty()) check_robot_only(routing);
+  check_intermediate_clamps(routing, job.robot);
+  check_rings(mounted, job.robot);
   if (routing.tool_end == ToolEnd::free && routing.tool_clamp)
     throw InputError(routing.tool_clamp->where,
                      "routing.tool_clamp is given although routing.tool_end is free", "keep one of the two");
@@ -776,24 +807,21 @@ void check_friction(const Component& component, const std::vector<Slip>& slip, s
   for (const Component& inner : component.components) check_friction(inner, slip, level + 1);
 }
 
-void check_dresspack(const Job& job, const Where& where) {
+/// Levels of parts in it.
+int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   Component hose;
   hose.name = "hose";
-  hose.radius = job.dresspack.diameter / 2;
+  hose.radius = dresspack.diameter / 2;
   int depth = 0;
-  for (const Component& component : job.dresspack.components)
+  for (const Component& component : dresspack.components)
     depth = std::max(depth, check_component(component, &hose));
-  check_hose(job.dresspack);
-  for (const Component& component : job.dresspack.components) check_friction(component, job.strain.slip, 1);
-  if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
-    throw InputError(
-        where,
-        fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
-        "give one word, or one per level, outermost first");
+  check_hose(dresspack);
+  for (const Component& component : dresspack.components) check_friction(component, slip, 1);
+  return depth;
 }
 
-void check_materials(const Job& job) {
-  for (const Material& material : job.dresspack.materials) {
+void check_materials(const std::vector<Material>& materials) {
+  for (const Material& material : materials) {
     const auto& table = material.strain_life_table;
     if (table.size() == 1)
       throw InputError(material.where, fmt::format("strain_life_table of '{}' has one point", material.name),
@@ -807,6 +835,69 @@ void check_materials(const Job& job) {
                         i + 1, material.name),
             "order the points by falling strain amplitude and rising cycles");
   }
+}
+
+void check_names(const std::vector<MountedDresspack>& dresspacks) {
+  for (std::size_t d = 0; d < dresspacks.size(); ++d) {
+    const MountedDresspack& mounted = dresspacks[d];
+    if (mounted.name.find('/') != std::string::npos)
+      throw InputError(mounted.where, fmt::format("name '{}' holds a '/'", mounted.name),
+                       "choose another: it begins the paths of the dresspack's wires");
+    for (std::size_t other = 0; other < d; ++other)
+      if (dresspacks[other].name == mounted.name)
+        throw InputError(mounted.where, fmt::format("two dresspacks are named '{}'", mounted.name),
+                         "give each another name");
+  }
+}
+
+/// What all dresspacks of a robot share: one pose in which they are clamped, one material of each name.
+void check_shared(const std::vector<MountedDresspack>& dresspacks) {
+  const MountedDresspack* posed = nullptr;
+  std::vector<const Material*> known;
+  for (const MountedDresspack& mounted : dresspacks) {
+    if (!mounted.routing.mounting_pose.empty()) {
+      if (posed && posed->routing.mounting_pose != mounted.routing.mounting_pose)
+        throw InputError(mounted.routing.where,
+                         fmt::format("mounting_pose_deg differs from that of dresspack '{}' (all are clamped "
+                                     "in one pose)",
+                                     posed->name),
+                         "give the same, or give it once");
+      posed = &mounted;
+    }
+    for (const Material& material : mounted.dresspack.materials) {
+      const auto same = std::find_if(known.begin(), known.end(), [&](const Material* other) {
+        return other->name == material.name;
+      });
+      if (same == known.end())
+        known.push_back(&material);
+      else if (to_yaml(echo_fields(**same)) != to_yaml(echo_fields(material)))
+        throw InputError(material.where,
+                         fmt::format("material '{}' is another than that of the dresspack before",
+                                     material.name),
+                         "give one of the two another name");
+    }
+  }
+}
+
+void check_dresspacks(const Job& job, const Where& strain) {
+  if (!forms_of(job).one) check_names(job.dresspacks);
+  if (job.dresspacks.size() > 1 && !job.motion.clamp_poses.empty())
+    throw InputError(job.motion.where,
+                     fmt::format("motion.clamp_poses brings the clamps of one dresspack (there are {})",
+                                 job.dresspacks.size()),
+                     "describe the motion by a robot, or keep one dresspack");
+  int depth = 0;
+  for (const MountedDresspack& mounted : job.dresspacks) {
+    check_routing(mounted, job);
+    depth = std::max(depth, check_dresspack(mounted.dresspack, job.strain.slip));
+    check_materials(mounted.dresspack.materials);
+  }
+  check_shared(job.dresspacks);
+  if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
+    throw InputError(
+        strain,
+        fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
+        "give one word, or one per level, outermost first");
 }
 
 void check_simulation(const Simulation& simulation, const Where& where) {
@@ -833,10 +924,26 @@ void check(const Job& job, const Node& document) {
   for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
   check_boxes(job.cell.boxes, where("cell"));
   check_motion(job.motion, job.robot);
-  check_routing(job);
-  check_dresspack(job, where("strain"));
-  check_materials(job);
+  check_dresspacks(job, where("strain"));
   check_simulation(job.simulation, where("simulation"));
+}
+
+/// Exactly one of the two forms in which a job gives its dresspacks.
+void check_forms(const Node& document) {
+  const Node* list = document.find("dresspacks");
+  for (const char* key : {"dresspack", "routing"}) {
+    const Node* alone = document.find(key);
+    if (list && alone)
+      throw InputError(alone->where,
+                       fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
+                       "keep one of the two");
+    if (!list && !alone)
+      throw InputError(document.where, fmt::format("{} is missing (and there is no list dresspacks)", key),
+                       "give dresspack and routing, or a list dresspacks of name, dresspack, routing");
+  }
+  if (list && (!list->is_list() || list->items.empty()))
+    throw InputError(list->where, "dresspacks holds no dresspack",
+                     "write a list of name, dresspack and routing");
 }
 
 }  // namespace
@@ -847,12 +954,17 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   if (!document.is_map())
     throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
   for (const std::string& set : sets) apply_set(document, set);
+  check_forms(document);
   resolve_job(document);
   Job job;
+  if (document.find("dresspacks")) job.dresspacks.clear();
   read_fields(document, job);
-  for (std::optional<Clamp>* clamp : {&job.routing.base_clamp, &job.routing.tool_clamp})
-    if (*clamp) place_clamp(**clamp, job.robot);
-  for (IntermediateClamp& between : job.routing.clamps) place_clamp(between.clamp, job.robot);
+  for (MountedDresspack& mounted : job.dresspacks) {
+    Routing& routing = mounted.routing;
+    for (std::optional<Clamp>* clamp : {&routing.base_clamp, &routing.tool_clamp})
+      if (*clamp) place_clamp(**clamp, job.robot);
+    for (IntermediateClamp& between : routing.clamps) place_clamp(between.clamp, job.robot);
+  }
   check(job, document);
   return job;
 }
@@ -865,48 +977,90 @@ std::string job_text(const Job& job) { return to_yaml(echo_fields(job)); }
 
 namespace {
 
-void describe_part(Fields& echo, Job copy, Part part) {
-  switch (part) {
-    case Part::sim:
-      copy.dresspack.components.clear();
-      copy.dresspack.materials.clear();
-      copy.dresspack.hose_material.clear();
-      copy.dresspack.hose_strain_factor.reset();
-      copy.dresspack.hose_corrugation.reset();
-      echo.group("motion", copy.motion, Need::required, "");
-      echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
-      echo.group("dresspack", copy.dresspack, Need::required, "");
-      echo.group("routing", copy.routing, Need::required, "");
-      echo.group("cell", copy.cell, Need::optional, "");
-      echo.group("simulation", copy.simulation, Need::optional, "");
-      break;
-    case Part::strain:
-      echo.list("components", copy.dresspack.components, Need::optional, "");
-      if (std::count(copy.strain.slip.begin(), copy.strain.slip.end(), Slip::friction) >
-          0)  // stiffness of the wires
-        echo.list("materials", copy.dresspack.materials, Need::optional, "");
-      if (copy.dresspack.rest_curvature != 0)
-        echo.number("rest_curvature_1_per_m", copy.dresspack.rest_curvature, Need::optional, any_number(),
-                    "");
-      if (!copy.dresspack.hose_material.empty()) {
-        echo.text("hose_material", copy.dresspack.hose_material, Need::optional, "");
-        echo.maybe_number("hose_strain_factor", copy.dresspack.hose_strain_factor, any_number(), "");
-        echo.maybe_group("hose_corrugation", copy.dresspack.hose_corrugation, "");
-        echo.number("diameter_mm", copy.dresspack.diameter, Need::optional, any_number(), "");
-      }
-      echo.group("strain", copy.strain, Need::optional, "");
-      break;
-    case Part::fatigue:
-      echo.list("materials", copy.dresspack.materials, Need::optional, "");
-      echo.group("fatigue", copy.fatigue, Need::optional, "");
-      break;
+/// What of a dresspack decides the strain of its parts.
+struct StrainKeys {
+  MountedDresspack mounted;
+  bool friction = false;
+};
+
+void describe(Fields& echo, StrainKeys& keys) {
+  Dresspack& dresspack = keys.mounted.dresspack;
+  if (!keys.mounted.name.empty()) echo.text("name", keys.mounted.name, Need::required, "");
+  echo.list("components", dresspack.components, Need::optional, "");
+  if (keys.friction)  // stiffness of the wires
+    echo.list("materials", dresspack.materials, Need::optional, "");
+  if (dresspack.rest_curvature != 0)
+    echo.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(), "");
+  if (dresspack.hose_material.empty()) return;
+  echo.text("hose_material", dresspack.hose_material, Need::optional, "");
+  echo.maybe_number("hose_strain_factor", dresspack.hose_strain_factor, any_number(), "");
+  echo.maybe_group("hose_corrugation", dresspack.hose_corrugation, "");
+  echo.number("diameter_mm", dresspack.diameter, Need::optional, any_number(), "");
+}
+
+/// What of a dresspack decides its lives.
+struct FatigueKeys {
+  MountedDresspack mounted;
+};
+
+void describe(Fields& echo, FatigueKeys& keys) {
+  if (!keys.mounted.name.empty()) echo.text("name", keys.mounted.name, Need::required, "");
+  echo.list("materials", keys.mounted.dresspack.materials, Need::optional, "");
+}
+
+/// As in the job: the only one's keys stand alone, those of several in a list.
+template <class Keys>
+void describe_each(Fields& echo, const Forms& forms, std::vector<Keys> keys) {
+  if (forms.one)
+    describe(echo, keys.front());
+  else
+    echo.list("dresspacks", keys, Need::required, "");
+}
+
+void describe_sim(Fields& echo, Job copy) {
+  const Forms forms = forms_of(copy);
+  for (MountedDresspack& mounted : copy.dresspacks) {
+    Dresspack& dresspack = mounted.dresspack;
+    dresspack.components.clear();
+    dresspack.materials.clear();
+    dresspack.hose_material.clear();
+    dresspack.hose_strain_factor.reset();
+    dresspack.hose_corrugation.reset();
   }
+  echo.group("motion", copy.motion, Need::required, "");
+  echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
+  if (forms.one) {
+    echo.group("dresspack", copy.dresspacks.front().dresspack, Need::required, "");
+    echo.group("routing", copy.dresspacks.front().routing, Need::required, "");
+  } else {
+    echo.list("dresspacks", copy.dresspacks, Need::required, "");
+  }
+  echo.group("cell", copy.cell, Need::optional, "");
+  echo.group("simulation", copy.simulation, Need::optional, "");
+}
+
+void describe_strain(Fields& echo, Job copy) {
+  const bool friction = std::count(copy.strain.slip.begin(), copy.strain.slip.end(), Slip::friction) > 0;
+  std::vector<StrainKeys> keys;
+  for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted, friction});
+  describe_each(echo, forms_of(copy), keys);
+  echo.group("strain", copy.strain, Need::optional, "");
+}
+
+void describe_fatigue(Fields& echo, Job copy) {
+  std::vector<FatigueKeys> keys;
+  for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted});
+  describe_each(echo, forms_of(copy), keys);
+  echo.group("fatigue", copy.fatigue, Need::optional, "");
 }
 
 }  // namespace
 
 std::string part_text(const Job& job, Part part) {
-  return to_yaml(echo_fields(Describe([&](Fields& f) { describe_part(f, job, part); })));
+  const auto described = part == Part::sim      ? describe_sim
+                         : part == Part::strain ? describe_strain
+                                                : describe_fatigue;
+  return to_yaml(echo_fields(Describe([&](Fields& f) { described(f, job); })));
 }
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {
@@ -937,14 +1091,19 @@ Motion motion_from(const Node& document) {
 }
 
 std::string job_manual() {
-  return field_manual<Job>("job") + field_manual<UrdfRequest>("job.robot from a URDF");
+  const Describe both_forms = [](Fields& f) {
+    Job job;
+    describe_keys(f, job, {true, true});
+  };
+  return field_manual("job", both_forms) + field_manual<UrdfRequest>("job.robot from a URDF");
 }
 
 namespace {
 
 const Material& resolved_material(const Job& job, const std::string& wanted) {
-  for (const Material& material : job.dresspack.materials)
-    if (material.name == wanted) return material;
+  for (const MountedDresspack& mounted : job.dresspacks)
+    for (const Material& material : mounted.dresspack.materials)
+      if (material.name == wanted) return material;
   throw std::logic_error("material '" + wanted + "' was not resolved");
 }
 
@@ -954,8 +1113,17 @@ const Material& material_of(const Job& job, const std::string& name) {
   return resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material);
 }
 
-const Material& hose_material_of(const Job& job) {
-  return resolved_material(job, job.dresspack.hose_material);
+const Material& hose_material_of(const Job& job, const Dresspack& dresspack) {
+  return resolved_material(job, dresspack.hose_material);
+}
+
+std::string name_among(const Job& job, std::size_t dresspack) {
+  return job.dresspacks.size() > 1 ? job.dresspacks[dresspack].name : "";
+}
+
+std::string dresspack_words(const Job& job, std::size_t dresspack) {
+  const std::string name = name_among(job, dresspack);
+  return name.empty() ? "dresspack" : fmt::format("dresspack '{}'", name);
 }
 
 bool is_hose_wall(const Dresspack& dresspack, std::string_view component) {

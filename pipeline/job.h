@@ -246,7 +246,7 @@ struct Dresspack {
 
 /// The hose's wall as a part of the dresspack: "hose 1" to "hose 16" are places around it.
 constexpr std::string_view hose_wall_name = "hose";
-/// Whether a site's path names a place of the hose's wall, not a wire.
+/// Whether a part's path in this dresspack names a place of the hose's wall, not a wire.
 bool is_hose_wall(const Dresspack& dresspack, std::string_view component);
 
 // ---- routing ----------------------------------------------------------------------------------------------
@@ -305,17 +305,25 @@ struct Routing {
   Where where;
 };
 
+/// One of the robot's dresspacks as it is clamped.
+struct MountedDresspack {
+  std::string name;  ///< empty: the only one, given by the job's own keys `dresspack` and `routing`
+  Dresspack dresspack;
+  Routing routing;
+  Where where;
+};
+
 // ---- settings of the stages -------------------------------------------------------------------------------
 
 struct Simulation {
-  int segments = 50;
+  int segments = 50;                 ///< of each dresspack
   double time_step = 0.005;          ///< [s]
   bool choose_time_step = false;     ///< time_step_ms: auto; time_step is then where the choice begins
   double curvature_error = 0.5;      ///< that a chosen step may leave [%]
   double sample_rate = 25;           ///< of motion.h5 [Hz]; 1/rate is a multiple of the step
   Vector3d gravity{0, 0, -9.81};     ///< [m/s2]
   bool contact = true;               ///< with the robot's links
-  bool self_contact = true;          ///< of the dresspack with itself
+  bool self_contact = true;          ///< of dresspacks with themselves and each other
   bool floor = true;                 ///< contact with the plane z = 0 too
   double periodic_tolerance = 1e-3;  ///< a motion is repeated until repeats begin this much alike [m]
   int most_repeats = 8;              ///< of the motion, also when they do not
@@ -361,8 +369,7 @@ struct Fatigue {
 struct Job {
   Robot robot;  ///< no joints with clamp_poses
   Motion motion;
-  Dresspack dresspack;
-  Routing routing;
+  std::vector<MountedDresspack> dresspacks = std::vector<MountedDresspack>(1);  ///< at least one
   Cell cell;
   Simulation simulation;
   Strain strain;
@@ -386,10 +393,16 @@ std::string part_text(const Job& job, Part part);
 /// Files beyond the job and the catalogue that dresslife-sim reads.
 std::vector<std::filesystem::path> files_beside(const Job& job);
 
-/// The material that a wire of material `name` has under these settings, and that of the hose's wall, which
-/// fatigue.material leaves alone. Precondition: the job was read above.
+/// What tells a dresspack from the others: its name, or nothing where it is the only one; and the same as the
+/// subject of a sentence: "dresspack 'main hose'", "dresspack".
+std::string name_among(const Job& job, std::size_t dresspack);
+std::string dresspack_words(const Job& job, std::size_t dresspack);
+
+/// The material that a wire of material `name` has under these settings, and that of a hose's wall, which
+/// fatigue.material leaves alone. Dresspacks share their materials: one name, one material. Precondition: the
+/// job was read above.
 const Material& material_of(const Job& job, const std::string& name);
-const Material& hose_material_of(const Job& job);
+const Material& hose_material_of(const Job& job, const Dresspack& dresspack);
 
 /// Folders of the catalogue: "robots", "programs", "dresspacks", "materials". A name is looked up beside the
 /// file that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml; the working folder for
@@ -399,7 +412,7 @@ const Material& hose_material_of(const Job& job);
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
                      const Where& job);
 
-/// Sets the value at a key path (`simulation.segments`, `dresspack.components.1.count`); where: who asks for
+/// Sets the value at a key path (`simulation.segments`, `dresspacks.2.routing.free_length_m`); where: who asks for
 /// it.
 void set_value(Node& job, const std::string& path, Node value, const Where& where);
 

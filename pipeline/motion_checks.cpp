@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "pipeline/files.h"
+#include "pipeline/motion_layout.h"
 #include "pipeline/plot.h"
 
 namespace dresslife::pipeline {
@@ -47,15 +47,25 @@ std::string check_table(const std::filesystem::path& motion_file) {
   const auto steps = file.read<std::int32_t>("/check/step"),
              warnings = file.read<std::int32_t>("/check/warning");
   const auto lengths = file.read<double>("/segment/length");
-  const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  const std::vector<std::size_t> of_segment = dresspack_of_segments(file);
+  const std::vector<std::string> dresspacks = dresspack_names(file);
+  const auto of_check = file.has("/check/dresspack") ? file.read<std::int32_t>("/check/dresspack")
+                                                     : std::vector<std::int32_t>(names.size(), 0);
+  std::vector<double> length(dresspacks.size(), 0.0);
+  for (std::size_t i = 0; i < lengths.size(); ++i) length.at(of_segment[i]) += lengths[i];
   std::string rows;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const bool known = steps[i] >= 0 && steps[i] < static_cast<std::int32_t>(texts.size());
+    const auto dresspack = static_cast<std::size_t>(of_check[i]);
+    if (dresspack >= dresspacks.size())
+      throw InputError(file.where(), fmt::format("/check/dresspack names dresspack {}", of_check[i]),
+                       "run dresslife-sim again");
+    const std::string& of = dresspacks.at(dresspack);
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number{}\">{}</td><td class=\"number\">{}</td><td "
         "class=\"number\">{}</td><td class=\"number\">{:.1f} s</td><td>{}</td></tr>\n",
-        escaped(names[i]), warnings[i] ? " failed" : "", in_words(values[i], units[i]),
-        in_words(limits[i], units[i]), positions[i] < 0 ? "" : rounded(length - positions[i], 2) + " m",
+        escaped(of.empty() ? names[i] : of + ", " + names[i]), warnings[i] ? " failed" : "", in_words(values[i], units[i]),
+        in_words(limits[i], units[i]), positions[i] < 0 ? "" : rounded(length[dresspack] - positions[i], 2) + " m",
         times[i], known ? escaped(texts[static_cast<std::size_t>(steps[i])]) : "");
   }
   return fmt::format(

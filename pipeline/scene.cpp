@@ -8,6 +8,7 @@
 
 #include "pipeline/files.h"
 #include "pipeline/job.h"
+#include "pipeline/motion_layout.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -86,22 +87,33 @@ void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Job& 
     };
     for (int k = 0; k < corners; ++k) strokes.push_back({corner(k), corner(k + 1), thick, "arm-2"});
   };
-  for (const GuideRing& ring : job.routing.rings)
-    circle(ring.link, ring.position, ring.direction, ring.radius + thick);
-  for (const IntermediateClamp& between : job.routing.clamps)
-    circle(between.clamp.link, between.clamp.position, between.clamp.direction,
-           job.dresspack.diameter / 2 + thick);
+  for (const MountedDresspack& mounted : job.dresspacks) {
+    for (const GuideRing& ring : mounted.routing.rings)
+      circle(ring.link, ring.position, ring.direction, ring.radius + thick);
+    for (const IntermediateClamp& between : mounted.routing.clamps)
+      circle(between.clamp.link, between.clamp.position, between.clamp.direction,
+             mounted.dresspack.diameter / 2 + thick);
+  }
 }
 
-std::vector<Vector3d> hose_points(const FileReader& file, std::size_t sample) {
+/// Base clamp, segment centres, tool clamp of each dresspack.
+std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size_t sample) {
   std::vector<double> clamps, centres;
   file.read_rows("/clamp/position", sample, 1, clamps);
   file.read_rows("/segment/position", sample, 1, centres);
-  std::vector<Vector3d> points{Vector3d(clamps[0], clamps[1], clamps[2])};
-  for (std::size_t i = 0; i + 2 < centres.size(); i += 3)
-    points.emplace_back(centres[i], centres[i + 1], centres[i + 2]);
-  const double* tool = &clamps[clamps.size() - 3];
-  points.emplace_back(tool[0], tool[1], tool[2]);
+  const auto at = [](const std::vector<double>& of, std::size_t i) {
+    return Vector3d(of[3 * i], of[3 * i + 1], of[3 * i + 2]);
+  };
+  const std::vector<MotionSpan> spans = motion_spans(file);
+  std::vector<std::vector<Vector3d>> points(spans.back().dresspack + 1);
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    const MotionSpan& span = spans[k];
+    std::vector<Vector3d>& of = points[span.dresspack];
+    if (of.empty()) of.push_back(at(clamps, span.base_clamp));
+    for (std::size_t i = 0; i < span.segments; ++i) of.push_back(at(centres, span.first_segment + i));
+    if (k + 1 == spans.size() || spans[k + 1].dresspack != span.dresspack)
+      of.push_back(at(clamps, span.tool_clamp));
+  }
   return points;
 }
 
@@ -165,14 +177,18 @@ std::string scale_bar(const View& view, double height) {
 
 }  // namespace
 
-std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool) {
+std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
+                          std::size_t worst_dresspack) {
   const FileReader file(motion_file, motion_format());
   const Job job = job_from(parse_yaml(file.text_attribute("job"), motion_file.string() + " (attribute job)"));
   const std::size_t sample = sample_at(file, time);
   std::vector<Stroke> strokes;
   add_robot(strokes, file, job.robot, sample);
   add_rings(strokes, file, job, sample);
-  add_hose(strokes, hose_points(file, sample), job.dresspack.diameter / 2, worst_from_tool);
+  const std::vector<std::vector<Vector3d>> hoses = hose_points(file, sample);
+  for (std::size_t d = 0; d < std::min(hoses.size(), job.dresspacks.size()); ++d)
+    add_hose(strokes, hoses[d], job.dresspacks[d].dresspack.diameter / 2,
+             d == worst_dresspack ? worst_from_tool : 0);
 
   double height = 0;
   const View view = fit(strokes, height);

@@ -1,4 +1,4 @@
-// A picture of the robot and its dresspack at one moment of a motion file, as inline SVG in the classes of
+// A picture of the robot and its dresspacks at one moment of a motion file, as inline SVG in the classes of
 // report.cpp: parallel projection from the side, nearer parts over farther ones, the worst segment marked.
 #pragma once
 
@@ -7,8 +7,10 @@
 
 namespace dresslife::pipeline {
 
-/// time: the sample nearest to it [s]; worst_from_tool: segment to mark, 1 nearest to the tool, 0: none.
+/// time: the sample nearest to it [s]; worst_from_tool: segment of worst_dresspack to mark, 1 nearest to the tool,
+/// 0: none.
 /// Errors: InputError when the file is missing or cannot be read.
-std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool);
+std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
+                          std::size_t worst_dresspack = 0);
 
 }  // namespace dresslife::pipeline

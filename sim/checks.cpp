@@ -1,20 +1,25 @@
 #include "sim/checks.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 
 namespace dresslife::sim {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-const Extreme& largest(const std::vector<Extreme>& places) {
+using Places = std::span<const Extreme>;
+
+const Extreme& largest(Places places) {
   return *std::max_element(places.begin(), places.end(),
                            [](const Extreme& a, const Extreme& b) { return a.value < b.value; });
 }
 
-const Extreme& largest_by_size(const std::vector<Extreme>& places) {
+const Extreme& largest_by_size(Places places) {
   return *std::max_element(places.begin(), places.end(), [](const Extreme& a, const Extreme& b) {
     return std::abs(a.value) < std::abs(b.value);
   });
@@ -35,29 +40,56 @@ MotionLimits limits_of(const pipeline::Dresspack& dresspack) {
           dresspack.most_twist.value_or(most_twist)};
 }
 
-MotionChecks::MotionChecks(const Rod& rod, const MotionLimits& limits)
+MotionChecks::MotionChecks(const Rod& rod, std::vector<MotionLimits> limits)
     : rod_(rod),
-      limits_(limits),
+      limits_(std::move(limits)),
+      whole_(rod.dresspacks()),
       curvature_(rod.links()),
       twist_(rod.links()),
       tension_(rod.links()),
       least_slack_(rod.spans().size()),
       most_slack_(rod.spans().size()),
-      travel_(rod.spans().size()) {}
+      travel_(rod.spans().size()) {
+  assert(static_cast<int>(limits_.size()) == rod.dresspacks());
+}
+
+double MotionChecks::net_twist() const {
+  return std::accumulate(whole_.begin(), whole_.end(), 0.0,
+                         [](double sum, const Whole& whole) { return sum + whole.net_twist; });
+}
 
 void MotionChecks::see(const RodState& state, const std::vector<Contact>& contacts, double time,
                        const std::vector<double>& ways) {
-  net_twist_ = 0;
+  see_links(state, time);
+  see_spans(state, time, ways);
+  for (const Contact& contact : contacts) {
+    see_contact(contact.segment, contact, time);
+    if (contact.other >= 0) see_contact(contact.other, contact, time);
+  }
+  begun_ = true;
+  end_ = time;
+}
+
+void MotionChecks::see_links(const RodState& state, double time) {
+  for (Whole& whole : whole_) whole.net_twist = 0;
   const std::vector<double> pull = rod_.tensions(state);
   for (int j = 0; j < rod_.links(); ++j) {
     const Vector3 turn = rod_.link_state(state, j).turn;
-    net_twist_ += turn.z();
+    whole_[rod_.span_of_link(j).dresspack].net_twist += turn.z();
     const double curvature = turn.head<2>().norm() / rod_.bending_length(j);
     const double twist = turn.z() / rod_.bending_length(j);
     curvature_[j].see(curvature, curvature > curvature_[j].value, time, j);
     twist_[j].see(twist, std::abs(twist) > std::abs(twist_[j].value), time, j);
     tension_[j].see(pull[j], pull[j] > tension_[j].value, time, j);
   }
+  for (Whole& whole : whole_) {
+    whole.most_net_twist.see(whole.net_twist,
+                             std::abs(whole.net_twist) > std::abs(whole.most_net_twist.value), time, -1);
+    if (!begun_) whole.net_twist_at_begin = whole.net_twist;
+  }
+}
+
+void MotionChecks::see_spans(const RodState& state, double time, const std::vector<double>& ways) {
   for (int k = 0; k < static_cast<int>(rod_.spans().size()); ++k) {
     const RodProperties& p = rod_.spans()[k].properties;
     if (p.slider) travel_[k].see(state.travel[k].way, state.travel[k].way > travel_[k].value, time, k);
@@ -67,41 +99,66 @@ void MotionChecks::see(const RodState& state, const std::vector<Contact>& contac
     least_slack_[k].see(slack, slack < least_slack_[k].value, time, k);
     most_slack_[k].see(slack, slack > most_slack_[k].value, time, k);
   }
-  most_net_twist_.see(net_twist_, std::abs(net_twist_) > std::abs(most_net_twist_.value), time, -1);
-  for (const Contact& contact : contacts) {
-    if (contact.depth > depth_.value) depth_.see(contact.depth, true, time, contact.segment);
-    if (contact.normal_force > force_.value) force_.see(contact.normal_force, true, time, contact.segment);
-  }
-  if (!begun_) net_twist_at_begin_ = net_twist_;
-  begun_ = true;
-  end_ = time;
+}
+
+void MotionChecks::see_contact(int segment, const Contact& contact, double time) {
+  Whole& whole = whole_[rod_.span_of(segment).dresspack];
+  if (contact.depth > whole.depth.value) whole.depth.see(contact.depth, true, time, segment);
+  if (contact.normal_force > whole.force.value) whole.force.see(contact.normal_force, true, time, segment);
 }
 
 std::vector<Check> MotionChecks::table() const {
+  std::vector<Check> checks;
+  for (int d = 0; d < rod_.dresspacks(); ++d) {
+    const size_t first = checks.size();
+    add_lines(d, checks);
+    add_slack(d, checks);
+    for (size_t line = first; line < checks.size(); ++line) checks[line].dresspack = d;
+  }
+  return checks;
+}
+
+void MotionChecks::add_lines(int dresspack, std::vector<Check>& checks) const {
   const auto link = [&](const Extreme& e) { return rod_.link_arc(e.place); };
   const auto segment = [&](const Extreme& e) {
     return e.place < 0 ? -1 : rod_.span_of(e.place).arc(e.place);
   };
+  const int first = rod_.spans()[rod_.first_span(dresspack)].first_link;
+  const int last = rod_.spans()[rod_.first_span(dresspack + 1) - 1].last_link();
+  const auto of = [&](const std::vector<Extreme>& links) {
+    return Places(links).subspan(first, last + 1 - first);
+  };
+  const Extreme &bend = largest(of(curvature_)), &twist = largest_by_size(of(twist_)),
+                &pull = largest(of(tension_));
+  const MotionLimits& limits = limits_[dresspack];
+  const Whole& whole = whole_[dresspack];
+  const double radius = bend.value > 0 ? 1 / bend.value : unlimited;
+  const Check lines[] = {
+      {"smallest bend radius", "m", radius, limits.least_bend_radius, radius < limits.least_bend_radius,
+       bend.time, link(bend)},
+      {"largest twist", "rad/m", twist.value, limits.most_twist, std::abs(twist.value) > limits.most_twist,
+       twist.time, link(twist)},
+      {"largest net twist", "rad", whole.most_net_twist.value, unlimited, false, whole.most_net_twist.time,
+       -1},
+      {"net twist left by a repeat", "rad", whole.net_twist - whole.net_twist_at_begin, unlimited, false,
+       end_, -1},
+      {"largest tension", "N", pull.value, unlimited, false, pull.time, link(pull)},
+      {"deepest contact", "m", whole.depth.value, unlimited, false, whole.depth.time, segment(whole.depth)},
+      {"largest contact force", "N", whole.force.value, unlimited, false, whole.force.time,
+       segment(whole.force)},
+  };
+  checks.insert(checks.end(), std::begin(lines), std::end(lines));
+}
+
+void MotionChecks::add_slack(int dresspack, std::vector<Check>& checks) const {
   const auto length = [&](const Extreme& e) { return rod_.spans()[e.place].properties.length; };
   const auto share = [&](const Extreme& e) { return e.value / length(e); };
+  const int first = rod_.first_span(dresspack), end = rod_.first_span(dresspack + 1);
   const auto middle = [&](const Extreme& e) {
-    return rod_.spans().size() == 1 ? -1 : rod_.spans()[e.place].first_arc + length(e) / 2;
-  };
-  const Extreme &bend = largest(curvature_), &twist = largest_by_size(twist_), &pull = largest(tension_);
-  const double radius = bend.value > 0 ? 1 / bend.value : unlimited;
-  std::vector<Check> checks = {
-      {"smallest bend radius", "m", radius, limits_.least_bend_radius, radius < limits_.least_bend_radius,
-       bend.time, link(bend)},
-      {"largest twist", "rad/m", twist.value, limits_.most_twist, std::abs(twist.value) > limits_.most_twist,
-       twist.time, link(twist)},
-      {"largest net twist", "rad", most_net_twist_.value, unlimited, false, most_net_twist_.time, -1},
-      {"net twist left by a repeat", "rad", net_twist_ - net_twist_at_begin_, unlimited, false, end_, -1},
-      {"largest tension", "N", pull.value, unlimited, false, pull.time, link(pull)},
-      {"deepest contact", "m", depth_.value, unlimited, false, depth_.time, segment(depth_)},
-      {"largest contact force", "N", force_.value, unlimited, false, force_.time, segment(force_)},
+    return end == first + 1 ? -1 : rod_.spans()[e.place].first_arc + length(e) / 2;
   };
   const Extreme *tight = nullptr, *loose = nullptr, *most = nullptr;
-  for (size_t k = 0; k < least_slack_.size(); ++k) {
+  for (int k = first; k < end; ++k) {
     const Extreme &least = least_slack_[k], &greatest = most_slack_[k];
     if (!least.seen) continue;  // a free end
     if (!tight || share(least) < share(*tight)) tight = &least;
@@ -116,13 +173,11 @@ std::vector<Check> MotionChecks::table() const {
                       loose->time, middle(*loose)});
     checks.push_back({"most slack", "m", most->value, unlimited, false, most->time, middle(*most)});
   }
-  for (const Extreme& travel : travel_)
-    if (travel.seen) {
-      const double stroke = rod_.spans()[travel.place].properties.slider->stroke;
-      checks.push_back({"travel of the retraction unit", "m", travel.value, stroke, travel.value >= stroke,
-                        travel.time, rod_.spans()[travel.place].first_arc});
-    }
-  return checks;
+  if (const Extreme& travel = travel_[first]; travel.seen) {
+    const double stroke = rod_.spans()[first].properties.slider->stroke;
+    checks.push_back({"travel of the retraction unit", "m", travel.value, stroke, travel.value >= stroke,
+                      travel.time, rod_.spans()[first].first_arc});
+  }
 }
 
 }  // namespace dresslife::sim

@@ -2,10 +2,10 @@
 // touches, and whether it is too short or too long; where, when, and during which line of the program.
 //
 // (R9) Every step, at link j, s = j l from the base clamp: bend radius 1/|kappa|, kappa and twist = the
-// link's turn over its compliance length (S5); tension (S9). Net twist is the sum of all links' turns about
-// the tangent, so whole turns count; what is left of it after a repeat is its end minus its begin. Slack is
+// link's turn over its compliance length (S5); tension (S9). Net twist is the sum of a dresspack's links' turns
+// about the tangent, so whole turns count; what is left of it after a repeat is its end minus its begin. Slack is
 // the free length of a span minus the straight distance of its clamps; of several spans the one with least of
-// it for its length counts.
+// it for its length counts. Each dresspack has a table of its own.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ inline constexpr double least_slack_share = 0.02, most_slack_share = 1.0 / 3;
 struct Extreme {
   double value = 0;
   double time = 0;  ///< [s]
-  int place = -1;   ///< link or segment; -1: of the whole dresspack
+  int place = -1;   ///< link, segment or span; -1: of the whole dresspack
   bool seen = false;
   void see(double candidate, bool larger, double when, int where);
 };
@@ -42,6 +42,7 @@ struct Check {
   bool warning = false;
   double time = 0;       ///< [s]
   double position = -1;  ///< from the base clamp along the dresspack [m]; -1: of the whole
+  int dresspack = 0;
 };
 
 /// What this dresspack allows in motion.
@@ -53,29 +54,41 @@ MotionLimits limits_of(const pipeline::Dresspack& dresspack);
 
 class MotionChecks {
  public:
-  MotionChecks(const Rod& rod, const MotionLimits& limits);
+  MotionChecks(const Rod& rod, std::vector<MotionLimits> limits);
 
   /// Looks at the state at one time; the first call of a repeat is at its begin.
   /// ways: (span) straight ways through guide rings [m]; empty: from clamp to clamp.
   void see(const RodState& state, const std::vector<Contact>& contacts, double time,
            const std::vector<double>& ways = {});
 
-  double net_twist() const { return net_twist_; }                       ///< of the last state seen [rad]
+  double net_twist() const;                                             ///< of the last state, all dresspacks [rad]
   const std::vector<Extreme>& curvature() const { return curvature_; }  ///< (link) largest [1/m]
   const std::vector<Extreme>& twist() const { return twist_; }          ///< (link) largest by size [rad/m]
   const std::vector<Extreme>& tension() const { return tension_; }      ///< (link) largest pull [N]
 
+  /// Dresspack after dresspack.
   std::vector<Check> table() const;
 
  private:
+  /// Of one dresspack.
+  struct Whole {
+    Extreme most_net_twist, depth, force;
+    double net_twist = 0, net_twist_at_begin = 0;
+  };
+  void see_links(const RodState& state, double time);
+  void see_spans(const RodState& state, double time, const std::vector<double>& ways);
+  void see_contact(int segment, const Contact& contact, double time);
+  void add_lines(int dresspack, std::vector<Check>& checks) const;
+  void add_slack(int dresspack, std::vector<Check>& checks) const;
+
   const Rod& rod_;
-  const MotionLimits limits_;
+  const std::vector<MotionLimits> limits_;  // (dresspack)
+  std::vector<Whole> whole_;                // (dresspack)
   std::vector<Extreme> curvature_, twist_, tension_;
   std::vector<Extreme> least_slack_, most_slack_;  // (span)
   std::vector<Extreme> travel_;                    // (span)
-  Extreme most_net_twist_, depth_, force_;
   bool begun_ = false;
-  double net_twist_ = 0, net_twist_at_begin_ = 0, end_ = 0;
+  double end_ = 0;
 };
 
 }  // namespace dresslife::sim

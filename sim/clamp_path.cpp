@@ -20,24 +20,40 @@ Frame clamp_frame(const pipeline::Clamp& clamp) {
 RobotPath::RobotPath(const pipeline::Job& job)
     : kinematics_(job.robot),
       motion_(resolved_motion(job.motion), job.robot),
-      free_tool_end_(job.routing.tool_end == pipeline::ToolEnd::free),
       mounting_pose_(motion_.position(0)) {
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+    const pipeline::Routing& routing = mounted.routing;
+    add_dresspack(job, routing);
+    if (routing.mounting_pose.empty()) continue;
+    check_joint_limits(job.robot, routing.mounting_pose, "routing.mounting_pose_deg", routing.where);
+    const auto axes = static_cast<long>(routing.mounting_pose.size());
+    mounting_pose_.head(axes) =  // external axes: as at the start
+        Eigen::Map<const Eigen::VectorXd>(routing.mounting_pose.data(), axes);
+  }
+}
+
+void RobotPath::add_dresspack(const pipeline::Job& job, const pipeline::Routing& routing) {
   const auto add = [&](const pipeline::Clamp& clamp) {
     clamp_links_.push_back(find_link(job.robot, clamp.link, clamp.where));
     clamps_.push_back(clamp_frame(clamp));
   };
-  add(*job.routing.base_clamp);
-  for (const pipeline::IntermediateClamp& between : job.routing.clamps) add(between.clamp);
-  if (!free_tool_end_) add(*job.routing.tool_clamp);
-  for (const pipeline::GuideRing& ring : job.routing.rings) {
+  const auto add_end = [&](bool free = false) {
+    end_clamps_.push_back(static_cast<int>(clamps_.size()) - 1);
+    end_links_.push_back(free ? no_link : clamp_links_.back());
+  };
+  const bool free = routing.tool_end == pipeline::ToolEnd::free;
+  add(*routing.base_clamp);
+  add_end();
+  for (const pipeline::IntermediateClamp& between : routing.clamps) {
+    add(between.clamp);
+    add_end(), add_end();
+  }
+  if (!free) add(*routing.tool_clamp);
+  add_end(free);
+  for (const pipeline::GuideRing& ring : routing.rings) {
     ring_links_.push_back(find_link(job.robot, ring.link, ring.where));
     rings_.push_back(clamp_frame({ring.link, ring.position, ring.direction, {}, ring.where}));
   }
-  const std::vector<double>& mounting = job.routing.mounting_pose;
-  if (mounting.empty()) return;
-  check_joint_limits(job.robot, mounting, "routing.mounting_pose_deg", job.routing.where);
-  mounting_pose_.head(static_cast<long>(mounting.size())) =  // external axes: as at the start
-      Eigen::Map<const Eigen::VectorXd>(mounting.data(), static_cast<long>(mounting.size()));
 }
 
 Pose RobotPath::pose(const Eigen::VectorXd& joints) const {
@@ -45,15 +61,17 @@ Pose RobotPath::pose(const Eigen::VectorXd& joints) const {
   pose.joints = joints;
   pose.links.resize(kinematics_.links());
   kinematics_.link_frames({joints.data(), static_cast<size_t>(joints.size())}, pose.links);
-  const auto placed = [&](size_t k) { return pose.links[clamp_links_[k]] * clamps_[k]; };
-  const size_t last = clamps_.size() - (free_tool_end_ ? 0 : 1);
-  pose.clamps.base = placed(0);
-  for (size_t k = 1; k < last; ++k) pose.clamps.between.insert(pose.clamps.between.end(), 2, placed(k));
-  pose.clamps.tool = placed(clamps_.size() - 1);  // a free end has none of its own and does not use it
+  const int ends = static_cast<int>(end_clamps_.size());
+  pose.clamps.between.resize(ends - 2);
+  for (int e = 0; e < ends; ++e)
+    pose.clamps.end(e) = pose.links[clamp_links_[end_clamps_[e]]] * clamps_[end_clamps_[e]];
   for (size_t k = 0; k < rings_.size(); ++k) pose.rings.push_back(pose.links[ring_links_[k]] * rings_[k]);
   return pose;
 }
 
-void RobotPath::turn_clamp(int k, double roll) { clamps_[k] = rolled(clamps_[k], roll); }
+void RobotPath::turn_clamp(int end, double roll) {
+  Frame& clamp = clamps_[end_clamps_[end]];
+  clamp = rolled(clamp, roll);
+}
 
 }  // namespace dresslife::sim

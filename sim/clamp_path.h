@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "pipeline/job.h"
+#include "sim/contact.h"
 #include "sim/motion.h"
 #include "sim/robot.h"
 #include "sim/rod.h"
@@ -55,22 +56,27 @@ class RobotPath final : public ClampPath {
 
   const JointMotion& motion() const { return motion_; }
   Pose pose(const Eigen::VectorXd& joints) const;
-  /// Of every clamp, from base to tool: index of the link that carries it.
-  const std::vector<int>& clamp_links() const { return clamp_links_; }
+  /// (end, as ClampFrames counts them) index of the link that carries it; no_link: a free end.
+  const std::vector<int>& end_links() const { return end_links_; }
+  /// Of all dresspacks' rings, in their order.
   const std::vector<int>& ring_links() const { return ring_links_; }
   /// Of each ring in its link's frame.
   const std::vector<Frame>& rings() const { return rings_; }
-  /// Joint angles at which the dresspack was clamped [rad].
+  /// Joint angles at which the dresspacks were clamped [rad].
   const Eigen::VectorXd& mounting_pose() const { return mounting_pose_; }
-  /// Turns clamp k (0: base) about its direction by roll [rad], for good.
-  void turn_clamp(int k, double roll);
+  /// Turns the clamp at an end about its direction by roll [rad], for good; between two spans it is that of
+  /// both.
+  void turn_clamp(int end, double roll);
 
  private:
+  void add_dresspack(const pipeline::Job& job, const pipeline::Routing& routing);
+
   RobotKinematics kinematics_;
   JointMotion motion_;
-  std::vector<int> clamp_links_, ring_links_;
+  std::vector<int> end_links_, ring_links_;
+  std::vector<int> end_clamps_;        // (end) index into clamps_; a free end names the clamp before it
+  std::vector<int> clamp_links_;
   std::vector<Frame> clamps_, rings_;  // in their links' frames (R2)
-  bool free_tool_end_;
   Eigen::VectorXd mounting_pose_;
 };
 

@@ -20,12 +20,14 @@ MotionFile::MotionFile(pipeline::FileWriter& file, const RunDescription& descrip
   file_.set_axis("segment", description.segment_length.size());
   file_.set_axis("clamp", description.clamp_segment.size());
   file_.set_axis("hose_link", description.links);
-  file_.set_axis("dresspack", 1);
+  file_.set_axis("dresspack", description.dresspacks.size());
   if (description.joints > 0) {
     file_.set_axis("joint", description.joints);
     file_.set_axis("link", description.link_names.size());
   }
   file_.append("/segment/length", std::span<const double>(description.segment_length));
+  file_.append("/segment/dresspack", std::span<const std::int32_t>(description.dresspack));
+  file_.append("/dresspack/name", std::span<const std::string>(description.dresspacks));
   if (description.clamp_segment.size() > 2)
     file_.append("/clamp/segment", std::span<const std::int32_t>(description.clamp_segment.data(),
                                                                  description.clamp_segment.size()));
@@ -87,7 +89,7 @@ void MotionFile::add_extremes(const std::string& group, const std::vector<Extrem
 void MotionFile::add_checks(const Simulation& simulation, const std::vector<Check>& checks) {
   std::vector<std::string> names, units;
   std::vector<double> values, limits, times, positions;
-  std::vector<std::int32_t> warnings, steps;
+  std::vector<std::int32_t> warnings, steps, dresspacks;
   for (const Check& check : checks) {
     names.push_back(check.name);
     units.push_back(check.unit);
@@ -97,6 +99,7 @@ void MotionFile::add_checks(const Simulation& simulation, const std::vector<Chec
     times.push_back(check.time);
     steps.push_back(simulation.path().step(check.time));
     positions.push_back(check.position);
+    dresspacks.push_back(check.dresspack);
   }
   file_.append("/check/name", std::span<const std::string>(names));
   file_.append("/check/unit", std::span<const std::string>(units));
@@ -106,6 +109,7 @@ void MotionFile::add_checks(const Simulation& simulation, const std::vector<Chec
   file_.append("/check/time", std::span<const double>(times));
   file_.append("/check/step", std::span<const std::int32_t>(steps));
   file_.append("/check/position", std::span<const double>(positions));
+  file_.append("/check/dresspack", std::span<const std::int32_t>(dresspacks));
 }
 
 void MotionFile::add_touch(const Touch& touch) {

@@ -6,6 +6,7 @@
 
 #include "sim/equilibrium.h"
 #include "sim/routing.h"
+#include "sim/self_contact.h"
 
 namespace dresslife::sim {
 namespace {
@@ -25,17 +26,19 @@ constexpr double pre_twist_part = 0.5;  // turned at a time [rad]
 struct Held {
   RodState state;
   double roll = 0;   // of its far end
-  double depth = 0;  // largest overlap with an obstacle [m]
+  double depth = 0;  // largest overlap with an obstacle or another dresspack [m]
+  int through = -1;  // that dresspack, if it is the deepest; -1: robot, cell or floor
   bool found = false;
 };
 
-/// What is hung up at a time: from clamp to clamp, or, where rings lie between, from ring to ring, each of
+/// What of a dresspack is hung up at a time: from clamp to clamp, or, where rings lie between, from ring to ring, each of
 /// them holding the hose until all of it hangs.
 struct Piece {
+  int dresspack = 0;
   RodProperties properties;
   Frame begin, end;
   int begin_link = no_link, end_link = no_link;
-  int end_clamp = -1;  // of the robot's; -1: a ring or a free end
+  int clamped_end = -1;  // as ClampFrames counts them; -1: a ring or a free end
   bool twist_free = false;
   double pre_twist = 0;  // [rad]
 };
@@ -62,7 +65,8 @@ void add_shapes(World& world, int link, const Shapes& shapes) {
 WorldSettings world_settings(const pipeline::Job& job) {
   WorldSettings settings;
   settings.time_step = job.simulation.time_step;
-  settings.friction = job.dresspack.friction;
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks)
+    settings.frictions.push_back(mounted.dresspack.friction);
   settings.floor = job.simulation.floor;
   settings.self_contact = job.simulation.self_contact;
   return settings;
@@ -82,94 +86,125 @@ class Mounting {
       : job_(job), rod_(rod), path_(path), robot_(robot) {}
 
   RodState mounted() {
-    std::vector<RodState> pieces;
-    std::vector<RodProperties> properties;
-    const int spans = static_cast<int>(rod_.spans().size());
-    double way = 0;
-    Frame begin = mounting_pose().clamps.base;
-    if (rod_.properties().slider)
-      way = pulled_out(mounting_pose()), begin.position += way * tangent(begin.orientation);
-    for (int k = 0; k < spans; ++k) {
-      for (Piece piece : pieces_of(k)) {
-        piece.begin = begin;
-        const Held held = held_clear(piece);
-        begin = held.state.clamps.tool;
-        pieces.push_back(held.state);
-        segments_before_.push_back((segments_before_.empty() ? 0 : segments_before_.back()) +
-                                   piece.properties.segments);
-        properties.push_back(piece.properties);
-        if (robot_ && piece.end_clamp >= 0) robot_->turn_clamp(piece.end_clamp, held.roll);
-      }
-    }
-    RodState state = at_rest(as_spans(joined(Rod(properties), pieces), way), mounting_pose());
+    for (int d = 0; d < rod_.dresspacks(); ++d) hang_up(d);
+    RodState state = at_rest(as_spans(joined(hung_rod(), hung_)), mounting_pose());
     if (!robot_ || robot_->mounting_pose() == robot_->motion().position(0)) return state;
     return at_rest(carried(state), path_.at(0));
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(job_.routing.where, what,
+  const pipeline::Routing& routing(int dresspack) const { return job_.dresspacks[dresspack].routing; }
+
+  [[noreturn]] void fail(int dresspack, const std::string& what) const {
+    throw InputError(routing(dresspack).where,
+                     fmt::format("{} {}", pipeline::dresspack_words(job_, dresspack), what),
                      "check the free length and the clamps' places and directions in the mounting pose");
   }
 
   Pose mounting_pose() const { return robot_ ? robot_->pose(robot_->mounting_pose()) : path_.at(0); }
 
+  /// Piece by piece from its base clamp.
+  void hang_up(int dresspack) {
+    const int first = rod_.first_span(dresspack);
+    Frame begin = mounting_pose().clamps.end(2 * first);
+    if (rod_.spans()[first].properties.slider) {
+      pulled_out_.push_back(pulled_out(first));
+      begin.position += pulled_out_.back() * tangent(begin.orientation);
+    } else {
+      pulled_out_.push_back(0);
+    }
+    for (int k = first; k < rod_.first_span(dresspack + 1); ++k)
+      for (Piece piece : pieces_of(k, begin.position)) {
+        piece.begin = begin;
+        const Held held = held_clear(piece);
+        begin = held.state.clamps.tool;
+        hung_.push_back(held.state);
+        hung_pieces_.push_back(piece);
+        if (robot_ && piece.clamped_end >= 0) robot_->turn_clamp(piece.clamped_end, held.roll);
+      }
+  }
+
+  /// Of the pieces that hang; with one more if given.
+  Rod hung_rod(const Piece* more = nullptr) const {
+    std::vector<RodProperties> pieces;
+    std::vector<int> first_of_dresspack;
+    int dresspack = -1;
+    const auto add = [&](const Piece& piece) {
+      if (piece.dresspack != dresspack) first_of_dresspack.push_back(static_cast<int>(pieces.size()));
+      dresspack = piece.dresspack;
+      pieces.push_back(piece.properties);
+    };
+    for (const Piece& piece : hung_pieces_) add(piece);
+    if (more) add(*more);
+    return Rod(pieces, first_of_dresspack);
+  }
+
   /// How far a retraction unit must be out for the dresspack to reach its next clamp with some slack.
-  double pulled_out(const Pose& pose) const {
+  double pulled_out(int span) const {
     constexpr int parts = 100;
-    RodProperties held = rod_.properties();
+    const Pose pose = mounting_pose();
+    std::vector<RodProperties> spans;
+    for (const Span& of : rod_.spans()) spans.push_back(of.properties);
+    RodProperties& held = spans[span];
     const double stroke = held.slider->stroke;
     held.slider.reset();
-    const Rod rod(held);
-    ClampFrames clamps{pose.clamps.base, pose.clamps.end(1)};
-    const auto way = [&](int part) {
-      ClampFrames at = clamps;
-      at.base.position += (stroke * part / parts) * tangent(clamps.base.orientation);
-      return at;
-    };
-    for (int part = 0; part <= parts; ++part)
+    const Rod rod(spans);
+    std::vector<Vector3> through;  // the rings' centres, where they hold it
+    const std::vector<RoutedRing> routed = routed_rings(job_);
+    for (size_t r = 0; r < pose.rings.size(); ++r)
+      if (routed[r].span == span) through.push_back(pose.rings[r].position);
+    for (int part = 0; part <= parts; ++part) {
+      const double way = stroke * part / parts;
+      ClampFrames at = pose.clamps;
+      Frame& base = at.end(2 * span);
+      base.position += way * tangent(base.orientation);
       if (held.tool_end == End::free ||
-          shortest_ways(job_, rod, way(part), pose.rings).front() < roomy * held.length)
-        return stroke * part / parts;
+          shortest_way(rod, at, span, through) < roomy * held.length)
+        return way;
+    }
     return stroke;
   }
 
-  /// Of one span, in order; each but the last ends in a ring. Segments are dealt by length.
-  std::vector<Piece> pieces_of(int k) const {
+  /// Of one span, whose base end is at `from`, in order; each but the last ends in a ring. Segments are dealt by
+  /// length.
+  std::vector<Piece> pieces_of(int k, const Vector3& from) const {
     const Span& span = rod_.spans()[k];
     const Pose pose = mounting_pose();
-    const std::vector<int> of_ring = ring_spans(job_);
-    const std::vector<int> clamp_links = robot_ ? robot_->clamp_links() : std::vector<int>(k + 2, no_link);
+    const std::vector<RoutedRing> routed = routed_rings(job_);
+    const std::vector<int> end_links =
+        robot_ ? robot_->end_links() : std::vector<int>(2 * rod_.spans().size(), no_link);
     const bool free_end = span.properties.tool_end == End::free;
     std::vector<Frame> ends;
     std::vector<int> links;
     std::vector<double> given;
     for (size_t r = 0; r < pose.rings.size(); ++r)
-      if (of_ring[r] == k) {
+      if (routed[r].span == k) {
         ends.push_back(pose.rings[r]);
         links.push_back(robot_->ring_links()[r]);
-        const auto& at = job_.routing.rings[r].at_length;
+        const auto& at = routed[r].ring.at_length;
         given.push_back(at ? *at - span.first_arc : 0);
       }
     ends.push_back(pose.clamps.end(2 * k + 1));
-    links.push_back(free_end ? no_link : clamp_links[k + 1]);
+    links.push_back(end_links[2 * k + 1]);
     given.push_back(span.properties.length);
-    const std::vector<int> counts = dealt(span, pose.clamps.end(2 * k).position, ends, given);
+    const std::vector<int> counts = dealt(span, from, ends, given);
     std::vector<Piece> pieces;
     for (size_t p = 0; p < ends.size(); ++p) {
       const bool last = p + 1 == ends.size();
       Piece piece;
+      piece.dresspack = span.dresspack;
       piece.properties = span.properties;
       piece.properties.slider.reset();
       piece.properties.segments = counts[p];
       piece.properties.length = counts[p] * span.segment_length;
       if (!last) piece.properties.tool_end = End::clamped, piece.properties.tip_mass = 0;
       piece.end = ends[p];
-      piece.begin_link = p == 0 ? clamp_links[k] : links[p - 1];
+      piece.begin_link = p == 0 ? end_links[2 * k] : links[p - 1];
       piece.end_link = links[p];
       piece.twist_free = !last || free_of_twist(k);
-      piece.pre_twist = last && k + 1 == static_cast<int>(rod_.spans().size()) ? job_.routing.pre_twist : 0;
-      if (last && !free_end) piece.end_clamp = k + 1;
+      if (last && k + 1 == rod_.first_span(span.dresspack + 1))
+        piece.pre_twist = routing(span.dresspack).pre_twist;
+      if (last && !free_end) piece.clamped_end = 2 * k + 1;
       pieces.push_back(piece);
     }
     return pieces;
@@ -193,36 +228,37 @@ class Mounting {
                    std::max(before + fewest, static_cast<int>(std::lround(share * span.segments()))));
       counts.push_back((p + 1 == pieces ? span.segments() : up_to) - before);
       if (counts.back() < fewest)
-        fail("dresspack has too few segments for its guide rings (simulation.segments)");
+        fail(span.dresspack, "has too few segments for its guide rings (simulation.segments)");
       before = up_to;
     }
     return counts;
   }
 
   /// Unless the routing turns the clamp at the span's tool end.
-  bool free_of_twist(int span) const {
-    if (!robot_ || rod_.spans()[span].properties.tool_end == End::free) return false;
-    const auto& between = job_.routing.clamps;
-    return !(span < static_cast<int>(between.size()) ? between[span].clamp : *job_.routing.tool_clamp).roll;
+  bool free_of_twist(int k) const {
+    const Span& span = rod_.spans()[k];
+    if (!robot_ || span.properties.tool_end == End::free) return false;
+    const pipeline::Routing& of = routing(span.dresspack);
+    const int clamp = k - rod_.first_span(span.dresspack);
+    return !(clamp < static_cast<int>(of.clamps.size()) ? of.clamps[clamp].clamp : *of.tool_clamp).roll;
   }
 
   /// Pieces hung up one after the other as one state of the rod.
-  RodState as_spans(RodState state, double way) const {
+  RodState as_spans(RodState state) const {
     const int spans = static_cast<int>(rod_.spans().size());
     const RodState pieces = state;
     state.clamps.between.assign(2 * spans - 2, Frame{});
-    int piece_end = -1, segment = 0;
+    int piece = 0;
     for (int k = 0; k < spans; ++k) {
-      state.clamps.end(2 * k) = pieces.clamps.end(piece_end + 1);
-      segment += rod_.spans()[k].segments();
-      do piece_end += 2;
-      while (segments_before_[piece_end / 2] < segment);
-      state.clamps.end(2 * k + 1) = pieces.clamps.end(piece_end);
+      state.clamps.end(2 * k) = pieces.clamps.end(2 * piece);
+      for (int left = rod_.spans()[k].segments(); left > 0; ++piece)
+        left -= hung_pieces_[piece].properties.segments;
+      state.clamps.end(2 * k + 1) = pieces.clamps.end(2 * piece - 1);
     }
     state.clamp_velocity.assign(2 * spans, Vector3::Zero());
     state.clamp_angular_velocity.assign(2 * spans, Vector3::Zero());
     state.travel.assign(spans, Travel{});
-    state.travel.front().way = way;
+    for (int d = 0; d < rod_.dresspacks(); ++d) state.travel[rod_.first_span(d)].way = pulled_out_[d];
     state.link_force.clear();
     for (int j = 0; j < rod_.links(); ++j)
       state.link_force.push_back(rod_.gap_stiffness(j) * rod_.link_state(state, j).gap);
@@ -242,10 +278,12 @@ class Mounting {
       best = std::move(held);
       if (best.depth == 0) break;
     }
-    if (!best.found) fail("dresspack finds no equilibrium between its clamps");
-    if (best.depth > overlap_share * job_.dresspack.diameter)
-      fail(fmt::format("dresspack runs {:.0f} mm deep through the robot or the floor in the mounting pose",
-                       1e3 * best.depth));
+    if (!best.found) fail(piece.dresspack, "finds no equilibrium between its clamps");
+    if (best.depth > overlap_share * piece.properties.diameter)
+      fail(piece.dresspack,
+           fmt::format("runs {:.0f} mm deep through {} in the mounting pose", 1e3 * best.depth,
+                       best.through < 0 ? "the robot or the floor"
+                                        : pipeline::dresspack_words(job_, best.through)));
     return best;
   }
 
@@ -272,18 +310,40 @@ class Mounting {
     settings.base_link = piece.begin_link, settings.tool_link = piece.end_link;
     World world(rod, settings, found.state, pose.links);
     add_obstacles(world, job_, robot_);
-    const double depth = world.advance(found.state.clamps, pose.links).max_depth;
+    Held held{found.state, clamped.roll + piece.pre_twist, 0, -1, true};
+    held.depth = world.advance(found.state.clamps, pose.links).max_depth;
     if (properties.tool_end == End::free)
-      found.state.clamps.tool = rod.tip_frame(found.state, rod.spans().front());
-    return {found.state, clamped.roll + piece.pre_twist, depth, true};
+      held.state.clamps.tool = rod.tip_frame(held.state, rod.spans().front());
+    find_other_dresspacks(piece, held);
+    return held;
+  }
+
+  /// How deep a piece lies in the dresspacks that hang already.
+  void find_other_dresspacks(const Piece& piece, Held& held) const {
+    if (!job_.simulation.self_contact || piece.dresspack == 0) return;
+    const Rod rod = hung_rod(&piece);
+    std::vector<RodState> pieces = hung_;
+    pieces.push_back(held.state);
+    std::vector<Contact> contacts;
+    find_self_contacts(rod, joined(rod, pieces), 0, contacts);
+    const Span& last = rod.spans().back();
+    for (const Contact& contact : contacts) {
+      const int other = rod.span_of(contact.segment).dresspack;  // the lower segment comes first
+      if (contact.other < last.first_segment || other == last.dresspack || contact.depth <= held.depth) continue;
+      held.depth = contact.depth;
+      held.through = other;
+    }
   }
 
   RodState at_rest(const RodState& state, const Pose& pose) const {
     const std::unique_ptr<World> world = make_world(job_, rod_, robot_, state, pose);
     const Equilibrium found = settle(*world, pose.links, settling_steps, rest);
-    if (found.status == EquilibriumStatus::too_short) fail("dresspack is drawn taut when it is clamped");
+    if (found.status == EquilibriumStatus::too_short)
+      fail(rod_.most_stretched(found.state).dresspack, "is drawn taut when it is clamped");
     if (found.status != EquilibriumStatus::converged && !(found.residual < near_rest))
-      fail(fmt::format("dresspack does not come to rest (it still moves at {:.3g} m/s)", found.residual));
+      fail(0, fmt::format("{} (it still moves at {:.3g} m/s)",
+                          rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest",
+                          found.residual));
     RodState still = found.state;
     for (int i = 0; i < rod_.segments(); ++i) still.velocity[i] = still.angular_velocity[i] = Vector3::Zero();
     for (Travel& travel : still.travel) travel.speed = 0;
@@ -301,7 +361,8 @@ class Mounting {
       const Pose pose = robot_->pose(from + u * u * (3 - 2 * u) * way);
       if (!world->advance(pose.clamps, pose.links).finite ||
           rod_.mean_elongation(world->state()) > longest_elongation)
-        fail("dresspack is drawn taut on the way from the mounting pose to the first waypoint");
+        fail(rod_.most_stretched(world->state()).dresspack,
+             "is drawn taut on the way from the mounting pose to the first waypoint");
     }
     return world->state();
   }
@@ -310,7 +371,9 @@ class Mounting {
   const Rod& rod_;
   const ClampPath& path_;
   RobotPath* robot_;
-  std::vector<int> segments_before_;  // (piece) up to its end
+  std::vector<RodState> hung_;  // (piece) all that hang so far, dresspack after dresspack
+  std::vector<Piece> hung_pieces_;
+  std::vector<double> pulled_out_;  // (dresspack) way of its retraction unit [m]
 };
 
 }  // namespace
@@ -319,21 +382,18 @@ std::unique_ptr<World> make_world(const pipeline::Job& job, const Rod& rod, cons
                                   const RodState& state, const Pose& pose) {
   WorldSettings settings = world_settings(job);
   if (robot) {
-    const std::vector<int>& links = robot->clamp_links();
-    const bool free_end = job.routing.tool_end == pipeline::ToolEnd::free;
-    const size_t last = links.size() - (free_end ? 0 : 1);
+    const std::vector<int>& links = robot->end_links();
     settings.base_link = links.front();
-    settings.tool_link = free_end ? no_link : links.back();
-    for (size_t k = 1; k < last; ++k)
-      settings.between_links.insert(settings.between_links.end(), 2, links[k]);
+    settings.tool_link = links.back();
+    settings.between_links.assign(links.begin() + 1, links.end() - 1);
   }
   auto world = std::make_unique<World>(rod, settings, state, pose.links);
   add_obstacles(*world, job, robot);
-  const std::vector<int> of_ring = ring_spans(job);
-  for (size_t k = 0; k < job.routing.rings.size(); ++k) {
-    const pipeline::GuideRing& ring = job.routing.rings[k];
+  const std::vector<RoutedRing> routed = routed_rings(job);
+  for (size_t k = 0; k < routed.size(); ++k) {
+    const pipeline::GuideRing& ring = routed[k].ring;
     world->add(robot->ring_links()[k],
-               RingShape{robot->rings()[k], ring.radius, ring.width, ring.friction, of_ring[k]});
+               RingShape{robot->rings()[k], ring.radius, ring.width, ring.friction, routed[k].span});
   }
   return world;
 }

@@ -6,32 +6,25 @@
 namespace dresslife::sim {
 namespace {
 
-RodProperties properties_of(const pipeline::Job& job) {
-  const pipeline::Dresspack& hose = job.dresspack;
+RodProperties properties_of(const pipeline::MountedDresspack& mounted, const pipeline::Simulation& settings) {
+  const pipeline::Dresspack& hose = mounted.dresspack;
   RodProperties properties;
-  properties.segments = job.simulation.segments;
-  properties.length = job.routing.free_length;
+  properties.segments = settings.segments;
+  properties.length = mounted.routing.free_length;
   properties.mass_per_length = hose.mass_per_length;
   properties.diameter = hose.diameter;
   properties.bending_stiffness = hose.bending_stiffness;
   properties.torsional_stiffness = hose.torsional_stiffness;
   properties.axial_stiffness = hose.axial_stiffness;
   properties.damping_time = hose.damping_time;
-  properties.gravity = job.simulation.gravity;
+  properties.gravity = settings.gravity;
   properties.rest_curvature = {0, hose.rest_curvature, 0};  // turning about y leads z toward x
   return properties;
 }
 
-void append(std::vector<Vector3>& to, const std::vector<Vector3>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
-}  // namespace
-
-Rod rod_of(const pipeline::Job& job) {
-  const RodProperties whole = properties_of(job);
+std::vector<RodProperties> spans_of(const RodProperties& whole, const pipeline::Routing& routing) {
   std::vector<double> ends;
-  for (const pipeline::IntermediateClamp& clamp : job.routing.clamps) ends.push_back(clamp.at_length);
+  for (const pipeline::IntermediateClamp& clamp : routing.clamps) ends.push_back(clamp.at_length);
   ends.push_back(whole.length);
   std::vector<RodProperties> spans;
   double begin = 0;
@@ -45,38 +38,62 @@ Rod rod_of(const pipeline::Job& job) {
     spans.push_back(span);
     begin = end;
   }
-  if (const auto& unit = job.routing.retraction)
+  if (const auto& unit = routing.retraction)
     spans.front().slider =
         Slider{unit->force, unit->spring, unit->stroke, unit->damping, unit->friction, unit->mass};
-  if (job.routing.tool_end == pipeline::ToolEnd::free) {
+  if (routing.tool_end == pipeline::ToolEnd::free) {
     spans.back().tool_end = End::free;
-    spans.back().tip_mass = job.routing.tool_mass;
-  }
-  return Rod(spans);
-}
-
-std::vector<int> ring_spans(const pipeline::Job& job) {
-  std::vector<int> spans;
-  for (const pipeline::GuideRing& ring : job.routing.rings) {
-    int span = 0;
-    for (const pipeline::IntermediateClamp& clamp : job.routing.clamps)
-      if (ring.at_length && clamp.at_length <= *ring.at_length) ++span;
-    spans.push_back(span);
+    spans.back().tip_mass = routing.tool_mass;
   }
   return spans;
 }
 
+void append(std::vector<Vector3>& to, const std::vector<Vector3>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+Rod rod_of(const pipeline::Job& job) {
+  std::vector<RodProperties> all;
+  std::vector<int> first_of_dresspack;
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+    first_of_dresspack.push_back(static_cast<int>(all.size()));
+    const std::vector<RodProperties> spans =
+        spans_of(properties_of(mounted, job.simulation), mounted.routing);
+    all.insert(all.end(), spans.begin(), spans.end());
+  }
+  return Rod(all, first_of_dresspack);
+}
+
+std::vector<RoutedRing> routed_rings(const pipeline::Job& job) {
+  std::vector<RoutedRing> routed;
+  int first_span = 0;
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+    const pipeline::Routing& routing = mounted.routing;
+    for (const pipeline::GuideRing& ring : routing.rings) {
+      const auto before = std::count_if(
+          routing.clamps.begin(), routing.clamps.end(), [&](const pipeline::IntermediateClamp& clamp) {
+            return ring.at_length && clamp.at_length <= *ring.at_length;
+          });
+      routed.push_back({ring, first_span + static_cast<int>(before)});
+    }
+    first_span += static_cast<int>(routing.clamps.size()) + 1;
+  }
+  return routed;
+}
+
 std::vector<double> shortest_ways(const pipeline::Job& job, const Rod& rod, const ClampFrames& clamps,
                                   const std::vector<Frame>& rings) {
-  const std::vector<int> of_ring = ring_spans(job);
+  const std::vector<RoutedRing> routed = routed_rings(job);
   std::vector<double> ways;
   for (int k = 0; k < static_cast<int>(rod.spans().size()); ++k) {
     std::vector<Vector3> through;
     double saved = 0;
     for (size_t r = 0; r < rings.size(); ++r)
-      if (of_ring[r] == k) {
+      if (routed[r].span == k) {
         through.push_back(rings[r].position);
-        saved += 2 * job.routing.rings[r].radius;
+        saved += 2 * routed[r].ring.radius;
       }
     ways.push_back(shortest_way(rod, clamps, k, through) - saved);
   }

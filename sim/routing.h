@@ -1,7 +1,7 @@
-// From the job's dresspack and routing to the chain's spans.
+// From the job's dresspacks and their routing to the chain's spans, dresspack after dresspack.
 //
-// Segments are dealt to the spans by their lengths: of `simulation.segments` = n over the length L, the span
-// from s_a to s_b has round(n s_b/L) - round(n s_a/L) segments, at least fewest_segments.
+// Each dresspack has `simulation.segments` = n segments, dealt to its spans by their lengths: of its length L,
+// the span from s_a to s_b has round(n s_b/L) - round(n s_a/L) segments, at least fewest_segments.
 #pragma once
 
 #include "pipeline/job.h"
@@ -14,8 +14,12 @@ inline constexpr int fewest_segments = 4;
 
 Rod rod_of(const pipeline::Job& job);
 
-/// Span that passes each ring.
-std::vector<int> ring_spans(const pipeline::Job& job);
+/// A guide ring and the span that passes it; the rings of all dresspacks, in their order.
+struct RoutedRing {
+  const pipeline::GuideRing& ring;
+  int span;
+};
+std::vector<RoutedRing> routed_rings(const pipeline::Job& job);
 /// (span) length of the straight ways from end to end through the rings' centres, less what an off-centre
 /// hose saves at most: no shorter hose reaches.
 std::vector<double> shortest_ways(const pipeline::Job& job, const Rod& rod, const ClampFrames& clamps,

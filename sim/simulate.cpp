@@ -24,14 +24,25 @@ constexpr double exact_lead = 0.1;  // share of the repeat that leads in that ha
 /// one.
 int intervals(double duration, double rate) { return static_cast<int>(std::ceil(duration * rate - 1e-9)); }
 
+std::vector<MotionLimits> limits_of(const pipeline::Job& job) {
+  std::vector<MotionLimits> limits;
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks)
+    limits.push_back(sim::limits_of(mounted.dresspack));
+  return limits;
+}
+
 }  // namespace
 
 Simulation::Simulation(const pipeline::Job& job) : job_(job), rod_(rod_of(job_)), path_(path_of(job_)) {
   if (job_.simulation.choose_time_step) job_.simulation.time_step = first_step(job_.simulation.sample_rate);
   robot_ = dynamic_cast<RobotPath*>(path_.get());
   description_.samples = intervals(path_->duration(), job_.simulation.sample_rate) + 1;
-  for (int i = 0; i < rod_.segments(); ++i)
+  for (const pipeline::MountedDresspack& mounted : job_.dresspacks)
+    description_.dresspacks.push_back(mounted.name);
+  for (int i = 0; i < rod_.segments(); ++i) {
+    description_.dresspack.push_back(rod_.span_of(i).dresspack);
     description_.segment_length.push_back(rod_.span_of(i).segment_length);
+  }
   description_.clamp_segment = clamp_segments(rod_);
   description_.links = rod_.links();
   description_.joints = static_cast<int>(robot_ ? job_.robot.axes() : 0);
@@ -66,41 +77,41 @@ void Simulation::check_reach() const {
     }
   }
   if (worst == 0) return;
-  const double length = rod_.spans()[where].properties.length;
+  const Span& span = rod_.spans()[where];
+  const double length = span.properties.length;
+  const std::string between = between_clamps(span);
   throw InputError(
-      job_.routing.where,
-      fmt::format("dresspack is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
-                  1e3 * worst, moment(when), length_in_words(where), length, length + worst),
+      job_.dresspacks[span.dresspack].routing.where,
+      fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
+                  pipeline::dresspack_words(job_, span.dresspack), 1e3 * worst, moment(when),
+                  between.empty() ? "routing.free_length_m is" : "its length" + between + " is", length,
+                  length + worst),
       "give it more free length, with slack to bend, or move a clamp");
 }
 
-std::string Simulation::length_in_words(size_t span) const {
-  if (rod_.spans().size() == 1) return "routing.free_length_m is";
-  return fmt::format("its length between clamps {} and {} of {} is", span + 1, span + 2,
-                     rod_.spans().size() + 1);
+std::string Simulation::between_clamps(const Span& span) const {
+  const int first = rod_.first_span(span.dresspack), spans = rod_.first_span(span.dresspack + 1) - first;
+  const int clamp = static_cast<int>(&span - rod_.spans().data()) - first + 1;
+  return spans == 1 ? "" : fmt::format(" between clamps {} and {} of {}", clamp, clamp + 1, spans + 1);
 }
 
 void Simulation::check_step(const StepReport& report, double time) const {
   if (!report.finite)
-    throw InputError({job_.routing.where.file},
+    throw InputError({job_.dresspacks.front().routing.where.file},
                      fmt::format("the simulation broke down {} (the state is not finite)", moment(time)),
                      "choose a smaller simulation.time_step_ms, or check the dresspack's stiffness and mass");
 }
 
 void Simulation::check_taut(const RodState& state, double time) const {
-  for (size_t k = 0; k < rod_.spans().size(); ++k) {
-    const Span& span = rod_.spans()[k];
-    const double elongation = rod_.mean_elongation(state, span);
-    if (elongation <= longest_elongation) continue;
-    const std::string where = rod_.spans().size() == 1 ? ""
-                                                       : fmt::format(" between clamps {} and {} of {}", k + 1,
-                                                                     k + 2, rod_.spans().size() + 1);
-    throw InputError(
-        job_.routing.where,
-        fmt::format("dresspack is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
-                    where, moment(time), 1e3 * elongation * span.properties.length, 1e2 * elongation),
-        "give it more free length, or keep the motion from winding it around the robot");
-  }
+  const Span& span = rod_.most_stretched(state);
+  const double elongation = rod_.mean_elongation(state, span);
+  if (elongation <= longest_elongation) return;
+  throw InputError(
+      job_.dresspacks[span.dresspack].routing.where,
+      fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
+                  pipeline::dresspack_words(job_, span.dresspack), between_clamps(span), moment(time),
+                  1e3 * elongation * span.properties.length, 1e2 * elongation),
+      "give it more free length, or keep the motion from winding it around the robot");
 }
 
 std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {
@@ -115,7 +126,7 @@ int Simulation::steps_per_sample(double step) const {
 
 struct Simulation::Repeat {
   Repeat(const Simulation& s, double step)
-      : checks(s.rod_, limits_of(s.job_.dresspack)),
+      : checks(s.rod_, limits_of(s.job_)),
         error(
             s.rod_, *s.path_,
             [&s](const RodState& state, const Pose& pose, double h) { return s.world_at(state, pose, h); },
@@ -189,6 +200,14 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
   }
 }
 
+std::vector<double> Simulation::pulled_out(const RodState& state) const {
+  const auto slides = [](const Span& span) { return span.properties.slider.has_value(); };
+  if (std::none_of(rod_.spans().begin(), rod_.spans().end(), slides)) return {};
+  std::vector<double> ways;
+  for (int d = 0; d < rod_.dresspacks(); ++d) ways.push_back(state.travel[rod_.first_span(d)].way);
+  return ways;
+}
+
 void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) const {
   const double step = world.time_step();
   const int per_sample = steps_per_sample(step);
@@ -196,7 +215,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
   Pose pose = path_->at(0);
   std::vector<double> tension(rod_.segments());
   StepReport since;
-  Touch touch(rod_.segments(), description_.link_names, static_cast<int>(job_.routing.rings.size()));
+  Touch touch(rod_.segments(), description_.link_names, static_cast<int>(pose.rings.size()));
   const auto hand_over = [&](int sample) {
     const double time = sample / job_.simulation.sample_rate;
     const RodState& state = world.state();
@@ -205,8 +224,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
       for (int i = 0; i < span.segments(); ++i)
         tension[span.first_segment + i] = (pull[span.first_link + i] + pull[span.first_link + i + 1]) / 2;
     const std::vector<Frame> clamps = listed_clamps(rod_, state.clamps);
-    std::vector<double> travel;
-    if (rod_.properties().slider) travel.push_back(state.travel.front().way);
+    const std::vector<double> travel = pulled_out(state);
     sinks.take({time, path_->step(time), state, clamps, travel, pose, rod_.energy(state), tension,
                 since.touching, since.max_depth, checks.net_twist(), touch});
     since = {};
@@ -248,6 +266,11 @@ std::string in_words(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
+std::string check_words(const pipeline::Job& job, const Check& check) {
+  const std::string name = pipeline::name_among(job, check.dresspack);
+  return name.empty() ? check.name : fmt::format("{}, {}", name, check.name);
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const Simulation& simulation, const RunSummary& summary) {
@@ -266,7 +289,8 @@ std::vector<std::string> remarks(const Simulation& simulation, const RunSummary&
         summary.repeats, off));
   for (const Check& check : summary.checks)
     if (check.warning)
-      lines.push_back(fmt::format("warning: {}: {} (limit {}) {}", check.name,
+      lines.push_back(fmt::format("warning: {}: {} (limit {}) {}",
+                                  check_words(simulation.job(), check),
                                   in_words(check.value, check.unit), in_words(check.limit, check.unit),
                                   simulation.moment(check.time)));
   return lines;

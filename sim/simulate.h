@@ -26,6 +26,8 @@ class Simulation;
 /// What holds for all samples of a run.
 struct RunDescription {
   int samples = 0;
+  std::vector<std::string> dresspacks;  ///< their names; the only one's may be empty
+  std::vector<int> dresspack;           ///< (segment) that it belongs to
   std::vector<double> segment_length;   ///< (segment) unstretched [m]
   std::vector<int> clamp_segment;       ///< (clamp) segments on its base side
   std::vector<std::string> link_names;  ///< of the robot; empty without one
@@ -46,7 +48,7 @@ struct Sample {
   const std::vector<double>& tension;  ///< (segment) mean pull of the links at its ends [N]
   int contacts = 0;                    ///< most at a time since the sample before
   double max_depth = 0;                ///< deepest since the sample before [m]
-  double net_twist = 0;                ///< turns of all links about the tangent [rad]
+  double net_twist = 0;                ///< turns of all links about the tangent, of all dresspacks [rad]
   const Touch& touch;                  ///< forces and rubbing since the sample before and the repeat's begin
 };
 
@@ -100,8 +102,9 @@ class Simulation {
   std::unique_ptr<World> led_in(const RunSinks& sinks) const;
   void run_once(World& world, Repeat& repeat, const RunSinks& sinks) const;
   int steps_per_sample(double step) const;
+  std::vector<double> pulled_out(const RodState& state) const;
   void check_reach() const;
-  std::string length_in_words(size_t span) const;
+  std::string between_clamps(const Span& span) const;
   void check_step(const StepReport& report, double time) const;
   void check_taut(const RodState& state, double time) const;
 

@@ -171,7 +171,10 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
                   [](double length) { return !(length > 0); }))
     throw pipeline::InputError(motion.where(), "has a segment whose rest length is not above 0",
                                "run dresslife-sim again");
-  if (job.dresspack.components.empty())
+  if (job.dresspacks.size() > 1)
+    throw pipeline::InputError(motion.where(), "comes from several dresspacks (one is evaluated)",
+                               "simulate one of them alone");
+  if (job.dresspacks.front().dresspack.components.empty())
     throw pipeline::InputError(motion.where(),
                                "comes from a dresspack without components (there is no wire to evaluate)",
                                "give dresspack.components");
@@ -185,7 +188,7 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   MotionReader reader(motion, job.strain.deformation);
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
-  const Construction construction(job.dresspack, job.strain.kinematics);
+  const Construction construction(job.dresspacks.front().dresspack, job.strain.kinematics);
   std::vector<std::unique_ptr<Evaluation>> evaluations;  // (span): each slips from clamp to clamp
   for (std::size_t k = 0; k < reader.spans(); ++k)
     evaluations.push_back(std::make_unique<Evaluation>(construction, job.strain, reader.lengths_of(k),

@@ -160,14 +160,14 @@ TEST_CASE("attribution: only joints between the clamps' links bend the dresspack
   job.robot.joints.resize(6);
   for (int k = 0; k <= 6; ++k) job.robot.links.push_back({"link_" + std::to_string(k), {}, {}, {}});
   CHECK(joints_between_clamps(job) == std::vector<bool>(6, false));
-  job.routing.base_clamp.emplace().link = "link_3";
-  job.routing.tool_clamp.emplace().link = "link_6";
+  job.dresspacks[0].routing.base_clamp.emplace().link = "link_3";
+  job.dresspacks[0].routing.tool_clamp.emplace().link = "link_6";
   const std::vector<bool> wrist{false, false, false, true, true, true};
   CHECK(joints_between_clamps(job) == wrist);
-  std::swap(job.routing.base_clamp, job.routing.tool_clamp);
+  std::swap(job.dresspacks[0].routing.base_clamp, job.dresspacks[0].routing.tool_clamp);
   CHECK(joints_between_clamps(job) == wrist);
-  job.routing.base_clamp->link = "link_3";
-  job.routing.tool_clamp->link = "link_3";
+  job.dresspacks[0].routing.base_clamp->link = "link_3";
+  job.dresspacks[0].routing.tool_clamp->link = "link_3";
   CHECK(joints_between_clamps(job) == std::vector<bool>(6, false));
 }
 

@@ -135,13 +135,13 @@ pipeline::Job test_job() {
   auto cu = copper(), al = aluminium();
   cu.name = "copper";
   al.name = "aluminium";
-  job.dresspack.materials = {cu, al};
+  job.dresspacks[0].dresspack.materials = {cu, al};
   pipeline::Component cable;
   cable.name = "cable";
   cable.components.resize(2);
   cable.components[0].layer = "layer 1";
   cable.components[1].layer = "layer 2";
-  job.dresspack.components = {cable};
+  job.dresspacks[0].dresspack.components = {cable};
   return job;
 }
 
@@ -391,7 +391,7 @@ TEST_CASE("life.h5: no damage, no sites, and strains that no wire survives") {
 TEST_CASE("life.h5: a material whose cyclic curve contradicts its life curve is warned of") {
   const Folder folder;
   pipeline::Job job = test_job();
-  job.dresspack.materials[0].cyclic_strength = 100e6;
+  job.dresspacks[0].dresspack.materials[0].cyclic_strength = 100e6;
   const Result cyclic = run(folder, example(), job);
   REQUIRE(cyclic.notes.warnings.size() == 1);
   CHECK_THAT(cyclic.notes.warnings[0], Catch::Contains("material copper: K' 100 MPa"));
@@ -405,8 +405,8 @@ TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp"
   for (int k = 0; k < 3; ++k)
     job.robot.joints.push_back({"axis " + std::to_string(k + 1), {}, {}, {}, 0, 0, 0, 0});
   for (int k = 0; k < 4; ++k) job.robot.links.push_back({"link " + std::to_string(k), {}, {}, {}});
-  job.routing.base_clamp.emplace().link = "link 1";
-  job.routing.tool_clamp.emplace().link = "link 3";
+  job.dresspacks[0].routing.base_clamp.emplace().link = "link 1";
+  job.dresspacks[0].routing.tool_clamp.emplace().link = "link 3";
   StrainFile f = example();
   f.probes = {3};
   for (std::size_t t = 0; t < samples; ++t) {
@@ -448,7 +448,7 @@ TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp"
 TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equivalent strain") {
   const Folder folder;
   pipeline::Job job = test_job();
-  job.dresspack.materials[0].poisson_ratio = 0.34;
+  job.dresspacks[0].dresspack.materials[0].poisson_ratio = 0.34;
   StrainFile f = example();
   f.sites[4].segment = 2;
   f.sites[4].component = "cable 2/layer 1/wire 12";  // shares segment and layer with site 3
@@ -468,7 +468,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
   const auto damage = life.read<double>("/damage"), old = before.read<double>("/damage");
   const auto exact = [&](double amplitude) {
     return sum_of_damage(evaluate_cycles({{{0, 0}, {amplitude, 25}, {-amplitude, 75}, {0, 100}}},
-                                         job.dresspack.materials[0], job.fatigue));
+                                         job.dresspacks[0].dresspack.materials[0], job.fatigue));
   };
   constexpr double single = 1e-5;  // histories in single precision, and 101 samples that miss no peak
   CHECK(damage[0] ==
@@ -506,7 +506,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
 TEST_CASE("life.h5: out of phase shear opens no plane further than the strain alone") {
   const Folder folder;
   pipeline::Job job = test_job();
-  job.dresspack.materials[0].poisson_ratio = 0.34;
+  job.dresspacks[0].dresspack.materials[0].poisson_ratio = 0.34;
   StrainFile f = example();
   StrainFile::Fibre fibre{3, {}, {}};
   for (std::size_t t = 0; t < samples; ++t) {
@@ -541,8 +541,8 @@ TEST_CASE("life.h5: the hose's wall is told beside the wires and not among them"
   hose.name = "polyamide";
   hose.youngs_modulus = 1.6e9;
   hose.strain_life_table = {{0.1, 1e3}, {0.01, 1e6}};
-  job.dresspack.materials.push_back(hose);
-  job.dresspack.hose_material = "polyamide";
+  job.dresspacks[0].dresspack.materials.push_back(hose);
+  job.dresspacks[0].dresspack.hose_material = "polyamide";
   StrainFile f = example();
   const Result without = run(folder, f, job, "without.h5");
   f.sites.push_back(swing(3, "hose 1", 0.03f, "polyamide"));

@@ -61,10 +61,10 @@ TEST_CASE("catalogue: the shipped entries are always there") {
   const Job job =
       job_from(parse_yaml(edited(sample_job, dresspack_block, "dresspack: spot_welding\n"), "job.yaml"),
                {"strain.slip=free"});
-  CHECK(job.dresspack.diameter == 0.06);
-  CHECK(job.dresspack.components[0].components[0].components.size() == 5);
-  REQUIRE(job.dresspack.materials.size() == 2);  // the wires' and the hose's
-  CHECK(job.dresspack.materials[0].name == "copper");
+  CHECK(job.dresspacks[0].dresspack.diameter == 0.06);
+  CHECK(job.dresspacks[0].dresspack.components[0].components[0].components.size() == 5);
+  REQUIRE(job.dresspacks[0].dresspack.materials.size() == 2);  // the wires' and the hose's
+  CHECK(job.dresspacks[0].dresspack.materials[0].name == "copper");
 }
 
 TEST_CASE("catalogue: a name that is not there is answered with those that are") {
@@ -97,7 +97,7 @@ TEST_CASE("catalogue: a dresspack may bring its own materials") {
       "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
       "fatigue_ductility_exponent: -0.5}\n");
   const Job job = job_from(parse_yaml(text, "job.yaml"));
-  CHECK(job.dresspack.materials.size() == 1);
+  CHECK(job.dresspacks[0].dresspack.materials.size() == 1);
   CHECK(material_of(job, "copper").source == "mine");
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("set: a value replaces what the job says, in the order of the options"
   CHECK(with({"strain.slip=stick"}).strain.slip == std::vector<Slip>{Slip::stick});
   CHECK(with({"simulation.gravity_m_per_s2=[0, 0, 0]"}).simulation.gravity == Vector3d::Zero());
   CHECK(with({"fatigue={stress: elastic}"}).fatigue.stress == Stress::elastic);
-  CHECK(with({"dresspack.source=a = b, c"}).dresspack.source == "a = b, c");
+  CHECK(with({"dresspack.source=a = b, c"}).dresspacks[0].dresspack.source == "a = b, c");
 }
 
 TEST_CASE("set: a key that the job does not write is added, with the groups on the way") {
@@ -146,7 +146,7 @@ TEST_CASE("set: a key that the job does not write is added, with the groups on t
 
 TEST_CASE("set: items of a list count from 1") {
   CHECK(with({"motion.steps.2.steps.1.joints_deg.2=-7"}).motion.steps[1].steps[0].joints[1] == -7 * degree);
-  CHECK(with({"dresspack.components.1.components.1.count=4"}).dresspack.components[0].components[0].count ==
+  CHECK(with({"dresspack.components.1.components.1.count=4"}).dresspacks[0].dresspack.components[0].components[0].count ==
         4);
   CHECK(set_error("motion.steps.4.dwell_s=1") ==
         "--set motion.steps.4.dwell_s=1: error: '4' of motion.steps.4.dwell_s is not an item of the list; "
@@ -162,21 +162,21 @@ TEST_CASE("set: a catalogue entry may be named, and a key inside a named entry s
   const std::string named = edited(sample_job, dresspack_block, "dresspack: spot_welding\n");
   const Job job =
       job_from(parse_yaml(named, "job.yaml"), {"strain.slip=free", "dresspack.components.1.count=5"});
-  CHECK(job.dresspack.components[0].count == 5);
-  CHECK(job.dresspack.components[0].components.size() == 1);
+  CHECK(job.dresspacks[0].dresspack.components[0].count == 5);
+  CHECK(job.dresspacks[0].dresspack.components[0].components.size() == 1);
   const std::string from = edited(sample_job, dresspack_block, "dresspack: {from: spot_welding}\n");
   const Job other =
       job_from(parse_yaml(from, "job.yaml"), {"strain.slip=free", "dresspack.components.1.count=5"});
-  CHECK(other.dresspack.components[0].count == 5);
-  CHECK(other.dresspack.components[0].components.size() == 1);
+  CHECK(other.dresspacks[0].dresspack.components[0].count == 5);
+  CHECK(other.dresspacks[0].dresspack.components[0].components.size() == 1);
 }
 
 TEST_CASE("set: 'from' itself can be set") {
   const std::string from =
       edited(sample_job, dresspack_block, "dresspack: {from: absent, diameter_mm: 61}\n");
   const Job job = job_from(parse_yaml(from, "job.yaml"), {"strain.slip=free", "dresspack.from=spot_welding"});
-  CHECK(job.dresspack.diameter == 61 * 1e-3);
-  CHECK(job.dresspack.components[0].count == 10);
+  CHECK(job.dresspacks[0].dresspack.diameter == 61 * 1e-3);
+  CHECK(job.dresspacks[0].dresspack.components[0].count == 10);
 }
 
 TEST_CASE("set: files are named from where the command is typed") {
@@ -207,12 +207,12 @@ TEST_CASE("set: mistakes are shown as they were typed") {
         "value; shorten the path");
   CHECK(set_error("simulation.segments=-1") ==
         "--set simulation.segments=-1: error: simulation.segments is -1 (must be 4 .. 2000); give rigid "
-        "segments of the chain");
+        "segments of each dresspack's chain");
   CHECK(set_error("simulation.segmens=5") ==
         "--set simulation.segmens=5: error: unknown key 'simulation.segmens'; did you mean 'segments'?");
   CHECK(set_error("simulation.segments=") ==
-        "--set simulation.segments=: error: simulation.segments has no value; give rigid segments of the "
-        "chain");
+        "--set simulation.segments=: error: simulation.segments has no value; give rigid segments of "
+        "each dresspack's chain");
   CHECK(set_error("simulation.segments=[1").find("--set simulation.segments=[1") == 0);
 }
 

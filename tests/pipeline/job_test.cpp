@@ -45,13 +45,13 @@ TEST_CASE("job: values arrive in SI and defaults where nothing is written") {
   CHECK_FALSE(job.motion.steps[2].zone.has_value());
   CHECK(job.motion.zone == 2 * degree);
   CHECK(job.motion.speed_percent == 100);
-  const Component& wire = job.dresspack.components[0].components[0];
+  const Component& wire = job.dresspacks[0].dresspack.components[0].components[0];
   CHECK(wire.lay_angle == 25 * degree);
   CHECK(wire.hand == Hand::left);
-  CHECK(job.dresspack.components[0].hand == Hand::right);
-  CHECK(job.dresspack.axial_stiffness == 1e5);
-  CHECK(job.routing.tool_clamp->roll == 12 * degree);
-  CHECK_FALSE(job.routing.base_clamp->roll.has_value());
+  CHECK(job.dresspacks[0].dresspack.components[0].hand == Hand::right);
+  CHECK(job.dresspacks[0].dresspack.axial_stiffness == 1e5);
+  CHECK(job.dresspacks[0].routing.tool_clamp->roll == 12 * degree);
+  CHECK_FALSE(job.dresspacks[0].routing.base_clamp->roll.has_value());
   CHECK(job.simulation.time_step == 5 * 1e-3);
   CHECK_FALSE(job.simulation.contact);
   CHECK(job.simulation.floor);
@@ -66,8 +66,8 @@ TEST_CASE("job: steps, parts and clamps remember where they stand") {
   const Job job = job_of_text(sample_job);
   CHECK(job.motion.steps[0].where.text() == place_of(sample_job, "{text: home", "job.yaml"));
   CHECK(job.motion.steps[1].where.text() == place_of(sample_job, "repeat: 3", "job.yaml"));
-  CHECK(job.dresspack.components[0].where.text() == place_of(sample_job, "name: cable", "job.yaml"));
-  CHECK(job.routing.base_clamp->where.text() == place_of(sample_job, "{link: base", "job.yaml"));
+  CHECK(job.dresspacks[0].dresspack.components[0].where.text() == place_of(sample_job, "name: cable", "job.yaml"));
+  CHECK(job.dresspacks[0].routing.base_clamp->where.text() == place_of(sample_job, "{link: base", "job.yaml"));
 }
 
 TEST_CASE("job: unknown keys are refused with the likeliest key") {
@@ -117,7 +117,7 @@ TEST_CASE("job: numbers out of range are refused with the range and its unit") {
       {"free_length_m: 1.2", "free_length_m: -1.2", "-1.2",
        "routing.free_length_m is -1.2 (must be > 0 m); give free length of dresspack between the clamps"});
   check_case({"segments: 20", "segments: 3", "3, time_step",
-              "simulation.segments is 3 (must be 4 .. 2000); give rigid segments of the chain"});
+              "simulation.segments is 3 (must be 4 .. 2000); give rigid segments of each dresspack's chain"});
   check_case({"damping_time_ms: 10", "damping_time_ms: -1", "-1\n",
               "dresspack.damping_time_ms is -1 (must be >= 0 ms); give Kelvin-Voigt time of bending and "
               "twist, from a "
@@ -145,9 +145,9 @@ TEST_CASE("job: what is not a number is refused with a reminder of the unit") {
        "routing.free_length_m is '1.2 m' (must be a number, the unit is in the key: m); give free length of "
        "dresspack between the clamps"});
   check_case({"segments: 20", "segments: many", "many",
-              "simulation.segments is 'many' (must be a number); give rigid segments of the chain"});
+              "simulation.segments is 'many' (must be a number); give rigid segments of each dresspack's chain"});
   check_case({"segments: 20", "segments: [20]", "[20]",
-              "simulation.segments is not one value (must be a number); give rigid segments of the chain"});
+              "simulation.segments is not one value (must be a number); give rigid segments of each dresspack's chain"});
   for (const char* word : {"0x10", "1_000", "1,5", "+-5", "1e", "--1", "1.2.3"}) {
     const std::string text = edited(sample_job, "gate: 1e-4", std::string("gate: '") + word + "'");
     CHECK(message_of([&] { job_of_text(text); }).find("must be a number") != std::string::npos);
@@ -167,7 +167,7 @@ TEST_CASE("job: numbers may be written in every usual way") {
 
 TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are told apart") {
   check_case({"segments: 20", "segments: 20.5", "20.5",
-              "simulation.segments is 20.5 (must be a whole number); give rigid segments of the chain"});
+              "simulation.segments is 20.5 (must be a whole number); give rigid segments of each dresspack's chain"});
   check_case(
       {"mean_stress: swt", "mean_stress: goodman", "goodman",
        "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give correction of the "
@@ -251,11 +251,11 @@ TEST_CASE("job: a clamp may stand at one of the robot's mounting points") {
     return robot.substr(0, begin) + "base_clamp: {" + clamp + robot.substr(end);
   };
   const Job job = job_of_text(with_clamp("mounting_point: elbow, roll_deg: 10"));
-  REQUIRE(job.routing.base_clamp);
-  CHECK(job.routing.base_clamp->link == "turret");
-  CHECK(job.routing.base_clamp->position == Vector3d(1, 2, 3));
-  CHECK(job.routing.base_clamp->direction == Vector3d(0, 1, 0));
-  CHECK(*job.routing.base_clamp->roll == Approx(10 * degree));
+  REQUIRE(job.dresspacks[0].routing.base_clamp);
+  CHECK(job.dresspacks[0].routing.base_clamp->link == "turret");
+  CHECK(job.dresspacks[0].routing.base_clamp->position == Vector3d(1, 2, 3));
+  CHECK(job.dresspacks[0].routing.base_clamp->direction == Vector3d(0, 1, 0));
+  CHECK(*job.dresspacks[0].routing.base_clamp->roll == Approx(10 * degree));
   CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
   CHECK_THAT(message_of([&] { job_of_text(with_clamp("mounting_point: knee")); }),
              Catch::Contains("the robot has no mounting point 'knee'; one of: elbow"));
@@ -305,20 +305,20 @@ TEST_CASE("job: the hose's wall has a material of its own and a factor or a prof
   };
   const std::string profile = "  hose_corrugation: {pitch_mm: 4, height_mm: 3.5, wall_mm: 0.5}\n";
   const Job job = job_of_text(with(profile), {"fatigue.material=copper"});
-  CHECK(hose_material_of(job).name == "hose_polyamide");
+  CHECK(hose_material_of(job, job.dresspacks[0].dresspack).name == "hose_polyamide");
   CHECK(material_of(job, "hose_polyamide").name == "copper");
-  REQUIRE(job.dresspack.hose_corrugation);
-  CHECK(job.dresspack.hose_corrugation->height == Approx(0.0035));
-  CHECK_FALSE(job.dresspack.hose_strain_factor);
+  REQUIRE(job.dresspacks[0].dresspack.hose_corrugation);
+  CHECK(job.dresspacks[0].dresspack.hose_corrugation->height == Approx(0.0035));
+  CHECK_FALSE(job.dresspacks[0].dresspack.hose_strain_factor);
   CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
   CHECK(part_text(job, Part::strain) != part_text(job_of_text(with("")), Part::strain));
   CHECK(part_text(job, Part::sim) == part_text(job_of_text(with("")), Part::sim));
 
-  CHECK(is_hose_wall(job.dresspack, "hose 1"));
-  CHECK(is_hose_wall(job.dresspack, "hose 16"));
+  CHECK(is_hose_wall(job.dresspacks[0].dresspack, "hose 1"));
+  CHECK(is_hose_wall(job.dresspacks[0].dresspack, "hose 16"));
   for (const char* other : {"hose", "hose ", "hose x", "hose 1/wire 2", "hoses 1", "a/hose 1"})
-    CHECK_FALSE(is_hose_wall(job.dresspack, other));
-  CHECK_FALSE(is_hose_wall(job_of_text(sample_job).dresspack, "hose 1"));
+    CHECK_FALSE(is_hose_wall(job.dresspacks[0].dresspack, other));
+  CHECK_FALSE(is_hose_wall(job_of_text(sample_job).dresspacks[0].dresspack, "hose 1"));
 
   const auto refused = [&](const std::string& keys, const std::string& words) {
     CHECK_THAT(message_of([&] { job_of_text(with(keys)); }), Catch::Contains(words));
@@ -339,9 +339,9 @@ TEST_CASE("job: a dresspack may have limits of its maker") {
     return edited(sample_job, "  damping_source: guessed\n", "  damping_source: guessed\n  " + key + "\n");
   };
   const Job job = job_of_text(with("least_bend_radius_mm: 250\n  most_twist_deg_per_m: 90"));
-  CHECK(job.dresspack.least_bend_radius.value() == Approx(0.25));
-  CHECK(job.dresspack.most_twist.value() == Approx(90 * degree));
-  CHECK_FALSE(job_of_text(sample_job).dresspack.most_twist);
+  CHECK(job.dresspacks[0].dresspack.least_bend_radius.value() == Approx(0.25));
+  CHECK(job.dresspacks[0].dresspack.most_twist.value() == Approx(90 * degree));
+  CHECK_FALSE(job_of_text(sample_job).dresspacks[0].dresspack.most_twist);
   CHECK_THAT(message_of([&] { job_of_text(with("most_twist_deg_per_m: 0")); }),
              Catch::Matchers::Contains("dresspack.most_twist_deg_per_m is 0 (must be > 0 deg/m); give that"));
 }

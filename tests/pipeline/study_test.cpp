@@ -48,8 +48,8 @@ TEST_CASE("study: named changes are varied, too") {
                "vary: {strain.slip: [free, stick]}\n");
   CHECK(study.name == "other");
   CHECK(names(study) == Names{"stiff-free", "stiff-stick", "plain-free", "plain-stick"});
-  CHECK(study.jobs[1].job.dresspack.bending_stiffness == 8);
-  CHECK(study.jobs[2].job.dresspack.bending_stiffness == 5);
+  CHECK(study.jobs[1].job.dresspacks[0].dresspack.bending_stiffness == 8);
+  CHECK(study.jobs[2].job.dresspacks[0].dresspack.bending_stiffness == 5);
 }
 
 TEST_CASE("study: a base alone is one job with the study's name") {
@@ -83,7 +83,7 @@ TEST_CASE("study: a job that cannot be run is told with its place, the others st
   CHECK(study.jobs[2].failure.empty());
   CHECK(study.jobs[1].failure ==
         place_of(text, "3, 40", (scratch / "my study.yaml").string()) +
-            ": error: simulation.segments is 3 (must be 4 .. 2000); give rigid segments of the chain");
+            ": error: simulation.segments is 3 (must be 4 .. 2000); give rigid segments of each dresspack's chain");
 }
 
 TEST_CASE("study: --set comes after the study's own changes") {

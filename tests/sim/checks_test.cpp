@@ -29,7 +29,7 @@ TEST_CASE("checks: an evenly bent and twisted chain has one radius and one twist
     q = q * rotation(rate * rod.bending_length(j));
     (j < rod.segments() ? state.orientation[j] : state.clamps.tool.orientation) = q;
   }
-  MotionChecks checks(rod, limits_of(job.dresspack));
+  MotionChecks checks(rod, {limits_of(job.dresspacks[0].dresspack)});
   checks.see(state, {}, 0.5);
   const std::vector<Check> table = checks.table();
   const Check& radius = find(table, "smallest bend radius");
@@ -41,14 +41,14 @@ TEST_CASE("checks: an evenly bent and twisted chain has one radius and one twist
   CHECK(twist.value == Approx(-2));
   CHECK_FALSE(twist.warning);
   CHECK(twist.limit == Approx(pi));
-  CHECK(find(table, "largest net twist").value == Approx(-2 * job.routing.free_length));
+  CHECK(find(table, "largest net twist").value == Approx(-2 * job.dresspacks[0].routing.free_length));
   CHECK(find(table, "net twist left by a repeat").value == 0);
 }
 
 TEST_CASE("checks: a maker's own limits count more than the usual ones") {
   pipeline::Job job = simple_job();
-  job.dresspack.least_bend_radius = 0.15;
-  job.dresspack.most_twist = 0.5;
+  job.dresspacks[0].dresspack.least_bend_radius = 0.15;
+  job.dresspacks[0].dresspack.most_twist = 0.5;
   job.simulation.most_repeats = 1;
   const RunSummary summary = Simulation(job).run({[](const Sample&) {}});
   const Check& radius = find(summary.checks, "smallest bend radius");
@@ -96,7 +96,7 @@ TEST_CASE("checks: too short and too long are told with their moment") {
   job.robot.joints[0].axis = {0, 0, 1};
   job.robot.joints[0].origin = {0.05, 0, 1};
   job.motion.steps = {move_to(pi / 2), move_to(-pi / 2, "sweep")};
-  job.routing.free_length = 0.96;  // furthest from the base clamp at angle 0: 0.95 m
+  job.dresspacks[0].routing.free_length = 0.96;  // furthest from the base clamp at angle 0: 0.95 m
   const Simulation simulation(job);
   const RunSummary summary = simulation.run({[](const Sample&) {}});
   const Check& little = find(summary.checks, "least slack: too short below");
@@ -111,7 +111,7 @@ TEST_CASE("checks: too short and too long are told with their moment") {
   CAPTURE(remarks(simulation, summary));
   CHECK(told);
 
-  job.routing.free_length = 1.6;
+  job.dresspacks[0].routing.free_length = 1.6;
   job.simulation.floor = false;
   CHECK(find(Simulation(job).run({[](const Sample&) {}}).checks, "least slack: too long above").warning);
 }

@@ -187,14 +187,14 @@ pipeline::Job turning_job() {
     step.joints = {angle};
     job.motion.steps.push_back(step);
   }
-  job.routing.base_clamp = pipeline::Clamp{"base", {0, 0, 1}, {0, 0, 1}, {}, {"job.yaml", 8, 3}};
-  job.routing.tool_clamp = pipeline::Clamp{"table", {1, 0, 2}, {1, 0, 0}, 0.25, {"job.yaml", 9, 3}};
+  job.dresspacks[0].routing.base_clamp = pipeline::Clamp{"base", {0, 0, 1}, {0, 0, 1}, {}, {"job.yaml", 8, 3}};
+  job.dresspacks[0].routing.tool_clamp = pipeline::Clamp{"table", {1, 0, 2}, {1, 0, 0}, 0.25, {"job.yaml", 9, 3}};
   return job;
 }
 
 TEST_CASE("clamp path: the tool clamp goes round with its link for more than two turns without a jump") {
   const RobotPath path(turning_job());
-  CHECK(path.clamp_links() == std::vector<int>{0, 1});
+  CHECK(path.end_links() == std::vector<int>{0, 1});
   Quaternion before = path.at(0).clamps.tool.orientation;
   for (double t = 0; t <= path.duration(); t += 0.01) {
     const Pose pose = path.at(t);
@@ -219,10 +219,10 @@ TEST_CASE("clamp path: the tool clamp can be turned about its direction") {
 TEST_CASE("clamp path: the pose of mounting is the first waypoint or what the routing says") {
   pipeline::Job job = turning_job();
   CHECK(RobotPath(job).mounting_pose()[0] == 0);
-  job.routing.mounting_pose = {1.5};
+  job.dresspacks[0].routing.mounting_pose = {1.5};
   CHECK(RobotPath(job).mounting_pose()[0] == 1.5);
-  job.routing.mounting_pose = {30};
-  job.routing.where = {"job.yaml", 7, 1};
+  job.dresspacks[0].routing.mounting_pose = {30};
+  job.dresspacks[0].routing.where = {"job.yaml", 7, 1};
   CHECK_THROWS_WITH(
       RobotPath(job),
       "job.yaml:7:1: error: routing.mounting_pose_deg turns table to 1718.87 deg (must be within "
@@ -231,7 +231,7 @@ TEST_CASE("clamp path: the pose of mounting is the first waypoint or what the ro
 
 TEST_CASE("clamp path: a clamp on no link is named") {
   pipeline::Job job = turning_job();
-  job.routing.tool_clamp->link = "tabel";
+  job.dresspacks[0].routing.tool_clamp->link = "tabel";
   CHECK_THROWS_WITH(RobotPath(job),
                     "job.yaml:9:3: error: turntable has no link 'tabel'; use one of base, table");
 }

@@ -103,9 +103,9 @@ TEST_CASE("periodic: what the lead-in cannot do is told by the motion itself") {
   pipeline::Job job = simple_job();  // wound once around a post, for which the hose is too short
   job.robot.joints[0].axis = {0, 0, 1};
   job.robot.links[0].capsules = {{{0, 0, 0}, {0, 0, 2}, 0.25}};
-  job.routing.base_clamp = pipeline::Clamp{"bench", {-1, 0.35, 1}, {1, 0, 0}, {}, {}};
-  job.routing.tool_clamp = pipeline::Clamp{"spindle", {0, 0.35, 0}, {1, 0, 0}, {}, {}};
-  job.routing.free_length = 1.5;
+  job.dresspacks[0].routing.base_clamp = pipeline::Clamp{"bench", {-1, 0.35, 1}, {1, 0, 0}, {}, {}};
+  job.dresspacks[0].routing.tool_clamp = pipeline::Clamp{"spindle", {0, 0.35, 0}, {1, 0, 0}, {}, {}};
+  job.dresspacks[0].routing.free_length = 1.5;
   job.motion.steps = {move_to(0), move_to(-12, "wind up"), move_to(0, "home")};
   job.simulation.floor = false;
   const Simulation simulation(job);
@@ -142,9 +142,9 @@ TEST_CASE("periodic: a motion that does not return is run once") {
 
 TEST_CASE("periodic: a wrist that turns by whole turns winds the hose and unwinds it") {
   pipeline::Job job = simple_job();
-  job.dresspack.bending_stiffness = 20;  // nearly straight, does not loop: what the wrist turns is all twist
-  job.dresspack.torsional_stiffness = 4;
-  job.routing.free_length = 0.905;
+  job.dresspacks[0].dresspack.bending_stiffness = 20;  // nearly straight, does not loop: what the wrist turns is all twist
+  job.dresspacks[0].dresspack.torsional_stiffness = 4;
+  job.dresspacks[0].routing.free_length = 0.905;
   job.motion.steps = {move_to(0), move_to(2 * pi, "one turn"), move_to(-2 * pi, "and back"),
                       move_to(0, "home"), dwell_for(1)};
   const Simulation simulation(job);
@@ -158,7 +158,7 @@ TEST_CASE("periodic: a wrist that turns by whole turns winds the hose and unwind
   CHECK(left->value == r.net_twist.back() - r.net_twist.front());
   // No friction here: nothing keeps twist. Both ends of a periodic repeat agree to the tolerance's turn of
   // the surface.
-  const double tolerance = job.simulation.periodic_tolerance / (job.dresspack.diameter / 2);
+  const double tolerance = job.simulation.periodic_tolerance / (job.dresspacks[0].dresspack.diameter / 2);
   CHECK(std::abs(left->value) < tolerance);
 }
 

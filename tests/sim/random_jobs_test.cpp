@@ -70,21 +70,21 @@ pipeline::Job random_job(unsigned seed) {
       DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
       {std::string("robot=") + chance.one_of({"abb_irb6640_185_280", "abb_irb6700_235_265"})});
   job.motion = random_motion(chance);
-  job.dresspack.axial_stiffness = std::pow(10, chance.between(4, 6));
-  job.dresspack.bending_stiffness = chance.between(2, 10);
-  job.dresspack.torsional_stiffness = job.dresspack.bending_stiffness * chance.between(0.4, 1.5);
-  job.dresspack.damping_time = chance.between(0.003, 0.03);
-  job.dresspack.friction = chance.between(0, 0.6);
-  job.dresspack.diameter = chance.between(0.03, 0.07);
+  job.dresspacks[0].dresspack.axial_stiffness = std::pow(10, chance.between(4, 6));
+  job.dresspacks[0].dresspack.bending_stiffness = chance.between(2, 10);
+  job.dresspacks[0].dresspack.torsional_stiffness = job.dresspacks[0].dresspack.bending_stiffness * chance.between(0.4, 1.5);
+  job.dresspacks[0].dresspack.damping_time = chance.between(0.003, 0.03);
+  job.dresspacks[0].dresspack.friction = chance.between(0, 0.6);
+  job.dresspacks[0].dresspack.diameter = chance.between(0.03, 0.07);
   job.simulation.segments = chance.whole(15, 120);
   job.simulation.time_step = chance.one_of({0.001, 0.002, 0.004, 0.005, 0.008, 0.01});
   job.simulation.most_repeats = chance.whole(1, 3);
   for (int axis = 0; axis < 3; ++axis) {
-    job.routing.base_clamp->position[axis] += chance.between(-0.05, 0.05);
-    job.routing.base_clamp->direction[axis] += chance.between(-0.3, 0.3);
-    job.routing.tool_clamp->direction[axis] += chance.between(-0.3, 0.3);
+    job.dresspacks[0].routing.base_clamp->position[axis] += chance.between(-0.05, 0.05);
+    job.dresspacks[0].routing.base_clamp->direction[axis] += chance.between(-0.3, 0.3);
+    job.dresspacks[0].routing.tool_clamp->direction[axis] += chance.between(-0.3, 0.3);
   }
-  job.routing.free_length = longest_chord(RobotPath(job)) * chance.between(1.08, 1.4);
+  job.dresspacks[0].routing.free_length = longest_chord(RobotPath(job)) * chance.between(1.08, 1.4);
   return job;
 }
 

@@ -317,10 +317,10 @@ TEST_CASE("routing: what a job says of it is echoed and reads back") {
       "  tool_mass_kg: 1.5\n";
   std::ofstream(scratch / "job.yaml") << job_text(hung, "", "[1, 0, 0]", ", rest_curvature_1_per_m: 0.5");
   const pipeline::Job job = pipeline::read_job(scratch / "job.yaml");
-  CHECK(job.routing.clamps[0].clamp.roll == 20 * pi / 180);
-  CHECK(job.routing.rings[0].radius == 25 * 1e-3);
-  CHECK(job.routing.retraction->mass == 1);
-  CHECK(job.dresspack.rest_curvature == 0.5);
+  CHECK(job.dresspacks[0].routing.clamps[0].clamp.roll == 20 * pi / 180);
+  CHECK(job.dresspacks[0].routing.rings[0].radius == 25 * 1e-3);
+  CHECK(job.dresspacks[0].routing.retraction->mass == 1);
+  CHECK(job.dresspacks[0].dresspack.rest_curvature == 0.5);
   const std::string text = pipeline::job_text(job);
   CHECK(pipeline::job_text(pipeline::job_from(pipeline::parse_yaml(text, "echo"))) == text);
   const Rod rod = rod_of(job);
@@ -328,7 +328,8 @@ TEST_CASE("routing: what a job says of it is echoed and reads back") {
   CHECK(rod.spans()[0].segments() == 18);  // 40 of 1.3 m
   CHECK(rod.spans()[0].properties.slider->force == 20);
   CHECK(rod.spans()[1].properties.tip_mass == 1.5);
-  CHECK(ring_spans(job) == std::vector<int>{0});
+  REQUIRE(routed_rings(job).size() == 1);
+  CHECK(routed_rings(job)[0].span == 0);
 }
 
 TEST_CASE("routing: the guided example rests on the forearm and in its ring") {

@@ -34,20 +34,20 @@ inline pipeline::Job simple_job() {
   job.robot.links = {{"bench", {}}, {"spindle", {}}};
   job.motion.name = "turn";
   job.motion.steps = {move_to(0, "start"), move_to(2, "turn"), dwell_for(0.5), move_to(0, "back")};
-  job.dresspack.diameter = 0.04;
-  job.dresspack.mass_per_length = 1.5;
-  job.dresspack.bending_stiffness = 2;
-  job.dresspack.torsional_stiffness = 1.6;
-  job.dresspack.axial_stiffness = 1e5;
-  job.dresspack.damping_time = 0.01;
-  job.dresspack.friction = 0.3;
-  job.routing.free_length = 1;
-  job.routing.base_clamp = pipeline::Clamp{"bench", {0, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 9, 3}};
-  job.routing.tool_clamp = pipeline::Clamp{"spindle", {0.9, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 10, 3}};
+  job.dresspacks[0].dresspack.diameter = 0.04;
+  job.dresspacks[0].dresspack.mass_per_length = 1.5;
+  job.dresspacks[0].dresspack.bending_stiffness = 2;
+  job.dresspacks[0].dresspack.torsional_stiffness = 1.6;
+  job.dresspacks[0].dresspack.axial_stiffness = 1e5;
+  job.dresspacks[0].dresspack.damping_time = 0.01;
+  job.dresspacks[0].dresspack.friction = 0.3;
+  job.dresspacks[0].routing.free_length = 1;
+  job.dresspacks[0].routing.base_clamp = pipeline::Clamp{"bench", {0, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 9, 3}};
+  job.dresspacks[0].routing.tool_clamp = pipeline::Clamp{"spindle", {0.9, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 10, 3}};
   // The axis goes through both clamps, so that turning it only twists the hose.
   job.robot.joints[0].origin = {0, 0, 1};
-  job.routing.tool_clamp->position = {0.9, 0, 0};
-  job.routing.where = {"job.yaml", 8, 3};
+  job.dresspacks[0].routing.tool_clamp->position = {0.9, 0, 0};
+  job.dresspacks[0].routing.where = {"job.yaml", 8, 3};
   job.simulation.segments = 20;
   return job;
 }

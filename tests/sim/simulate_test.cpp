@@ -82,9 +82,9 @@ TEST_CASE("simulate: a hose in its equilibrium stays there while the robot stand
 TEST_CASE("simulate: the weight hangs on the two clamps") {
   pipeline::Job job = simple_job();
   job.motion.steps = {move_to(0), dwell_for(0.2)};
-  job.routing.base_clamp->direction = {0, 0, -1};
-  job.routing.tool_clamp->direction = {0, 0, 1};  // a hanging loop: both ends carry half the weight
-  job.routing.free_length = 2;
+  job.dresspacks[0].routing.base_clamp->direction = {0, 0, -1};
+  job.dresspacks[0].routing.tool_clamp->direction = {0, 0, 1};  // a hanging loop: both ends carry half the weight
+  job.dresspacks[0].routing.free_length = 2;
   const Row last = run(Simulation(job)).back();
   const double weight = 2 * 1.5 * 9.81;
   // At the centres of the end segments half a segment's weight is already below the clamp.
@@ -94,21 +94,21 @@ TEST_CASE("simulate: the weight hangs on the two clamps") {
 
 TEST_CASE("simulate: the tool clamp is mounted free of twist, or as the routing says") {
   pipeline::Job job = simple_job();
-  job.dresspack.bending_stiffness = 20;  // nearly straight: there the roll is all twist
-  job.routing.free_length = 0.905;
+  job.dresspacks[0].dresspack.bending_stiffness = 20;  // nearly straight: there the roll is all twist
+  job.dresspacks[0].routing.free_length = 0.905;
   const Simulation free(job);
   constexpr double no_twist = 1e-6;  // the equilibrium's residual
   CHECK(std::abs(net_twist(free.rod(), free.start())) < no_twist);
-  job.routing.tool_clamp->roll = 0.5;
+  job.dresspacks[0].routing.tool_clamp->roll = 0.5;
   const Simulation rolled_by(job);
   CHECK(net_twist(rolled_by.rod(), rolled_by.start()) == Approx(0.5).epsilon(0.02));
 }
 
 TEST_CASE("simulate: whole turns between the mounting pose and the first waypoint stay in the hose") {
   pipeline::Job job = simple_job();
-  job.dresspack.bending_stiffness = 20;  // does not loop
-  job.routing.free_length = 0.905;
-  job.routing.mounting_pose = {-3 * pi};
+  job.dresspacks[0].dresspack.bending_stiffness = 20;  // does not loop
+  job.dresspacks[0].routing.free_length = 0.905;
+  job.dresspacks[0].routing.mounting_pose = {-3 * pi};
   const Simulation simulation(job);
   CHECK(net_twist(simulation.rod(), simulation.start()) == Approx(3 * pi).epsilon(0.02));
 }
@@ -143,8 +143,8 @@ TEST_CASE("simulate: recorded clamp poses move the hose as the robot does") {
   recorded.robot = {};
   recorded.motion = {};
   recorded.motion.clamp_poses = file;
-  recorded.routing.base_clamp.reset();
-  recorded.routing.tool_clamp.reset();
+  recorded.dresspacks[0].routing.base_clamp.reset();
+  recorded.dresspacks[0].routing.tool_clamp.reset();
   const std::vector<Row> a = run(driven), b = run(Simulation(recorded));
   std::filesystem::remove(file);
   REQUIRE(a.size() == b.size());
@@ -158,7 +158,7 @@ TEST_CASE("simulate: recorded clamp poses move the hose as the robot does") {
 TEST_CASE("simulate: a dresspack that is too short is refused with time, line and length") {
   pipeline::Job job = simple_job();
   job.robot.joints[0].axis = {0, 0, 1};  // now the tool clamp swings about the base clamp's axis
-  job.routing.base_clamp->position = {0.3, 0, 1};
+  job.dresspacks[0].routing.base_clamp->position = {0.3, 0, 1};
   CHECK_THROWS_WITH(
       Simulation(job),
       Catch::Matchers::StartsWith("job.yaml:8:3: error: dresspack is ") &&
@@ -174,9 +174,9 @@ TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
   job.robot.joints[0].axis = {0, 0, 1};
   job.robot.joints[0].origin = {0, 0, 1};
   job.robot.links[0].capsules = {{{0, 0, 0}, {0, 0, 2}, 0.25}};
-  job.routing.base_clamp = pipeline::Clamp{"bench", {-1, 0.35, 1}, {1, 0, 0}, {}, {}};
-  job.routing.tool_clamp = pipeline::Clamp{"spindle", {0, 0.35, 0}, {1, 0, 0}, {}, {}};
-  job.routing.free_length = 1.5;
+  job.dresspacks[0].routing.base_clamp = pipeline::Clamp{"bench", {-1, 0.35, 1}, {1, 0, 0}, {}, {}};
+  job.dresspacks[0].routing.tool_clamp = pipeline::Clamp{"spindle", {0, 0.35, 0}, {1, 0, 0}, {}, {}};
+  job.dresspacks[0].routing.free_length = 1.5;
   job.motion.steps = {move_to(0), move_to(-12, "wind up")};
   job.simulation.floor = false;
   const Simulation simulation(job);
@@ -222,7 +222,7 @@ TEST_CASE("simulate: a hose hangs over a robot link without sinking in") {
 
 TEST_CASE("simulate: a slack hose lies on the floor") {
   pipeline::Job job = simple_job();
-  job.routing.free_length = 3;
+  job.dresspacks[0].routing.free_length = 3;
   job.simulation.segments = 30;
   for (const Row& row : run(Simulation(job))) {
     CHECK(row.depth < deepest_overlap);

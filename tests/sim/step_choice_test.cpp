@@ -32,13 +32,13 @@ pipeline::Job driven_cable(const std::filesystem::path& file) {
   const RodProperties p = DrivenCable::properties(40);
   pipeline::Job job;
   job.motion.clamp_poses = file;
-  job.dresspack.diameter = p.diameter;
-  job.dresspack.mass_per_length = p.mass_per_length;
-  job.dresspack.bending_stiffness = p.bending_stiffness;
-  job.dresspack.torsional_stiffness = p.torsional_stiffness;
-  job.dresspack.axial_stiffness = p.axial_stiffness;
-  job.dresspack.damping_time = p.damping_time;
-  job.routing.free_length = p.length;
+  job.dresspacks[0].dresspack.diameter = p.diameter;
+  job.dresspacks[0].dresspack.mass_per_length = p.mass_per_length;
+  job.dresspacks[0].dresspack.bending_stiffness = p.bending_stiffness;
+  job.dresspacks[0].dresspack.torsional_stiffness = p.torsional_stiffness;
+  job.dresspacks[0].dresspack.axial_stiffness = p.axial_stiffness;
+  job.dresspacks[0].dresspack.damping_time = p.damping_time;
+  job.dresspacks[0].routing.free_length = p.length;
   job.simulation.segments = 40;
   job.simulation.floor = false;
   return job;
@@ -111,7 +111,7 @@ TEST_CASE("step choice: the chosen step follows second order and fits the sample
 TEST_CASE("step choice: the lively windows lie where the clamps accelerate") {
   pipeline::Job job = simple_job();
   job.motion.steps = {move_to(0), dwell_for(20), move_to(2), move_to(0), dwell_for(20)};
-  job.routing.tool_clamp->position = {0.9, 0.1, 0};  // off the axis, so that its place moves
+  job.dresspacks[0].routing.tool_clamp->position = {0.9, 0.1, 0};  // off the axis, so that its place moves
   const RobotPath path(job);
   const double h = 0.005;
   const auto windows = lively_windows(path, h, static_cast<int>(path.duration() / h));

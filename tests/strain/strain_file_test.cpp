@@ -180,7 +180,7 @@ TEST_CASE("a motion without samples or a dresspack without wires is refused in w
       Catch::Contains("holds no samples"));
   write_motion(scratch / "motion.h5");
   pipeline::Job bare = job_with();
-  bare.dresspack.components.clear();
+  bare.dresspacks[0].dresspack.components.clear();
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", bare); }),
              Catch::Contains("without components"));
   CHECK(scratch.entries() == 1);  // nothing left of the output
