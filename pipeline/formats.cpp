@@ -17,7 +17,7 @@ void add_site_set(std::vector<Dataset>& datasets, const std::string& group, cons
                       "1",
                       "segment of the site, counted from the base, 0 first"});
   datasets.push_back(
-      {group + "/site/component", Type::text, {site}, "1", "path of the wire, outermost part first"});
+      {group + "/site/component", Type::text, {site}, "1", "path of the wire, outermost part first; before it, among several, the dresspack's name"});
   datasets.push_back({group + "/site/helix",
                       Type::f64,
                       {site, "level", "3"},
@@ -42,6 +42,25 @@ void add_site_set(std::vector<Dataset>& datasets, const std::string& group, cons
   datasets.back().decimals = 7;  // a five-thousandth of the default gate
   datasets.push_back({group + "/reversal/sample", Type::u32, {reversal}, "1", "sample of the turning point"});
   datasets.back().decimals = 0;
+}
+
+/// Which dresspack is where, as in the motion file. Absent in older files.
+void add_dresspacks(std::vector<Dataset>& datasets) {
+  datasets.push_back({"/segment/dresspack",
+                      Type::i32,
+                      {"segment"},
+                      "1",
+                      "dresspack that each segment belongs to, 0 first: one after the other, each from base to tool; "
+                      "absent: one dresspack",
+                      false,
+                      true});
+  datasets.push_back({"/dresspack/name",
+                      Type::text,
+                      {"dresspack"},
+                      "1",
+                      "names of the dresspacks; empty: the only one of a job without a list",
+                      false,
+                      true});
 }
 
 /// What a cell designer asks of the motion: one table, and along the dresspack. Absent in older files.
@@ -83,21 +102,6 @@ Format make_motion_format() {
        "1",
        "unit quaternion w x y z, body to world; body z is the tangent toward the tool"},
       {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
-      {"/segment/dresspack",
-       Type::i32,
-       {"segment"},
-       "1",
-       "dresspack that each segment belongs to, 0 first: one after the other, each from base to tool; absent: "
-       "one dresspack",
-       false,
-       true},
-      {"/dresspack/name",
-       Type::text,
-       {"dresspack"},
-       "1",
-       "names of the dresspacks; empty: the only one of a job without a list",
-       false,
-       true},
       {"/clamp/position",
        Type::f64,
        {"sample", "clamp", "3"},
@@ -185,6 +189,7 @@ Format make_motion_format() {
       {"/energy", Type::f64, {"sample", "3"}, "J", "kinetic, elastic, gravitational"},
       {"/tension", Type::f64, {"sample", "segment"}, "N", "axial force in each segment"},
   };
+  add_dresspacks(format.datasets);
   add_checks(format.datasets);
   format.attributes = {
       {"repeats", "repeats of the motion that were run; the last one is in the file", false, true},
@@ -221,6 +226,7 @@ Format make_strain_format() {
       {"/deformation/twist", Type::f64, {"sample", "segment"}, "rad/m", "about the tangent"},
       {"/deformation/elongation", Type::f64, {"sample", "segment"}, "1", "relative change of length"},
   };
+  add_dresspacks(format.datasets);
   add_site_set(format.datasets, "", "");
   add_site_set(format.datasets, "/bound_stick", "stick_");
   add_site_set(format.datasets, "/bound_free", "free_");
@@ -395,6 +401,16 @@ Format make_life_format() {
        true},
   };
   format.datasets[1].deflate = format.datasets[2].deflate = format.datasets[4].deflate = true;
+  add_dresspacks(format.datasets);
+  format.datasets.push_back({"/dresspack/worst_site",
+                             Type::u32,
+                             {"dresspack"},
+                             "1",
+                             "its wire's site with the largest damage; 4294967295: none",
+                             false,
+                             true});
+  format.datasets.push_back(
+      {"/dresspack/damage", Type::f64, {"dresspack"}, "1", "its damage per repeat", false, true});
   format.attributes = {
       {"life_repeats", "repeats of the motion until the worst wire breaks"},
       {"life_hours", "the same in hours of motion"},
@@ -411,6 +427,8 @@ Format make_life_format() {
       {"worst_component", "path of its wire", true},
       {"worst_time", "time at which its most damaging cycle closes, s"},
       {"worst_step", "program line being executed then", true},
+      {"worst_dresspack", "the dresspack that it lies in, among several; the segment above is counted in it", true,
+       true},
       {"life_hours_p10", "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)", false,
        true},
       {"life_hours_p50",

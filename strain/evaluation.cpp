@@ -67,6 +67,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
              samples},
             {}} {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
+  place_.levels = std::max(place_.levels, construction.levels());
+  const std::string before = place_.name.empty() ? "" : place_.name + "/";
   for (std::size_t k = 0; k < threads; ++k) workers_.push_back({{construction, scan_}, {}, {}});
   for (std::size_t b = 0; b < construction.bundles().size(); ++b) {
     const Bundle& bundle = construction.bundles()[b];
@@ -74,7 +76,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
     for (const int layer : bundle.wire_layers)
       for (int number = 1; number <= construction.layers()[layer].count; ++number)
         wires_.push_back(
-            {static_cast<int>(b), layer, number, construction.wire_path(layer, number, bundle.part)});
+            {static_cast<int>(b), layer, number, before + construction.wire_path(layer, number, bundle.part)});
   }
   find_probes(settings.probes);
 }
@@ -117,9 +119,9 @@ std::size_t Evaluation::longest_material() const {
   return longest;
 }
 
-std::string Evaluation::summary() const {
+std::string Evaluation::summary(std::size_t sites) const {
   if (worst_range_ < 0) return "no wire was evaluated";
-  return fmt::format("{} sites; largest strain range {:.3f} %, segment {} from the tool, {}", sites(),
+  return fmt::format("{} sites; largest strain range {:.3f} %, segment {} from the tool, {}", sites,
                      100 * worst_range_, place_.segments_in_all - place_.first_segment - worst_segment_,
                      wires_[worst_.wire].path);
 }
@@ -303,7 +305,7 @@ FibreHistory Evaluation::mixed_history(const BundleChain& chain, const BundlePoi
 
 /// Radius, lay angle and phase of every level down to `part`; wires' own level and those below are 0.
 std::vector<double> Evaluation::helix_of(int part, std::size_t segment) const {
-  std::vector<double> helix(3 * construction_.levels(), 0.0);
+  std::vector<double> helix(3 * place_.levels, 0.0);
   for (int inner = part; inner != dresspack_itself; inner = construction_.parts()[inner].parent) {
     const Part& in = construction_.parts()[inner];
     const Layer& layer = construction_.layers()[in.layer];
@@ -319,7 +321,8 @@ void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment,
   const Wire& wire = wires_[site.wire];
   const Layer& layer = construction_.layers()[wire.layer];
   const int part = construction_.bundles()[wire.bundle].part;
-  rows.segment.push_back(static_cast<std::int32_t>(place_.first_segment + segment));
+  rows.segment.push_back(
+      static_cast<std::int32_t>(place_.segments_before + place_.first_segment + segment));
   rows.component.push_back(wire.path);
   rows.material.push_back(layer.material);
   rows.helix.insert(rows.helix.end(), helix.begin(), helix.end());

@@ -54,9 +54,13 @@ struct Sink {
 
 /// Where the evaluated segments lie: a span between two clamps, which holds what slides at both its ends.
 struct SpanPlace {
-  std::size_t first_segment = 0;    ///< in the file
-  std::size_t segments_in_all = 0;  ///< of the file; 0: the span is all
+  std::size_t first_segment = 0;    ///< in its dresspack
+  std::size_t segments_in_all = 0;  ///< of its dresspack; 0: the span is all
   double first_arc = 0;             ///< of the span's base end, from the dresspack's base clamp [m]
+  // Of the dresspacks before it in the file:
+  std::size_t segments_before = 0, sites_before = 0;
+  std::string name{};  ///< of its dresspack among several: begins the paths of its wires; empty: the only one
+  int levels = 0;      ///< of the file's helix table; 0: of the construction
 };
 
 class Evaluation {
@@ -69,11 +73,13 @@ class Evaluation {
   std::size_t segments() const { return lengths_.size(); }
   std::size_t sites() const {
     return place_.segments_in_all * wires_.size() * scan_.fibre_count;
-  }  ///< of the file
+  }  ///< of the dresspack
+  std::size_t sites_so_far() const { return place_.sites_before + sites(); }  ///< of the file, with this dresspack
 
   std::size_t longest_path() const;  ///< of a site's component [bytes]
   std::size_t longest_material() const;
-  std::string summary() const;  ///< one line on the site with the largest strain range so far
+  /// One line on the site with the largest strain range so far; sites: of the file.
+  std::string summary(std::size_t sites) const;
   float worst_range() const { return worst_range_; }
 
   void add(const DeformationHistory& block);  ///< first pass, in order of time
@@ -149,7 +155,8 @@ class Evaluation {
   BundleChain site_chain(Site site, std::size_t segment, const ClampMeans& means,
                          std::vector<double>& sliding) const;
   std::size_t site_row(std::size_t segment, Site site) const {
-    return ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
+    return place_.sites_before +
+           ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
   }
   std::vector<double> helix_of(int part, std::size_t segment) const;
   void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;

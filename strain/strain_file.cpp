@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <span>
 
+#include "pipeline/motion_layout.h"
 #include "strain/evaluation.h"
 
 namespace dresslife::strain {
@@ -21,17 +23,16 @@ class MotionReader {
  public:
   MotionReader(const FileReader& file, pipeline::DeformationMeasure measure)
       : file_(file), lengths_(file.read<double>("/segment/length")), samples_(file.rows("/time")) {
-    for (const SpanPlace& place : list_spans())
-      spans_.push_back({place, DeformationGauge(lengths_of(spans_.size()), measure)});
+    if (lengths_.empty()) return;
+    spans_ = pipeline::motion_spans(file);
+    for (const pipeline::MotionSpan& span : spans_) gauges_.emplace_back(lengths_of(span), measure);
   }
 
   std::size_t samples() const { return samples_; }
   const std::vector<double>& lengths() const { return lengths_; }
-  std::size_t spans() const { return spans_.size(); }
-  const SpanPlace& place(std::size_t span) const { return spans_[span].place; }
-  /// Of the segments between one clamp and the next.
-  std::vector<double> lengths_of(std::size_t span) const {
-    return {lengths_.begin() + ends_[span], lengths_.begin() + ends_[span + 1]};
+  const std::vector<pipeline::MotionSpan>& spans() const { return spans_; }
+  std::vector<double> lengths_of(const pipeline::MotionSpan& span) const {
+    return {lengths_.begin() + span.first_segment, lengths_.begin() + span.first_segment + span.segments};
   }
 
   /// Calls put(first sample, deformations (sample, segment)) for one block after the other.
@@ -52,14 +53,13 @@ class MotionReader {
           return std::span(of).subspan(t * size, size);
         };
         for (std::size_t k = 0; k < spans_.size(); ++k) {
-          const std::size_t begin = ends_[k], size = ends_[k + 1] - begin;
-          // A file that does not say where its clamps are has two that count, the first and the last.
-          const std::size_t held = spans_.size() == 1 ? clamps : 2, clamp = spans_.size() == 1 ? 0 : k;
-          spans_[k].gauge.measure({row(position, 3 * segments).subspan(3 * begin, 3 * size),
-                                   row(orientation, 4 * segments).subspan(4 * begin, 4 * size),
-                                   row(clamp_position, 3 * clamps).subspan(3 * clamp, 3 * held),
-                                   row(clamp_orientation, 4 * clamps).subspan(4 * clamp, 4 * held)},
-                                  std::span(deformation).subspan(t * segments + begin, size));
+          const auto& [dresspack, begin, size, base, tool] = spans_[k];
+          const std::size_t held = tool - base + 1;  // the first and the last count
+          gauges_[k].measure({row(position, 3 * segments).subspan(3 * begin, 3 * size),
+                              row(orientation, 4 * segments).subspan(4 * begin, 4 * size),
+                              row(clamp_position, 3 * clamps).subspan(3 * base, 3 * held),
+                              row(clamp_orientation, 4 * clamps).subspan(4 * base, 4 * held)},
+                             std::span(deformation).subspan(t * segments + begin, size));
         }
       }
       put(first, deformation);
@@ -67,38 +67,11 @@ class MotionReader {
   }
 
  private:
-  struct OneSpan {
-    SpanPlace place;
-    DeformationGauge gauge;
-  };
-
-  /// Fills ends_: segments before each clamp.
-  std::vector<SpanPlace> list_spans() {
-    ends_ = {0, lengths_.size()};
-    if (file_.has("/clamp/segment")) {
-      const auto before = file_.read<std::int32_t>("/clamp/segment");
-      const bool rises = std::is_sorted(before.begin(), before.end(), std::less_equal<>());
-      if (before.size() < 2 || !rises || before.front() != 0 ||
-          before.back() != static_cast<int>(lengths_.size()))
-        throw pipeline::InputError(file_.where(),
-                                   "/clamp/segment does not rise from 0 to the number of segments",
-                                   "run dresslife-sim again");
-      ends_.assign(before.begin(), before.end());
-    }
-    std::vector<SpanPlace> places;
-    double arc = 0;
-    for (std::size_t k = 0; k + 1 < ends_.size(); ++k) {
-      places.push_back({ends_[k], lengths_.size(), arc});
-      for (std::size_t i = ends_[k]; i < ends_[k + 1]; ++i) arc += lengths_[i];
-    }
-    return places;
-  }
-
   const FileReader& file_;
   std::vector<double> lengths_;
   std::size_t samples_;
-  std::vector<std::size_t> ends_;
-  std::vector<OneSpan> spans_;
+  std::vector<pipeline::MotionSpan> spans_;
+  std::vector<DeformationGauge> gauges_;  // (span)
 };
 
 void append_deformation(FileWriter& file, std::span<const Deformation> block) {
@@ -116,10 +89,15 @@ void append_deformation(FileWriter& file, std::span<const Deformation> block) {
 /// Appends site sets under one group, keeping count of the turning points.
 class SiteWriter {
  public:
-  SiteWriter(FileWriter& file, std::string group, const Evaluation& evaluation)
+  SiteWriter(FileWriter& file, std::string group, const std::vector<std::unique_ptr<Evaluation>>& evaluations)
       : file_(file), group_(std::move(group)) {
-    file_.set_text_width(group_ + "/site/component", evaluation.longest_path());
-    file_.set_text_width(group_ + "/site/material", evaluation.longest_material());
+    std::size_t path = 0, material = 0;
+    for (const auto& evaluation : evaluations) {
+      path = std::max(path, evaluation->longest_path());
+      material = std::max(material, evaluation->longest_material());
+    }
+    file_.set_text_width(group_ + "/site/component", path);
+    file_.set_text_width(group_ + "/site/material", material);
     put("/reversal/offset", std::vector<std::uint64_t>{0});
   }
 
@@ -151,6 +129,11 @@ class SiteWriter {
 void copy_program(const FileReader& motion, FileWriter& strain) {
   strain.append("/time", motion.read<double>("/time"));
   strain.append("/segment/length", motion.read<double>("/segment/length"));
+  if (motion.has("/segment/dresspack")) {
+    strain.set_axis("dresspack", motion.rows("/dresspack/name"));
+    strain.append("/segment/dresspack", motion.read<std::int32_t>("/segment/dresspack"));
+    strain.append("/dresspack/name", motion.read<std::string>("/dresspack/name"));
+  }
   strain.append("/program/step", motion.read<std::int32_t>("/program/step"));
   strain.append("/program/text", motion.read<std::string>("/program/text"));
   const char* const joints = "/robot/joint_position";
@@ -171,14 +154,80 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
                   [](double length) { return !(length > 0); }))
     throw pipeline::InputError(motion.where(), "has a segment whose rest length is not above 0",
                                "run dresslife-sim again");
-  if (job.dresspacks.size() > 1)
-    throw pipeline::InputError(motion.where(), "comes from several dresspacks (one is evaluated)",
-                               "simulate one of them alone");
-  if (job.dresspacks.front().dresspack.components.empty())
+  if (reader.spans().back().dresspack + 1 != job.dresspacks.size())
     throw pipeline::InputError(motion.where(),
-                               "comes from a dresspack without components (there is no wire to evaluate)",
-                               "give dresspack.components");
+                               fmt::format("holds {} dresspacks (its job has {})",
+                                           reader.spans().back().dresspack + 1, job.dresspacks.size()),
+                               "run dresslife-sim again");
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
+    if (job.dresspacks[d].dresspack.components.empty()) {
+      const std::string name = pipeline::name_among(job, d);
+      throw pipeline::InputError(
+          motion.where(),
+          fmt::format("comes from a dresspack {}without components (there is no wire to evaluate)",
+                      name.empty() ? "" : "'" + name + "' "),
+          "give dresspack.components");
+    }
 }
+
+/// Whether a path begins with the name of dresspack d among several.
+bool lies_in(const pipeline::Job& job, std::size_t d, const std::string& path) {
+  const std::string name = pipeline::name_among(job, d);
+  return name.empty() || path.starts_with(name + "/");
+}
+
+/// The settings as they hold for dresspack d: with its own probes.
+pipeline::Strain settings_of(const pipeline::Job& job, std::size_t d) {
+  pipeline::Strain settings = job.strain;
+  std::erase_if(settings.probes,
+                [&](const pipeline::Probe& probe) { return !lies_in(job, d, probe.component); });
+  return settings;
+}
+
+void check_probes(const pipeline::Job& job) {
+  for (const pipeline::Probe& probe : job.strain.probes) {
+    bool known = false;
+    for (std::size_t d = 0; d < job.dresspacks.size(); ++d) known |= lies_in(job, d, probe.component);
+    if (!known)
+      throw pipeline::InputError(
+          {}, fmt::format("strain.probes: '{}' does not begin with the name of a dresspack", probe.component),
+          fmt::format("begin it with '{}/'", job.dresspacks.front().name));
+  }
+}
+
+/// What lies in each dresspack, and one evaluation per span: each slips from clamp to clamp.
+struct Evaluations {
+  std::vector<Construction> constructions;           // (dresspack)
+  std::vector<std::unique_ptr<Evaluation>> of_span;  // refer to them
+  int levels = 0;                                    // of the deepest wire
+
+  Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads) {
+    for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+      constructions.emplace_back(mounted.dresspack, job.strain.kinematics);
+      levels = std::max(levels, constructions.back().levels());
+    }
+    const std::vector<pipeline::MotionSpan>& spans = reader.spans();
+    SpanPlace place;
+    place.levels = levels;
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      const std::size_t d = spans[k].dresspack;
+      if (k == 0 || d != spans[k - 1].dresspack) {
+        if (k > 0) place.sites_before = of_span.back()->sites_so_far();
+        place.segments_before = spans[k].first_segment;
+        place.segments_in_all = 0;
+        for (const pipeline::MotionSpan& span : spans)
+          if (span.dresspack == d) place.segments_in_all += span.segments;
+        place.first_arc = 0;
+        place.name = pipeline::name_among(job, d);
+      }
+      place.first_segment = spans[k].first_segment - place.segments_before;
+      const std::vector<double> lengths = reader.lengths_of(spans[k]);
+      of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings_of(job, d), lengths,
+                                                     reader.samples(), threads, place));
+      place.first_arc += std::accumulate(lengths.begin(), lengths.end(), 0.0);
+    }
+  }
+};
 
 }  // namespace
 
@@ -188,17 +237,15 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   MotionReader reader(motion, job.strain.deformation);
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
-  const Construction construction(job.dresspacks.front().dresspack, job.strain.kinematics);
-  std::vector<std::unique_ptr<Evaluation>> evaluations;  // (span): each slips from clamp to clamp
-  for (std::size_t k = 0; k < reader.spans(); ++k)
-    evaluations.push_back(std::make_unique<Evaluation>(construction, job.strain, reader.lengths_of(k),
-                                                       samples, threads, reader.place(k)));
+  check_probes(job);
+  const Evaluations all(job, reader, threads);
+  const auto& evaluations = all.of_span;
   strain.set_axis("segment", segments);
-  strain.set_axis("level", construction.levels());
+  strain.set_axis("level", all.levels);
   strain.set_axis("sample", samples);
   copy_program(motion, strain);
-  SiteWriter sites(strain, "", *evaluations[0]), stick(strain, "/bound_stick", *evaluations[0]),
-      free(strain, "/bound_free", *evaluations[0]);
+  SiteWriter sites(strain, "", evaluations), stick(strain, "/bound_stick", evaluations),
+      free(strain, "/bound_free", evaluations);
 
   const std::size_t per_pass =
       std::clamp<std::size_t>(history_bytes / (samples * sizeof(Deformation)), 1, segments);
@@ -213,7 +260,7 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
     append_deformation(strain, block);
     const std::size_t count = block.size() / segments;
     for (std::size_t k = 0; k < evaluations.size(); ++k) {
-      const std::size_t begin = reader.place(k).first_segment, size = evaluations[k]->segments();
+      const auto [begin, size] = std::pair(reader.spans()[k].first_segment, reader.spans()[k].segments);
       DeformationHistory all(size, count);
       for (std::size_t t = 0; t < count; ++t)
         for (std::size_t i = 0; i < size; ++i) all.set(i, t, block[t * segments + begin + i]);
@@ -237,19 +284,22 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
     strain.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
     strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
   };
-  sink.progress = [&](double share) { progress(first_pass_share + (1 - first_pass_share) * share); };
-  std::size_t span = 0;
-  for (std::size_t segment = 0; segment < segments; ++segment) {
-    if (segment == reader.place(span).first_segment + evaluations[span]->segments()) ++span;
+  std::size_t span = 0, segment = 0;
+  sink.progress = [&](double) {
+    const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);
+    progress(first_pass_share + (1 - first_pass_share) * share);
+  };
+  for (; segment < segments; ++segment) {
+    if (segment == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
     const std::size_t row = segment % per_pass;
     if (row == 0 && segment > 0)
       reader.run([&](std::size_t first, std::span<const Deformation> block) { keep(segment, first, block); });
-    evaluations[span]->evaluate(segment - reader.place(span).first_segment, history, row, sink);
+    evaluations[span]->evaluate(segment - reader.spans()[span].first_segment, history, row, sink);
   }
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),
                        [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
-  return (*worst)->summary();
+  return (*worst)->summary(evaluations.back()->sites_so_far());
 }
 
 }  // namespace dresslife::strain
