@@ -28,8 +28,8 @@ std::size_t link_index(const pipeline::Robot& robot, const std::string& name) {
 
 }  // namespace
 
-std::vector<bool> joints_between_clamps(const pipeline::Job& job) {
-  const pipeline::Routing& routing = job.dresspacks.front().routing;
+std::vector<bool> joints_between_clamps(const pipeline::Job& job, std::size_t dresspack) {
+  const pipeline::Routing& routing = job.dresspacks[dresspack].routing;
   std::vector<bool> between(job.robot.joints.size(), false);
   if (!routing.base_clamp || !routing.tool_clamp) return between;
   const std::size_t one = link_index(job.robot, routing.base_clamp->link),

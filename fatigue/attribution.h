@@ -29,7 +29,7 @@
 namespace dresslife::fatigue {
 
 /// (joint) whether it lies between the links of the two clamps. Empty for a job without a robot.
-std::vector<bool> joints_between_clamps(const pipeline::Job& job);
+std::vector<bool> joints_between_clamps(const pipeline::Job& job, std::size_t dresspack = 0);
 
 /// The surface (F19).
 class StrainOfJoints {

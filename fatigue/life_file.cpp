@@ -11,6 +11,7 @@
 #include "fatigue/planes.h"
 #include "fatigue/stress_path.h"
 #include "fatigue/verdict.h"
+#include "pipeline/motion_layout.h"
 #include "pipeline/readable.h"
 
 namespace dresslife::fatigue {
@@ -28,6 +29,7 @@ struct Context {
   std::size_t threads;
   TextColumn component;
   std::vector<double> time, segment_length;
+  std::vector<std::size_t> dresspack;  // (segment)
   std::vector<std::int32_t> step;
   std::vector<std::string> step_text;
   SiteCounters counters;
@@ -46,9 +48,23 @@ struct Context {
         component(read_column(strain, "/site/component")),
         time(strain.read<double>("/time")),
         segment_length(strain.read<double>("/segment/length")),
+        dresspack(pipeline::dresspack_of_segments(strain)),
         step(strain.read<std::int32_t>("/program/step")),
         step_text(strain.read<std::string>("/program/text")),
         counters(sites, component, job) {}
+
+  /// Segments [first, end) of a dresspack.
+  struct Range {
+    std::size_t first, end;
+  };
+  Range segments_of(std::size_t of) const {
+    const auto [first, end] = std::equal_range(dresspack.begin(), dresspack.end(), of);
+    return {static_cast<std::size_t>(first - dresspack.begin()),
+            static_cast<std::size_t>(end - dresspack.begin())};
+  }
+  std::size_t dresspack_of(std::size_t site) const {
+    return site == no_site ? 0 : dresspack[static_cast<std::size_t>(sites.segment(site))];
+  }
 
   double repeat_seconds() const { return time.empty() ? 0 : time.back() - time.front(); }
   const std::string* step_at(std::size_t sample) const {
@@ -75,6 +91,14 @@ void check_steps(const Context& c) {
           "make the file anew with dresslife-strain");
     }
   }
+}
+
+void check_dresspacks(const Context& c) {
+  const std::size_t count = c.dresspack.empty() ? 0 : c.dresspack.back() + 1;
+  if (count > c.job.dresspacks.size())
+    throw pipeline::InputError(c.strain.where(),
+                               fmt::format("holds {} dresspacks (its job has {})", count, c.job.dresspacks.size()),
+                               "make the file anew with dresslife-strain");
 }
 
 template <class T>
@@ -149,6 +173,7 @@ std::vector<std::size_t> worst_by_segment(const Context& c, bool wires) {
 void write_segments(const Context& c) {
   const auto worst = worst_by_segment(c, true);
   put(c.life, "/segment/length", c.segment_length);
+  put(c.life, "/segment/dresspack", std::vector<std::int32_t>(c.dresspack.begin(), c.dresspack.end()));
   put(c.life, "/segment/worst_site", as_index(worst));
   put(c.life, "/segment/damage", damage_at(c, worst));
   c.life.set_axis("sample", c.time.size());
@@ -159,6 +184,19 @@ void write_segments(const Context& c) {
   }
 }
 
+/// The worst wire of each dresspack.
+void write_dresspacks(const Context& c) {
+  std::vector<std::string> names;
+  for (const pipeline::MountedDresspack& mounted : c.job.dresspacks) names.push_back(mounted.name);
+  const auto worst = worst_by_group(c.damage, names.size(), [&](std::size_t site) {
+    return c.damage.is_wire(site) ? c.dresspack_of(site) : no_site;
+  });
+  put(c.life, "/dresspack/name", names);
+  put(c.life, "/dresspack/worst_site", as_index(worst));
+  put(c.life, "/dresspack/damage", damage_at(c, worst));
+  c.life.attribute("worst_dresspack", pipeline::name_among(c.job, c.dresspack_of(c.worst)));
+}
+
 /// The layers of wires, and which one each component lies in; no_site: the hose's wall.
 struct Layers {
   std::vector<std::string> name;
@@ -166,15 +204,17 @@ struct Layers {
 };
 
 Layers layers_of(const Context& c) {
-  const auto known_layers = layer_names(c.job.dresspacks.front().dresspack);
   Layers result;
   auto& [layers, layer_of_component] = result;
   for (const std::string& component : c.component.values) {
-    if (pipeline::is_hose_wall(c.job.dresspacks.front().dresspack, component)) {
+    const PathInJob place = path_in_job(c.job, component);
+    const pipeline::Dresspack& dresspack = c.job.dresspacks[place.dresspack].dresspack;
+    if (pipeline::is_hose_wall(dresspack, place.inside)) {
       layer_of_component.push_back(no_site);
       continue;
     }
-    const std::string layer = layer_of(component, known_layers);
+    const std::string before = component.substr(0, component.size() - place.inside.size());
+    const std::string layer = before + layer_of(place.inside, layer_names(dresspack));
     const auto found = std::find(layers.begin(), layers.end(), layer);
     layer_of_component.push_back(found - layers.begin());
     if (found == layers.end()) layers.push_back(layer);
@@ -206,7 +246,10 @@ std::vector<double> sharing_rates_of(const Context& c, std::size_t worst, std::s
 }
 
 void write_scatter(const Context& c) {
-  Conductors conductors = conductors_of(c.damage, c.component, layer_names(c.job.dresspacks.front().dresspack));
+  std::vector<std::string> layers;
+  for (const pipeline::MountedDresspack& mounted : c.job.dresspacks)
+    for (const std::string& layer : layer_names(mounted.dresspack)) layers.push_back(layer);
+  Conductors conductors = conductors_of(c.damage, c.component, layers);
   std::vector<std::uint32_t> wires;
   std::vector<double> lives;
   for (std::size_t k = 0; k < conductors.path.size(); ++k) {
@@ -272,14 +315,30 @@ void write_program(const Context& c, const std::vector<DamagingCycle>& cycles) {
   put(c.life, "/program/damage_opened", by_step(Moment::opens));
 }
 
+/// Which clamp of each dresspack is near.
+void write_clamps(const Context& c) {
+  const std::vector<double> damage = damage_at(c, worst_by_segment(c, true));
+  std::vector<std::string> clamps;
+  std::vector<double> near;
+  for (std::size_t d = 0; d < c.job.dresspacks.size(); ++d) {
+    const std::string name = pipeline::name_among(c.job, d);
+    for (const char* clamp : {"base clamp", "tool clamp"})
+      clamps.push_back(name.empty() ? clamp : fmt::format("{}, {}", name, clamp));
+    const auto [first, end] = c.segments_of(d);
+    const auto both = damage_by_clamp(std::span(damage).subspan(first, end - first),
+                                      std::span(c.segment_length).subspan(first, end - first));
+    near.insert(near.end(), both.begin(), both.end());
+  }
+  put(c.life, "/clamp/name", clamps);
+  put(c.life, "/clamp/damage", near);
+}
+
 /// Which joint, and which clamp is near. Nothing of the joints when the motion was given by its clamps.
 void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles,
                   const std::vector<Reversal>& known) {
-  const auto worst = worst_by_segment(c, true);
-  put(c.life, "/clamp/name", std::vector<std::string>{"base clamp", "tool clamp"});
-  put(c.life, "/clamp/damage", damage_by_clamp(damage_at(c, worst), c.segment_length));
+  write_clamps(c);
   const char* const joints = "/robot/joint_position";
-  const std::vector<bool> between = joints_between_clamps(c.job);
+  const std::vector<bool> between = joints_between_clamps(c.job, c.dresspack_of(c.worst));
   if (!c.strain.has(joints) || c.strain.row_size(joints) != between.size() || known.empty()) return;
   const auto position = c.strain.read<double>(joints);
   const StrainOfJoints surface(position, known, between);
@@ -314,8 +373,10 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   worst.life_hours = hours(worst.repeats, c.repeat_seconds());
   worst.life_months = months(worst.life_hours, c.job.fatigue.operating_hours_per_week);
   const std::size_t segment = c.sites.segment(site);
-  worst.segment_from_tool = double(c.segment_length.size() - segment);
-  worst.position_from_tool = position_from_tool(c.segment_length, segment);
+  const auto [first, end] = c.segments_of(c.dresspack[segment]);
+  worst.segment_from_tool = double(end - segment);
+  worst.position_from_tool = position_from_tool(
+      {c.segment_length.begin() + first, c.segment_length.begin() + end}, segment - first);
   worst.component = c.component[site];
   const auto most = std::max_element(cycles.begin(), cycles.end(),
                                      [](const auto& a, const auto& b) { return a.damage < b.damage; });
@@ -429,7 +490,11 @@ void judge_planes(Context& c) {
 std::vector<std::string> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
   std::set<std::string> warnings;  // sorted and once each
   for (const std::string& name : c.sites.material().values) {
-    if (name == c.job.dresspacks.front().dresspack.hose_material) continue;
+    const auto& packs = c.job.dresspacks;
+    if (std::any_of(packs.begin(), packs.end(), [&](const pipeline::MountedDresspack& mounted) {
+          return mounted.dresspack.hose_material == name;
+        }))
+      continue;
     const pipeline::Material& material = pipeline::material_of(c.job, name);
     if (c.job.fatigue.stress != pipeline::Stress::cyclic || !material.strain_life_table.empty()) continue;
     const std::string warning = compatibility_warning(material);
@@ -453,6 +518,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
                  const std::function<void(double)>& progress) {
   Context c(strain, job, life, threads);
   check_steps(c);
+  check_dresspacks(c);
   // The three sets are about equally large.
   c.damage = damage_of(c.sites, c.counters, threads, [&](double share) { progress(share / 3); });
   judge_planes(c);
@@ -464,6 +530,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_sites(c);
   write_listed_cycles(c);
   write_segments(c);
+  write_dresspacks(c);
   write_layers(c);
   write_scatter(c);
   write_shear(c);

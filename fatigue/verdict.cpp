@@ -57,15 +57,24 @@ std::size_t SiteDamage::worst_wall() const {
 
 SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job)
     : component_(component.index), material_(sites.material().index) {
-  for (const std::string& path : component.values)
-    wall_of_component_.push_back(pipeline::is_hose_wall(job.dresspacks.front().dresspack, path));
+  std::vector<int> wall_of_dresspack;
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+    const bool walled = !mounted.dresspack.hose_material.empty();
+    wall_of_dresspack.push_back(walled ? static_cast<int>(wall_.size()) : -1);
+    if (walled) wall_.emplace_back(pipeline::hose_material_of(job, mounted.dresspack), job.fatigue);
+  }
+  for (const std::string& path : component.values) {
+    const PathInJob place = path_in_job(job, path);
+    const bool wall = pipeline::is_hose_wall(job.dresspacks[place.dresspack].dresspack, place.inside);
+    wall_of_component_.push_back(wall ? wall_of_dresspack[place.dresspack] : -1);
+  }
   for (const std::string& name : sites.material().values)
     by_material_.emplace_back(pipeline::material_of(job, name), job.fatigue);
-  if (!job.dresspacks.front().dresspack.hose_material.empty()) wall_.emplace_back(pipeline::hose_material_of(job, job.dresspacks.front().dresspack), job.fatigue);
 }
 
 const DamageCounter& SiteCounters::of(std::size_t site) const {
-  return is_wall(site) ? wall_.front() : by_material_[material_[site]];
+  const int wall = wall_of_component_[component_[site]];
+  return wall >= 0 ? wall_[wall] : by_material_[material_[site]];
 }
 
 SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::size_t threads,
@@ -111,6 +120,17 @@ std::vector<std::size_t> worst_wires(const SiteDamage& all, std::size_t count) {
                     [&](std::size_t a, std::size_t b) { return all.worse(a, b); });
   sites.resize(kept);
   return sites;
+}
+
+PathInJob path_in_job(const pipeline::Job& job, const std::string& component) {
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    const std::string name = pipeline::name_among(job, d);
+    if (name.empty()) return {d, component};
+    if (component.starts_with(name + "/")) return {d, component.substr(name.size() + 1)};
+  }
+  throw pipeline::InputError({},
+                             fmt::format("component '{}' lies in none of the job's dresspacks", component),
+                             "make the strain file anew with dresslife-strain");
 }
 
 std::vector<std::string> layer_names(const pipeline::Dresspack& dresspack) {

@@ -36,13 +36,13 @@ class SiteCounters {
  public:
   SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job);
   const DamageCounter& of(std::size_t site) const;
-  bool is_wall(std::size_t site) const { return wall_of_component_[component_[site]] != 0; }
+  bool is_wall(std::size_t site) const { return wall_of_component_[component_[site]] >= 0; }
 
  private:
   std::vector<DamageCounter> by_material_;
-  std::vector<DamageCounter> wall_;              // one, or none without a wall
-  std::vector<std::uint8_t> wall_of_component_;  // (component)
-  std::span<const int> component_, material_;    // (site)
+  std::vector<DamageCounter> wall_;            // of the dresspacks that have one
+  std::vector<int> wall_of_component_;         // (component) index into wall_; -1: a wire
+  std::span<const int> component_, material_;  // (site)
 };
 
 /// Damage of all sites, on `threads` threads: each site's is worked out alone, so that any number gives the
@@ -57,6 +57,14 @@ std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t group
 
 /// The `count` worst wires that are damaged at all, worst first.
 std::vector<std::size_t> worst_wires(const SiteDamage& all, std::size_t count);
+
+/// The dresspack of a job that a component's path names, and the path within it; before that of a job with one
+/// dresspack nothing stands. Errors: InputError for a name that the job does not have.
+struct PathInJob {
+  std::size_t dresspack = 0;
+  std::string inside;
+};
+PathInJob path_in_job(const pipeline::Job& job, const std::string& component);
 
 /// Path of a wire without the numbers of its parts: "signal cable 3/conductor 2/layer 1/wire 17" of a job
 /// whose components name a layer "layer 1" is "signal cable/conductor/layer 1/wire".
