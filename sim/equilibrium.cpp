@@ -82,10 +82,11 @@ double Statics::unbalance(const RodState& state) {
     const LinkEnds ends = link_ends(rod_, state, j);
     const LinkState link = rod_.link_state(state, j);
     const Vector3 force = rod_.gap_stiffness(j) * link.gap;
-    const Vector3 moment = link_turn(*ends.orientation_a, *ends.orientation_b).map * link.moment;
+    const Vector3 moment = link_turn(*ends.orientation_a, *ends.orientation_b).map * link.moment -
+                           force.dot(ends.arms.lengthening) * ends.arms.normal;
     scale = std::max({scale, force.norm(), moment.norm() / rod_.properties().length});
-    if (j > 0) push(j - 1, force, ends.arm_a.cross(force) + moment);
-    if (j < n) push(j, -force, ends.arm_b.cross(force) - moment);
+    if (j > 0) push(j - 1, force, ends.arms.a.cross(force) + moment);
+    if (j < n) push(j, -force, ends.arms.b.cross(force) - moment);
   }
   double largest = 0;
   for (const Twist6& u : unbalanced_)
@@ -112,6 +113,23 @@ Matrix3 turn_curvature(const LinkTurn& turn, const Vector3& moment) {
          slope * (world_u * across.transpose() + across * world_u.transpose());
 }
 
+/// f . d2(gap) by the lengthening of the arms, on the turns of the segments before (a) and after (b) a link,
+/// beyond what the arms' own length gives. (S18)
+struct LengtheningStiffness {
+  Matrix3 aa, bb, ab;
+};
+LengtheningStiffness lengthening_stiffness(const LinkArms& arms, const Vector3& f) {
+  const Vector3 t_a = arms.a.normalized(), t_b = arms.b.normalized(), &n = arms.normal;
+  const Vector3 half = arms.lengthening * 12 / (1 + t_a.dot(t_b));  // (t_a + t_b) a/(1 + cosine)
+  const double length = half.dot(t_a), pull = f.dot(arms.lengthening), cosine = t_a.dot(t_b);
+  const Vector3 u_a = length / 12 * t_a.cross(f), u_b = length / 12 * t_b.cross(f);
+  const Matrix3 turn = cosine * Matrix3::Identity();
+  const Matrix3 own = 0.5 * (t_a * t_b.transpose() + t_b * t_a.transpose()) - turn;
+  return {pull * own + n * u_a.transpose() + u_a * n.transpose(),
+          pull * own - n * u_b.transpose() - u_b * n.transpose(),
+          pull * (turn - t_b * t_a.transpose()) + n * u_b.transpose() - u_a * n.transpose()};
+}
+
 // (S12), derived in sim/README.md. With arms a, b, link force f, world moment m and turns da, db of the
 // segments: gap: k B^T B and (f.a) 1 - sym(f a^T) on each segment's own turning; turn: H = G K G^T + (sym(m
 // phi^T) - (m.phi) 1)/6 on da - db, and the antisymmetric half of m in the coupling.
@@ -122,27 +140,34 @@ void Statics::add_link(const RodState& state, int j) {
   const Vector3& stiffness = rod_.turn_stiffness(j);
   const Vector3 local_moment = stiffness.cwiseProduct(turn.phi - rod_.rest_turn(j));
   const Vector3 moment = turn.map * local_moment, f = pull_[j];
-  const Matrix3 h =
-      turn.map * stiffness.asDiagonal() * turn.map.transpose() + turn_curvature(turn, local_moment);
+  const LinkArms& arms = ends.arms;
   const double k = rod_.gap_stiffness(j);
-  const auto own = [&](int i, const Vector3& arm, double side) {
+  const Matrix3 h = turn.map * stiffness.asDiagonal() * turn.map.transpose() +
+                    turn_curvature(turn, local_moment) +
+                    k * arms.excess * arms.normal * arms.normal.transpose();
+  const bool between = j > 0 && j < rod_.segments();
+  const LengtheningStiffness lengthening =
+      between ? lengthening_stiffness(arms, f)
+              : LengtheningStiffness{Matrix3::Zero(), Matrix3::Zero(), Matrix3::Zero()};
+  const Matrix3 along = k * arms.lengthening * arms.normal.transpose();
+  const auto own = [&](int i, const Vector3& arm, double side, const Matrix3& second) {
     const Matrix3 s = skew(arm);
     double* d = block_[i].diagonal;
     add_block(d, k * Matrix3::Identity());
-    add_block(d + 3, -side * k * s);
-    add_block(d + 21, h - k * s * s + f.dot(arm) * Matrix3::Identity() -
+    add_block(d + 3, -side * k * s - along);
+    add_block(d + 21, h + second - k * s * s + f.dot(arm) * Matrix3::Identity() -
                           0.5 * (f * arm.transpose() + arm * f.transpose()));
   };
-  if (j > 0) own(j - 1, ends.arm_a, 1);
-  if (j < rod_.segments()) own(j, ends.arm_b, -1);
-  if (j == 0 || j == rod_.segments()) return;
-  const Matrix3 sa = skew(ends.arm_a), sb = skew(ends.arm_b);
+  if (j > 0) own(j - 1, arms.a, 1, lengthening.aa);
+  if (j < rod_.segments()) own(j, arms.b, -1, lengthening.bb);
+  if (!between) return;
+  const Matrix3 sa = skew(arms.a), sb = skew(arms.b);
   double* u = block_[j - 1].upper;
   std::fill(u, u + 36, 0.0);
   add_block(u, -k * Matrix3::Identity());
-  add_block(u + 3, -k * sb);
-  add_block(u + 18, -k * sa);
-  add_block(u + 21, -k * sa * sb - h + 0.5 * skew(moment));
+  add_block(u + 3, -k * sb + along);
+  add_block(u + 18, -k * sa + along.transpose());
+  add_block(u + 21, -k * sa * sb - h + lengthening.ab + 0.5 * skew(moment));
 }
 
 int Statics::solve(const RodState& state, double shift) {
@@ -213,9 +238,10 @@ void Statics::predict_pull(const RodState& state, double part) {
   const int n = rod_.segments();
   for (int j = 0; j <= n; ++j) {
     const LinkEnds ends = link_ends(rod_, state, j);
-    Vector3 change = Vector3::Zero();
-    if (j < n) change += step_[j].linear() - step_[j].angular().cross(ends.arm_b);
-    if (j > 0) change -= step_[j - 1].linear() + step_[j - 1].angular().cross(ends.arm_a);
+    const Twist6 none{};
+    const Twist6 &before = j > 0 ? step_[j - 1] : none, &after = j < n ? step_[j] : none;
+    const Vector3 change =
+        gap_change(ends.arms, before.linear(), before.angular(), after.linear(), after.angular());
     pull_[j] = rod_.gap_stiffness(j) * (rod_.link_state(state, j).gap + part * change);
   }
 }

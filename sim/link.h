@@ -48,12 +48,38 @@ inline LinkTurn link_turn(const Quaternion& a, const Quaternion& b) {
   return turn;
 }
 
-/// What a link joins: segment or clamp before (a) and after (b), with the arms from their centres to the
-/// link.
+/// The arms from the centres of the segments before (a) and after (b) to the link between them, which grow
+/// with its bend (S17): half a segment times 1 + (1 - t_a.t_b)/12. When the segments turn by w_a and w_b the
+/// gap changes by -w_a x a - w_b x b - lengthening (normal . (w_b - w_a)). At a clamp there is one arm, half a
+/// segment long.
+struct LinkArms {
+  Vector3 a = Vector3::Zero(), b = Vector3::Zero();  ///< world [m]; the ends are x_a + a and x_b - b
+  Vector3 lengthening = Vector3::Zero();             ///< a/12 (t_a + t_b) [m]
+  Vector3 normal = Vector3::Zero();                  ///< t_a x t_b
+  double excess = 0;  ///< e.e - 2 |a x e|/|normal| with e = lengthening [m2]
+};
+
+/// half_a, half_b: half a segment along each tangent; zero for a clamp. half: its length [m].
+inline LinkArms link_arms(const Vector3& half_a, const Vector3& half_b, double half) {
+  const double half2 = half * half;
+  if (half_a.isZero(0) || half_b.isZero(0)) return {half_a, half_b};
+  const double cosine = half_a.dot(half_b) / half2, growth = 1 + (1 - cosine) / 12;
+  return {growth * half_a, growth * half_b, (half_a + half_b) / 12, half_a.cross(half_b) / half2,
+          half2 * ((1 + cosine) / 72 - growth / 6)};
+}
+
+/// Change of the gap for small ways x and turns w of what the link joins.
+inline Vector3 gap_change(const LinkArms& arms, const Vector3& x_a, const Vector3& w_a, const Vector3& x_b,
+                          const Vector3& w_b) {
+  return (x_b - w_b.cross(arms.b)) - (x_a + w_a.cross(arms.a)) -
+         arms.normal.dot(w_b - w_a) * arms.lengthening;
+}
+
+/// What a link joins: segment or clamp before (a) and after (b).
 struct LinkEnds {
   const Vector3 *position_a, *position_b;
   const Quaternion *orientation_a, *orientation_b;
-  Vector3 arm_a, arm_b;  ///< world [m]; the ends are x_a + arm_a and x_b - arm_b
+  LinkArms arms;
 };
 
 inline LinkEnds link_ends(const Rod& rod, const RodState& state, int link) {
@@ -68,8 +94,8 @@ inline LinkEnds link_ends(const Rod& rod, const RodState& state, int link) {
   ends.position_b = has_b ? &state.position[before + 1] : &tool.position;
   ends.orientation_b = has_b ? &state.orientation[before + 1] : &tool.orientation;
   const double a = span.segment_length / 2;
-  ends.arm_a = has_a ? Vector3(a * tangent(*ends.orientation_a)) : Vector3(Vector3::Zero());
-  ends.arm_b = has_b ? Vector3(a * tangent(*ends.orientation_b)) : Vector3(Vector3::Zero());
+  ends.arms = link_arms((has_a ? a : 0) * tangent(*ends.orientation_a),
+                        (has_b ? a : 0) * tangent(*ends.orientation_b), a);
   return ends;
 }
 

@@ -145,7 +145,7 @@ LinkState Rod::link_state(const RodState& state, int link) const {
   const LinkEnds ends = link_ends(*this, state, link);
   if (gap_stiffness_[link] == 0) return {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
   const LinkTurn turn = link_turn(*ends.orientation_a, *ends.orientation_b);
-  return {(*ends.position_b - ends.arm_b) - (*ends.position_a + ends.arm_a), turn.phi,
+  return {(*ends.position_b - ends.arms.b) - (*ends.position_a + ends.arms.a), turn.phi,
           turn_stiffness_[link].cwiseProduct(turn.phi - rest_turn_[link])};
 }
 
@@ -285,7 +285,8 @@ struct SlideEquation {
 struct RodSystem {
   std::vector<TridiagonalBlock> block;
   std::vector<Twist6> change;                         ///< (segment) dv
-  std::vector<Vector3> arm;                           ///< (segment) l/2 along its tangent
+  std::vector<Vector3> half;                          ///< (segment) l/2 along its tangent
+  std::vector<LinkArms> arms;                         ///< (link)
   std::vector<Vector3> force;                         ///< (link) explicit part of the gap's force
   ClampFrames end;                                    ///< clamps at the end of the step
   std::vector<Vector3> velocity, angular_velocity;    ///< (end) of the clamps over the step
@@ -337,7 +338,7 @@ class Assembly {
     const Vector3 t = tangent(state_.orientation[i]);
     const double m = span_.segment_mass, transverse = span_.transverse_inertia;
     const double excess = span_.axial_inertia - transverse;
-    system_.arm[i] = (span_.segment_length / 2) * t;
+    system_.half[i] = (span_.segment_length / 2) * t;
     std::fill(b.diagonal, b.diagonal + 36, 0.0);
     add_diagonal(b.diagonal, m);
     add_diagonal(b.diagonal + 21, transverse);
@@ -346,7 +347,7 @@ class Assembly {
     Vector3 force = m * p_.gravity, torque = -(excess * t.dot(w)) * w.cross(t);
     if (!loads.empty()) force += loads[i].force, torque += loads[i].torque;
     if (p_.tip_mass > 0 && i + 1 == span_.first_segment + span_.segments())
-      hang_tip(b, w, system_.arm[i], force, torque);
+      hang_tip(b, w, system_.half[i], force, torque);
     for (int k = 0; k < 3; ++k) b.value[k] = h_ * force[k], b.value[3 + k] = h_ * torque[k];
   }
 
@@ -360,28 +361,30 @@ class Assembly {
     const Side a = has_a ? segment_side(before) : clamp_side(first_end_);
     const Side b = has_b ? segment_side(after) : clamp_side(first_end_ + 1);
     const LinkTurn turn = link_turn(*a.orientation, *b.orientation);
-    const Vector3 moment = turn_moment(j, turn, *b.angular_velocity - *a.angular_velocity);
-    const Vector3 force = gap_force(j, a, b);
-    const TurnMatrix turning = turn_matrix(j, turn);
+    const LinkArms arms = system_.arms[j] = link_arms(a.half, b.half, span_.segment_length / 2);
+    const Vector3 force = gap_force(j, a, b, arms);
+    const Vector3 moment = turn_moment(j, turn, *b.angular_velocity - *a.angular_velocity) -
+                           force.dot(arms.lengthening) * arms.normal;
     const double k = rod_.gap_stiffness(j) * gap_beta * h_ * h_;
-    const double taut_a = tautness(j, a.arm), taut_b = tautness(j, b.arm);
-    if (has_a) add_own(before, k, a.arm, 1, force, moment, turning, taut_a);
-    if (has_b) add_own(after, k, b.arm, -1, force, moment, turning, taut_b);
-    if (has_a && has_b) couple(before, k, a.arm, b.arm, turning);
-    if (!has_a) drive(first_end_, after, k, b.arm, -1, turning);
-    if (!has_a && p_.slider) slide(after, k, b.arm, force);
-    if (!has_b) drive(first_end_ + 1, before, k, a.arm, 1, turning);
+    const TurnMatrix turning = turn_matrix(j, turn, k, arms);
+    const double taut_a = tautness(j, arms.a), taut_b = tautness(j, arms.b);
+    if (has_a) add_own(before, k, arms, 1, force, moment, turning, taut_a);
+    if (has_b) add_own(after, k, arms, -1, force, moment, turning, taut_b);
+    if (has_a && has_b) couple(before, k, arms, turning);
+    if (!has_a) drive(first_end_, after, k, arms.b, -1, turning);
+    if (!has_a && p_.slider) slide(after, k, arms.b, force);
+    if (!has_b) drive(first_end_ + 1, before, k, arms.a, 1, turning);
   }
 
  private:
   struct Side {
     const Vector3 *position, *velocity, *angular_velocity;
     const Quaternion* orientation;
-    Vector3 arm;
+    Vector3 half;
   };
   Side segment_side(int i) const {
     return {&state_.position[i], &state_.velocity[i], &state_.angular_velocity[i], &state_.orientation[i],
-            system_.arm[i]};
+            system_.half[i]};
   }
   Side clamp_side(int end) const {
     const Frame& frame = state_.clamps.end(end);
@@ -390,10 +393,9 @@ class Assembly {
   }
 
   // (S6) f = k (g + c h dg/dt), the pull on the segment before.
-  Vector3 gap_force(int j, const Side& a, const Side& b) {
-    const Vector3 gap = (*b.position - b.arm) - (*a.position + a.arm);
-    const Vector3 rate =
-        (*b.velocity - b.angular_velocity->cross(b.arm)) - (*a.velocity + a.angular_velocity->cross(a.arm));
+  Vector3 gap_force(int j, const Side& a, const Side& b, const LinkArms& arms) {
+    const Vector3 gap = (*b.position - arms.b) - (*a.position + arms.a);
+    const Vector3 rate = gap_change(arms, *a.velocity, *a.angular_velocity, *b.velocity, *b.angular_velocity);
     const Vector3 force = rod_.gap_stiffness(j) * (gap + (gap_damping * h_) * rate);
     system_.force[j] = force;
     return force;
@@ -406,21 +408,23 @@ class Assembly {
   }
 
   // G diag(k) G^T (beta h^2 + theta h tau) with k1 = k2: G G^T = s^2 1 + (1 - s^2) u u^T, so
-  // k1 (s^2 1 + (1 - s^2) u u^T) + (k3 - k1) g3 g3^T.
+  // k1 (s^2 1 + (1 - s^2) u u^T) + (k3 - k1) g3 g3^T; and what the gap's stiffness k adds as the arms lengthen.
   struct TurnMatrix {
     double value[9];
   };
-  TurnMatrix turn_matrix(int j, const LinkTurn& turn) const {
+  TurnMatrix turn_matrix(int j, const LinkTurn& turn, double k, const LinkArms& arms) const {
     const double weight = turn_beta * h_ * h_ + turn_theta * h_ * damping_;
     const Vector3& stiffness = rod_.turn_stiffness(j);
     const double k1 = weight * stiffness[0], k3 = weight * stiffness[2];
-    const Vector3 g3 = turn.map.col(2);
+    const Vector3 g3 = turn.map.col(2), &n = arms.normal;
     const double axis = k1 * turn.axis_excess, third = k3 - k1, sphere = k1 * turn.stretch * turn.stretch;
+    const double lengthening = k * arms.excess;
     TurnMatrix m;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
         m.value[3 * r + c] =
-            axis * turn.axis[r] * turn.axis[c] + third * g3[r] * g3[c] + (r == c ? sphere : 0);
+            axis * turn.axis[r] * turn.axis[c] + third * g3[r] * g3[c] + lengthening * n[r] * n[c] +
+            (r == c ? sphere : 0);
     return m;
   }
 
@@ -432,13 +436,16 @@ class Assembly {
   }
 
   // A link's part in its segment's own block. side +1: the link follows the segment, -1: precedes it. The end
-  // moves with v + side w x arm, hence rows (k 1, -side k S), (.., -k S S) with S = skew(arm).
-  void add_own(int i, double k, const Vector3& arm, double side, const Vector3& force, const Vector3& moment,
+  // moves with v + side w x arm, hence rows (k 1, -side k S), (.., -k S S) with S = skew(arm); and with the
+  // lengthening e n.w: -k e n^T.
+  void add_own(int i, double k, const LinkArms& arms, double side, const Vector3& force, const Vector3& moment,
                const TurnMatrix& turning, double taut) {
+    const Vector3& arm = side > 0 ? arms.a : arms.b;
     TridiagonalBlock& b = system_.block[i];
-    const double a2 = span_.segment_length * span_.segment_length / 4;
+    const double a2 = arm.squaredNorm();
     add_diagonal(b.diagonal, k);
     add_skew(b.diagonal + 3, (-side * k) * arm);
+    add_outer(b.diagonal + 3, -k, arms.lengthening, arms.normal);
     double* m = b.diagonal + 21;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) m[6 * r + c] += turning.value[3 * r + c];
@@ -449,14 +456,16 @@ class Assembly {
   }
 
   // The coupling of segments i and i + 1: S_a S_b = b a^T - (a.b) 1.
-  void couple(int i, double k, const Vector3& arm_a, const Vector3& arm_b, const TurnMatrix& turning) {
+  void couple(int i, double k, const LinkArms& arms, const TurnMatrix& turning) {
     double* u = system_.block[i].upper;
     std::fill(u, u + 36, 0.0);
     add_diagonal(u, -k);
-    add_skew(u + 3, -k * arm_b);
-    add_skew(u + 18, -k * arm_a);
-    add_outer(u + 21, -k, arm_b, arm_a);
-    add_diagonal(u + 21, k * arm_a.dot(arm_b));
+    add_skew(u + 3, -k * arms.b);
+    add_outer(u + 3, k, arms.lengthening, arms.normal);
+    add_skew(u + 18, -k * arms.a);
+    add_outer(u + 18, k, arms.normal, arms.lengthening);
+    add_outer(u + 21, -k, arms.b, arms.a);
+    add_diagonal(u + 21, k * arms.a.dot(arms.b));
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) u[21 + 6 * r + c] -= turning.value[3 * r + c];
   }
@@ -528,7 +537,8 @@ class Assembly {
 RodSolver::RodSolver(const Rod& rod) : rod_(rod), system_(std::make_unique<RodSystem>()) {
   system_->block.resize(rod.segments());  // zeros: couplings between spans stay so
   system_->change.resize(rod.segments());
-  system_->arm.resize(rod.segments());
+  system_->half.resize(rod.segments());
+  system_->arms.resize(rod.links());
   system_->force.resize(rod.links());
   system_->slide.resize(rod.spans().size());
 }
@@ -699,14 +709,17 @@ void RodSolver::finish(RodState& state) {
     const Span& span = rod_.spans()[k];
     for (int j = 0; j <= span.segments(); ++j) {
       const int i = span.first_segment + j, link = span.first_link + j;
-      const Vector3 after = j < span.segments()
-                                ? Vector3(s.change[i].linear() - s.change[i].angular().cross(s.arm[i]))
-                                : Vector3(s.velocity[2 * k + 1] - state.clamp_velocity[2 * k + 1]);
-      const Vector3 before =
-          j > 0 ? Vector3(s.change[i - 1].linear() + s.change[i - 1].angular().cross(s.arm[i - 1]))
-                : Vector3(s.velocity[2 * k] - state.clamp_velocity[2 * k]);
+      const LinkArms& arms = s.arms[link];
+      const Vector3 clamp = s.velocity[2 * k + (j > 0)] - state.clamp_velocity[2 * k + (j > 0)];
+      const Vector3 none = Vector3::Zero();  // what turns at a clamp has no arm there
+      const Vector3 change =
+          j == 0 ? gap_change(arms, clamp, none, s.change[i].linear(), s.change[i].angular())
+          : j == span.segments()
+              ? gap_change(arms, s.change[i - 1].linear(), s.change[i - 1].angular(), clamp, none)
+              : gap_change(arms, s.change[i - 1].linear(), s.change[i - 1].angular(), s.change[i].linear(),
+                           s.change[i].angular());
       state.link_force[link] =
-          s.force[link] + (rod_.gap_stiffness(link) * gap_beta * s.step) * (after - before);
+          s.force[link] + (rod_.gap_stiffness(link) * gap_beta * s.step) * change;
     }
   }
   state.clamps = s.end;

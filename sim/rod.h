@@ -7,7 +7,8 @@
 // tool. A clamp between two spans is the tool end of one and the base end of the next: each span moves as a
 // dresspack of its own, and only contacts join them. Segments, links and ends count through: span 0 first.
 //
-// (S1) gap     g = (x_b - a t_b) - (x_a + a t_a),  a = l/2;   force f = EA/len g           [N]
+// (S1) gap     g = (x_b - c a t_b) - (x_a + c a t_a),  a = l/2;   force f = EA/len g       [N]
+// (S17)        c = 1 + (1 - t_a.t_b)/12 between two segments, 1 at a clamp
 // (S2) turn    phi = log(R_a^T R_b);   energy  1/2 (phi - phi_0)^T diag(EI, EI, GJ)/len (phi - phi_0)  [J]
 // (S3) step    (M + theta h C + beta h^2 K) dv = h (f(x_n) - C v_n),   v += dv,  x += h v
 // Second order in h and l. sim/README.md derives the end links' lengths, the weights and the tension.

@@ -87,9 +87,10 @@ void DeformationGauge::measure(const ChainPose& pose, std::span<Deformation> out
 void DeformationGauge::measure_links(const ChainPose& pose) {
   const std::size_t segments = lengths_.size(), last_clamp = pose.clamp_position.size() / 3 - 1;
   Quaterniond frame = orientation_at(pose.clamp_orientation, 0);
-  Vector3d end = position_at(pose.clamp_position, 0);  // of what lies on the base side of the link
+  Vector3d centre_before = position_at(pose.clamp_position, 0);
+  Vector3d half_before = Vector3d::Zero();  // of the segment on the base side of the link
   for (std::size_t i = 0; i <= segments; ++i) {
-    const bool at_tool = i == segments;
+    const bool at_tool = i == segments, between = i > 0 && !at_tool;
     const Quaterniond next = at_tool ? orientation_at(pose.clamp_orientation, last_clamp)
                                      : orientation_at(pose.segment_orientation, i);
     const Vector3d tangent = next * Vector3d::UnitZ();
@@ -97,10 +98,13 @@ void DeformationGauge::measure_links(const ChainPose& pose) {
         position_at(at_tool ? pose.clamp_position : pose.segment_position, at_tool ? last_clamp : i);
     const Vector3d half = at_tool ? Vector3d::Zero() : Vector3d(lengths_[i] / 2 * tangent);
     const Quaterniond turn = frame.conjugate() * next;
-    const Vector3d mean_tangent = (frame * Vector3d::UnitZ() + tangent).normalized();
-    links_[i] = {logarithm(turn), angle_about_tangent(turn), (centre - half - end).dot(mean_tangent)};
+    const Vector3d tangent_before = frame * Vector3d::UnitZ();
+    const double arms = between ? 1 + (1 - tangent_before.dot(tangent)) / 12 : 1;  // (S17)
+    const Vector3d gap = centre - centre_before - arms * (half + half_before);
+    links_[i] = {logarithm(turn), angle_about_tangent(turn), gap.dot((tangent_before + tangent).normalized())};
     frame = next;
-    end = centre + half;
+    centre_before = centre;
+    half_before = half;
   }
 }
 

@@ -56,6 +56,12 @@ inline RodState tip_loaded(const Rod& rod, const Frame& base, const Vector3& for
   return state;
 }
 
+/// The hose's axis at a link: the chain's joints lie outside a bend by kappa l^2/12 (S17). For planar bends.
+inline Vector3 on_axis(const Rod& rod, const RodState& state, int link) {
+  const Vector3 before = tangent(state.orientation[link - 1]), after = tangent(state.orientation[link]);
+  return state.position[link - 1] + rod.segment_length() * (before / 2 + (after - before) / 12);
+}
+
 /// Bending curvature of a link [1/m].
 inline double curvature(const Rod& rod, const RodState& state, int link) {
   return rod.link_state(state, link).turn.head<2>().norm() / rod.bending_length(link);

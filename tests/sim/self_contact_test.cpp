@@ -98,10 +98,11 @@ TEST_CASE("what one piece of the hose gains by touching another the other loses"
   World world(rod, settings, start.state);
   double worst = 0, hardest = 0, depth = 0;
   for (int k = 1; k <= 500; ++k) {
-    // The tool clamp passes the base clamp at its side and pulls the loop tight round itself.
+    // The tool clamp passes the base clamp and pulls the loop tight round itself; three diameters away, or the
+    // clamps would crush the hose between them.
     const double u = smooth(k * settings.time_step / 2.5);
     ClampFrames now = clamps;
-    now.tool.position = {1.2 - 2.4 * u, 0.045 * smooth(4 * u), 0};
+    now.tool.position = {1.2 - 2.4 * u, 3 * p.diameter * smooth(4 * u), 0};
     Vector3 before = Vector3::Zero(), after = Vector3::Zero();
     for (const Vector3& v : world.state().velocity) before += rod.segment_mass() * v;
     const StepReport report = world.advance(now);

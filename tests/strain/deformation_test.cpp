@@ -84,7 +84,8 @@ double worst_error(const Chain& chain, const Rate& rate, DeformationMeasure meas
   return worst;
 }
 
-/// A chain of the simulator's kind: rigid segments whose ends meet, turned at the links by `rotation`.
+/// A chain of the simulator's kind, turned at the links by `rotation`: rigid segments whose ends meet, a little
+/// further out where they bend (sim/README.md, S17).
 Chain jointed_chain(double segment_length, const std::vector<Vector3d>& rotation) {
   Chain chain;
   Quaterniond q = Quaterniond::Identity();
@@ -94,13 +95,20 @@ Chain jointed_chain(double segment_length, const std::vector<Vector3d>& rotation
   auto turn = [&](const Vector3d& phi) {
     if (phi.norm() > 0) q = q * Quaterniond(Eigen::AngleAxisd(phi.norm(), phi.normalized()));
   };
+  turn(rotation.front());
+  x += segment_length / 2 * (q * Vector3d::UnitZ());
   for (std::size_t i = 0; i + 1 < rotation.size(); ++i) {
-    turn(rotation[i]);
-    const Vector3d half = segment_length / 2 * (q * Vector3d::UnitZ());
-    append(chain.position, Vector3d(x + half));
+    append(chain.position, x);
     append(chain.orientation, q);
-    x += 2 * half;
     chain.lengths.push_back(segment_length);
+    const Vector3d before = q * Vector3d::UnitZ();
+    if (i + 2 == rotation.size()) {
+      x += segment_length / 2 * before;
+      break;
+    }
+    turn(rotation[i + 1]);
+    const Vector3d after = q * Vector3d::UnitZ();
+    x += segment_length / 2 * (1 + (1 - before.dot(after)) / 12) * (before + after);
   }
   turn(rotation.back());
   append(chain.clamp_position, x);

@@ -45,16 +45,21 @@ void write_motion(const std::filesystem::path& name, const std::vector<int>& spa
       if (turn.norm() > 0) q = q * Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
       arc += by;
     };
-    const auto half = [&] { x += l / 2 * (q * Eigen::Vector3d::UnitZ()); };
+    const auto tangent = [&] { return Eigen::Vector3d(q * Eigen::Vector3d::UnitZ()); };
     put(clamp_position, clamp_orientation);
     for (const int n : spans) {
       advance(l / 2);
+      x += l / 2 * tangent();
       for (int i = 0; i < n; ++i) {
-        half();
         put(position, orientation);
-        half();
-        advance(i + 1 < n ? l : l / 2);
+        const Eigen::Vector3d from = tangent();
+        if (i + 1 < n) {
+          advance(l);  // the segments' ends meet a little further out where they bend (sim/README.md, S17)
+          x += l / 2 * (1 + (1 - from.dot(tangent())) / 12) * (from + tangent());
+        }
       }
+      x += l / 2 * tangent();
+      advance(l / 2);
       put(clamp_position, clamp_orientation);
     }
     file.append("/time", std::vector<double>{0.04 * t});

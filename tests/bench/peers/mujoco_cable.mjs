@@ -64,13 +64,22 @@ for (let k = 0; k < steps; ++k) {
   }
 }
 const used = process.cpuUsage(started);
-const rms = Array.from(sum, (x) => Math.sqrt(x / counted));
+/// At s links from the base: the cubic through the four links around it, as in the header.
+function mean_square(s) {
+  const first = Math.min(Math.max(Math.floor(s) - 1, 0), n - 3);
+  let value = 0;
+  for (let a = 0; a < 4; ++a) {
+    let weight = 1 / counted;
+    for (let b = 0; b < 4; ++b) if (b !== a) weight *= (s - first - b) / (a - b);
+    value += weight * sum[first + a];
+  }
+  return value;
+}
 
 const beam = [...readFileSync(header, "utf8").split("beam_curvature")[1].matchAll(/\{([\d.]+), ([\d.]+)\}/g)].map((m) => Number(m[2]));
 let off = 0, size = 0;
 beam.forEach((expected, k) => {
-  const s = (0.0125 + 0.025 * k) / l, j = Math.min(n - 1, Math.floor(s)), part = s - j;
-  off += ((1 - part) * rms[j] + part * rms[j + 1] - expected) ** 2;
+  off += (Math.sqrt(mean_square((0.0125 + 0.025 * k) / l)) - expected) ** 2;
   size += expected ** 2;
 });
 const seconds = (used.user + used.system) / 1e6 / end;
