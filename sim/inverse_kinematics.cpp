@@ -109,10 +109,10 @@ std::vector<VectorXd> InverseKinematics::arms(const Frame& flange, const VectorX
   const Vector3 wrist = flange.point(inverse(zero_).point(wrist_));
   const Vector3 w1 = axis_[0], w2 = axis_[1], w3 = axis_[2];
   const Vector3 from = wrist - point_[0];
-  // (R8): w2.R1(-q) v = w2.(v cos q + (v x w1) sin q) for the part of v across w1; along w1 w2 has nothing.
+  // (K1): w2.R1(-q) v = w2.(v cos q + (v x w1) sin q) for the part of v across w1; along w1 w2 has nothing.
   const double beside = w2.dot(wrist_ - point_[0]);
   for (double q1 : angles(w2.dot(from), w2.dot(from.cross(w1)), beside)) {
-    const Vector3 in_plane = point_[0] + turn(w1, -q1) * from;  // W' of (R9)
+    const Vector3 in_plane = point_[0] + turn(w1, -q1) * from;  // W' of (K2)
     const auto flat = [&](const Vector3& v) { return Vector3(v - w2.dot(v) * w2); };
     const Vector3 lower = flat(point_[2] - point_[1]), upper = flat(wrist_ - point_[2]),
                   reach = flat(in_plane - point_[1]);
@@ -129,7 +129,7 @@ void InverseKinematics::add_wrists(const Frame& flange, double q1, double q2, do
                                    std::vector<VectorXd>& found) const {
   const Vector3 w4 = axis_[3], w5 = axis_[4], w6 = axis_[5];
   const Quaternion arm = turn(axis_[0], q1) * turn(axis_[1], q2) * turn(axis_[2], q3);
-  const Quaternion m = arm.conjugate() * flange.orientation * zero_.orientation.conjugate();  // M of (R10)
+  const Quaternion m = arm.conjugate() * flange.orientation * zero_.orientation.conjugate();  // M of (K3)
   const Vector3 along = w5.dot(w6) * w5, across = w6 - along;  // R5 w6 = along + across cos + (w5 x w6) sin
   for (double q5 : angles(w4.dot(across), w4.dot(w5.cross(w6)), w4.dot(m * w6) - w4.dot(along))) {
     VectorXd joints(6);

@@ -2,13 +2,13 @@
 // meant.
 //
 // Six axes with a spherical wrist: axis 2 is perpendicular to axis 1, axis 3 parallel to axis 2, axes 4, 5, 6
-// meet in one point, the wrist centre W. With axes (p_i, w_i) at zero angles, all in closed form: (R8)
+// meet in one point, the wrist centre W. With axes (p_i, w_i) at zero angles, all in closed form: (K1)
 // w2.R1(-q1)(W - p1) = w2.(W0 - p1): turning about axes 2 and 3 keeps W at its distance beside axis 1; two
 //      q1, in front of and behind the axis.
-// (R9) |W' - p2|^2 = |p3 - p2|^2 + |W0 - p3|^2 + 2 (p3 - p2).R3(q3)(W0 - p3), in the plane across w2: two q3,
+// (K2) |W' - p2|^2 = |p3 - p2|^2 + |W0 - p3|^2 + 2 (p3 - p2).R3(q3)(W0 - p3), in the plane across w2: two q3,
 // the
 //      elbow on either side; then q2 by the angle between what it turns.
-// (R10) w4.M w6 = w4.R5(q5) w6, M = (R1 R2 R3)^-1 R R0^-1: two q5; then q4 and q6 by what they turn. Where w6
+// (K3) w4.M w6 = w4.R5(q5) w6, M = (R1 R2 R3)^-1 R R0^-1: two q5; then q4 and q6 by what they turn. Where w6
 // comes
 //      to lie on w4, q4 is free: it stays where the robot was.
 // Each is a cos q + b sin q = c. Eight arms at most, and each axis may be whole turns away, within its

@@ -1,6 +1,7 @@
 #include "sim/periodic.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dresslife::sim {
 namespace {
@@ -23,6 +24,9 @@ double state_distance(const Rod& rod, const RodState& a, const RodState& b) {
     largest = std::max(largest, (a.position[i] - b.position[i]).norm() + radius * turn +
                                     sway_time * (a.velocity[i] - b.velocity[i]).norm());
   }
+  for (size_t k = 0; k < rod.spans().size(); ++k)
+    largest = std::max(largest, std::abs(a.travel[k].way - b.travel[k].way) +
+                                    sway_time * std::abs(a.travel[k].speed - b.travel[k].speed));
   return largest;
 }
 

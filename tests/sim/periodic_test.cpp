@@ -50,6 +50,11 @@ TEST_CASE("periodic: the distance of two states is what a point of the surface m
   b = a;
   b.velocity[0].y() = 0.02;
   CHECK(state_distance(rod, a, b) == Approx(0.002));
+  b = a;  // a retraction unit that is pulled out further, and one that moves
+  b.travel[0].way = 0.003;
+  CHECK(state_distance(rod, a, b) == Approx(0.003));
+  b.travel[0].speed = 0.01;
+  CHECK(state_distance(rod, a, b) == Approx(0.004));
 }
 
 TEST_CASE("periodic: a motion returns when its joints do, not when its clamps look alike") {
