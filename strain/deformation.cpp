@@ -63,8 +63,12 @@ constexpr std::array<std::array<double, 3>, 3> end_weights{{{135.0 / 112, -55.0 
 
 }  // namespace
 
-DeformationGauge::DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure)
-    : lengths_(std::move(lengths)), measure_(measure), links_(lengths_.size() + 1) {
+DeformationGauge::DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure,
+                                   std::optional<Vector3d> free_end)
+    : lengths_(std::move(lengths)),
+      measure_(measure),
+      free_end_(std::move(free_end)),
+      links_(lengths_.size() + 1) {
   assert(!lengths_.empty());
   const auto [shortest, longest] = std::minmax_element(lengths_.begin(), lengths_.end());
   equal_lengths_ = *longest - *shortest <= 1e-9 * *longest;  // rounding of a length divided by a number
@@ -112,16 +116,24 @@ void DeformationGauge::rotation_vectors(std::span<Deformation> out) const {
   const std::size_t segments = lengths_.size();
   if (segments < fewest_for_curves || !equal_lengths_) return rotation_vectors_on_lines(out);
   const double l = lengths_.front();
-  auto rate = [&](std::size_t link) { return Vector3d(links_[link].rotation / l); };
-  for (std::size_t i = end_weights.size(); i + end_weights.size() < segments; ++i)
-    set(out[i], (9 * (rate(i) + rate(i + 1)) - rate(i - 1) - rate(i + 2)) / 16);
+  auto rate = [&](std::size_t link) {
+    return free_end_ && link == segments ? *free_end_ : Vector3d(links_[link].rotation / l);
+  };
+  const auto on_cubic = [&](std::size_t i) {
+    return Vector3d((9 * (rate(i) + rate(i + 1)) - rate(i - 1) - rate(i + 2)) / 16);
+  };
+  for (std::size_t i = end_weights.size(); i + end_weights.size() < segments; ++i) set(out[i], on_cubic(i));
   const Vector3d base = (rate(0) + rate(1)) / 1.5, tool = (rate(segments) + rate(segments - 1)) / 1.5;
   for (std::size_t i = 0; i < end_weights.size(); ++i) {
     const auto& weight = end_weights[i];
     set(out[i], weight[0] * base + weight[1] * rate(2) + weight[2] * rate(3));
-    set(out[segments - 1 - i],
-        weight[0] * tool + weight[1] * rate(segments - 2) + weight[2] * rate(segments - 3));
+    if (!free_end_)
+      set(out[segments - 1 - i],
+          weight[0] * tool + weight[1] * rate(segments - 2) + weight[2] * rate(segments - 3));
   }
+  if (!free_end_) return;
+  for (std::size_t i = segments - end_weights.size(); i + 1 < segments; ++i) set(out[i], on_cubic(i));
+  set(out[segments - 1], (3 * *free_end_ + 6 * rate(segments - 1) - rate(segments - 2)) / 8);
 }
 
 /// The same for unequal lengths or few segments: the value at the centre on the line through the two links,

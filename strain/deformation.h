@@ -26,6 +26,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,8 +51,10 @@ struct ChainPose {
 
 class DeformationGauge {
  public:
-  /// lengths: rest length of each segment [m].
-  DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure);
+  /// lengths: rest length of each segment [m]. free_end: where the tool end is free, the rotation rates of the
+  /// unloaded dresspack about d1, d2, d3, which it has there [1/m].
+  DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure,
+                   std::optional<Eigen::Vector3d> free_end = {});
 
   /// The deformation of every segment. Precondition: `pose` has as many segments, `out` too.
   void measure(const ChainPose& pose, std::span<Deformation> out);
@@ -73,6 +76,7 @@ class DeformationGauge {
   std::vector<double> lengths_, link_lengths_;
   bool equal_lengths_;
   pipeline::DeformationMeasure measure_;
+  std::optional<Eigen::Vector3d> free_end_;
   std::vector<Link> links_;
 };
 

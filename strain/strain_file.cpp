@@ -21,11 +21,12 @@ constexpr double first_pass_share = 0.05;   // of the work, for the progress dis
 /// Reads the motion block by block and measures the deformation of every segment.
 class MotionReader {
  public:
-  MotionReader(const FileReader& file, pipeline::DeformationMeasure measure)
+  MotionReader(const FileReader& file, const pipeline::Job& job)
       : file_(file), lengths_(file.read<double>("/segment/length")), samples_(file.rows("/time")) {
     if (lengths_.empty()) return;
     spans_ = pipeline::motion_spans(file);
-    for (const pipeline::MotionSpan& span : spans_) gauges_.emplace_back(lengths_of(span), measure);
+    for (std::size_t k = 0; k < spans_.size(); ++k)
+      gauges_.emplace_back(lengths_of(spans_[k]), job.strain.deformation, free_end(job, k));
   }
 
   std::size_t samples() const { return samples_; }
@@ -67,6 +68,16 @@ class MotionReader {
   }
 
  private:
+  /// Rates of the unloaded dresspack, if it ends freely at the tool end of span k.
+  std::optional<Eigen::Vector3d> free_end(const pipeline::Job& job, std::size_t k) const {
+    const auto dresspack = static_cast<std::size_t>(spans_[k].dresspack);
+    const bool last = k + 1 == spans_.size() || spans_[k + 1].dresspack != spans_[k].dresspack;
+    if (dresspack >= job.dresspacks.size()) return {};  // check() tells of it
+    const pipeline::MountedDresspack& mounted = job.dresspacks[dresspack];
+    if (!last || mounted.routing.tool_end != pipeline::ToolEnd::free) return {};
+    return Eigen::Vector3d(0, mounted.dresspack.rest_curvature, 0);
+  }
+
   const FileReader& file_;
   std::vector<double> lengths_;
   std::size_t samples_;
@@ -234,7 +245,7 @@ struct Evaluations {
 std::string write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
                          std::size_t threads, const std::function<void(double)>& progress,
                          std::size_t history_bytes) {
-  MotionReader reader(motion, job.strain.deformation);
+  MotionReader reader(motion, job);
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
