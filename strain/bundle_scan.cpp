@@ -93,30 +93,49 @@ std::span<TurningList> BundleScan::lists_of(const Group& group, int fibre) {
   return std::span(lists_).subspan(group.first_list + fibre * wires, wires);
 }
 
+void BundleScan::scan_waves(std::size_t count) {
+  const int fibres = settings_.fibre_count;
+  runs_.clear();
+  for (Group& group : groups_)
+    for (int f = 0; f < fibres; ++f) {
+      LaneRun& run = runs_.emplace_back(group.scans[f].next(count, lists_of(group, f)));
+      for (int w = 0; w < waves_per_layer; ++w)
+        run.waves.at[w] = waves_.data() + ((group.layer * fibres + f) * waves_per_layer + w) * block_samples;
+    }
+  kernels().scan(runs_.data(), runs_.size(), count);
+  for (Group& group : groups_)
+    for (int f = 0; f < fibres; ++f) group.scans[f].done(lists_of(group, f));
+}
+
+void BundleScan::scan_mixed(std::size_t count, bool keep) {
+  const int fibres = settings_.fibre_count, kinds = ingredients(fibres);
+  strains_.resize(fibres * block_samples * lanes);
+  for (Group& group : groups_) {
+    const float* of_layer = waves_.data() + group.layer * kinds * waves_per_layer * block_samples;
+    kernels().mix(group.mixed, of_layer, block_samples, count, fibres, strains_.data());
+    if (!keep) continue;
+    runs_.clear();
+    for (int f = 0; f < fibres; ++f)
+      runs_.emplace_back(group.scans[f].next(count, lists_of(group, f))).strain =
+          strains_.data() + f * count * lanes;
+    kernels().scan_strains(runs_.data(), runs_.size(), count);
+    for (int f = 0; f < fibres; ++f) group.scans[f].done(lists_of(group, f));
+  }
+}
+
 void BundleScan::run_blocks(const BundlePointers& chain, bool mixed, bool keep,
                             const DeformationColumns& columns, std::size_t samples) {
   const std::size_t layers = chain.node_count / waves_per_layer;
-  const int fibres = settings_.fibre_count, kinds = mixed ? ingredients(fibres) : fibres;
+  const int kinds = mixed ? ingredients(settings_.fibre_count) : settings_.fibre_count;
   waves_.resize(layers * kinds * waves_per_layer * block_samples);
-  strains_.resize(mixed ? fibres * block_samples * lanes : 0);
   for (std::size_t first = 0; first < samples; first += block_samples) {
     const std::size_t count = std::min(block_samples, samples - first);
     const auto fill = mixed ? kernels().ingredient_waves : kernels().layer_waves;
     fill(chain, columns, first, count, waves_.data(), block_samples);
-    for (Group& group : groups_) {
-      const float* of_layer = waves_.data() + group.layer * kinds * waves_per_layer * block_samples;
-      if (mixed) kernels().mix(group.mixed, of_layer, block_samples, count, fibres, strains_.data());
-      for (int f = 0; keep && f < fibres; ++f) {
-        if (mixed) {
-          group.scans[f].scan_strains(strains_.data() + f * count * lanes, count, lists_of(group, f));
-          continue;
-        }
-        Waves of;
-        for (int w = 0; w < waves_per_layer; ++w)
-          of.at[w] = of_layer + (f * waves_per_layer + w) * block_samples;
-        group.scans[f].scan(of, count, lists_of(group, f));
-      }
-    }
+    if (mixed)
+      scan_mixed(count, keep);
+    else
+      scan_waves(count);
   }
 }
 

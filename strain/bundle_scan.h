@@ -65,6 +65,9 @@ class BundleScan {
   MixedLanes mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
                          const std::vector<double>& angles) const;
   std::span<TurningList> lists_of(const Group& group, int fibre);
+  /// The next `count` samples of all groups, from the waves of the block.
+  void scan_waves(std::size_t count);
+  void scan_mixed(std::size_t count, bool keep);
   void run_blocks(const BundlePointers& chain, bool mixed, bool keep, const DeformationColumns& columns,
                   std::size_t samples);
 
@@ -74,6 +77,7 @@ class BundleScan {
   std::vector<Group> groups_;
   std::vector<TurningList> lists_;
   std::vector<float> waves_, strains_;
+  std::vector<LaneRun> runs_;
 };
 
 }  // namespace dresslife::strain

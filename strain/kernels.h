@@ -19,6 +19,9 @@
 
 namespace dresslife::strain {
 
+/// What scan() writes beyond a wire's last turning point, and then writes over.
+constexpr std::size_t spare_points = 4;
+
 // ---- strains of a bundle ----------------------------------------------------------------------------------
 
 /// The deformation of one segment over time: pointers to (sample) values.
@@ -71,7 +74,7 @@ struct BundleChain {
   std::vector<ChainStep> steps;
   std::vector<WireNode> nodes;  ///< for waves: waves_per_layer nodes a layer, evenly spaced
   std::vector<Fibre> fibres;
-  int order = 0;  ///< of the part's state: 1 when fibres feel bend1
+  int order = 0;              ///< of the part's state: 1 when fibres feel bend1
   double rest_curvature = 0;  ///< of the undeformed dresspack, about d2 [1/m]
 };
 
@@ -101,17 +104,26 @@ struct Waves {
 /// Sixteen wires between two blocks of samples. Spare lanes repeat the first wire and write nothing.
 struct LaneState {
   alignas(64) float shape[waves_per_layer - 1][lanes];  ///< sin, cos, sin 2, cos 2 of each wire's angle
-  alignas(64) float direction[lanes];  ///< +1 rising, -1 falling, 0 not yet moved by the gate
-  alignas(64) float extreme[lanes];    ///< furthest strain in that direction since the last turn
-  alignas(64) float low[lanes];        ///< lowest and highest while the direction is 0
-  alignas(64) float high[lanes];
+  alignas(64) float edge[lanes];                        ///< of the hysteresis (kernels_turning.h)
+  alignas(64) float top_edge[lanes];  ///< the same, started from a peak, while wires are undecided
+  alignas(64) float extreme[lanes];   ///< furthest strain since the last turn
+  alignas(64) float top[lanes];       ///< highest strain of a wire that has not moved by the gate yet
   alignas(64) float last[lanes];
   alignas(64) std::int32_t extreme_at[lanes];
-  alignas(64) std::int32_t low_at[lanes];
-  alignas(64) std::int32_t high_at[lanes];
-  int used = 0;             ///< wires
+  alignas(64) std::int32_t top_at[lanes];
+  alignas(64) std::int32_t rises[lanes];  ///< -1: `extreme` is a peak in the making, 0: a valley
+  unsigned decided = 0;                   ///< wires that have moved by the gate
+  int used = 0;                           ///< wires
   float below_gate = 0;     ///< largest number below the gate: a turn is kept when strain moves away by more
   std::int32_t sample = 0;  ///< of the next strain
+};
+
+/// Up to sixteen wires and what they go through next: waves, or strain[t * lanes + lane].
+struct LaneRun {
+  LaneState* state;
+  Waves waves;
+  const float* strain;
+  TurningPoint** end;  ///< (wire) where its next turning point goes; moves on. Room: count + spare_points.
 };
 
 // ---- the set for this machine -----------------------------------------------------------------------------
@@ -171,11 +183,10 @@ struct Kernels {
   /// Path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
   void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                          std::size_t count, double weight, double* sum, std::size_t stride);
-  /// The next `count` samples of up to sixteen wires; end[j], where the next turning point of wire j goes,
-  /// moves on. It needs room for count + 1 points.
-  void (*scan)(LaneState&, const Waves&, std::size_t count, TurningPoint** end);
-  /// The same from the strains themselves, strain[t * lanes + lane].
-  void (*scan_strains)(LaneState&, const float* strain, std::size_t count, TurningPoint** end);
+  /// The next `count` samples of several runs, from their waves.
+  void (*scan)(const LaneRun*, std::size_t runs, std::size_t count);
+  /// The same from their strains.
+  void (*scan_strains)(const LaneRun*, std::size_t runs, std::size_t count);
   /// Precondition: count > 0.
   StrainMeasures (*measures)(const float* strain, std::size_t count);
 };

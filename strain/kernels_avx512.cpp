@@ -12,13 +12,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "pipeline/job.h"
 
 #pragma GCC push_options
-#pragma GCC target("avx,avx2,fma,bmi,bmi2,avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512")
+#pragma GCC target("avx,avx2,fma,bmi,bmi2,avx512f,avx512vl,avx512bw,avx512dq,avx512cd,prefer-vector-width=512")
 #include "strain/kernels_body.h"
 #pragma GCC pop_options
 #endif

@@ -58,7 +58,16 @@ inline IntPack select(Mask mask, const IntPack& yes, const IntPack& no) {
       _mm512_mask_blend_epi32(mask, reinterpret_cast<__m512i>(no), reinterpret_cast<__m512i>(yes)));
 }
 inline unsigned bits(Mask mask) { return mask; }  ///< bit j: of lane j
+inline Mask nonzero(const IntPack& a) {
+  return _mm512_test_epi32_mask(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(a));
+}
 inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return _mm512_max_ps(a, b); }
+inline FloatPack smaller(const FloatPack& a, const FloatPack& b) { return _mm512_min_ps(a, b); }
+inline IntPack marked(const IntPack& word, Mask where, const IntPack& bit) {
+  return reinterpret_cast<IntPack>(_mm512_mask_or_epi32(reinterpret_cast<__m512i>(word), where,
+                                                        reinterpret_cast<__m512i>(word),
+                                                        reinterpret_cast<__m512i>(bit)));
+}
 
 #elif DRESSLIFE_REGISTER_BYTES == 32
 
@@ -72,7 +81,12 @@ inline IntPack select(Mask mask, const IntPack& yes, const IntPack& no) {
       _mm256_blendv_ps(reinterpret_cast<__m256>(no), reinterpret_cast<__m256>(yes), mask));
 }
 inline unsigned bits(Mask mask) { return static_cast<unsigned>(_mm256_movemask_ps(mask)); }
+inline Mask nonzero(const IntPack& a) { return reinterpret_cast<Mask>(a != 0); }
 inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return _mm256_max_ps(a, b); }
+inline FloatPack smaller(const FloatPack& a, const FloatPack& b) { return _mm256_min_ps(a, b); }
+inline IntPack marked(const IntPack& word, Mask where, const IntPack& bit) {
+  return word | (reinterpret_cast<IntPack>(where) & bit);
+}
 
 #else
 
@@ -85,9 +99,55 @@ inline IntPack select(const Mask& mask, const IntPack& yes, const IntPack& no) {
 inline unsigned bits(const Mask& mask) {
   return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
 }
+inline Mask nonzero(const IntPack& a) { return a != 0; }
 inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return a > b ? a : b; }
+inline FloatPack smaller(const FloatPack& a, const FloatPack& b) { return a < b ? a : b; }
+inline IntPack marked(const IntPack& word, const Mask& where, const IntPack& bit) {
+  return word | (where & bit);
+}
 
 #endif
+
+// ---- words of bits, one a lane
+// -----------------------------------------------------------------------------
+
+typedef std::uint32_t WordPack __attribute__((vector_size(register_bytes)));
+
+inline IntPack shifted_right(const IntPack& word, int by) {
+  return reinterpret_cast<IntPack>(reinterpret_cast<WordPack>(word) >> static_cast<std::uint32_t>(by));
+}
+
+/// The number of the highest bit that is set; of a word without any, some number from 0 to 31.
+inline IntPack highest_bit(const IntPack& word) {
+#if DRESSLIFE_REGISTER_BYTES == 64
+  return (31 - reinterpret_cast<IntPack>(_mm512_lzcnt_epi32(reinterpret_cast<__m512i>(word)))) & 31;
+#elif DRESSLIFE_REGISTER_BYTES == 32
+  // The exponent of the word as a float; with the bit below the highest one cleared it cannot be rounded up.
+  const IntPack top = word & ~shifted_right(word, 1);
+  const IntPack number = reinterpret_cast<IntPack>(_mm256_cvtepi32_ps(reinterpret_cast<__m256i>(top)));
+  return ((shifted_right(number, 23) - 127) | (word >> 31)) & 31;
+#else
+  IntPack number;
+  for (int lane = 0; lane < float_pack_size; ++lane)
+    number[lane] = word[lane] != 0 ? 31 - __builtin_clz(static_cast<unsigned>(word[lane])) : 0;
+  return number;
+#endif
+}
+
+/// Of each lane j, rows[row[j]][j].
+inline FloatPack gathered(const float (*rows)[float_pack_size], const IntPack& row) {
+#if DRESSLIFE_REGISTER_BYTES == 64
+  const IntPack lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  return _mm512_i32gather_ps(reinterpret_cast<__m512i>(row * float_pack_size + lane), rows, sizeof(float));
+#elif DRESSLIFE_REGISTER_BYTES == 32
+  const IntPack lane{0, 1, 2, 3, 4, 5, 6, 7};
+  return _mm256_i32gather_ps(rows[0], reinterpret_cast<__m256i>(row * float_pack_size + lane), sizeof(float));
+#else
+  FloatPack value;
+  for (int lane = 0; lane < float_pack_size; ++lane) value[lane] = rows[row[lane]][lane];
+  return value;
+#endif
+}
 
 // ---- roots and quotients, to a few units of the last place ------------------------------------------------
 

@@ -1,7 +1,6 @@
 #include "strain/reversals.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -44,7 +43,7 @@ void TurningPoints::finish(TurningList& out) const {
   out.add(last_, sample_ - 1);
 }
 
-LaneScan::LaneScan(std::span<const double> angles, float gate, const Kernels& machine) : machine_(&machine) {
+LaneScan::LaneScan(std::span<const double> angles, float gate) {
   assert(!angles.empty() && angles.size() <= lanes);
   state_.used = static_cast<int>(angles.size());
   state_.below_gate = gate > 0 ? std::nextafter(gate, 0.0f) : 0;
@@ -60,31 +59,22 @@ LaneScan::LaneScan(std::span<const double> angles, float gate, const Kernels& ma
 
 void LaneScan::restart() {
   state_.sample = 0;
-  std::ranges::fill(state_.direction, 0.0f);
-  for (auto* at : {&state_.extreme_at, &state_.low_at, &state_.high_at}) std::ranges::fill(*at, 0);
+  state_.decided = 0;
 }
 
-void LaneScan::scan(const Waves& waves, std::size_t count, std::span<TurningList> out) {
-  assert(static_cast<int>(out.size()) == state_.used);
-  if (count == 0) return;
-  std::array<TurningPoint*, lanes> end{};
-  for (std::size_t wire = 0; wire < out.size(); ++wire) end[wire] = out[wire].room(count + 1);
-  machine_->scan(state_, waves, count, end.data());
-  for (std::size_t wire = 0; wire < out.size(); ++wire) out[wire].set_end(end[wire]);
+LaneRun LaneScan::next(std::size_t count, std::span<TurningList> out) {
+  assert(static_cast<int>(out.size()) == state_.used && count > 0);
+  for (std::size_t wire = 0; wire < out.size(); ++wire) end_[wire] = out[wire].room(count + spare_points);
+  return {&state_, {}, nullptr, end_.data()};
 }
 
-void LaneScan::scan_strains(const float* strain, std::size_t count, std::span<TurningList> out) {
-  assert(static_cast<int>(out.size()) == state_.used);
-  if (count == 0) return;
-  std::array<TurningPoint*, lanes> end{};
-  for (std::size_t wire = 0; wire < out.size(); ++wire) end[wire] = out[wire].room(count + 1);
-  machine_->scan_strains(state_, strain, count, end.data());
-  for (std::size_t wire = 0; wire < out.size(); ++wire) out[wire].set_end(end[wire]);
+void LaneScan::done(std::span<TurningList> out) const {
+  for (std::size_t wire = 0; wire < out.size(); ++wire) out[wire].set_end(end_[wire]);
 }
 
 void LaneScan::finish(std::span<TurningList> out) {
   for (int wire = 0; wire < state_.used && state_.sample > 1; ++wire) {
-    const bool moved = state_.direction[wire] != 0;
+    const bool moved = (state_.decided >> wire & 1) != 0;
     if (moved && state_.extreme_at[wire] != state_.sample - 1)
       out[wire].add(state_.extreme[wire], static_cast<std::uint32_t>(state_.extreme_at[wire]));
     out[wire].add(state_.last[wire], static_cast<std::uint32_t>(state_.sample - 1));

@@ -9,6 +9,7 @@
 //     strain_j(t) = w0 + w1 sin(theta_j) + w2 cos(theta_j) + w3 sin(2 theta_j) + w4 cos(2 theta_j).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -37,20 +38,20 @@ class TurningPoints {
 class LaneScan {
  public:
   /// angles: theta_j of up to 16 wires, relative to the angle from which the waves count [rad].
-  LaneScan(std::span<const double> angles, float gate, const Kernels& machine = kernels());
+  LaneScan(std::span<const double> angles, float gate);
 
-  /// The next `count` samples; turning points of wire j go to out[j].
-  void scan(const Waves& waves, std::size_t count, std::span<TurningList> out);
-  /// The same from the strains themselves, strain[t * lanes + wire].
-  void scan_strains(const float* strain, std::size_t count, std::span<TurningList> out);
-  void finish(std::span<TurningList> out);
-  void restart();  ///< for another history of the same wires
+  /// What the kernels scan for the next `count` samples, turning points of wire j to out[j]; the caller sets
+  /// waves or strains. done() follows the scan.
+  LaneRun next(std::size_t count, std::span<TurningList> out);
+  void done(std::span<TurningList> out) const;
+  void finish(std::span<TurningList> out);  ///< after the last sample
+  void restart();                           ///< for another history of the same wires
 
   int wires() const { return state_.used; }
 
  private:
-  const Kernels* machine_;
   LaneState state_;
+  std::array<TurningPoint*, lanes> end_{};
 };
 
 }  // namespace dresslife::strain

@@ -124,13 +124,14 @@ TEST_CASE("sixteen wires side by side turn where each turns alone") {
         }
         std::vector<double> angles(wires);
         for (std::size_t j = 0; j < wires; ++j) angles[j] = 2 * pi * static_cast<double>(j) / 16;
-        LaneScan scan(angles, gate, *machine);
+        LaneScan scan(angles, gate);
         std::vector<TurningList> lists(wires);
         for (std::size_t from = 0; from < samples;) {  // in uneven blocks
           const std::size_t count = std::min<std::size_t>(samples - from, 1 + from % 97);
-          Waves waves;
-          for (int w = 0; w < waves_per_layer; ++w) waves.at[w] = wave[w].data() + from;
-          scan.scan(waves, count, lists);
+          LaneRun run = scan.next(count, lists);
+          for (int w = 0; w < waves_per_layer; ++w) run.waves.at[w] = wave[w].data() + from;
+          machine->scan(&run, 1, count);
+          scan.done(lists);
           from += count;
         }
         scan.finish(lists);
