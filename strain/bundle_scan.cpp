@@ -28,7 +28,14 @@ double rest_ingredient(const WireNode& node, const Fibre* fibre) {
 void PartStates::fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples) {
   stride_ = padded(samples);
   rows_.resize(part_state_rows(chain.order) * stride_);
-  kernels().part_states(pointers(chain), columns, 0, samples, rows_.data(), stride_);
+  single_.resize(part_rows * stride_);
+  kernels().part_states(pointers(chain), columns, 0, samples, rows_.data(), single_.data(), stride_);
+}
+
+void PartStates::lend(BundlePointers& chain) const {
+  chain.parent = rows_.data();
+  chain.parent_rows = single_.data();
+  chain.parent_stride = stride_;
 }
 
 MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,

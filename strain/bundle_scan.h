@@ -27,11 +27,12 @@ class PartStates {
  public:
   /// chain: down to the part, its order that of its parts plus one.
   void fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples);
-  const double* rows() const { return rows_.data(); }
-  std::size_t stride() const { return stride_; }
+  /// To the chain of one of its parts.
+  void lend(BundlePointers& chain) const;
 
  private:
   std::vector<double> rows_;
+  std::vector<float> single_;
   std::size_t stride_ = 0;
 };
 

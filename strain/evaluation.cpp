@@ -182,8 +182,7 @@ BundlePointers Evaluation::from_parent(const BundleChain& chain, int part, std::
     worker.parent.fill(to_parent, history.columns(row), history.samples());
     worker.parent_is = wanted;
   }
-  from.parent = worker.parent.rows();
-  from.parent_stride = worker.parent.stride();
+  worker.parent.lend(from);
   return from;
 }
 

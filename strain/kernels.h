@@ -86,8 +86,27 @@ struct BundlePointers {
   /// States of the part in which the last part of the chain lies, from part_states(); null: the chain is
   /// followed from the dresspack.
   const double* parent = nullptr;
+  const float* parent_rows = nullptr;  ///< the same, (PartRow, sample)
   std::size_t parent_stride = 0;
   double rest_curvature = 0;
+};
+
+/// What goes on inside a part needs of it, in single precision, one row of samples each: its state, that
+/// against the construction at rest, and its slopes along itself.
+enum PartRow {
+  part_stretch,
+  part_bend1,
+  part_bend2,
+  part_twist,
+  stretch_change,
+  bend1_change,
+  bend2_change,
+  twist_change,
+  stretch_slope,
+  bend1_slope,
+  bend2_slope,
+  twist_slope,
+  part_rows
 };
 
 /// Rows of a part's state: stretch, bend1, bend2, twist, each with its powers 0 .. order.
@@ -118,6 +137,14 @@ struct LaneState {
   std::int32_t sample = 0;  ///< of the next strain
 };
 
+/// What ranks the wires of a bound, of the strains at turning points.
+struct StrainMeasures {
+  float lowest, highest;
+  /// Something like the damage of Smith, Watson and Topper: sum of (range times tensile peak)^3 between
+  /// neighbours, a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
+  float cycle_sum;
+};
+
 /// Up to sixteen wires and what they go through next: waves, or strain[t * lanes + lane].
 struct LaneRun {
   LaneState* state;
@@ -144,14 +171,6 @@ struct MixedLanes {
   bool with_shear = false, on_axis = false;
 };
 
-/// What ranks the wires of a bound, of the strains at turning points.
-struct StrainMeasures {
-  float lowest, highest;
-  /// Something like the damage of Smith, Watson and Topper: sum of (range times tensile peak)^3 between
-  /// neighbours, a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
-  float cycle_sum;
-};
-
 struct Kernels {
   const char* machine;
   /// Strains of every node and fibre at samples [first, first + count), to out[(node * fibres + fibre) *
@@ -167,9 +186,10 @@ struct Kernels {
   /// the pitch of the ancestor at `turned_level`, its own where that is 0.
   void (*deviations)(const BundlePointers&, int turn, int turned_level, const DeformationColumns&,
                      std::size_t first, std::size_t count, double* out, std::size_t stride);
-  /// States of the last part of a chain, to out[row * stride + t]. See part_state_rows().
+  /// States of the last part of a chain, to out[row * stride + t], see part_state_rows(), and to
+  /// rows[PartRow * stride + t], without slopes where the order is 0.
   void (*part_states)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
-                      double* out, std::size_t stride);
+                      double* out, float* rows, std::size_t stride);
   /// Ingredients of every node, to out[(node * ingredients + ingredient) * stride + t].
   void (*node_ingredients)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                            std::size_t count, double* out, std::size_t stride);
@@ -206,6 +226,7 @@ inline BundlePointers pointers(const BundleChain& chain) {
           static_cast<int>(chain.nodes.size()),
           static_cast<int>(chain.fibres.size()),
           chain.order,
+          nullptr,
           nullptr,
           0,
           chain.rest_curvature};

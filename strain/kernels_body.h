@@ -100,20 +100,6 @@ inline void descend(const BundlePointers& chain, const DeformationColumns& in, s
   descend(chain, in, sample, descent, chain.step_count);
 }
 
-__attribute__((flatten)) void part_states(const BundlePointers& chain, const DeformationColumns& in,
-                                          std::size_t first, std::size_t count, double* out,
-                                          std::size_t stride) {
-  for (std::size_t t = 0; t < count; t += pack_size) {
-    Descent descent;
-    descend(chain, in, first + t, descent);
-    const Rod<Pack>& rod = descent.rods[chain.step_count];
-    double* row = out + t;
-    for (const Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist})
-      for (int power = 0; power <= chain.order; ++power, row += stride)
-        store(power <= series->order ? series->at[power] : Pack{}, row);  // `thesis` has values only
-  }
-}
-
 void deviations(const BundlePointers& chain, int turn, int turned_level, const DeformationColumns& in,
                 std::size_t first, std::size_t count, double* out, std::size_t stride) {
   const int last = chain.step_count - 1;
@@ -221,23 +207,6 @@ void node_ingredients(const BundlePointers& chain, const DeformationColumns& in,
 //     q = (V^2 - V0^2) / V0^2 = (R^2 dsigma (sigma + sigma0) + dy (y + y0)) / V0^2,
 //     strain = sqrt(1 + q) - 1 = q / (1 + sqrt(1 + q)).
 
-/// What the wires of a bundle need of the part they lie in, one row of samples each.
-enum PartRow {
-  part_stretch,
-  part_bend1,
-  part_bend2,
-  part_twist,
-  stretch_change,
-  bend1_change,
-  bend2_change,
-  twist_change,
-  stretch_slope,
-  bend1_slope,
-  bend2_slope,
-  twist_slope,
-  part_rows
-};
-
 constexpr std::size_t chunk = 256;  ///< samples for which the rows stay in the first-level cache
 
 struct PartState {
@@ -246,14 +215,15 @@ struct PartState {
   FloatPack operator()(int row, std::size_t t) const { return load<FloatPack>(rows[row] + t); }
 };
 
-/// The part itself in the undeformed construction.
-struct ParentAtRest {
+/// A part of the chain in the undeformed construction.
+struct PartAtRest {
   double stretch = 1, bend1 = 0, bend2 = 0, twist = 0;
 
-  explicit ParentAtRest(const BundlePointers& chain) {
+  /// The last of the first `steps` parts, or the dresspack.
+  PartAtRest(const BundlePointers& chain, int steps) {
     bend2 = chain.rest_curvature;
-    if (chain.step_count == 0) return;
-    const Rod<double>& rest = chain.steps[chain.step_count - 1].rest;
+    if (steps == 0) return;
+    const Rod<double>& rest = chain.steps[steps - 1].rest;
     stretch = rest.stretch.at[0];
     bend1 = rest.bend1.at[0];
     bend2 = rest.bend2.at[0];
@@ -261,74 +231,43 @@ struct ParentAtRest {
   }
 };
 
-inline bool slides_from_afar(const SlidingNumbers& slide) {
-  return slide.sliding == Sliding::clamp_to_clamp || slide.sliding == Sliding::along_ancestor;
+/// A part's state in single precision, from that in double, to rows[PartRow * stride].
+inline void put_part(const Rod<Pack>& rod, const PartAtRest& rest, int order, float* rows,
+                     std::size_t stride) {
+  const Series<Pack>* const of[] = {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist};
+  const double at_rest[] = {rest.stretch, rest.bend1, rest.bend2, rest.twist};
+  const auto put = [&](int row, const Pack& value) {
+    store(__builtin_convertvector(value, HalfPack), rows + row * stride);
+  };
+  for (int k = 0; k < 4; ++k) {
+    put(part_stretch + k, of[k]->at[0]);
+    put(stretch_change + k, of[k]->at[0] - at_rest[k]);
+    if (order > 0 && of[k]->order > 0) put(stretch_slope + k, of[k]->at[1]);
+  }
 }
 
-/// Fills the state for samples [first, first + count). The strains of nodes that slide from afar wait in
-/// `out`, where the first waves of their layer will be: five rows for five nodes.
-__attribute__((flatten)) void fill_part(const BundlePointers& chain, const DeformationColumns& in,
-                                        std::size_t first, std::size_t count, PartState& state, float* out,
-                                        std::size_t stride, int kinds) {
-  const std::size_t whole_packs = (count + float_pack_size - 1) / float_pack_size * float_pack_size;
-  const int steps = chain.step_count;
-  const ParentAtRest rest(chain);
-  bool any_from_afar = false;
-  for (int n = 0; n < chain.node_count; ++n) any_from_afar |= slides_from_afar(chain.nodes[n].slide);
-  const double at_rest[] = {rest.stretch, rest.bend1, rest.bend2, rest.twist};
-  for (std::size_t t = 0; t < whole_packs; t += pack_size) {
+__attribute__((flatten)) void part_states(const BundlePointers& chain, const DeformationColumns& in,
+                                          std::size_t first, std::size_t count, double* out, float* rows,
+                                          std::size_t stride) {
+  const PartAtRest rest(chain, chain.step_count);
+  for (std::size_t t = 0; t < count; t += pack_size) {
     Descent descent;
     descend(chain, in, first + t, descent);
-    const Rod<Pack>& rod = descent.rods[steps];
-    const Series<Pack>* const of[] = {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist};
-    const auto put = [&](int row, const Pack& value) {
-      store(__builtin_convertvector(value, HalfPack), state.rows[row] + t);
-    };
-    for (int k = 0; k < 4; ++k) {
-      put(part_stretch + k, of[k]->at[0]);
-      put(stretch_change + k, of[k]->at[0] - at_rest[k]);
-      if (chain.order > 0) put(stretch_slope + k, of[k]->at[1]);
-    }
-    for (int n = 0; any_from_afar && n < chain.node_count; ++n)
-      if (const WireNode& node = chain.nodes[n]; slides_from_afar(node.slide))
-        store(__builtin_convertvector(free_strain(chain, descent, steps, node.place, node.slide, first + t),
-                                      HalfPack),
-              out + (n / waves_per_layer * kinds * waves_per_layer + n % waves_per_layer) * stride + t);
+    const Rod<Pack>& rod = descent.rods[chain.step_count];
+    double* row = out + t;
+    for (const Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist})
+      for (int power = 0; power <= chain.order; ++power, row += stride)
+        store(power <= series->order ? series->at[power] : Pack{}, row);  // `thesis` has values only
+    put_part(rod, rest, chain.order, rows + t, stride);
   }
 }
 
-/// A node in the numbers of this loop; names as in helix.h, those at rest with a 0.
-struct NodeNumbers {
-  float sine, cosine, y0, inverse_V0, inverse_V0_squared;
-  float rest_stretch, rest_bend1, rest_bend2;
-
-  NodeNumbers(const WireNode& node, const ParentAtRest& parent) {
-    const Placement& p = node.place;
-    const double X = parent.bend1 * p.sine.at[0] - parent.bend2 * p.cosine.at[0];
-    sine = static_cast<float>(p.sine.at[0]);
-    cosine = static_cast<float>(p.cosine.at[0]);
-    y0 = static_cast<float>(parent.stretch + p.radius * X);
-    inverse_V0 = static_cast<float>(1 / node.rest_rate);
-    inverse_V0_squared = static_cast<float>(1 / (node.rest_rate * node.rest_rate));
-    rest_stretch = static_cast<float>(node.rest.stretch);
-    rest_bend1 = static_cast<float>(node.rest.bend1);
-    rest_bend2 = static_cast<float>(node.rest.bend2);
-  }
-};
-
-/// What the nodes of a layer share.
-struct LayerNumbers {
-  const BundlePointers& chain;
-  const WireNode* nodes;
+/// A helix in a parent at rest, in single precision; names as in helix.h, those at rest with a 0.
+struct HelixNumbers {
   float radius, turn_rate, tangent, c, inverse_c;
-  float sigma0, stretch0, pitch0, inverse_pitch0, second0, inverse_one_and_second0;
-  NodeNumbers node[waves_per_layer];
+  float sigma0, stretch0, strain0, pitch0, inverse_pitch0, second0, inverse_one_and_second0;
 
-  LayerNumbers(const BundlePointers& of, const WireNode* at, const ParentAtRest& parent)
-      : chain(of),
-        nodes(at),
-        node{{at[0], parent}, {at[1], parent}, {at[2], parent}, {at[3], parent}, {at[4], parent}} {
-    const Placement& p = at->place;
+  HelixNumbers(const Placement& p, const PartAtRest& parent) {
     const double sigma = p.turn_rate + parent.twist, A = p.radius * p.radius * sigma * sigma;
     const double y2 = parent.stretch * parent.stretch, inverse2 = 1 / (A + y2);
     const double bend = p.radius * p.radius * (parent.bend1 * parent.bend1 + parent.bend2 * parent.bend2);
@@ -341,11 +280,203 @@ struct LayerNumbers {
     inverse_c = static_cast<float>(1 / p.lay_cosine);
     sigma0 = static_cast<float>(sigma);
     stretch0 = static_cast<float>(parent.stretch);
+    strain0 = static_cast<float>(parent.stretch - 1);
     pitch0 = static_cast<float>(A + y2);
     inverse_pitch0 = static_cast<float>(inverse2);
     second0 = static_cast<float>(second);
     inverse_one_and_second0 = static_cast<float>(1 / (1 + second));
   }
+};
+
+/// A parent's state at a pack of samples, and what all that lies in it on one helix shares.
+struct ParentAt {
+  FloatPack stretch, bend1, bend2, twist, stretch_by, bend1_by, bend2_by, twist_by;  ///< by: changes
+  FloatPack sigma, turning, twisting;  ///< turning: R sigma; twisting: R^2 (sigma^2 - sigma0^2)
+
+  ParentAt(const HelixNumbers& helix, const float* rows, std::size_t stride)
+      : stretch(load<FloatPack>(rows + part_stretch * stride)),
+        bend1(load<FloatPack>(rows + part_bend1 * stride)),
+        bend2(load<FloatPack>(rows + part_bend2 * stride)),
+        twist(load<FloatPack>(rows + part_twist * stride)),
+        stretch_by(load<FloatPack>(rows + stretch_change * stride)),
+        bend1_by(load<FloatPack>(rows + bend1_change * stride)),
+        bend2_by(load<FloatPack>(rows + bend2_change * stride)),
+        twist_by(load<FloatPack>(rows + twist_change * stride)),
+        sigma(helix.turn_rate + twist),
+        turning(helix.radius * sigma),
+        twisting(helix.radius * helix.radius * twist_by * (sigma + helix.sigma0)) {}
+
+  /// mean_path_rate() against that at rest, minus one.
+  inline FloatPack mean_over_pitch(const HelixNumbers& helix) const {
+    const FloatPack y2 = stretch * stretch, A = turning * turning;
+    const FloatPack q = (twisting + stretch_by * (stretch + helix.stretch0)) * helix.inverse_pitch0;
+    const FloatPack root = inverse_root(1.0f + q), inverse2 = root * root * helix.inverse_pitch0;
+    const FloatPack first = q * inverse(1.0f + (1.0f + q) * root);
+    const FloatPack bend =
+        helix.radius * helix.radius * (bend1 * bend1 + bend2 * bend2) * (inverse2 * inverse2);
+    const FloatPack second = 0.25f * A * bend * (1.0f + 0.1875f * bend * (4.0f * y2 - A));
+    return first + (second - helix.second0) * (1.0f + first) * helix.inverse_one_and_second0;
+  }
+};
+
+inline bool slides_from_afar(const SlidingNumbers& slide) {
+  return slide.sliding == Sliding::clamp_to_clamp || slide.sliding == Sliding::along_ancestor;
+}
+
+inline FloatPack in_single(const double* from) {
+  FloatPack values;
+  for (int half = 0; half < 2; ++half) {
+    const HalfPack part = __builtin_convertvector(load<Pack>(from + half * pack_size), HalfPack);
+    __builtin_memcpy(reinterpret_cast<char*>(&values) + half * sizeof(part), &part, sizeof(part));
+  }
+  return values;
+}
+
+/// Where a node's strain waits in `out` if it slides from afar: where the first waves of its layer will be,
+/// five rows for five nodes.
+inline float* waiting_place(float* out, int node, int kinds, std::size_t stride) {
+  return out + (node / waves_per_layer * kinds * waves_per_layer + node % waves_per_layer) * stride;
+}
+
+/// Whether the last part's state follows from its parent's rows alone, see fill_from_rows().
+inline bool rows_suffice(const BundlePointers& chain) {
+  if (chain.parent_rows == nullptr || chain.order > 0) return false;
+  const ChainStep& last = chain.steps[chain.step_count - 1];
+  bool suffice = last.place.kinematics == pipeline::Kinematics::exact && last.slide.held == nullptr &&
+                 last.slide.sliding != Sliding::along_ancestor;
+  for (int n = 0; n < chain.node_count; ++n)
+    suffice &= chain.nodes[n].slide.sliding != Sliding::along_ancestor;
+  return suffice;
+}
+
+/// The state of the last part, child() and slid() of its parent's, all in changes. With N = R sigma^2 + y X,
+/// V / V0 = 1 + e and (1 + e)^2 = 1 + q,
+///     bend2 = c N / V (1 + strain) / (1 + e),    bend2 - bend2_0 = c / V0 (N - N0 + N m),
+///     m = (1 + strain) / (1 + q) - 1 = (strain - q) / (1 + q);    glued, strain = e: m = -e / (1 + e),
+/// and the same for the twist with M = sigma stretch.
+template <Sliding how>
+void fill_from_rows(const BundlePointers& chain, std::size_t first, std::size_t count, PartState& state) {
+  const ChainStep& step = chain.steps[chain.step_count - 1];
+  const PartAtRest parent0(chain, chain.step_count - 1), rest(chain, chain.step_count);
+  const HelixNumbers helix(step.place, parent0);
+  const double rest_V = rest.stretch / step.place.lay_cosine;
+  const double rest_X = parent0.bend1 * step.place.sine.at[0] - parent0.bend2 * step.place.cosine.at[0];
+  const auto y0 = static_cast<float>(parent0.stretch + step.place.radius * rest_X);
+  const auto scale = static_cast<float>(step.place.lay_cosine / rest_V);
+  const auto inverse_V0_squared = static_cast<float>(1 / (rest_V * rest_V));
+  const auto sine = static_cast<float>(step.place.sine.at[0]);
+  const auto cosine = static_cast<float>(step.place.cosine.at[0]);
+  const float at_rest[] = {static_cast<float>(rest.stretch), static_cast<float>(rest.bend1),
+                           static_cast<float>(rest.bend2), static_cast<float>(rest.twist)};
+  const float R = helix.radius;
+  for (std::size_t t = 0; t < count; t += float_pack_size) {
+    const float* const rows = chain.parent_rows + first + t;
+    const ParentAt p(helix, rows, chain.parent_stride);
+    const auto slope_of = [&](int row) { return load<FloatPack>(rows + row * chain.parent_stride); };
+    const FloatPack X = p.bend1 * sine - p.bend2 * cosine, radial = p.bend1 * cosine + p.bend2 * sine;
+    const FloatPack X_by = p.bend1_by * sine - p.bend2_by * cosine;
+    const FloatPack y = p.stretch + R * X, y_by = p.stretch_by + R * X_by;
+    const FloatPack q = (p.twisting + y_by * (y + y0)) * inverse_V0_squared;
+    const FloatPack root = inverse_root(1.0f + q);
+    const FloatPack e = q * inverse(1.0f + (1.0f + q) * root);
+    FloatPack strain = e, m = -e * root, along = FloatPack{} + 1.0f;  // along: bend1's factor
+    if constexpr (how != Sliding::glued) {
+      strain = how == Sliding::over_pitch ? p.mean_over_pitch(helix)
+                                          : in_single(step.slide.clamp_strain + first + t);
+      m = (strain - q) * (root * root);
+      along = (1.0f + strain) * root;
+    }
+    const FloatPack N = p.turning * p.sigma + y * X, M = p.sigma * p.stretch;
+    const FloatPack N_by = R * p.twist_by * (p.sigma + helix.sigma0) + y_by * X + y0 * X_by;
+    const FloatPack M_by = p.twist_by * p.stretch + helix.sigma0 * p.stretch_by;
+    const FloatPack y_slope = slope_of(stretch_slope) +
+                              R * (slope_of(bend1_slope) * sine - slope_of(bend2_slope) * cosine) +
+                              R * helix.turn_rate * radial;
+    const FloatPack angle_slope =
+        R * (slope_of(twist_slope) * y - p.sigma * y_slope) * (root * root * inverse_V0_squared);
+    const FloatPack by[] = {strain * at_rest[0], helix.c * (angle_slope - radial) * along - at_rest[1],
+                            scale * (N_by + N * m), scale * (M_by + M * m)};
+    for (int k = 0; k < 4; ++k) {
+      store(FloatPack(at_rest[k] + by[k]), state.rows[part_stretch + k] + t);
+      store(by[k], state.rows[stretch_change + k] + t);
+    }
+  }
+}
+
+void fill_from_rows(const BundlePointers& chain, std::size_t first, std::size_t count, PartState& state,
+                    float* out, std::size_t stride, int kinds) {
+  const Sliding how = chain.steps[chain.step_count - 1].slide.sliding;
+  if (how == Sliding::glued)
+    fill_from_rows<Sliding::glued>(chain, first, count, state);
+  else if (how == Sliding::over_pitch)
+    fill_from_rows<Sliding::over_pitch>(chain, first, count, state);
+  else
+    fill_from_rows<Sliding::clamp_to_clamp>(chain, first, count, state);
+  for (int n = 0; n < chain.node_count; ++n)
+    if (const SlidingNumbers& slide = chain.nodes[n].slide; slides_from_afar(slide))
+      for (std::size_t t = 0; t < count; t += float_pack_size)
+        store(in_single(slide.clamp_strain + first + t), waiting_place(out, n, kinds, stride) + t);
+}
+
+/// Fills the state for samples [first, first + count), and leaves the strains of nodes that slide from afar
+/// where they wait.
+__attribute__((flatten)) void fill_part(const BundlePointers& chain, const DeformationColumns& in,
+                                        std::size_t first, std::size_t count, PartState& state, float* out,
+                                        std::size_t stride, int kinds) {
+  if (rows_suffice(chain)) return fill_from_rows(chain, first, count, state, out, stride, kinds);
+  const std::size_t whole_packs = (count + float_pack_size - 1) / float_pack_size * float_pack_size;
+  const int steps = chain.step_count;
+  const PartAtRest rest(chain, steps);
+  bool any_from_afar = false;
+  for (int n = 0; n < chain.node_count; ++n) any_from_afar |= slides_from_afar(chain.nodes[n].slide);
+  for (std::size_t t = 0; t < whole_packs; t += pack_size) {
+    Descent descent;
+    descend(chain, in, first + t, descent);
+    put_part(descent.rods[steps], rest, chain.order, state.rows[0] + t, chunk);
+    for (int n = 0; any_from_afar && n < chain.node_count; ++n)
+      if (const WireNode& node = chain.nodes[n]; slides_from_afar(node.slide))
+        store(__builtin_convertvector(free_strain(chain, descent, steps, node.place, node.slide, first + t),
+                                      HalfPack),
+              waiting_place(out, n, kinds, stride) + t);
+  }
+}
+
+/// A node in the numbers of this loop; names as in helix.h, those at rest with a 0.
+struct NodeNumbers {
+  float sine, cosine, y0, inverse_V0, inverse_V0_squared;
+  float rest_stretch, rest_bend1, rest_bend2;
+  float strain0, inverse_rest_stretch;  ///< of the thesis' formula at rest
+
+  NodeNumbers(const WireNode& node, const PartAtRest& parent) {
+    const Placement& p = node.place;
+    const double X = parent.bend1 * p.sine.at[0] - parent.bend2 * p.cosine.at[0];
+    sine = static_cast<float>(p.sine.at[0]);
+    cosine = static_cast<float>(p.cosine.at[0]);
+    y0 = static_cast<float>(parent.stretch + p.radius * X);
+    inverse_V0 = static_cast<float>(1 / node.rest_rate);
+    inverse_V0_squared = static_cast<float>(1 / (node.rest_rate * node.rest_rate));
+    rest_stretch = static_cast<float>(node.rest.stretch);
+    rest_bend1 = static_cast<float>(node.rest.bend1);
+    rest_bend2 = static_cast<float>(node.rest.bend2);
+    strain0 = static_cast<float>(node.rest_rate - 1);
+    inverse_rest_stretch = static_cast<float>(node.inverse_rest_stretch);
+  }
+};
+
+/// What the nodes of a layer share.
+struct LayerNumbers : HelixNumbers {
+  const BundlePointers& chain;
+  const WireNode* nodes;
+  NodeNumbers node[waves_per_layer];
+  float mean_strain0, inverse_mean_rest_rate;
+
+  LayerNumbers(const BundlePointers& of, const WireNode* at, const PartAtRest& parent)
+      : HelixNumbers(at->place, parent),
+        chain(of),
+        nodes(at),
+        node{{at[0], parent}, {at[1], parent}, {at[2], parent}, {at[3], parent}, {at[4], parent}},
+        mean_strain0(static_cast<float>(at->slide.mean_rest_rate - 1)),
+        inverse_mean_rest_rate(static_cast<float>(1 / at->slide.mean_rest_rate)) {}
 };
 
 /// wire_state() with the glued strain in place of the stretch.
@@ -355,24 +486,14 @@ struct NodeState {
 
 /// A layer at a pack of samples.
 template <bool thesis, bool with_bend1>
-struct LayerAt {
+struct LayerAt : ParentAt {
   const LayerNumbers& layer;
   const PartState& part;
   std::size_t t;
-  FloatPack stretch, bend1, bend2, twist, sigma, turning, twisting;  ///< turning: R sigma
-  FloatPack cosine, cosine_squared, sine_cosine;                     ///< of the thesis' angle (13)
+  FloatPack cosine, cosine_squared, sine_cosine;  ///< of the thesis' angle (13)
 
   LayerAt(const LayerNumbers& of, const PartState& in, std::size_t at)
-      : layer(of),
-        part(in),
-        t(at),
-        stretch(in(part_stretch, at)),
-        bend1(in(part_bend1, at)),
-        bend2(in(part_bend2, at)),
-        twist(in(part_twist, at)),
-        sigma(of.turn_rate + twist),
-        turning(of.radius * sigma),
-        twisting(of.radius * of.radius * in(twist_change, at) * (sigma + of.sigma0)) {
+      : ParentAt(of, in.rows[0] + at, chunk), layer(of), part(in), t(at) {
     if constexpr (thesis) {
       const FloatPack angle = (of.tangent + of.radius * twist) * inverse(stretch);
       cosine = inverse_root(1.0f + angle * angle);
@@ -384,13 +505,11 @@ struct LayerAt {
   inline NodeState operator()(const NodeNumbers& n) const {
     const FloatPack X = bend1 * n.sine - bend2 * n.cosine, radial = bend1 * n.cosine + bend2 * n.sine;
     if constexpr (thesis)
-      return {
-          cosine_squared * (part(stretch_change, t) + layer.radius * X) + layer.radius * sine_cosine * twist,
-          -cosine * radial, cosine_squared * X, sine_cosine * X, FloatPack{} + 1.0f};
+      return {(thesis_strain(layer.radius * X) - n.strain0) * n.inverse_rest_stretch, -cosine * radial,
+              cosine_squared * X, sine_cosine * X, FloatPack{} + 1.0f};
     const FloatPack y = stretch + layer.radius * X, V2 = turning * turning + y * y,
                     inverse_V = inverse_root(V2);
-    const FloatPack y_change = part(stretch_change, t) + layer.radius * (part(bend1_change, t) * n.sine -
-                                                                         part(bend2_change, t) * n.cosine);
+    const FloatPack y_change = stretch_by + layer.radius * (bend1_by * n.sine - bend2_by * n.cosine);
     const FloatPack q = (twisting + y_change * (y + n.y0)) * n.inverse_V0_squared;
     const FloatPack scale = layer.c * inverse_V;
     NodeState state;
@@ -411,25 +530,21 @@ struct LayerAt {
     return state;
   }
 
-  /// mean_path_rate() against that at rest, minus one, in the same way.
-  inline FloatPack mean_over_pitch() const {
+  inline FloatPack thesis_strain(const FloatPack& by_bending) const {
+    return cosine_squared * (stretch_by + layer.strain0 + by_bending) + layer.radius * sine_cosine * twist;
+  }
+
+  /// The mean of the glued strain over the pitch.
+  inline FloatPack mean_strain_over_pitch() const {
     if constexpr (thesis)
-      return cosine_squared * part(stretch_change, t) + layer.radius * sine_cosine * twist;
-    const FloatPack y2 = stretch * stretch, A = turning * turning;
-    const FloatPack q =
-        (twisting + part(stretch_change, t) * (stretch + layer.stretch0)) * layer.inverse_pitch0;
-    const FloatPack root = inverse_root(1.0f + q), inverse2 = root * root * layer.inverse_pitch0;
-    const FloatPack first = q * inverse(1.0f + (1.0f + q) * root);
-    const FloatPack bend =
-        layer.radius * layer.radius * (bend1 * bend1 + bend2 * bend2) * (inverse2 * inverse2);
-    const FloatPack second = 0.25f * A * bend * (1.0f + 0.1875f * bend * (4.0f * y2 - A));
-    return first + (second - layer.second0) * (1.0f + first) * layer.inverse_one_and_second0;
+      return (thesis_strain(FloatPack{}) - layer.mean_strain0) * layer.inverse_mean_rest_rate;
+    return mean_over_pitch(layer);
   }
 
   /// Strain of each node where it slides; glued nodes: nothing. waiting: what fill_part() left for this
   /// layer.
   inline void sliding(Sliding how, const float* waiting, std::size_t stride, FloatPack* strain) const {
-    const FloatPack of_layer = how == Sliding::over_pitch ? mean_over_pitch() : FloatPack{};
+    const FloatPack of_layer = how == Sliding::over_pitch ? mean_strain_over_pitch() : FloatPack{};
     const bool from_afar = how == Sliding::clamp_to_clamp || how == Sliding::along_ancestor;
     for (int n = 0; n < waves_per_layer; ++n)
       strain[n] = from_afar ? load<FloatPack>(waiting + n * stride + t) : of_layer;
@@ -460,11 +575,44 @@ struct FiveToWaves {
   }
 };
 
+/// Waves of the strains of the fibres of a layer that slides and whose fibres feel bend2 alone. From W6 and
+/// W11 bend2 = (1 + strain) rest_stretch (R sigma^2 + y X) / V^2.
+template <Sliding how>
+void sliding_strains_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
+                              std::size_t stride) {
+  const FiveToWaves to_waves;
+  const BundlePointers& chain = layer.chain;
+  const auto factor_of_wall = static_cast<float>(layer.nodes[0].strain_factor);
+  for (std::size_t t = 0; t < count; t += float_pack_size) {
+    const LayerAt<false, false> at(layer, part, t);
+    FloatPack axial[waves_per_layer], bend2[waves_per_layer], strain[waves_per_layer];
+    at.sliding(how, out, stride, axial);
+    const FloatPack turning2 = at.turning * at.turning, turning_sigma = at.turning * at.sigma;
+    for (int n = 0; n < waves_per_layer; ++n) {
+      const NodeNumbers& node = layer.node[n];
+      const FloatPack X = at.bend1 * node.sine - at.bend2 * node.cosine, y = at.stretch + layer.radius * X;
+      const FloatPack over_V2 = inverse(turning2 + y * y);
+      bend2[n] =
+          (turning_sigma + y * X) * over_V2 * ((1.0f + axial[n]) * node.rest_stretch) - node.rest_bend2;
+      axial[n] *= factor_of_wall;
+    }
+    for (int f = 0; f < chain.fibre_count; ++f) {
+      const Fibre& fibre = chain.fibres[f];
+      const auto by_bend2 =
+          static_cast<float>(fibre.on_axis ? 0 : -layer.nodes[0].wire_radius * fibre.phi_cosine);
+      for (int n = 0; n < waves_per_layer; ++n) strain[n] = axial[n] + by_bend2 * bend2[n];
+      to_waves.store_waves(strain, out + f * waves_per_layer * stride + t, stride);
+    }
+  }
+}
+
 /// Waves of the strains of a layer's fibres at `count` samples.
 template <bool thesis, bool with_bend1, Sliding how>
 void strains_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
                       std::size_t stride) {
   constexpr bool glued = how == Sliding::glued;
+  if constexpr (!thesis && !with_bend1 && !glued)
+    return sliding_strains_of_layer<how>(layer, part, count, out, stride);
   const FiveToWaves to_waves;
   const BundlePointers& chain = layer.chain;
   const auto factor_of_wall = static_cast<float>(layer.nodes[0].strain_factor);
@@ -568,7 +716,7 @@ constexpr BySliding ingredients_by_sliding{ingredients_of_layer<thesis, with_ben
 void over_layers(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
                  std::size_t count, int kinds, float* out, std::size_t stride, const BySliding& by) {
   const int layers = chain.node_count / waves_per_layer;
-  const ParentAtRest at_rest(chain);
+  const PartAtRest at_rest(chain, chain.step_count);
   const std::size_t per_layer = static_cast<std::size_t>(kinds) * waves_per_layer * stride;
   PartState part;
   for (std::size_t done = 0; done < count; done += chunk) {

@@ -137,8 +137,7 @@ class Bench {
             chain.nodes.push_back(strain::node_at(construction_, plan, chain, layer, 1, bundle.part, arc,
                                                   2 * std::numbers::pi * node / strain::waves_per_layer));
         strain::BundlePointers from = pointers(chain);
-        from.parent = cable.rows();
-        from.parent_stride = cable.stride();
+        cable.lend(from);
         scan.run(bundle, plan, from, false, history_.columns(i), samples);
       }
   }
