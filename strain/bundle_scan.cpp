@@ -100,37 +100,45 @@ std::span<TurningList> BundleScan::lists_of(const Group& group, int fibre) {
   return std::span(lists_).subspan(group.first_list + fibre * wires, wires);
 }
 
-void BundleScan::scan_waves(std::size_t count) {
+LaneRun& BundleScan::add_run(Group& group, int fibre, std::size_t count, Wanted wanted) {
+  LaneScan& scan = group.scans[fibre];
+  return runs_.emplace_back(wanted == Wanted::turns ? scan.next(count, lists_of(group, fibre))
+                                                    : scan.next_to_rank());
+}
+
+void BundleScan::scan_waves(std::size_t count, Wanted wanted) {
   const int fibres = settings_.fibre_count;
   runs_.clear();
   for (Group& group : groups_)
     for (int f = 0; f < fibres; ++f) {
-      LaneRun& run = runs_.emplace_back(group.scans[f].next(count, lists_of(group, f)));
+      Waves& waves = add_run(group, f, count, wanted).waves;
       for (int w = 0; w < waves_per_layer; ++w)
-        run.waves.at[w] = waves_.data() + ((group.layer * fibres + f) * waves_per_layer + w) * block_samples;
+        waves.at[w] = waves_.data() + ((group.layer * fibres + f) * waves_per_layer + w) * block_samples;
     }
-  kernels().scan(runs_.data(), runs_.size(), count);
+  const auto scan = wanted == Wanted::turns ? kernels().scan : kernels().rank;
+  scan(runs_.data(), runs_.size(), count);
+  if (wanted != Wanted::turns) return;
   for (Group& group : groups_)
     for (int f = 0; f < fibres; ++f) group.scans[f].done(lists_of(group, f));
 }
 
-void BundleScan::scan_mixed(std::size_t count, bool keep) {
+void BundleScan::scan_mixed(std::size_t count, Wanted wanted) {
   const int fibres = settings_.fibre_count, kinds = ingredients(fibres);
+  const auto scan = wanted == Wanted::turns ? kernels().scan_strains : kernels().rank_strains;
   strains_.resize(fibres * block_samples * lanes);
   for (Group& group : groups_) {
     const float* of_layer = waves_.data() + group.layer * kinds * waves_per_layer * block_samples;
     kernels().mix(group.mixed, of_layer, block_samples, count, fibres, strains_.data());
-    if (!keep) continue;
+    if (wanted == Wanted::nothing) continue;
     runs_.clear();
     for (int f = 0; f < fibres; ++f)
-      runs_.emplace_back(group.scans[f].next(count, lists_of(group, f))).strain =
-          strains_.data() + f * count * lanes;
-    kernels().scan_strains(runs_.data(), runs_.size(), count);
-    for (int f = 0; f < fibres; ++f) group.scans[f].done(lists_of(group, f));
+      add_run(group, f, count, wanted).strain = strains_.data() + f * count * lanes;
+    scan(runs_.data(), runs_.size(), count);
+    for (int f = 0; wanted == Wanted::turns && f < fibres; ++f) group.scans[f].done(lists_of(group, f));
   }
 }
 
-void BundleScan::run_blocks(const BundlePointers& chain, bool mixed, bool keep,
+void BundleScan::run_blocks(const BundlePointers& chain, bool mixed, Wanted wanted,
                             const DeformationColumns& columns, std::size_t samples) {
   const std::size_t layers = chain.node_count / waves_per_layer;
   const int kinds = mixed ? ingredients(settings_.fibre_count) : settings_.fibre_count;
@@ -140,21 +148,32 @@ void BundleScan::run_blocks(const BundlePointers& chain, bool mixed, bool keep,
     const auto fill = mixed ? kernels().ingredient_waves : kernels().layer_waves;
     fill(chain, columns, first, count, waves_.data(), block_samples);
     if (mixed)
-      scan_mixed(count, keep);
+      scan_mixed(count, wanted);
     else
-      scan_waves(count);
+      scan_waves(count, wanted);
   }
+}
+
+void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan,
+                         const BundlePointers& chain, bool mixed, const DeformationColumns& columns,
+                         std::size_t samples, Wanted wanted) {
+  start(bundle, plan, chain, mixed);
+  const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
+                                   [&](int layer) { return plan[layer].friction; });
+  if (settles) run_blocks(chain, mixed, Wanted::nothing, columns, samples);
+  run_blocks(chain, mixed, wanted, columns, samples);
 }
 
 void BundleScan::run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
                      bool mixed, const DeformationColumns& columns, std::size_t samples) {
-  start(bundle, plan, chain, mixed);
-  const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
-                                   [&](int layer) { return plan[layer].friction; });
-  if (settles) run_blocks(chain, mixed, false, columns, samples);
-  run_blocks(chain, mixed, true, columns, samples);
+  run_all(bundle, plan, chain, mixed, columns, samples, Wanted::turns);
   for (Group& group : groups_)
     for (int f = 0; f < settings_.fibre_count; ++f) group.scans[f].finish(lists_of(group, f));
+}
+
+void BundleScan::rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+                      bool mixed, const DeformationColumns& columns, std::size_t samples) {
+  run_all(bundle, plan, chain, mixed, columns, samples, Wanted::ranks);
 }
 
 void BundleScan::for_each_site(
@@ -166,6 +185,14 @@ void BundleScan::for_each_site(
       for (int f = 0; f < settings_.fibre_count; ++f)
         found(wire, f, lists_[group.first_list + f * wires + lane].points());
   }
+}
+
+void BundleScan::for_each_rank(
+    const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const {
+  std::size_t wire = 0;
+  for (const Group& group : groups_)
+    for (int lane = 0; lane < group.scans[0].wires(); ++lane, ++wire)
+      for (int f = 0; f < settings_.fibre_count; ++f) found(wire, f, group.scans[f].measures(lane));
 }
 
 }  // namespace dresslife::strain

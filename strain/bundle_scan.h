@@ -45,10 +45,15 @@ class BundleScan {
   /// chain: with the nodes of the bundle's layers. mixed: strains are put together wire by wire.
   void run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain, bool mixed,
            const DeformationColumns& columns, std::size_t samples);
-
   /// After run(): calls found(wire, fibre, points) for every site, wire by wire; wires count through the
   /// bundle.
   void for_each_site(const std::function<void(std::size_t, int, std::span<const TurningPoint>)>& found) const;
+
+  /// The same without turning points.
+  void rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain, bool mixed,
+            const DeformationColumns& columns, std::size_t samples);
+  /// After rank().
+  void for_each_rank(const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const;
 
  private:
   /// Up to sixteen wires of one layer.
@@ -66,11 +71,16 @@ class BundleScan {
   MixedLanes mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
                          const std::vector<double>& angles) const;
   std::span<TurningList> lists_of(const Group& group, int fibre);
-  /// The next `count` samples of all groups, from the waves of the block.
-  void scan_waves(std::size_t count);
-  void scan_mixed(std::size_t count, bool keep);
-  void run_blocks(const BundlePointers& chain, bool mixed, bool keep, const DeformationColumns& columns,
+  /// What is wanted of the samples: nothing, while friction settles, turning points, or ranks.
+  enum class Wanted { nothing, turns, ranks };
+  void run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+               bool mixed, const DeformationColumns& columns, std::size_t samples, Wanted wanted);
+  void run_blocks(const BundlePointers& chain, bool mixed, Wanted wanted, const DeformationColumns& columns,
                   std::size_t samples);
+  /// The next `count` samples of all groups, from the waves of the block.
+  void scan_waves(std::size_t count, Wanted wanted);
+  void scan_mixed(std::size_t count, Wanted wanted);
+  LaneRun& add_run(Group& group, int fibre, std::size_t count, Wanted wanted);
 
   const Construction& construction_;
   ScanSettings settings_;

@@ -192,14 +192,22 @@ void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMean
   const Bundle& bundle = construction_.bundles()[b];
   const BundleChain chain = layer_chain(bundle, segment, means);
   const BundlePointers from = from_parent(chain, bundle.part, segment, means, history, row, worker);
-  worker.scan.run(bundle, means.plan(), from, mixed(means), history.columns(row), history.samples());
   out.rows.clear();
   out.seen.clear();
-  const std::vector<double> helix = with_rows ? helix_of(bundle.part, segment) : std::vector<double>{};
+  const auto site_of = [&](std::size_t wire, int fibre) { return Site{first_wire_[b] + wire, fibre}; };
+  if (!with_rows) {
+    worker.scan.rank(bundle, means.plan(), from, mixed(means), history.columns(row), history.samples());
+    worker.scan.for_each_rank([&](std::size_t wire, int fibre, const StrainMeasures& of) {
+      out.seen.push_back(seen(site_of(wire, fibre), of));
+    });
+    return;
+  }
+  worker.scan.run(bundle, means.plan(), from, mixed(means), history.columns(row), history.samples());
+  const std::vector<double> helix = helix_of(bundle.part, segment);
   worker.scan.for_each_site([&](std::size_t wire, int fibre, std::span<const TurningPoint> points) {
-    const Site site{first_wire_[b] + wire, fibre};
-    if (with_rows) append_site(out.rows, site, segment, helix);
-    out.seen.push_back(measured(site, append_points(out.rows, points)));
+    append_site(out.rows, site_of(wire, fibre), segment, helix);
+    const std::span<const float> strains = append_points(out.rows, points);
+    out.seen.push_back(seen(site_of(wire, fibre), kernels().measures(strains.data(), strains.size())));
   });
 }
 
@@ -227,63 +235,65 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
   }
 }
 
-BundleChain Evaluation::site_chain(Site site, std::size_t segment, const ClampMeans& means,
-                                   std::vector<double>& sliding) const {
-  const Wire& wire = wires_[site.wire];
-  const int part = construction_.bundles()[wire.bundle].part;
-  BundleChain chain = part_chain(part, segment, means, {fibres_[site.fibre]});
-  chain.nodes.push_back(
-      node_at(construction_, means.plan(), chain, wire.layer, wire.number, part, arcs_[segment], 0));
-  if (chain.nodes[0].slide.sliding == Sliding::clamp_to_clamp) {
-    sliding = means.at_angle(part, wire.layer,
-                             2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
-    chain.nodes[0].slide.clamp_strain = sliding.data();
+BundleChain Evaluation::site_chain(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                                   std::vector<std::vector<double>>& sliding) const {
+  const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
+  BundleChain chain = part_chain(part, segment, means, {fibres_[sites[0].fibre]});
+  sliding.resize(sites.size());
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    const Wire& wire = wires_[sites[k].wire];
+    WireNode& node = chain.nodes.emplace_back(
+        node_at(construction_, means.plan(), chain, wire.layer, wire.number, part, arcs_[segment], 0));
+    if (node.slide.sliding != Sliding::clamp_to_clamp) continue;
+    sliding[k] = means.at_angle(part, wire.layer,
+                                2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
+    node.slide.clamp_strain = sliding[k].data();
   }
   return chain;
 }
 
-std::vector<double> Evaluation::history_of(Site site, std::size_t segment, const ClampMeans& means,
-                                           const DeformationHistory& history, std::size_t row,
-                                           Worker& worker) const {
+std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> sites, std::size_t segment,
+                                                          const ClampMeans& means,
+                                                          const DeformationHistory& history,
+                                                          std::size_t row) const {
   const std::size_t samples = history.samples(), stride = padded(samples);
+  std::vector<std::vector<double>> histories;
   if (mixed(means)) {
-    FibreHistory both = fibre_history(site, segment, means, history, row, worker);
-    for (std::size_t t = 0; scan_.with_shear && t < samples; ++t)
-      both.strain[t] =
-          std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
-    return both.strain;
+    for (const Site site : sites) {
+      FibreHistory both = fibre_history(site, segment, means, history, row);
+      for (std::size_t t = 0; scan_.with_shear && t < samples; ++t)
+        both.strain[t] =
+            std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
+      histories.push_back(std::move(both.strain));
+    }
+    return histories;
   }
-  std::vector<double> sliding, strain(stride);
-  const BundleChain chain = site_chain(site, segment, means, sliding);
-  const int part = construction_.bundles()[wires_[site.wire].bundle].part;
-  const BundlePointers from = from_parent(chain, part, segment, means, history, row, worker);
-  kernels().node_strains(from, history.columns(row), 0, samples, strain.data(), stride);
-  strain.resize(samples);
-  return strain;
+  std::vector<std::vector<double>> sliding;
+  const BundleChain chain = site_chain(sites, segment, means, sliding);
+  std::vector<double> strain(sites.size() * stride);
+  kernels().node_strains(pointers(chain), history.columns(row), 0, samples, strain.data(), stride);
+  for (auto from = strain.begin(); from != strain.end(); from += stride)
+    histories.emplace_back(from, from + samples);
+  return histories;
 }
 
 FibreHistory Evaluation::fibre_history(Site site, std::size_t segment, const ClampMeans& means,
-                                       const DeformationHistory& history, std::size_t row,
-                                       Worker& worker) const {
-  std::vector<double> sliding;
-  const BundleChain chain = site_chain(site, segment, means, sliding);
-  const Wire& wire = wires_[site.wire];
-  const int part = construction_.bundles()[wire.bundle].part;
-  const BundlePointers from = from_parent(chain, part, segment, means, history, row, worker);
+                                       const DeformationHistory& history, std::size_t row) const {
+  std::vector<std::vector<double>> sliding;
+  const BundleChain chain = site_chain({&site, 1}, segment, means, sliding);
   FibreHistory both =
-      mixed_history(chain, from, means.plan()[wire.layer], history.columns(row), history.samples());
+      mixed_history(chain, means.plan()[wires_[site.wire].layer], history.columns(row), history.samples());
   both.site = site_row(segment, site);
   return both;
 }
 
 /// What Kernels::mix does, of one fibre in double precision.
-FibreHistory Evaluation::mixed_history(const BundleChain& chain, const BundlePointers& from,
-                                       const LayerSlip& slip, const DeformationColumns& columns,
-                                       std::size_t samples) const {
+FibreHistory Evaluation::mixed_history(const BundleChain& chain, const LayerSlip& slip,
+                                       const DeformationColumns& columns, std::size_t samples) const {
   const std::size_t stride = padded(samples);
   std::vector<double> rows(ingredients(1) * stride);
   FibreHistory both{0, std::vector<double>(samples), std::vector<double>(samples)};
-  kernels().node_ingredients(from, columns, 0, samples, rows.data(), stride);
+  kernels().node_ingredients(pointers(chain), columns, 0, samples, rows.data(), stride);
   const WireNode& node = chain.nodes[0];
   const Fibre& fibre = chain.fibres[0];
   const double rest_bending = rest_ingredient(node, &fibre), rest_shear = rest_ingredient(node, nullptr);
@@ -348,8 +358,7 @@ std::span<const float> Evaluation::append_points(SiteRows& rows, std::span<const
   return {strain, points.size()};
 }
 
-Evaluation::Seen Evaluation::measured(Site site, std::span<const float> strains) {
-  const StrainMeasures of = kernels().measures(strains.data(), strains.size());
+Evaluation::Seen Evaluation::seen(Site site, const StrainMeasures& of) {
   const float range = of.highest - of.lowest, tension = std::max(0.0f, of.highest);
   Seen seen{site, {}};
   seen.by[Worst::range] = range;
@@ -391,10 +400,9 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
     put_bound(same ? worst : worst_of_bound(*bound, segment, history, row), bound->means, segment, history,
               row, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
-  workers_[0].parent_is = {};
   auto probe = [&](Site site) {
-    sink.probe({site_row(segment, site), history_of(site, segment, means_, history, row, workers_[0]),
-                fibre_history(site, segment, means_, history, row, workers_[0]).shear});
+    sink.probe({site_row(segment, site), histories_of({&site, 1}, segment, means_, history, row)[0],
+                fibre_history(site, segment, means_, history, row).shear});
   };
   const auto wire_range = [&](const Worst& of) {  // the hose's wall is no wire
     return construction_.layers()[&of - worst.data()].is_hose ? -1 : of.value[Worst::range];
@@ -428,7 +436,7 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   for (const Worst& layer : worst)
     for (int by = 0; by < Worst::measures; ++by)
       if (layer.value[by] >= 0 && wire_range(layer) >= 0) likely.insert(layer.site[by]);
-  for (const Site site : likely) sink.fibre(fibre_history(site, segment, means_, history, row, workers_[0]));
+  for (const Site site : likely) sink.fibre(fibre_history(site, segment, means_, history, row));
 }
 
 std::vector<Evaluation::Worst> Evaluation::worst_of_bound(Bound& bound, std::size_t segment,
@@ -447,15 +455,23 @@ void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& me
     for (int by = 0; by < Worst::measures; ++by)
       if (layer.value[by] >= 0) sites.insert(layer.site[by]);
   const std::vector<Site> list(sites.begin(), sites.end());
+  std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one chain for all of a piece
+  const auto piece = [&](std::size_t k) { return std::pair(list[k].fibre, wires_[list[k].wire].bundle); };
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (k == 0 || piece(k) != piece(k - 1)) cuts.push_back(k);
+  cuts.push_back(list.size());
   std::vector<TurningList> turning(list.size());
-  for (Worker& worker : workers_) worker.parent_is = {};
   std::atomic<std::size_t> next = 0;
-  pipeline::in_parallel(workers_.size(), [&](std::size_t part) {
-    for (std::size_t k = next++; k < list.size(); k = next++) {
-      TurningPoints points(scan_.gate);
-      for (const double strain : history_of(list[k], segment, means, history, row, workers_[part]))
-        points.next(static_cast<float>(strain), turning[k]);
-      points.finish(turning[k]);
+  pipeline::in_parallel(workers_.size(), [&](std::size_t) {
+    for (std::size_t cut = next++; cut + 1 < cuts.size(); cut = next++) {
+      const auto sites_of_piece = std::span(list).subspan(cuts[cut], cuts[cut + 1] - cuts[cut]);
+      const auto histories = histories_of(sites_of_piece, segment, means, history, row);
+      for (std::size_t k = 0; k < histories.size(); ++k) {
+        TurningPoints points(scan_.gate);
+        for (const double strain : histories[k])
+          points.next(static_cast<float>(strain), turning[cuts[cut] + k]);
+        points.finish(turning[cuts[cut] + k]);
+      }
     }
   });
   SiteRows rows;

@@ -144,16 +144,18 @@ class Evaluation {
   /// The chain to `part`, from its parent's states where they are enough.
   BundlePointers from_parent(const BundleChain& chain, int part, std::size_t segment, const ClampMeans& means,
                              const DeformationHistory& history, std::size_t row, Worker& worker) const;
-  std::vector<double> history_of(Site site, std::size_t segment, const ClampMeans& means,
-                                 const DeformationHistory& history, std::size_t row, Worker& worker) const;
+  /// Whole histories, in double precision, of sites of one bundle and one fibre.
+  std::vector<std::vector<double>> histories_of(std::span<const Site> sites, std::size_t segment,
+                                                const ClampMeans& means, const DeformationHistory& history,
+                                                std::size_t row) const;
   /// Strain along the fibre and shear of a site, in double precision.
   FibreHistory fibre_history(Site site, std::size_t segment, const ClampMeans& means,
-                             const DeformationHistory& history, std::size_t row, Worker& worker) const;
-  FibreHistory mixed_history(const BundleChain& chain, const BundlePointers& from, const LayerSlip& slip,
+                             const DeformationHistory& history, std::size_t row) const;
+  FibreHistory mixed_history(const BundleChain& chain, const LayerSlip& slip,
                              const DeformationColumns& columns, std::size_t samples) const;
-  /// The chain to one site, whose only node it is. sliding: keeps the clamp means that the node points to.
-  BundleChain site_chain(Site site, std::size_t segment, const ClampMeans& means,
-                         std::vector<double>& sliding) const;
+  /// The chain to such sites, which are its nodes. sliding: keeps the clamp means that they point to.
+  BundleChain site_chain(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                         std::vector<std::vector<double>>& sliding) const;
   std::size_t site_row(std::size_t segment, Site site) const {
     return place_.sites_before +
            ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
@@ -161,7 +163,7 @@ class Evaluation {
   std::vector<double> helix_of(int part, std::size_t segment) const;
   void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;
   static std::span<const float> append_points(SiteRows& rows, std::span<const TurningPoint> points);
-  static Seen measured(Site site, std::span<const float> strains);
+  static Seen seen(Site site, const StrainMeasures& of);
   /// The worst sites of every wire layer. sink: where all sites go; may be empty.
   std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
                               std::size_t row, const std::function<void(const SiteRows&)>& sink);

@@ -145,11 +145,23 @@ struct StrainMeasures {
   float cycle_sum;
 };
 
+/// The same of sixteen wires that are ranked without keeping their turning points.
+struct LaneRanks {
+  alignas(64) float direction[lanes];  ///< +1 rising, -1 falling
+  alignas(64) float turn[lanes];       ///< the last turning point
+  alignas(64) float extreme[lanes];    ///< furthest strain since then, times the direction
+  alignas(64) float low[lanes];
+  alignas(64) float high[lanes];
+  alignas(64) float sum[lanes];        ///< up to the last turning point
+  alignas(64) float cycle_sum[lanes];  ///< up to the last sample
+};
+
 /// Up to sixteen wires and what they go through next: waves, or strain[t * lanes + lane].
 struct LaneRun {
   LaneState* state;
   Waves waves;
   const float* strain;
+  LaneRanks* ranks;    ///< for rank()
   TurningPoint** end;  ///< (wire) where its next turning point goes; moves on. Room: count + spare_points.
 };
 
@@ -207,6 +219,9 @@ struct Kernels {
   void (*scan)(const LaneRun*, std::size_t runs, std::size_t count);
   /// The same from their strains.
   void (*scan_strains)(const LaneRun*, std::size_t runs, std::size_t count);
+  /// The same runs, ranked.
+  void (*rank)(const LaneRun*, std::size_t runs, std::size_t count);
+  void (*rank_strains)(const LaneRun*, std::size_t runs, std::size_t count);
   /// Precondition: count > 0.
   StrainMeasures (*measures)(const float* strain, std::size_t count);
 };

@@ -854,9 +854,10 @@ StrainMeasures measures(const float* strain, std::size_t count) {
 }  // namespace
 
 extern const Kernels set;
-const Kernels set{DRESSLIFE_MACHINE_NAME, node_strains,     layer_waves, deviations,     part_states,
-                  node_ingredients,       ingredient_waves, mix,         add_path_rates, scan,
-                  scan_strains,           measures};
+const Kernels set{
+    DRESSLIFE_MACHINE_NAME, node_strains, layer_waves,    deviations, part_states,  node_ingredients,
+    ingredient_waves,       mix,          add_path_rates, scan,       scan_strains, rank,
+    rank_strains,           measures};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain

@@ -78,7 +78,7 @@ struct Scan {
   Source source;
   int lane;
   TurningPoint** end;
-  alignas(64) float strain[word][float_pack_size];
+  alignas(64) float strain[word + 1][float_pack_size];  ///< the last: no sample
 
   Scan(const LaneRun& run, int first) : state(*run.state), source(run), lane(first), end(run.end) {}
 
@@ -148,6 +148,7 @@ struct Scan {
     store(select(moved, select(up, IntPack{} - 1, IntPack{}), rose), state.rises + lane);
   }
 
+  /// Two turns of a word are written whether they are there or not: that is rarely guessed wrong.
   inline void put(unsigned any, unsigned old, const IntPack& turns, std::int32_t first) {
     alignas(64) std::uint32_t of_wire[float_pack_size];
     store(turns, of_wire);
@@ -155,12 +156,18 @@ struct Scan {
       const int wire = __builtin_ctz(any), of = lane + wire;
       TurningPoint* to = end[of];
       *to = {state.extreme[of], static_cast<std::uint32_t>(state.extreme_at[of])};
-      to += (old >> wire & 1) != 0 && state.extreme_at[of] > 0;
-      for (std::uint32_t left = of_wire[wire]; left != 0; left &= left - 1) {
-        const int at = __builtin_ctz(left);
-        *to++ = {strain[at][wire], static_cast<std::uint32_t>(first + at)};
-      }
-      end[of] = to;
+      to += (old >> wire & 1) & (state.extreme_at[of] > 0);
+      std::uint32_t left = of_wire[wire];
+      const auto put_next = [&](int place) {
+        const int at = left != 0 ? __builtin_ctz(left) : word;
+        to[place] = {strain[at][wire], static_cast<std::uint32_t>(first + at)};
+        left &= left - 1;
+      };
+      const int count = __builtin_popcount(left);
+      put_next(0);
+      put_next(1);
+      for (int more = 2; more < count; ++more) put_next(more);
+      end[of] = to + count;
     }
   }
 
@@ -257,6 +264,105 @@ void scan(const LaneRun* runs, std::size_t run_count, std::size_t count) {
 
 void scan_strains(const LaneRun* runs, std::size_t run_count, std::size_t count) {
   scan_all<StrainShape, FromStrains>(runs, run_count, count);
+}
+
+// ---- what ranks wires -------------------------------------------------------------------------------------
+
+/// What a range from one turning point to the next adds to StrainMeasures::cycle_sum.
+inline FloatPack cycle_share(const FloatPack& before, const FloatPack& now) {
+  const FloatPack product = larger(larger(before, now), FloatPack{}) * (now - before);
+  return larger(product, -product) * product * product;
+}
+
+/// Here turns need no list: a wire is followed as strain times its direction, whose highest value is the
+/// turning point once it has fallen from there by the gate. The first direction is a guess that can cost one
+/// range below the gate.
+template <class Shape, class Source>
+struct Ranking {
+  const LaneRun* run;
+  int lane;
+  Shape shape;
+  Source source;
+  FloatPack below_gate, direction, turn, extreme, sum, low, high;
+
+  Ranking() = default;
+  Ranking(const LaneRun& of, int first)
+      : run(&of),
+        lane(first),
+        shape(*of.state, first),
+        source(of),
+        below_gate(FloatPack{} + of.state->below_gate) {
+    const LaneRanks& ranks = *run->ranks;
+    direction = load<FloatPack>(ranks.direction + lane);
+    turn = load<FloatPack>(ranks.turn + lane);
+    extreme = load<FloatPack>(ranks.extreme + lane);
+    sum = load<FloatPack>(ranks.sum + lane);
+    low = load<FloatPack>(ranks.low + lane);
+    high = load<FloatPack>(ranks.high + lane);
+    if (run->state->sample != 0) return;
+    direction = FloatPack{} + 1.0f;
+    sum = FloatPack{};
+    low = high = turn = extreme = shape.at(source, 0);
+  }
+
+  inline __attribute__((always_inline)) void next(std::size_t t) {
+    const FloatPack x = shape.at(source, t), y = direction * x;
+    low = smaller(low, x);
+    high = larger(high, x);
+    extreme = larger(extreme, y);
+    const Mask turned = greater(extreme - y, below_gate);
+    const FloatPack now = direction * extreme;
+    sum += select(turned, cycle_share(turn, now), FloatPack{});
+    turn = select(turned, now, turn);
+    extreme = select(turned, -y, extreme);
+    direction = select(turned, -direction, direction);
+  }
+
+  void keep(std::size_t count) const {
+    LaneRanks& ranks = *run->ranks;
+    store(direction, ranks.direction + lane);
+    store(turn, ranks.turn + lane);
+    store(extreme, ranks.extreme + lane);
+    store(sum, ranks.sum + lane);
+    store(low, ranks.low + lane);
+    store(high, ranks.high + lane);
+    const FloatPack last = shape.at(source, count - 1), peak = direction * extreme;
+    store(FloatPack(sum + cycle_share(turn, peak) + cycle_share(peak, last)), ranks.cycle_sum + lane);
+  }
+};
+
+/// Packs two at a time: each waits for itself at the sample before.
+template <class Shape, class Source>
+void rank_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
+  using One = Ranking<Shape, Source>;
+  const LaneRun* waiting = nullptr;
+  int waiting_lane = 0;
+  for (const LaneRun* run = runs; run != runs + run_count; ++run)
+    for (int lane = 0; lane < run->state->used; lane += float_pack_size) {
+      if (waiting == nullptr) {
+        waiting = run, waiting_lane = lane;
+        continue;
+      }
+      One a(*waiting, waiting_lane), b(*run, lane);
+      for (std::size_t t = 0; t < count; ++t) a.next(t), b.next(t);
+      a.keep(count), b.keep(count);
+      waiting = nullptr;
+    }
+  if (waiting != nullptr) {
+    One a(*waiting, waiting_lane);
+    for (std::size_t t = 0; t < count; ++t) a.next(t);
+    a.keep(count);
+  }
+  for (const LaneRun* run = runs; run != runs + run_count; ++run)
+    run->state->sample += static_cast<std::int32_t>(count);
+}
+
+void rank(const LaneRun* runs, std::size_t run_count, std::size_t count) {
+  rank_all<WaveShape, FromWaves>(runs, run_count, count);
+}
+
+void rank_strains(const LaneRun* runs, std::size_t run_count, std::size_t count) {
+  rank_all<StrainShape, FromStrains>(runs, run_count, count);
 }
 
 }  // namespace

@@ -45,12 +45,18 @@ class LaneScan {
   LaneRun next(std::size_t count, std::span<TurningList> out);
   void done(std::span<TurningList> out) const;
   void finish(std::span<TurningList> out);  ///< after the last sample
-  void restart();                           ///< for another history of the same wires
+
+  /// In place of these where wires are only ranked.
+  LaneRun next_to_rank();
+  StrainMeasures measures(std::size_t wire) const;
+
+  void restart();  ///< for another history of the same wires
 
   int wires() const { return state_.used; }
 
  private:
   LaneState state_;
+  LaneRanks ranks_;
   std::array<TurningPoint*, lanes> end_{};
 };
 

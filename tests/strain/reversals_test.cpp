@@ -150,3 +150,40 @@ TEST_CASE("sixteen wires side by side turn where each turns alone") {
         }
       }
 }
+
+TEST_CASE("wires ranked without turning points have the measures of their turning points") {
+  std::mt19937 engine(12);
+  std::normal_distribution<float> noise(0, 1);
+  const auto cube = [](double x) { return x * x * x; };
+  for (const Kernels* machine : kernels_of_this_machine())
+    for (const float gate : {0.0f, 0.3f, 3.0f}) {
+      const std::size_t wires = 16, samples = 600, half = 300;
+      std::vector<std::vector<float>> history(wires, std::vector<float>(samples));
+      std::vector<float> strain(samples * lanes);
+      for (std::size_t j = 0; j < wires; ++j)
+        for (std::size_t t = 0; t < samples; ++t)
+          strain[t * lanes + j] = history[j][t] =
+              (t == 0 ? 0 : 0.95f * history[j][t - 1]) + noise(engine) + (j % 3 == 0 ? 0.2f : -0.1f);
+      LaneScan scan(std::vector<double>(wires, 0.0), gate);
+      for (std::size_t from = 0; from < samples; from += half) {
+        LaneRun run = scan.next_to_rank();
+        run.strain = strain.data() + from * lanes;
+        machine->rank_strains(&run, 1, half);
+      }
+      for (std::size_t j = 0; j < wires; ++j) {
+        const std::vector<float> points = filter(history[j], gate).strain;
+        double sum = 0, largest = 0;
+        for (std::size_t k = 1; k < points.size(); ++k)
+          sum += cube(std::abs(std::max({points[k - 1], points[k], 0.0f}) * (points[k] - points[k - 1])));
+        for (const float point : points) largest = std::max<double>(largest, std::abs(point));
+        const StrainMeasures of = scan.measures(j);
+        CHECK(of.lowest == *std::min_element(history[j].begin(), history[j].end()));
+        CHECK(of.highest == *std::max_element(history[j].begin(), history[j].end()));
+        constexpr double rounding = 1e-4;  // some hundred sums of third powers in single precision
+        // of the first range, which may start at the first sample where the list starts a gate beyond it
+        const double first = std::abs(points[1] - points[0]) + gate;
+        CHECK(std::abs(of.cycle_sum - sum) <= rounding * sum + cube(largest * (first + gate)) -
+                                                  cube(largest * std::max(0.0, first - 2 * gate)));
+      }
+    }
+}
