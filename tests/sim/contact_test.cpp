@@ -12,21 +12,6 @@ constexpr double deepest = 1e-3;  // [m] chain.md's figure at 5 ms
 constexpr double at_rest = 1e-8;  // [m/s] for what sticks: the contact solver stops at impulses of 1e-9 N s
 const double smooth_time = 1;     // [s]
 
-double smooth(double u) { return u <= 0 ? 0 : u >= 1 ? 1 : u * u * u * (10 - 15 * u + 6 * u * u); }
-
-RodProperties hose(int segments) {
-  RodProperties p;
-  p.segments = segments;
-  p.length = 2;
-  p.mass_per_length = 2.5;
-  p.diameter = 0.06;
-  p.bending_stiffness = 5;
-  p.torsional_stiffness = 4;
-  p.axial_stiffness = 1e5;
-  p.damping_time = 0.01;
-  return p;
-}
-
 const ClampFrames hanging{planar_frame(0, 1, 0), planar_frame(1.4, 1, 0)};
 
 double lowest(const RodState& state) {

@@ -28,8 +28,6 @@ RodProperties hose_of(int segments, double length, double diameter, double stiff
   return p;
 }
 
-double smooth(double u) { return u <= 0 ? 0 : u >= 1 ? 1 : u * u * u * (10 - 15 * u + 6 * u * u); }
-
 double furthest(const RodState& a, int first, const RodState& b) {
   double most = 0;
   for (size_t i = 0; i < b.position.size(); ++i) {

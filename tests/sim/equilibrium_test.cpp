@@ -11,19 +11,6 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-RodProperties hose(int segments) {
-  RodProperties p;
-  p.segments = segments;
-  p.length = 2;
-  p.mass_per_length = 2.5;
-  p.diameter = 0.06;
-  p.bending_stiffness = 5;
-  p.torsional_stiffness = 4;
-  p.axial_stiffness = 1e5;
-  p.damping_time = 0.01;
-  return p;
-}
-
 // Numbers in 0..1, the same on every machine.
 class Numbers {
  public:

@@ -11,15 +11,7 @@ TEST_CASE("a hose on a slope slides alike in every direction of the slope") {
   for (const double direction : {0.0, 0.3, pi / 4, 1.2}) {
     CAPTURE(direction);
     const Vector3 down(std::cos(direction), std::sin(direction), 0);
-    RodProperties p;
-    p.segments = 8;
-    p.length = 0.4;
-    p.mass_per_length = 2.5;
-    p.diameter = 0.06;
-    p.bending_stiffness = 5;
-    p.torsional_stiffness = 4;
-    p.axial_stiffness = 1e5;
-    p.damping_time = 0.01;
+    RodProperties p = hose(8, 0.4);
     p.tool_end = End::free;
     p.gravity = g * std::sin(slope) * down - Vector3(0, 0, g * std::cos(slope));
     const Rod rod(p);

@@ -18,19 +18,6 @@ namespace {
 
 constexpr double deepest = 1e-3;  // [m] chain.md's figure at 5 ms
 
-RodProperties hose(int segments) {
-  RodProperties p;
-  p.segments = segments;
-  p.length = 2;
-  p.mass_per_length = 2.5;
-  p.diameter = 0.06;
-  p.bending_stiffness = 5;
-  p.torsional_stiffness = 4;
-  p.axial_stiffness = 1e5;
-  p.damping_time = 0.01;
-  return p;
-}
-
 // A cylinder along y, of n faces whose planes are at `radius` in the mean.
 std::vector<Triangle> cylinder(double radius, double half, int n) {
   std::vector<Triangle> triangles;

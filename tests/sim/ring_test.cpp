@@ -7,8 +7,6 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-double smooth(double u) { return u <= 0 ? 0 : u >= 1 ? 1 : u * u * u * (10 - 15 * u + 6 * u * u); }
-
 constexpr double hose_radius = 0.01, clear_radius = 0.015;  // [m]
 constexpr double unit_force = 100;                          // [N]
 

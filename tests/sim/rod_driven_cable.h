@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "sim/world.h"
+#include "tests/sim/smooth.h"
 
 namespace dresslife::sim::test {
-
-inline double quintic(double u) { return u <= 0 ? 0 : u >= 1 ? 1 : u * u * u * (10 - 15 * u + 6 * u * u); }
 
 struct DrivenCable {
   static constexpr double begin = 4, end = 24;  ///< of the comparison [s]
@@ -34,7 +33,7 @@ struct DrivenCable {
     return {Vector3::Zero(), Quaternion(Eigen::AngleAxisd(std::acos(0.0), Vector3::UnitY()))};
   }
   static ClampFrames clamps(double t) {
-    const double pi = std::acos(-1.0), r = quintic(t / 3), s = quintic(t - 4), a = pi * (t - 4);
+    const double pi = std::acos(-1.0), r = smooth(t / 3), s = smooth(t - 4), a = pi * (t - 4);
     Frame tool = base();
     tool.position = {2 - 0.9 * r + 0.3 * s * std::sin(a), 0.5 * s * std::cos(a),
                      0.3 * s * std::sin(a + 4 * pi / 3)};
@@ -44,7 +43,7 @@ struct DrivenCable {
   }
   static void weigh(const Rod& rod, double t, std::vector<Load>& loads) {
     loads.resize(rod.segments());
-    for (Load& load : loads) load.force = {0, 0, -9.81 * quintic(t / 0.3) * rod.segment_mass()};
+    for (Load& load : loads) load.force = {0, 0, -9.81 * smooth(t / 0.3) * rod.segment_mass()};
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "sim/equilibrium.h"
 #include "sim/rod.h"
+#include "tests/sim/smooth.h"
 
 namespace dresslife::sim::test {
 
@@ -29,6 +30,20 @@ inline RodProperties unit_rod(int segments) {
   p.torsional_stiffness = 0.8;
   p.axial_stiffness = 1e7;  // stretch of 1e-6 at forces of 10: below every tolerance here
   p.gravity.setZero();
+  return p;
+}
+
+/// A hose as robots carry them, soft: 2.5 kg/m, 60 mm thick.
+inline RodProperties hose(int segments, double length = 2) {
+  RodProperties p;
+  p.segments = segments;
+  p.length = length;
+  p.mass_per_length = 2.5;
+  p.diameter = 0.06;
+  p.bending_stiffness = 5;
+  p.torsional_stiffness = 4;
+  p.axial_stiffness = 1e5;
+  p.damping_time = 0.01;
   return p;
 }
 

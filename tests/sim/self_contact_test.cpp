@@ -27,8 +27,6 @@ RodProperties soft_hose(int segments) {
   return p;
 }
 
-double smooth(double u) { return u <= 0 ? 0 : u >= 1 ? 1 : u * u * u * (10 - 15 * u + 6 * u * u); }
-
 }  // namespace
 
 TEST_CASE("nearest points of two segments are those of a search over both") {

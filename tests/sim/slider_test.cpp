@@ -21,8 +21,6 @@ RodProperties pulled_hose(int segments, const Slider& slider) {
   return p;
 }
 
-double smooth(double u) { return u <= 0 ? 0 : u >= 1 ? 1 : u * u * u * (10 - 15 * u + 6 * u * u); }
-
 /// The hose at rest from x = 0 to 1.1.
 RodState hanging_between(const Rod& rod) {
   RodProperties fixed = rod.properties();

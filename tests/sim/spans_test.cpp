@@ -7,19 +7,6 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-RodProperties span_of(int segments, double length) {
-  RodProperties p;
-  p.segments = segments;
-  p.length = length;
-  p.mass_per_length = 2.5;
-  p.diameter = 0.06;
-  p.bending_stiffness = 5;
-  p.torsional_stiffness = 4;
-  p.axial_stiffness = 1e5;
-  p.damping_time = 0.01;
-  return p;
-}
-
 Frame swinging(double x, double t, double phase) {
   const double s = std::sin(3 * t + phase) - std::sin(phase);
   return rolled(planar_frame(x + 0.1 * s, 0.2 * s, 0.4 * s), 0.8 * s);
@@ -38,7 +25,7 @@ double furthest(const RodState& a, int first, const RodState& b) {
 }  // namespace
 
 TEST_CASE("the spans on either side of a clamp move as two dresspacks would") {
-  const RodProperties p = span_of(20, 1.2), q = span_of(13, 0.7);
+  const RodProperties p = hose(20, 1.2), q = hose(13, 0.7);
   const Rod both({p, q}), first(p), second(q);
   const auto base = [](double t) { return swinging(0, t, 0); };
   const auto middle = [](double t) { return swinging(1, t, 1); };
@@ -75,7 +62,7 @@ TEST_CASE("the spans on either side of a clamp move as two dresspacks would") {
 
 TEST_CASE("what touches beyond a clamp is pushed as by any other piece of the hose") {
   // The second span comes back over the first: both hang between clamps side by side, 30 mm too near.
-  const Rod rod({span_of(10, 1), span_of(10, 1)});
+  const Rod rod({hose(10, 1), hose(10, 1)});
   RodState start = rod.straight(planar_frame(0, 0, 0));
   for (int i = 10; i < 20; ++i) {
     start.position[i] = {0.95 - 0.1 * (i - 10), 0.03, 0};

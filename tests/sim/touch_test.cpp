@@ -4,19 +4,13 @@
 #include <catch2/catch.hpp>
 
 #include "sim/world.h"
+#include "tests/sim/rod_problems.h"
 
 using namespace dresslife::sim;
+using namespace dresslife::sim::test;
 
 TEST_CASE("a hose dragged over the floor rubs by weight times friction times way") {
-  RodProperties p;
-  p.segments = 10;
-  p.length = 0.5;
-  p.mass_per_length = 2.5;
-  p.diameter = 0.06;
-  p.bending_stiffness = 5;
-  p.torsional_stiffness = 4;
-  p.axial_stiffness = 1e5;
-  p.damping_time = 0.01;
+  RodProperties p = hose(10, 0.5);
   p.tool_end = End::free;
   const Rod rod(p);
   // Along x, half a diameter above the floor, so that it lies there.

@@ -146,7 +146,7 @@ TEST_CASE("a chain of ODE's own joints moves in the same way") {
   JointChain joints(DrivenCable::properties(n), h);
   double difference = 0, size = 0;
   for (int k = 0; k * h < until - h / 2; ++k) {
-    joints.advance(DrivenCable::clamps(k * h), DrivenCable::clamps((k + 1) * h), 9.81 * quintic(k * h / 0.3));
+    joints.advance(DrivenCable::clamps(k * h), DrivenCable::clamps((k + 1) * h), 9.81 * smooth(k * h / 0.3));
     const int sample = (k + 1) / 20 - 1;
     if ((k + 1) % 20 != 0 || sample < 40) continue;  // from 4 s on
     for (int j = 0; j <= n; ++j) {
