@@ -69,14 +69,15 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
-  for (std::size_t k = 0; k < threads; ++k) workers_.push_back({{construction, scan_}, {}, {}});
+  for (std::size_t k = 0; k < threads; ++k)
+    workers_.push_back({{construction, scan_}, {}, {}, {construction, means_}});
   for (std::size_t b = 0; b < construction.bundles().size(); ++b) {
     const Bundle& bundle = construction.bundles()[b];
     first_wire_.push_back(wires_.size());
     for (const int layer : bundle.wire_layers)
       for (int number = 1; number <= construction.layers()[layer].count; ++number)
-        wires_.push_back(
-            {static_cast<int>(b), layer, number, before + construction.wire_path(layer, number, bundle.part)});
+        wires_.push_back({static_cast<int>(b), layer, number,
+                          before + construction.wire_path(layer, number, bundle.part)});
   }
   find_probes(settings.probes);
 }
@@ -136,16 +137,16 @@ bool Evaluation::mixed(const ClampMeans& means) const {
 }
 
 BundleChain Evaluation::part_chain(int part, std::size_t segment, const ClampMeans& means,
-                                   const std::vector<Fibre>& fibres) const {
+                                   const std::vector<Fibre>& fibres, Worker& worker) const {
   BundleChain chain = chain_to(construction_, means.plan(), part, arcs_[segment], fibres);
   means.attach(chain, part);
-  if (held_ && &means == &means_) held_->attach(chain, part);
+  if (&means == &means_) worker.held.attach(chain, part);
   return chain;
 }
 
-BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment,
-                                    const ClampMeans& means) const {
-  BundleChain chain = part_chain(bundle.part, segment, means, fibres_);
+BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
+                                    Worker& worker) const {
+  BundleChain chain = part_chain(bundle.part, segment, means, fibres_, worker);
   for (const int layer : bundle.wire_layers)
     for (int node = 0; node < waves_per_layer; ++node) {
       WireNode at = node_at(construction_, means.plan(), chain, layer, 1, bundle.part, arcs_[segment],
@@ -177,7 +178,7 @@ BundlePointers Evaluation::from_parent(const BundleChain& chain, int part, std::
   if (parent == dresspack_itself || !parent_suffices(chain)) return from;
   const std::pair wanted{parent, chain.order + 1};
   if (worker.parent_is != wanted) {
-    BundleChain to_parent = part_chain(parent, segment, means, fibres_);
+    BundleChain to_parent = part_chain(parent, segment, means, fibres_, worker);
     to_parent.order = chain.order + 1;
     worker.parent.fill(to_parent, history.columns(row), history.samples());
     worker.parent_is = wanted;
@@ -190,7 +191,7 @@ void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMean
                              const DeformationHistory& history, std::size_t row, bool with_rows,
                              Worker& worker, BundleSites& out) const {
   const Bundle& bundle = construction_.bundles()[b];
-  const BundleChain chain = layer_chain(bundle, segment, means);
+  const BundleChain chain = layer_chain(bundle, segment, means, worker);
   const BundlePointers from = from_parent(chain, bundle.part, segment, means, history, row, worker);
   out.rows.clear();
   out.seen.clear();
@@ -236,9 +237,9 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
 }
 
 BundleChain Evaluation::site_chain(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                                   std::vector<std::vector<double>>& sliding) const {
+                                   std::vector<std::vector<double>>& sliding, Worker& worker) const {
   const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
-  BundleChain chain = part_chain(part, segment, means, {fibres_[sites[0].fibre]});
+  BundleChain chain = part_chain(part, segment, means, {fibres_[sites[0].fibre]}, worker);
   sliding.resize(sites.size());
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const Wire& wire = wires_[sites[k].wire];
@@ -254,13 +255,13 @@ BundleChain Evaluation::site_chain(std::span<const Site> sites, std::size_t segm
 
 std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> sites, std::size_t segment,
                                                           const ClampMeans& means,
-                                                          const DeformationHistory& history,
-                                                          std::size_t row) const {
+                                                          const DeformationHistory& history, std::size_t row,
+                                                          Worker& worker) const {
   const std::size_t samples = history.samples(), stride = padded(samples);
   std::vector<std::vector<double>> histories;
   if (mixed(means)) {
     for (const Site site : sites) {
-      FibreHistory both = fibre_history(site, segment, means, history, row);
+      FibreHistory both = fibre_history(site, segment, means, history, row, worker);
       for (std::size_t t = 0; scan_.with_shear && t < samples; ++t)
         both.strain[t] =
             std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
@@ -269,7 +270,7 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
     return histories;
   }
   std::vector<std::vector<double>> sliding;
-  const BundleChain chain = site_chain(sites, segment, means, sliding);
+  const BundleChain chain = site_chain(sites, segment, means, sliding, worker);
   std::vector<double> strain(sites.size() * stride);
   kernels().node_strains(pointers(chain), history.columns(row), 0, samples, strain.data(), stride);
   for (auto from = strain.begin(); from != strain.end(); from += stride)
@@ -278,9 +279,10 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
 }
 
 FibreHistory Evaluation::fibre_history(Site site, std::size_t segment, const ClampMeans& means,
-                                       const DeformationHistory& history, std::size_t row) const {
+                                       const DeformationHistory& history, std::size_t row,
+                                       Worker& worker) const {
   std::vector<std::vector<double>> sliding;
-  const BundleChain chain = site_chain({&site, 1}, segment, means, sliding);
+  const BundleChain chain = site_chain({&site, 1}, segment, means, sliding, worker);
   FibreHistory both =
       mixed_history(chain, means.plan()[wires_[site.wire].layer], history.columns(row), history.samples());
   both.site = site_row(segment, site);
@@ -330,8 +332,7 @@ void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment,
   const Wire& wire = wires_[site.wire];
   const Layer& layer = construction_.layers()[wire.layer];
   const int part = construction_.bundles()[wire.bundle].part;
-  rows.segment.push_back(
-      static_cast<std::int32_t>(place_.segments_before + place_.first_segment + segment));
+  rows.segment.push_back(static_cast<std::int32_t>(place_.segments_before + place_.first_segment + segment));
   rows.component.push_back(wire.path);
   rows.material.push_back(layer.material);
   rows.helix.insert(rows.helix.end(), helix.begin(), helix.end());
@@ -390,10 +391,7 @@ std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const C
 
 void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
                           const Sink& sink) {
-  held_.reset();
-  if (std::any_of(means_.plan().begin(), means_.plan().end(),
-                  [](const LayerSlip& slip) { return slip.friction; }))
-    held_.emplace(construction_, means_, arcs_[segment], history.columns(row), history.samples());
+  for (Worker& worker : workers_) worker.held.begin(arcs_[segment], history.columns(row), history.samples());
   const std::vector<Worst> worst = worst_of(segment, means_, history, row, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
     const bool same = bound->means.plan() == means_.plan();
@@ -401,8 +399,9 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
               row, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
   auto probe = [&](Site site) {
-    sink.probe({site_row(segment, site), histories_of({&site, 1}, segment, means_, history, row)[0],
-                fibre_history(site, segment, means_, history, row).shear});
+    sink.probe({site_row(segment, site),
+                histories_of({&site, 1}, segment, means_, history, row, workers_[0])[0],
+                fibre_history(site, segment, means_, history, row, workers_[0]).shear});
   };
   const auto wire_range = [&](const Worst& of) {  // the hose's wall is no wire
     return construction_.layers()[&of - worst.data()].is_hose ? -1 : of.value[Worst::range];
@@ -436,7 +435,7 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   for (const Worst& layer : worst)
     for (int by = 0; by < Worst::measures; ++by)
       if (layer.value[by] >= 0 && wire_range(layer) >= 0) likely.insert(layer.site[by]);
-  for (const Site site : likely) sink.fibre(fibre_history(site, segment, means_, history, row));
+  for (const Site site : likely) sink.fibre(fibre_history(site, segment, means_, history, row, workers_[0]));
 }
 
 std::vector<Evaluation::Worst> Evaluation::worst_of_bound(Bound& bound, std::size_t segment,
@@ -462,10 +461,10 @@ void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& me
   cuts.push_back(list.size());
   std::vector<TurningList> turning(list.size());
   std::atomic<std::size_t> next = 0;
-  pipeline::in_parallel(workers_.size(), [&](std::size_t) {
+  pipeline::in_parallel(workers_.size(), [&](std::size_t part) {
     for (std::size_t cut = next++; cut + 1 < cuts.size(); cut = next++) {
       const auto sites_of_piece = std::span(list).subspan(cuts[cut], cuts[cut + 1] - cuts[cut]);
-      const auto histories = histories_of(sites_of_piece, segment, means, history, row);
+      const auto histories = histories_of(sites_of_piece, segment, means, history, row, workers_[part]);
       for (std::size_t k = 0; k < histories.size(); ++k) {
         TurningPoints points(scan_.gate);
         for (const double strain : histories[k])

@@ -74,7 +74,9 @@ class Evaluation {
   std::size_t sites() const {
     return place_.segments_in_all * wires_.size() * scan_.fibre_count;
   }  ///< of the dresspack
-  std::size_t sites_so_far() const { return place_.sites_before + sites(); }  ///< of the file, with this dresspack
+  std::size_t sites_so_far() const {
+    return place_.sites_before + sites();
+  }  ///< of the file, with this dresspack
 
   std::size_t longest_path() const;  ///< of a site's component [bytes]
   std::size_t longest_material() const;
@@ -122,6 +124,7 @@ class Evaluation {
     BundleScan scan;
     PartStates parent;
     std::pair<int, int> parent_is;  ///< part and order of the states, in the run at hand; order 0: none yet
+    HeldStrains held;               ///< of the segment being evaluated, for the job's own way of sliding
   };
   /// The sites of one bundle, wire by wire.
   struct BundleSites {
@@ -133,8 +136,9 @@ class Evaluation {
   bool mixed(const ClampMeans& means) const;
   void find_probes(const std::vector<pipeline::Probe>& probes);
   BundleChain part_chain(int part, std::size_t segment, const ClampMeans& means,
-                         const std::vector<Fibre>& fibres) const;
-  BundleChain layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means) const;
+                         const std::vector<Fibre>& fibres, Worker& worker) const;
+  BundleChain layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
+                          Worker& worker) const;
   void scan_bundle(std::size_t bundle, std::size_t segment, const ClampMeans& means,
                    const DeformationHistory& history, std::size_t row, bool with_rows, Worker& worker,
                    BundleSites& out) const;
@@ -147,15 +151,15 @@ class Evaluation {
   /// Whole histories, in double precision, of sites of one bundle and one fibre.
   std::vector<std::vector<double>> histories_of(std::span<const Site> sites, std::size_t segment,
                                                 const ClampMeans& means, const DeformationHistory& history,
-                                                std::size_t row) const;
+                                                std::size_t row, Worker& worker) const;
   /// Strain along the fibre and shear of a site, in double precision.
   FibreHistory fibre_history(Site site, std::size_t segment, const ClampMeans& means,
-                             const DeformationHistory& history, std::size_t row) const;
+                             const DeformationHistory& history, std::size_t row, Worker& worker) const;
   FibreHistory mixed_history(const BundleChain& chain, const LayerSlip& slip,
                              const DeformationColumns& columns, std::size_t samples) const;
   /// The chain to such sites, which are its nodes. sliding: keeps the clamp means that they point to.
   BundleChain site_chain(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                         std::vector<std::vector<double>>& sliding) const;
+                         std::vector<std::vector<double>>& sliding, Worker& worker) const;
   std::size_t site_row(std::size_t segment, Site site) const {
     return place_.sites_before +
            ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
@@ -183,7 +187,6 @@ class Evaluation {
   ScanSettings scan_;
   bool with_planes_;
   ClampMeans means_;
-  std::optional<HeldStrains> held_;  ///< of the segment being evaluated, with friction
   Bound stick_, free_;
   std::vector<Worker> workers_;              ///< one a thread
   std::vector<BundleSites> found_, before_;  ///< batches of bundles: being scanned, being used

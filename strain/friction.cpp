@@ -8,9 +8,10 @@ namespace {
 
 /// Rows of deviations (mean, then the powers) to what is held of them (the powers). Runs twice, the first
 /// time to settle.
-std::vector<double> held_of(const std::vector<double>& deviations, int powers, std::size_t stride,
-                            std::size_t samples, const FrictionCap& cap) {
-  std::vector<double> held(powers * stride, 0.0), slope_slip(powers, 0.0);
+void hold(const std::vector<double>& deviations, int powers, std::size_t stride, std::size_t samples,
+          const FrictionCap& cap, std::vector<double>& held) {
+  held.assign(powers * stride, 0.0);
+  std::vector<double> slope_slip(powers, 0.0);
   Slider slider;
   for (int run = 0; run < 2; ++run)
     for (std::size_t t = 0; t < samples; ++t) {
@@ -21,7 +22,6 @@ std::vector<double> held_of(const std::vector<double>& deviations, int powers, s
         held[power * stride + t] =
             Slider::next_slope(deviations[(1 + power) * stride + t], sliding, slope_slip[power]);
     }
-  return held;
 }
 
 /// Level of the nearest helical ancestor of the last part of `line`; 0: the part itself, or nobody.
@@ -36,43 +36,52 @@ int turned_level(const Construction& construction, const std::vector<int>& line)
 
 }  // namespace
 
-HeldStrains::HeldStrains(const Construction& construction, const ClampMeans& means, double arc,
-                         const DeformationColumns& columns, std::size_t samples)
-    : construction_(construction), stride_(padded(samples)) {
-  const auto& plan = means.plan();
+void HeldStrains::begin(double arc, const DeformationColumns& columns, std::size_t samples) {
+  arc_ = arc;
+  columns_ = columns;
+  samples_ = samples;
+  stride_ = padded(samples);
+  for (Rows& rows : kept_) rows.part = nobody;
+}
+
+const HeldStrains::Rows& HeldStrains::rows_of(int part, int level) {
+  Rows& rows = kept_[level];
+  if (rows.part != part) fill(rows, part);
+  rows.part = part;
+  return rows;
+}
+
+/// The parts above are asked for on the way, each of them at a level of its own.
+void HeldStrains::fill(Rows& rows, int part) {
+  const auto& plan = means_.plan();
+  BundleChain chain = chain_to(construction_, plan, part, arc_, surface_fibres(0));
+  chain.order = construction_.levels() - static_cast<int>(chain.steps.size());
+  means_.attach(chain, part);
+  if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself)
+    attach(chain, parent);
+  const int powers = chain.order + 1;
+  deviations_.resize((powers + 1) * stride_);
+  const auto hold_turned = [&](int turn, std::vector<double>& held) {
+    kernels().deviations(pointers(chain), turn, turned_level(construction_, construction_.ancestry(part)),
+                         columns_, 0, samples_, deviations_.data(), stride_);
+    hold(deviations_, powers, stride_, samples_, plan[construction_.parts()[part].layer].cap, held);
+  };
   const bool turned = std::any_of(plan.begin(), plan.end(), [](const LayerSlip& slip) {
     return slip.sliding == Sliding::along_ancestor;
   });
-  for (int part = 0; part < static_cast<int>(construction.parts().size()); ++part) {  // parents come first
-    const LayerSlip& slip = plan[construction.parts()[part].layer];
-    if (!slip.friction) continue;
-    BundleChain chain = chain_to(construction, plan, part, arc, surface_fibres(0));
-    chain.order = construction.levels() - static_cast<int>(chain.steps.size());
-    means.attach(chain, part);
-    attach(chain, part);
-    const int powers = chain.order + 1;
-    std::vector<double> deviations((powers + 1) * stride_);
-    auto held = [&](int turn) {
-      kernels().deviations(pointers(chain), turn, turned_level(construction, construction.ancestry(part)),
-                           columns, 0, samples, deviations.data(), stride_);
-      return held_of(deviations, powers, stride_, samples, slip.cap);
-    };
-    Rows& rows = rows_[part];
-    for (int turn = 0; turned && turn < phases_per_pitch; ++turn) rows.turned[turn] = held(turn);
-    rows.own = held(-1);
-  }
+  for (int turn = 0; turned && turn < phases_per_pitch; ++turn) hold_turned(turn, rows.turned[turn]);
+  hold_turned(-1, rows.own);
 }
 
-void HeldStrains::attach(BundleChain& chain, int part) const {
+void HeldStrains::attach(BundleChain& chain, int part) {
   const std::vector<int> line = construction_.ancestry(part);
   for (std::size_t k = 0; k < line.size(); ++k) {
-    const auto found = rows_.find(line[k]);
-    if (found == rows_.end()) continue;
+    if (!means_.plan()[construction_.parts()[line[k]].layer].friction) continue;
+    const Rows& rows = rows_of(line[k], static_cast<int>(k));
     SlidingNumbers& slide = chain.steps[k].slide;
-    slide.held = found->second.own.data();
+    slide.held = rows.own.data();
     for (int turn = 0; turn < phases_per_pitch; ++turn)
-      slide.turned_held[turn] =
-          found->second.turned[turn].empty() ? nullptr : found->second.turned[turn].data();
+      slide.turned_held[turn] = rows.turned[turn].empty() ? nullptr : rows.turned[turn].data();
     slide.held_stride = stride_;
   }
 }

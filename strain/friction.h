@@ -16,7 +16,6 @@
 #pragma once
 
 #include <algorithm>
-#include <map>
 #include <vector>
 
 #include "strain/clamp_means.h"
@@ -47,26 +46,41 @@ inline double cap_at(const FrictionCap& cap, double mean) {
   return std::max(0.0, cap.constant + cap.per_mean * mean);
 }
 
-/// What friction holds of the strains of one segment's parts, over the whole motion. The sliders start where
-/// one repeat of the motion leaves them: slip settles in the first, and life is counted in many.
+/// What friction holds of the strains of the parts on the way to one bundle, over the whole motion. The
+/// sliders start where one repeat of the motion leaves them: slip settles in the first, and life is counted
+/// in many. Of every level the part asked for last is kept: bundles come part by part, and all parts of a
+/// segment would be hundreds of histories.
 class HeldStrains {
  public:
-  /// columns: of the segment whose centre lies at `arc` [m].
-  HeldStrains(const Construction& construction, const ClampMeans& means, double arc,
-              const DeformationColumns& columns, std::size_t samples);
+  HeldStrains(const Construction& construction, const ClampMeans& means)
+      : construction_(construction), means_(means), kept_(construction.levels()) {}
 
-  /// Gives each part of `chain`, which ends in `part`, what friction holds of it.
-  void attach(BundleChain& chain, int part) const;
+  /// Forgets all. columns: of the segment whose centre lies at `arc` [m]; they are read until the next
+  /// begin().
+  void begin(double arc, const DeformationColumns& columns, std::size_t samples);
+
+  /// Gives each part of `chain`, which ends in `part`, what friction holds of it: good until a part beside
+  /// one of them is asked for.
+  void attach(BundleChain& chain, int part);
 
  private:
+  static constexpr int nobody = -1;
   struct Rows {
+    int part = nobody;
     std::vector<double> own;                                   ///< (power, sample)
     std::array<std::vector<double>, phases_per_pitch> turned;  ///< empty when nobody asks for them
   };
 
+  const Rows& rows_of(int part, int level);
+  void fill(Rows& rows, int part);
+
   const Construction& construction_;
-  std::size_t stride_;
-  std::map<int, Rows> rows_;  ///< by part
+  const ClampMeans& means_;
+  double arc_ = 0;
+  DeformationColumns columns_{};
+  std::size_t samples_ = 0, stride_ = 0;
+  std::vector<Rows> kept_;          ///< (level)
+  std::vector<double> deviations_;  ///< scratch
 };
 
 }  // namespace dresslife::strain

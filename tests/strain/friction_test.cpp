@@ -168,6 +168,42 @@ TEST_CASE("friction gives the same numbers twice, and however the motion comes i
   }
 }
 
+TEST_CASE("what friction holds of a part is the same after any other and lies where that of its level lay") {
+  const Dresspack dresspack = rubbing(0.3);
+  const Construction construction(dresspack, Kinematics::exact);
+  const std::vector<double> lengths(segments, 2.0 / segments),
+      arcs{1.0 / segments, 3.0 / segments, 5.0 / segments};
+  ClampMeans means(construction, plan_slip(construction, {Slip::friction}, 2.0), lengths, arcs, samples);
+  const DeformationHistory history = moving();
+  means.add(history);
+  const int parts = static_cast<int>(construction.parts().size());
+  REQUIRE(parts == 2 + 14);
+
+  const auto rows_of = [&](HeldStrains& held, int part) {
+    BundleChain chain = chain_to(construction, means.plan(), part, arcs[1], surface_fibres(0));
+    means.attach(chain, part);
+    held.attach(chain, part);
+    return chain;
+  };
+  HeldStrains one_after_other(construction, means);
+  std::vector<const double*> place(construction.levels(), nullptr);
+  one_after_other.begin(arcs[1], history.columns(1), samples);
+  std::mt19937 random(7);
+  for (int k = 0; k < 100; ++k) {
+    const int part = static_cast<int>(random() % parts);
+    HeldStrains fresh(construction, means);
+    fresh.begin(arcs[1], history.columns(1), samples);
+    const BundleChain a = rows_of(one_after_other, part), b = rows_of(fresh, part);
+    for (std::size_t level = 0; level < a.steps.size(); ++level) {
+      const double *one = a.steps[level].slide.held, *other = b.steps[level].slide.held;
+      REQUIRE((one != nullptr && other != nullptr));
+      CHECK(std::equal(one, one + samples, other));
+      if (place[level]) CHECK(one == place[level]);  // no more memory than one part's a level
+      place[level] = one;
+    }
+  }
+}
+
 TEST_CASE("friction on some levels has its limits there, whatever the other levels do") {
   // With a word of its own per level; the levels without friction are exactly what they are without it.
   using enum Slip;
