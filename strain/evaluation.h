@@ -82,6 +82,8 @@ class Evaluation {
   std::size_t longest_material() const;
   /// One line on the site with the largest strain range so far; sites: of the file.
   std::string summary(std::size_t sites) const;
+  /// Memory for what friction holds, which grows with the motion.
+  std::size_t held_bytes() const { return workers_.size() * workers_[0].held.bytes(samples_); }
   float worst_range() const { return worst_range_; }
 
   void add(const DeformationHistory& block);  ///< first pass, in order of time

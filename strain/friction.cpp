@@ -36,6 +36,25 @@ int turned_level(const Construction& construction, const std::vector<int>& line)
 
 }  // namespace
 
+bool HeldStrains::any_turned() const {
+  return std::any_of(means_.plan().begin(), means_.plan().end(),
+                     [](const LayerSlip& slip) { return slip.sliding == Sliding::along_ancestor; });
+}
+
+std::size_t HeldStrains::bytes(std::size_t samples) const {
+  std::vector<bool> held(kept_.size(), false);
+  for (const Part& part : construction_.parts())
+    if (means_.plan()[part.layer].friction) held[construction_.layers()[part.layer].level - 1] = true;
+  std::size_t rows = 0, scratch = 0;
+  for (std::size_t level = 0; level < held.size(); ++level) {
+    if (!held[level]) continue;
+    rows +=
+        static_cast<std::size_t>(powers(static_cast<int>(level))) * (any_turned() ? 1 + phases_per_pitch : 1);
+    scratch = std::max<std::size_t>(scratch, powers(static_cast<int>(level)) + 1);
+  }
+  return (rows + scratch) * padded(samples) * sizeof(double);
+}
+
 void HeldStrains::begin(double arc, const DeformationColumns& columns, std::size_t samples) {
   arc_ = arc;
   columns_ = columns;
@@ -55,21 +74,18 @@ const HeldStrains::Rows& HeldStrains::rows_of(int part, int level) {
 void HeldStrains::fill(Rows& rows, int part) {
   const auto& plan = means_.plan();
   BundleChain chain = chain_to(construction_, plan, part, arc_, surface_fibres(0));
-  chain.order = construction_.levels() - static_cast<int>(chain.steps.size());
+  const int level = static_cast<int>(chain.steps.size()) - 1, powers = this->powers(level);
+  chain.order = powers - 1;
   means_.attach(chain, part);
   if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself)
     attach(chain, parent);
-  const int powers = chain.order + 1;
   deviations_.resize((powers + 1) * stride_);
   const auto hold_turned = [&](int turn, std::vector<double>& held) {
     kernels().deviations(pointers(chain), turn, turned_level(construction_, construction_.ancestry(part)),
                          columns_, 0, samples_, deviations_.data(), stride_);
     hold(deviations_, powers, stride_, samples_, plan[construction_.parts()[part].layer].cap, held);
   };
-  const bool turned = std::any_of(plan.begin(), plan.end(), [](const LayerSlip& slip) {
-    return slip.sliding == Sliding::along_ancestor;
-  });
-  for (int turn = 0; turned && turn < phases_per_pitch; ++turn) hold_turned(turn, rows.turned[turn]);
+  for (int turn = 0; any_turned() && turn < phases_per_pitch; ++turn) hold_turned(turn, rows.turned[turn]);
   hold_turned(-1, rows.own);
 }
 

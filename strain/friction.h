@@ -55,6 +55,9 @@ class HeldStrains {
   HeldStrains(const Construction& construction, const ClampMeans& means)
       : construction_(construction), means_(means), kept_(construction.levels()) {}
 
+  /// Memory that it takes in the end, for a motion of so many samples.
+  std::size_t bytes(std::size_t samples) const;
+
   /// Forgets all. columns: of the segment whose centre lies at `arc` [m]; they are read until the next
   /// begin().
   void begin(double arc, const DeformationColumns& columns, std::size_t samples);
@@ -71,6 +74,8 @@ class HeldStrains {
     std::array<std::vector<double>, phases_per_pitch> turned;  ///< empty when nobody asks for them
   };
 
+  bool any_turned() const;
+  int powers(int level) const { return construction_.levels() - level; }  ///< of its series, level from 0
   const Rows& rows_of(int part, int level);
   void fill(Rows& rows, int part);
 

@@ -258,8 +258,11 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   SiteWriter sites(strain, "", evaluations), stick(strain, "/bound_stick", evaluations),
       free(strain, "/bound_free", evaluations);
 
+  std::size_t held_bytes = 0;
+  for (const auto& evaluation : evaluations) held_bytes += evaluation->held_bytes();
+  held_bytes = std::min(held_bytes, history_bytes);
   const std::size_t per_pass =
-      std::clamp<std::size_t>(history_bytes / (samples * sizeof(Deformation)), 1, segments);
+      std::clamp<std::size_t>((history_bytes - held_bytes) / (samples * sizeof(Deformation)), 1, segments);
   DeformationHistory history(per_pass, samples);  // of segments [first_segment, first_segment + per_pass)
   auto keep = [&](std::size_t first_segment, std::size_t first, std::span<const Deformation> block) {
     for (std::size_t k = 0; k < block.size(); ++k)

@@ -10,7 +10,8 @@
 
 namespace dresslife::strain {
 
-/// Histories of so many bytes are held at a time; for more, the motion is read again for the next segments.
+/// Histories of so many bytes are held at a time, what friction holds counted in; for more, the motion is
+/// read again for the next segments.
 constexpr std::size_t default_history_bytes = std::size_t{256} << 20;
 
 /// Writes every dataset of strain.h5 and returns a line on the worst site. threads: any number gives the same

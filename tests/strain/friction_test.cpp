@@ -186,6 +186,10 @@ TEST_CASE("what friction holds of a part is the same after any other and lies wh
     return chain;
   };
   HeldStrains one_after_other(construction, means);
+  constexpr int cable_rows = 3, conductor_rows = 2,
+                scratch_rows = 4;  // powers, and what the cables' come from
+  CHECK(one_after_other.bytes(samples) ==
+        (cable_rows + conductor_rows + scratch_rows) * padded(samples) * sizeof(double));
   std::vector<const double*> place(construction.levels(), nullptr);
   one_after_other.begin(arcs[1], history.columns(1), samples);
   std::mt19937 random(7);
