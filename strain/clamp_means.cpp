@@ -103,15 +103,19 @@ std::vector<double> ClampMeans::at_angle(int part, int layer, double turn) const
   return strain;
 }
 
-ClampMeans ClampMeans::thinned(std::size_t every) const {
-  ClampMeans thin = *this;
-  thin.groups_.clear();
-  thin.stride_ = padded((next_ + every - 1) / every) + padding;
-  for (std::vector<double>& row : thin.strain_) {
-    for (std::size_t k = 0; k * every < next_; ++k) row[k] = row[k * every];
-    row.resize(thin.stride_);
+ClampMeans::ClampMeans(const ClampMeans& whole, std::size_t every)
+    : construction_(whole.construction_),
+      plan_(whole.plan_),
+      lengths_(whole.lengths_),
+      arcs_(whole.arcs_),
+      stride_(padded((whole.next_ + every - 1) / every) + padding),
+      next_(whole.next_),
+      part_row_(whole.part_row_),
+      layer_row_(whole.layer_row_) {
+  for (const std::vector<double>& row : whole.strain_) {
+    std::vector<double>& thin = strain_.emplace_back(stride_, 0.0);
+    for (std::size_t k = 0; k * every < next_; ++k) thin[k] = row[k * every];
   }
-  return thin;
 }
 
 void ClampMeans::attach(BundleChain& chain, int part, std::size_t first) const {

@@ -32,7 +32,7 @@ class ClampMeans {
   std::vector<double> at_angle(int part, int layer, double turn) const;
 
   /// The same at every `every`-th sample, to read only.
-  ClampMeans thinned(std::size_t every) const;
+  ClampMeans thinned(std::size_t every) const { return {*this, every}; }
 
   /// Gives each sliding step of `chain` its strains, from sample `first` on.
   void attach(BundleChain& chain, int part, std::size_t first = 0) const;
@@ -44,6 +44,7 @@ class ClampMeans {
     std::vector<std::size_t> rows;    ///< of strain_, one per node
   };
 
+  ClampMeans(const ClampMeans& whole, std::size_t every);
   void list_group(int parent);
   std::size_t add_row();
 

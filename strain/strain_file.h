@@ -12,7 +12,7 @@ namespace dresslife::strain {
 
 /// Histories of so many bytes are held at a time, what friction holds counted in; for more, the motion is
 /// read again for the next segments.
-constexpr std::size_t default_history_bytes = std::size_t{256} << 20;
+constexpr std::size_t default_history_bytes = std::size_t{128} << 20;
 
 /// Writes every dataset of strain.h5 and returns a line on the worst site. threads: any number gives the same
 /// bytes. progress: share of the work done.
