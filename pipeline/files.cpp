@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "pipeline/document.h"
+#include "pipeline/list_deflate.h"
 #include "pipeline/scale_offset.h"
 
 namespace dresslife::pipeline {
@@ -17,6 +18,7 @@ namespace {
 constexpr std::size_t chunk_bytes = 1 << 16;  // one write call and one chunk: large enough to amortise both
 constexpr std::size_t packed_chunk_rows =
     1 << 15;  // fewer calls; the range of values, hence their bits, hardly grows
+static_assert(packed_chunk_rows <= ListDeflater::most_numbers);
 
 /// An HDF5 identifier that closes itself.
 class Handle {
@@ -157,6 +159,7 @@ struct FileWriter::Impl {
   std::map<std::string, Open> open;  // ordered: same calls, same bytes
   std::map<std::string, std::size_t> axes, text_widths;
   std::vector<char> packed;  // the chunk being written
+  ListDeflater deflater;
   bool committed = false;
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -196,7 +199,7 @@ struct FileWriter::Impl {
     const auto& shape = made.description->shape;
     std::vector<hsize_t> lengths(shape.size()), most(shape.size()), chunk(shape.size());
     made.chunk_rows =
-        made.description->decimals
+        made.description->packed()
             ? packed_chunk_rows
             : std::max<std::size_t>(
                   1, chunk_bytes / std::max<std::size_t>(1, made.row_values * made.value_bytes));
@@ -210,15 +213,13 @@ struct FileWriter::Impl {
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_chunk(creation, static_cast<int>(shape.size()), chunk.data());
     H5Pset_obj_track_times(creation, false);
-    if (made.description->deflate) {
+    if (made.description->deflate || made.description->lists) {
       H5Pset_shuffle(creation);
       H5Pset_deflate(creation, 1);
     }
     if (made.description->decimals) {
-      const bool real = made.description->type == Type::f32;
       H5Pset_fill_value(creation, made.file_type, nullptr);  // a defined one would need a number of its own
-      H5Pset_scaleoffset(creation, real ? H5Z_SO_FLOAT_DSCALE : H5Z_SO_INT,
-                         real ? *made.description->decimals : H5Z_SO_INT_MINBITS_DEFAULT);
+      H5Pset_scaleoffset(creation, H5Z_SO_FLOAT_DSCALE, *made.description->decimals);
     }
     make_groups(path);
     made.id = Handle(
@@ -243,7 +244,7 @@ struct FileWriter::Impl {
   void put(Open& target, const void* bytes, std::size_t count) {
     const char* begin = static_cast<const char*>(bytes);
     target.buffer.insert(target.buffer.end(), begin, begin + count);
-    if (target.description->decimals)
+    if (target.description->packed())
       flush_packed(target, false);
     else if (target.buffer.size() >= chunk_bytes)
       flush(target);
@@ -268,11 +269,11 @@ struct FileWriter::Impl {
 
   /// rows: of the chunk that belong to the dataset.
   void write_chunk(Open& target, const char* numbers, std::size_t rows) {
-    const auto pack = [&]<class T>(T) {
-      pack_chunk(std::span(reinterpret_cast<const T*>(numbers), target.chunk_rows),
+    if (target.description->lists)
+      deflater.pack(std::span(reinterpret_cast<const std::uint32_t*>(numbers), target.chunk_rows), packed);
+    else
+      pack_chunk(std::span(reinterpret_cast<const float*>(numbers), target.chunk_rows),
                  *target.description->decimals, packed);
-    };
-    target.description->type == Type::f32 ? pack(float{}) : pack(std::uint32_t{});
     const hsize_t first = target.rows, length = target.rows + rows;
     if (H5Dset_extent(target.id, &length) < 0 ||
         H5Dwrite_chunk(target.id, H5P_DEFAULT, 0, &first, packed.size(), packed.data()) < 0)
@@ -281,7 +282,7 @@ struct FileWriter::Impl {
   }
 
   void flush(Open& target) {
-    if (target.description->decimals) return flush_packed(target, true);
+    if (target.description->packed()) return flush_packed(target, true);
     const std::size_t row_bytes = target.row_values * target.value_bytes;
     if (target.buffer.empty() || row_bytes == 0) return;
     const hsize_t rows = target.buffer.size() / row_bytes;
@@ -566,18 +567,15 @@ struct FileReader::Impl {
     H5Pfill_value_defined(creation, &fill);
     hsize_t chunk = 0;
     H5Pget_chunk(creation, 1, &chunk);
-    const bool real = H5Tget_class(type) == H5T_FLOAT;
-    const bool ours =
-        filter == H5Z_FILTER_SCALEOFFSET && fill == H5D_FILL_VALUE_UNDEFINED &&
-        (real ? values[0] == H5Z_SO_FLOAT_DSCALE && static_cast<int>(values[1]) == *made.description->decimals
-              : values[0] == H5Z_SO_INT && H5Tget_sign(type) == H5T_SGN_NONE);
+    const bool ours = filter == H5Z_FILTER_SCALEOFFSET && fill == H5D_FILL_VALUE_UNDEFINED &&
+                      values[0] == H5Z_SO_FLOAT_DSCALE &&
+                      static_cast<int>(values[1]) == *made.description->decimals;
     return ours ? chunk : 0;
   }
 
-  template <class T>
-  void read_packed(const Open& from, std::size_t first, std::size_t count, T* out) const {
+  void read_packed(const Open& from, std::size_t first, std::size_t count, float* out) const {
     std::vector<char> bytes;
-    std::vector<T> numbers(from.packed_rows);
+    std::vector<float> numbers(from.packed_rows);
     for (std::size_t row = first, end = first + count; row < end;) {
       const hsize_t chunk = row / from.packed_rows * from.packed_rows;
       hsize_t size = 0;
@@ -614,8 +612,8 @@ struct FileReader::Impl {
   void read_values(const std::string& path, std::size_t first, std::size_t count, std::vector<T>& out) const {
     const Open& from = dataset(path);
     out.resize(count * from.row_values);
-    if constexpr (type_of<T> == Type::f32 || type_of<T> == Type::u32)
-      if (from.packed_rows && from.description->type == type_of<T> && first + count <= from.lengths[0]) {
+    if constexpr (std::is_same_v<T, float>)
+      if (from.packed_rows && first + count <= from.lengths[0]) {
         read_packed(from, first, count, out.data());
         return check_finite(from, first, out);
       }

@@ -41,7 +41,7 @@ void add_site_set(std::vector<Dataset>& datasets, const std::string& group, cons
       {group + "/reversal/strain", Type::f32, {reversal}, "1", "strain at the turning point, kept to 5e-8"});
   datasets.back().decimals = 7;  // a five-thousandth of the default gate
   datasets.push_back({group + "/reversal/sample", Type::u32, {reversal}, "1", "sample of the turning point"});
-  datasets.back().decimals = 0;
+  datasets.back().lists = true;
 }
 
 /// Which dresspack is where, as in the motion file. Absent in older files.

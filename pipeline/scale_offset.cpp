@@ -75,11 +75,9 @@ float power_of_ten(int decimals) { return static_cast<float>(std::pow(10.0, deci
 std::uint32_t steps(float number, float smallest, float scale) {
   return static_cast<std::uint32_t>(static_cast<std::int32_t>((number - smallest) * scale + 0.5f));
 }
-std::uint32_t steps(std::uint32_t number, std::uint32_t smallest, float) { return number - smallest; }
 float number_at(std::uint32_t steps, float smallest, float scale) {
   return static_cast<float>(static_cast<std::int32_t>(steps)) / scale + smallest;
 }
-std::uint32_t number_at(std::uint32_t steps, std::uint32_t smallest, float) { return steps + smallest; }
 
 /// Bits for numbers up to `largest`; whole where steps would not fit a float's digits.
 int bits_for(float largest, float smallest, float scale) {
@@ -87,20 +85,18 @@ int bits_for(float largest, float smallest, float scale) {
   const float span = (largest - smallest) * scale;
   return span < most_steps ? std::bit_width(steps(largest, smallest, scale)) : whole;
 }
-int bits_for(std::uint32_t largest, std::uint32_t smallest, float) {
-  return std::bit_width(largest - smallest);
-}
 
-template <class T>
-void pack(std::span<const T> numbers, int decimals, std::vector<char>& chunk) {
-  T smallest = numbers[0], largest = numbers[0];
-  for (const T number : numbers) {
+}  // namespace
+
+void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>& chunk) {
+  float smallest = numbers[0], largest = numbers[0];
+  for (const float number : numbers) {
     smallest = number < smallest ? number : smallest;
     largest = number > largest ? number : largest;
   }
   const float scale = power_of_ten(decimals);
   const std::int32_t bits = bits_for(largest, smallest, scale);
-  chunk.assign(chunk_bytes(numbers.size(), bits) + group * sizeof(T),
+  chunk.assign(chunk_bytes(numbers.size(), bits) + group * sizeof(float),
                0);  // the last group may be partly filled
   std::memcpy(chunk.data(), &bits, sizeof(bits));
   chunk[4] = 8;
@@ -119,10 +115,9 @@ void pack(std::span<const T> numbers, int decimals, std::vector<char>& chunk) {
   chunk.resize(chunk_bytes(numbers.size(), bits));
 }
 
-template <class T>
-bool unpack(std::span<const char> chunk, int decimals, std::span<T> numbers) {
+bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<float> numbers) {
   std::int32_t bits = 0;
-  T smallest;
+  float smallest;
   if (chunk.size() < header_bytes) return false;
   std::memcpy(&bits, chunk.data(), sizeof(bits));
   std::memcpy(&smallest, chunk.data() + 5, sizeof(smallest));
@@ -134,7 +129,7 @@ bool unpack(std::span<const char> chunk, int decimals, std::span<T> numbers) {
   }
   const float scale = power_of_ten(decimals);
   std::array<std::uint32_t, group> of_group{};
-  std::array<char, group * sizeof(T)> rest{};
+  std::array<char, group * sizeof(float)> rest{};
   for (std::size_t first = 0; first < numbers.size(); first += group, in += 4 * bits) {
     const std::size_t count = std::min(group, numbers.size() - first);
     if (count < group) {  // its last word may end beyond the chunk
@@ -145,21 +140,6 @@ bool unpack(std::span<const char> chunk, int decimals, std::span<T> numbers) {
     for (std::size_t k = 0; k < count; ++k) numbers[first + k] = number_at(of_group[k], smallest, scale);
   }
   return true;
-}
-
-}  // namespace
-
-void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>& chunk) {
-  pack(numbers, decimals, chunk);
-}
-void pack_chunk(std::span<const std::uint32_t> numbers, int decimals, std::vector<char>& chunk) {
-  pack(numbers, decimals, chunk);
-}
-bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<float> numbers) {
-  return unpack(chunk, decimals, numbers);
-}
-bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<std::uint32_t> numbers) {
-  return unpack(chunk, decimals, numbers);
 }
 
 }  // namespace dresslife::pipeline

@@ -199,7 +199,7 @@ TEST_CASE("files: packed numbers are the same through this program's reader and 
   packed.datasets = {{"/a", Type::f32, {"sample"}, "1", ""}, {"/b", Type::u32, {"sample"}, "1", ""}};
   Format plain = packed;  // reads through the library whatever the filter
   packed.datasets[0].decimals = 7;
-  packed.datasets[1].decimals = 0;
+  packed.datasets[1].lists = true;
   constexpr std::size_t samples = 70001;  // two chunks and a rest
   std::vector<float> a(samples);
   std::vector<std::uint32_t> b(samples);
