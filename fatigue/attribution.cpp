@@ -1,5 +1,7 @@
 #include "fatigue/attribution.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
@@ -142,15 +144,28 @@ JointDamage damage_by_joint(std::span<const DamagingCycle> cycles, const StrainO
   return result;
 }
 
-std::vector<double> damage_by_clamp(std::span<const double> segment_damage, std::span<const double> length) {
-  const double total = std::accumulate(length.begin(), length.end(), 0.0);
-  std::vector<double> damage(2, 0.0);
+std::vector<double> damage_by_clamp(std::span<const double> segment_damage, std::span<const double> length,
+                                    std::span<const double> clamp_at) {
+  assert(!clamp_at.empty() && std::is_sorted(clamp_at.begin(), clamp_at.end()));
+  std::vector<double> damage(clamp_at.size(), 0.0);
   double start = 0;
+  std::size_t nearest = 0;
   for (std::size_t k = 0; k < length.size(); ++k) {
-    damage[start + length[k] / 2 < total / 2 ? 0 : 1] += segment_damage[k];
+    const double centre = start + length[k] / 2;
+    while (nearest + 1 < clamp_at.size() && centre >= (clamp_at[nearest] + clamp_at[nearest + 1]) / 2)
+      ++nearest;
+    damage[nearest] += segment_damage[k];
     start += length[k];
   }
   return damage;
+}
+
+std::vector<ClampPlace> clamps_of(const pipeline::Routing& routing, double length) {
+  std::vector<ClampPlace> clamps{{"base clamp", 0}};
+  for (const pipeline::IntermediateClamp& between : routing.clamps)
+    clamps.push_back({fmt::format("clamp {} on {}", clamps.size(), between.clamp.link), between.at_length});
+  if (routing.tool_end == pipeline::ToolEnd::clamped) clamps.push_back({"tool clamp", length});
+  return clamps;
 }
 
 }  // namespace dresslife::fatigue

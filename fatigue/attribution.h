@@ -65,8 +65,19 @@ struct JointDamage {
 JointDamage damage_by_joint(std::span<const DamagingCycle> cycles, const StrainOfJoints& surface,
                             std::span<const std::int32_t> step, std::size_t lines);
 
-/// (clamp) the damage of the segments that lie nearer to this clamp than to the other; base, then tool.
-/// segment_damage, length: (segment), from the base.
-std::vector<double> damage_by_clamp(std::span<const double> segment_damage, std::span<const double> length);
+/// (clamp) the damage of the segments whose centres lie nearest to it. segment_damage, length: (segment) of
+/// one dresspack, from its base clamp. clamp_at: (clamp) where they hold it, from the base clamp [m], rising;
+/// at least one.
+std::vector<double> damage_by_clamp(std::span<const double> segment_damage, std::span<const double> length,
+                                    std::span<const double> clamp_at);
+
+/// A clamp of a dresspack, base clamp first.
+struct ClampPlace {
+  std::string name;  ///< "base clamp", "clamp 1 on link_4", "tool clamp"
+  double at = 0;     ///< along the dresspack, from the base clamp [m]
+};
+
+/// length: of the dresspack's segments together [m]. A free tool end has no clamp.
+std::vector<ClampPlace> clamps_of(const pipeline::Routing& routing, double length);
 
 }  // namespace dresslife::fatigue

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -96,9 +97,9 @@ void check_steps(const Context& c) {
 void check_dresspacks(const Context& c) {
   const std::size_t count = c.dresspack.empty() ? 0 : c.dresspack.back() + 1;
   if (count > c.job.dresspacks.size())
-    throw pipeline::InputError(c.strain.where(),
-                               fmt::format("holds {} dresspacks (its job has {})", count, c.job.dresspacks.size()),
-                               "make the file anew with dresslife-strain");
+    throw pipeline::InputError(
+        c.strain.where(), fmt::format("holds {} dresspacks (its job has {})", count, c.job.dresspacks.size()),
+        "make the file anew with dresslife-strain");
 }
 
 template <class T>
@@ -318,18 +319,22 @@ void write_program(const Context& c, const std::vector<DamagingCycle>& cycles) {
 /// Which clamp of each dresspack is near.
 void write_clamps(const Context& c) {
   const std::vector<double> damage = damage_at(c, worst_by_segment(c, true));
-  std::vector<std::string> clamps;
+  std::vector<std::string> names;
   std::vector<double> near;
   for (std::size_t d = 0; d < c.job.dresspacks.size(); ++d) {
     const std::string name = pipeline::name_among(c.job, d);
-    for (const char* clamp : {"base clamp", "tool clamp"})
-      clamps.push_back(name.empty() ? clamp : fmt::format("{}, {}", name, clamp));
     const auto [first, end] = c.segments_of(d);
-    const auto both = damage_by_clamp(std::span(damage).subspan(first, end - first),
-                                      std::span(c.segment_length).subspan(first, end - first));
-    near.insert(near.end(), both.begin(), both.end());
+    const auto lengths = std::span(c.segment_length).subspan(first, end - first);
+    std::vector<double> at;
+    for (const ClampPlace& clamp :
+         clamps_of(c.job.dresspacks[d].routing, std::accumulate(lengths.begin(), lengths.end(), 0.0))) {
+      names.push_back(name.empty() ? clamp.name : fmt::format("{}, {}", name, clamp.name));
+      at.push_back(clamp.at);
+    }
+    const auto each = damage_by_clamp(std::span(damage).subspan(first, end - first), lengths, at);
+    near.insert(near.end(), each.begin(), each.end());
   }
-  put(c.life, "/clamp/name", clamps);
+  put(c.life, "/clamp/name", names);
   put(c.life, "/clamp/damage", near);
 }
 
@@ -375,8 +380,8 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   const std::size_t segment = c.sites.segment(site);
   const auto [first, end] = c.segments_of(c.dresspack[segment]);
   worst.segment_from_tool = double(end - segment);
-  worst.position_from_tool = position_from_tool(
-      {c.segment_length.begin() + first, c.segment_length.begin() + end}, segment - first);
+  worst.position_from_tool =
+      position_from_tool({c.segment_length.begin() + first, c.segment_length.begin() + end}, segment - first);
   worst.component = c.component[site];
   const auto most = std::max_element(cycles.begin(), cycles.end(),
                                      [](const auto& a, const auto& b) { return a.damage < b.damage; });

@@ -195,7 +195,10 @@ LifeSummary read_life(const std::filesystem::path& life_file) {
   life.layer_damage = file.read<double>("/layer/damage");
   life.job = file.text_attribute("job");
   life.history = file.text_attribute("history");
-  if (file.has("/clamp/damage")) life.clamp_damage = file.read<double>("/clamp/damage");
+  if (file.has("/clamp/damage") && file.has("/clamp/name")) {
+    life.clamps = file.read<std::string>("/clamp/name");
+    life.clamp_damage = file.read<double>("/clamp/damage");
+  }
   if (file.has("/joint/name")) {
     life.cause = file.read<std::string>("/joint/name");
     life.cause_damage = file.read<double>("/joint/damage");

@@ -32,7 +32,8 @@ struct LifeSummary {
   std::vector<double> cause_damage;       ///< (cause) of the worst wire
   std::vector<double> line_cause_damage;  ///< (line, cause) of those of its cycles that close in the line
   double explained = 0;                   ///< share of its strain's variance that follows from the joints
-  std::vector<double> clamp_damage;       ///< base, tool: of the segments near each; empty: not told
+  std::vector<std::string> clamps;        ///< of the dresspacks; empty: not told
+  std::vector<double> clamp_damage;       ///< (clamp) of the segments near each
   std::string job, history;
 };
 

@@ -387,12 +387,12 @@ std::string place_remark(const LifeSummary& life) {
         "to clamp: "
         "do not expect the break in one place.",
         100 * share);
-  if (life.clamp_damage.size() != 2) return text;
-  const double base = life.clamp_damage[0], tool = life.clamp_damage[1];
-  if (base + tool > 0)
-    text += fmt::format(" {:.0f} % of it lies nearer to the base clamp, {:.0f} % nearer to the tool clamp.",
-                        100 * base / (base + tool), 100 * tool / (base + tool));
-  return text;
+  const double total = std::accumulate(life.clamp_damage.begin(), life.clamp_damage.end(), 0.0);
+  std::string shares;
+  for (std::size_t k = 0; total > 0 && k < life.clamps.size(); ++k)
+    shares += fmt::format("{}{} {:.0f} %", shares.empty() ? " By the nearest clamp: " : "; ",
+                          escaped(life.clamps[k]), 100 * life.clamp_damage[k] / total);
+  return shares.empty() ? text : text + shares + ".";
 }
 
 std::string charts(const RankingRow& row) {

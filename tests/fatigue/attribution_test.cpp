@@ -1,6 +1,9 @@
 // Which joint costs the life, on histories whose causes are known.
 #include "fatigue/attribution.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -171,8 +174,59 @@ TEST_CASE("attribution: only joints between the clamps' links bend the dresspack
   CHECK(joints_between_clamps(job) == std::vector<bool>(6, false));
 }
 
-TEST_CASE("attribution: segments count for the nearer clamp") {
+TEST_CASE("attribution: segments count for the nearest clamp") {
   const std::vector<double> length{0.1, 0.2, 0.3, 0.4}, damage{1, 2, 4, 8};
   // centres at 0.05, 0.2, 0.45 and 0.8 of 1 m
-  CHECK(damage_by_clamp(damage, length) == std::vector<double>{7, 8});
+  CHECK(damage_by_clamp(damage, length, std::vector{0.0, 1.0}) == std::vector<double>{7, 8});
+  CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.3, 0.6, 1.0}) == std::vector<double>{1, 2, 4, 8});
+  CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.3}) == std::vector<double>{1, 14});
+  CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.9}) ==
+        std::vector<double>{3, 12});  // 0.45: half-way
+  CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.01, 1.0}) == std::vector<double>{0, 7, 8});
+}
+
+TEST_CASE("attribution: damage by clamp is that of the nearest one and adds up to the whole") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<double> length(40), damage(40), at{0};
+    for (double& l : length) l = 0.01 + share(random);
+    for (double& d : damage) d = share(random);
+    const double total = std::accumulate(length.begin(), length.end(), 0.0);
+    for (int k = 0; k < round % 5; ++k) at.push_back(total * share(random));
+    at.push_back(total);
+    std::sort(at.begin(), at.end());
+    std::vector<double> nearest(at.size(), 0.0);
+    double centre = 0;
+    for (std::size_t k = 0; k < length.size(); ++k) {
+      centre += length[k] / 2;
+      const auto best = std::min_element(at.begin(), at.end(), [&](double a, double b) {
+        return std::abs(a - centre) < std::abs(b - centre);
+      });
+      nearest[best - at.begin()] += damage[k];
+      centre += length[k] / 2;
+    }
+    const std::vector<double> each = damage_by_clamp(damage, length, at);
+    CHECK(each == nearest);
+    CHECK(std::accumulate(each.begin(), each.end(), 0.0) ==
+          Approx(std::accumulate(damage.begin(), damage.end(), 0.0)).epsilon(same_sum));
+  }
+}
+
+TEST_CASE("attribution: clamps between the ends are told with their links and a free end has none") {
+  pipeline::Routing routing;
+  routing.clamps.resize(2);
+  routing.clamps[0].clamp.link = "link_4";
+  routing.clamps[0].at_length = 0.5;
+  routing.clamps[1].clamp.link = "link_5";
+  routing.clamps[1].at_length = 1.25;
+  const auto told = [&] {
+    std::string text;
+    for (const ClampPlace& clamp : clamps_of(routing, 2))
+      text += fmt::format("{} at {}; ", clamp.name, clamp.at);
+    return text;
+  };
+  CHECK(told() == "base clamp at 0; clamp 1 on link_4 at 0.5; clamp 2 on link_5 at 1.25; tool clamp at 2; ");
+  routing.tool_end = pipeline::ToolEnd::free;
+  CHECK(told() == "base clamp at 0; clamp 1 on link_4 at 0.5; clamp 2 on link_5 at 1.25; ");
 }

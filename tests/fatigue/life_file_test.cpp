@@ -436,6 +436,17 @@ TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp"
   CHECK(life.read<std::string>("/clamp/name") == std::vector<std::string>{"base clamp", "tool clamp"});
   CHECK(clamp == std::vector<double>{segment[0] + segment[1] + segment[2], segment[3]});
 
+  job.dresspacks[0].routing.clamps.resize(1);
+  job.dresspacks[0].routing.clamps[0].clamp.link = "link 2";
+  const auto lengths = life.read<double>("/segment/length");
+  job.dresspacks[0].routing.clamps[0].at_length = lengths[0] + lengths[1];
+  const Result between = run(folder, f, job, "between.h5");
+  const FileReader three(between.file, pipeline::life_format());
+  CHECK(three.read<std::string>("/clamp/name") ==
+        std::vector<std::string>{"base clamp", "clamp 1 on link 2", "tool clamp"});
+  CHECK(sum(three.read<double>("/clamp/damage")) == Approx(sum(segment)).epsilon(same_sum));
+  CHECK(three.read<double>("/clamp/damage")[1] > 0);
+
   // without joints in the file only the clamps are told
   f.joints.clear();
   const Result bare = run(folder, f, job, "bare.h5");

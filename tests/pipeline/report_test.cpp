@@ -75,7 +75,7 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   CHECK(page.find("80.0 %") != std::string::npos);
   CHECK(page.find("-10.0 %: moves against the others, relieves") != std::string::npos);
   CHECK(page.find("<td>joint_5 80 %, carrying 30 %</td>") != std::string::npos);
-  CHECK(page.find("25 % of it lies nearer to the base clamp, 75 % nearer to the tool clamp.") !=
+  CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") !=
         std::string::npos);
   CHECK(page.find("<dt>hose's wall</dt><dd>3,400 h of motion") != std::string::npos);
   CHECK(page.find("<td>weld spot") != std::string::npos);
