@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "pipeline/digest.h"
+#include "pipeline/threads.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -69,6 +70,8 @@ int run_stage(const StageInfo& info, int argc, char** argv,
   return guarded(info.program, [&] {
     Progress progress(info.program, call.quiet);
     check_output(call);
+    if (!info.input_is_job)  // jobs are short
+      call.input_sha256 = beside<std::string>([file = call.input] { return sha256_of_file(file); }).share();
     body(call, progress);
     return 0;
   });
@@ -119,7 +122,8 @@ void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::s
   for (const std::string& set : call.sets) line += " --set " + set;
   file.attribute("job", job_text(job));
   file.attribute("history", earlier.empty() ? line : earlier + "\n" + line);
-  file.attribute("input_sha256", sha256_of_file(call.input));
+  file.attribute("input_sha256",
+                 call.input_sha256.valid() ? call.input_sha256.get() : sha256_of_file(call.input));
 }
 
 }  // namespace dresslife::pipeline

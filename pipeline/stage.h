@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct StageCall {
   std::vector<std::string> sets;
   std::vector<std::vector<std::string>> options;  ///< values given for each of info.options
   bool quiet = false;
+  std::shared_future<std::string> input_sha256{};  ///< worked out beside the stage, for the stamp
 };
 
 /// Parses the command line, runs `body`, words what it throws. Returns the exit status.

@@ -1,7 +1,9 @@
 #include "pipeline/threads.h"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <numeric>
 #include <vector>
 
 #include "pipeline/errors.h"
@@ -53,6 +55,61 @@ TEST_CASE("threads: every part once, and the failure of the lowest part is throw
   };
   CHECK_THROWS_WITH(in_parallel(4, work), Catch::Contains("part 1"));
   CHECK(finished == std::vector<int>{1, 0, 1, 0});
+}
+
+TEST_CASE(
+    "threads: in order, everything is worked on once and used in its turn, no more than so many ahead") {
+  for (const std::size_t threads : {1, 2, 3, 8})
+    for (const std::size_t count : {0, 1, 5, 200})
+      for (const std::size_t ahead : {1, 2, 7}) {
+        std::vector<int> worked(count, 0);
+        std::vector<std::size_t> used, place(ahead);
+        std::atomic<std::size_t> in_use = 0;
+        std::atomic<bool> too_far = false;
+        in_order(
+            threads, count, ahead,
+            [&](std::size_t part, std::size_t k) {
+              if (part >= threads || k >= in_use + ahead) too_far = true;
+              ++worked[k];
+              place[k % ahead] = k;
+            },
+            [&](std::size_t k) {
+              used.push_back(place[k % ahead]);
+              ++in_use;
+            });
+        CHECK(worked == std::vector<int>(count, 1));
+        std::vector<std::size_t> all(count);
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        CHECK(used == all);
+        CHECK_FALSE(too_far);
+      }
+}
+
+TEST_CASE("threads: in order, a failure is thrown when its turn comes") {
+  for (const std::size_t threads : {1, 2, 5}) {
+    std::vector<std::size_t> used;
+    const auto use = [&](std::size_t k) { used.push_back(k); };
+    const auto fail_from = [&](std::size_t first) {
+      return [first](std::size_t, std::size_t k) {
+        if (k >= first) throw InputError({}, "number " + std::to_string(k), "repair it");
+      };
+    };
+    CHECK_THROWS_WITH(in_order(threads, 50, 4, fail_from(7), use), Catch::Contains("number 7"));
+    CHECK(used == std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6});
+    const auto refuse = [](std::size_t k) {
+      if (k == 3) throw InputError({}, "use 3", "repair it");
+    };
+    CHECK_THROWS_WITH(in_order(threads, 50, 4, fail_from(99), refuse), Catch::Contains("use 3"));
+  }
+}
+
+TEST_CASE("threads: work beside gives its result and its failure") {
+  for (const char* threads : {"1", "2"}) {
+    const Setting setting(threads);
+    CHECK(beside<int>([] { return 7; }).get() == 7);
+    CHECK_THROWS_WITH(beside<int>([]() -> int { throw InputError({}, "it fails", "repair it"); }).get(),
+                      Catch::Contains("it fails"));
+  }
 }
 
 }  // namespace
