@@ -17,7 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t thinned_samples = 256;  // at least so many of them pick the wires of the bounds
-// Of all bundles that a thread takes in a row: enough to be worth a thread, few enough to hold their results.
+// Of the bundles whose results wait to be written, half for each thread: enough to bridge a slow write.
 constexpr std::size_t samples_at_a_time = 1 << 14;
 
 std::vector<double> centres(const std::vector<double>& lengths, double start) {
@@ -216,24 +216,16 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
                               std::size_t row, bool with_rows,
                               const std::function<void(const BundleSites&)>& use) {
   const std::size_t bundles = construction_.bundles().size(), threads = workers_.size();
-  const std::size_t each = threads == 1 ? 1 : std::max<std::size_t>(1, samples_at_a_time / history.samples());
-  const std::size_t batch = std::min(bundles, threads * each);
+  const std::size_t each = std::max<std::size_t>(1, samples_at_a_time / history.samples());
+  const std::size_t ahead = threads == 1 ? 1 : std::min(bundles, 2 * threads * each);
   for (Worker& worker : workers_) worker.parent_is = {};
-  found_.resize(batch);
-  before_.resize(batch);
-  std::size_t to_use = 0;  // bundles in `before_`
-  for (std::size_t first = 0; first < bundles + batch; first += batch) {
-    const std::size_t end = std::min(bundles, first + batch);
-    std::atomic<std::size_t> next =
-        first;  // each bundle is worked out alone: who takes it makes no difference
-    pipeline::in_parallel(first < bundles ? threads : 1, [&](std::size_t part) {
-      for (std::size_t k = 0; part == 0 && k < to_use; ++k) use(before_[k]);  // while others work already
-      for (std::size_t b = next++; b < end; b = next++)
-        scan_bundle(b, segment, means, history, row, with_rows, workers_[part], found_[b - first]);
-    });
-    to_use = first < end ? end - first : 0;
-    std::swap(found_, before_);
-  }
+  if (found_.size() < ahead) found_.resize(ahead);
+  pipeline::in_order(
+      threads, bundles, ahead,
+      [&](std::size_t part, std::size_t b) {  // alone: who takes it makes no difference
+        scan_bundle(b, segment, means, history, row, with_rows, workers_[part], found_[b % ahead]);
+      },
+      [&](std::size_t b) { use(found_[b % ahead]); });
 }
 
 BundleChain Evaluation::site_chain(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
@@ -398,11 +390,7 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
     put_bound(same ? worst : worst_of_bound(*bound, segment, history, row), bound->means, segment, history,
               row, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
-  auto probe = [&](Site site) {
-    sink.probe({site_row(segment, site),
-                histories_of({&site, 1}, segment, means_, history, row, workers_[0])[0],
-                fibre_history(site, segment, means_, history, row, workers_[0]).shear});
-  };
+  std::vector<Site> to_probe;
   const auto wire_range = [&](const Worst& of) {  // the hose's wall is no wire
     return construction_.layers()[&of - worst.data()].is_hose ? -1 : of.value[Worst::range];
   };
@@ -410,7 +398,7 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
     return wire_range(a) < wire_range(b);
   });
   if (of_all != worst.end() && wire_range(*of_all) >= 0) {
-    probe(of_all->site[Worst::range]);
+    to_probe.push_back(of_all->site[Worst::range]);
     if (of_all->value[Worst::range] > worst_range_) {
       worst_range_ = of_all->value[Worst::range];
       worst_ = of_all->site[Worst::range];
@@ -424,9 +412,10 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   });
   if (of_cycles != worst.end() && wire_range(*of_cycles) >= 0 && of_cycles->value[Worst::cycles] > 0 &&
       of_cycles->site[Worst::cycles] != of_all->site[Worst::range])
-    probe(of_cycles->site[Worst::cycles]);
+    to_probe.push_back(of_cycles->site[Worst::cycles]);
   for (const auto& [at, site] : probes_)
-    if (at == segment) probe(site);
+    if (at == segment) to_probe.push_back(site);
+  put_probes(to_probe, segment, history, row, sink);
   if (sink.progress)
     sink.progress(static_cast<double>(place_.first_segment + segment + 1) /
                   static_cast<double>(place_.segments_in_all));
@@ -435,7 +424,28 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   for (const Worst& layer : worst)
     for (int by = 0; by < Worst::measures; ++by)
       if (layer.value[by] >= 0 && wire_range(layer) >= 0) likely.insert(layer.site[by]);
-  for (const Site site : likely) sink.fibre(fibre_history(site, segment, means_, history, row, workers_[0]));
+  const std::vector<Site> list(likely.begin(), likely.end());
+  std::vector<FibreHistory> found(workers_.size());
+  pipeline::in_order(
+      workers_.size(), list.size(), found.size(),
+      [&](std::size_t part, std::size_t k) {
+        found[k % found.size()] = fibre_history(list[k], segment, means_, history, row, workers_[part]);
+      },
+      [&](std::size_t k) { sink.fibre(found[k % found.size()]); });
+}
+
+void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
+                            const DeformationHistory& history, std::size_t row, const Sink& sink) {
+  std::vector<Probe> found(workers_.size());
+  pipeline::in_order(
+      workers_.size(), sites.size(), found.size(),
+      [&](std::size_t part, std::size_t k) {
+        found[k % found.size()] = {
+            site_row(segment, sites[k]),
+            histories_of({&sites[k], 1}, segment, means_, history, row, workers_[part])[0],
+            fibre_history(sites[k], segment, means_, history, row, workers_[part]).shear};
+      },
+      [&](std::size_t k) { sink.probe(found[k % found.size()]); });
 }
 
 std::vector<Evaluation::Worst> Evaluation::worst_of_bound(Bound& bound, std::size_t segment,

@@ -176,6 +176,8 @@ class Evaluation {
   /// The same for a bound, found on thinned samples.
   std::vector<Worst> worst_of_bound(Bound& bound, std::size_t segment, const DeformationHistory& history,
                                     std::size_t row);
+  void put_probes(const std::vector<Site>& sites, std::size_t segment, const DeformationHistory& history,
+                  std::size_t row, const Sink& sink);
   void put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
                  const DeformationHistory& history, std::size_t row,
                  const std::function<void(const SiteRows&)>& sink);
@@ -190,10 +192,10 @@ class Evaluation {
   bool with_planes_;
   ClampMeans means_;
   Bound stick_, free_;
-  std::vector<Worker> workers_;              ///< one a thread
-  std::vector<BundleSites> found_, before_;  ///< batches of bundles: being scanned, being used
-  std::vector<Wire> wires_;                  ///< bundle by bundle
-  std::vector<std::size_t> first_wire_;      ///< of each bundle
+  std::vector<Worker> workers_;          ///< one a thread
+  std::vector<BundleSites> found_;       ///< being scanned, or waiting to be used
+  std::vector<Wire> wires_;              ///< bundle by bundle
+  std::vector<std::size_t> first_wire_;  ///< of each bundle
   Site worst_;
   std::size_t worst_segment_ = 0;
   float worst_range_ = -1;
