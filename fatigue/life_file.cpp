@@ -14,6 +14,7 @@
 #include "fatigue/verdict.h"
 #include "pipeline/motion_layout.h"
 #include "pipeline/readable.h"
+#include "pipeline/threads.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -246,20 +247,23 @@ std::vector<double> sharing_rates_of(const Context& c, std::size_t worst, std::s
   });
 }
 
-void write_scatter(const Context& c) {
+Conductors loaded_conductors(const Context& c) {
   std::vector<std::string> layers;
   for (const pipeline::MountedDresspack& mounted : c.job.dresspacks)
     for (const std::string& layer : layer_names(mounted.dresspack)) layers.push_back(layer);
   Conductors conductors = conductors_of(c.damage, c.component, layers);
+  for (std::size_t k = 0; c.job.fatigue.load_sharing && k < conductors.path.size(); ++k) {
+    Bundle& bundle = conductors.bundle[k];
+    bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
+  }
+  return conductors;
+}
+
+void write_scatter(const Context& c, const Conductors& conductors, const LifeScatter& scatter) {
   std::vector<std::uint32_t> wires;
   std::vector<double> lives;
-  for (std::size_t k = 0; k < conductors.path.size(); ++k) {
-    Bundle& bundle = conductors.bundle[k];
+  for (const Bundle& bundle : conductors.bundle)
     wires.push_back(static_cast<std::uint32_t>(bundle.damage.size()));
-    if (c.job.fatigue.load_sharing)
-      bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
-  }
-  const LifeScatter scatter = life_scatter(conductors, c.job.fatigue);
   for (const FailureLives& conductor : scatter.conductor) {
     for (const Percentiles& failure : conductor) lives.insert(lives.end(), failure.begin(), failure.end());
   }
@@ -529,6 +533,9 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   judge_planes(c);
   c.worst = c.damage.worst_wire();
   c.worst_wall = c.damage.worst_wall();
+  const Conductors conductors = loaded_conductors(c);
+  std::future<LifeScatter> scatter =
+      pipeline::beside<LifeScatter>([&] { return life_scatter(conductors, c.job.fatigue); });
   write_bound(c, "stick", pipeline::Slip::stick, [&](double share) { progress((1 + share) / 3); });
   write_bound(c, "free", pipeline::Slip::free, [&](double share) { progress((2 + share) / 3); });
   const auto cycles = c.cycles_of(c.worst);
@@ -537,7 +544,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_segments(c);
   write_dresspacks(c);
   write_layers(c);
-  write_scatter(c);
+  write_scatter(c, conductors, scatter.get());
   write_shear(c);
   write_program(c, cycles);
   write_causes(c, cycles, write_worst_strain(c));

@@ -78,21 +78,31 @@ std::vector<std::size_t> SiteSet::Block::cuts(std::size_t parts) const {
   return sites;
 }
 
-void SiteSet::for_each_block(const std::function<void(const Block&)>& visit) const {
-  std::vector<float> strains;
-  for (std::size_t site = 0; site < size();) {
-    const std::uint64_t begin = offset_[site];
-    const auto after = std::upper_bound(offset_.begin() + site + 1, offset_.end(), begin + block_reversals);
-    const std::size_t end = std::max<std::size_t>(after - offset_.begin() - 1, site + 1);
-    file_.read_rows(group_ + "/reversal/strain", begin, offset_[end] - begin, strains);
-    visit({site, end, strains, std::span(offset_).subspan(site, end - site + 1)});
-    site = end;
+std::size_t SiteSet::end_of_block(std::size_t begin) const {
+  const auto first = offset_.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto after = std::upper_bound(first + 1, offset_.end(), *first + block_reversals);
+  return std::max<std::size_t>(after - offset_.begin() - 1, begin + 1);
+}
+
+void SiteSet::for_each_block(const Visit& visit) const {
+  std::vector<float> strains, next;
+  std::size_t begin = 0, end = 0;
+  const auto read_ahead = [&] {  // what follows `end`
+    if (end == size()) return;
+    file_.read_rows(group_ + "/reversal/strain", offset_[end], offset_[end_of_block(end)] - offset_[end],
+                    next);
+  };
+  for (read_ahead(); end < size(); begin = end) {
+    std::swap(strains, next);
+    end = end_of_block(begin);
+    visit({begin, end, strains, std::span(offset_).subspan(begin, end - begin + 1)}, read_ahead);
   }
 }
 
 void SiteSet::for_each(const std::function<void(std::size_t, std::span<const float>)>& visit) const {
-  for_each_block([&](const Block& block) {
+  for_each_block([&](const Block& block, const std::function<void()>& read_ahead) {
     for (std::size_t site = block.begin; site < block.end; ++site) visit(site, block.strains_of(site));
+    read_ahead();
   });
 }
 

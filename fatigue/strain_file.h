@@ -46,8 +46,10 @@ class SiteSet {
     std::vector<std::size_t> cuts(std::size_t parts) const;
   };
   /// Calls `visit` for blocks that cover all sites in order, of about `block_reversals`, or one site where
-  /// that has more.
-  void for_each_block(const std::function<void(const Block&)>& visit) const;
+  /// that has more. `visit` calls read_ahead(), once and on the thread it was called on, while it or others
+  /// work.
+  using Visit = std::function<void(const Block& block, const std::function<void()>& read_ahead)>;
+  void for_each_block(const Visit& visit) const;
   /// Calls `visit(site, strains)` for every site in order; strains are its reversals'.
   void for_each(const std::function<void(std::size_t, std::span<const float>)>& visit) const;
   static constexpr std::size_t block_reversals = 1 << 20;
@@ -56,6 +58,7 @@ class SiteSet {
 
  private:
   void check(std::size_t segments) const;
+  std::size_t end_of_block(std::size_t begin) const;  ///< sites
 
   const pipeline::FileReader& file_;
   std::string group_;

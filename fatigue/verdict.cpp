@@ -1,6 +1,7 @@
 #include "fatigue/verdict.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <numeric>
 
@@ -84,14 +85,18 @@ SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::si
   all.range.resize(sites.size());
   for (std::size_t site = 0; site < sites.size(); ++site) all.wall.push_back(counters.is_wall(site));
   std::vector<DamageCounter::Workspace> workspaces(threads);
-  sites.for_each_block([&](const SiteSet::Block& block) {
-    const std::vector<std::size_t> cuts = block.cuts(threads);
+  sites.for_each_block([&](const SiteSet::Block& block, const std::function<void()>& read_ahead) {
+    constexpr std::size_t pieces = 16;  // a thread, so that all end at about the same time
+    const std::vector<std::size_t> cuts = block.cuts(pieces * threads);
+    std::atomic<std::size_t> next = 0;
     pipeline::in_parallel(threads, [&](std::size_t part) {
-      for (std::size_t site = cuts[part]; site < cuts[part + 1]; ++site) {
-        const std::span<const float> strains = block.strains_of(site);
-        all.damage[site] = counters.of(site)(strains, workspaces[part]);
-        all.range[site] = range_of(strains);
-      }
+      if (part == 0) read_ahead();
+      for (std::size_t piece = next++; piece + 1 < cuts.size(); piece = next++)
+        for (std::size_t site = cuts[piece]; site < cuts[piece + 1]; ++site) {
+          const std::span<const float> strains = block.strains_of(site);
+          all.damage[site] = counters.of(site)(strains, workspaces[part]);
+          all.range[site] = range_of(strains);
+        }
     });
     progress(double(block.end) / sites.size());
   });
