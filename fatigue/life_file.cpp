@@ -72,8 +72,14 @@ struct Context {
   const std::string* step_at(std::size_t sample) const {
     return step[sample] < 0 ? nullptr : &step_text[step[sample]];
   }
+  /// They add up to the site's damage, also where that is another one's ratio (F21).
   std::vector<DamagingCycle> cycles_of(std::size_t site) const {
-    return site == no_site ? std::vector<DamagingCycle>{} : counters.of(site).cycles(reversals_of(site));
+    if (site == no_site) return {};
+    std::vector<DamagingCycle> cycles = counters.of(site).cycles(reversals_of(site));
+    if (planes && !planes->empty() && !planes->of(site))
+      if (const double counted = sum_of_damage(cycles); counted > 0)
+        for (DamagingCycle& cycle : cycles) cycle.damage *= damage.damage[site] / counted;
+    return cycles;
   }
   /// Of the strain that the site was judged by.
   std::vector<Reversal> reversals_of(std::size_t site) const {

@@ -88,7 +88,7 @@ void JudgedPlanes::apply(SiteDamage& all, std::size_t groups,
     if (judged[site] >= 0)
       all.damage[site] = judged[site];
     else if (of_best > 0)
-      all.damage[site] = std::min(equivalent[site] * (plane_[best].damage / of_best), plane_[best].damage);
+      all.damage[site] = equivalent[site] * (plane_[best].damage / of_best);
   }
 }
 

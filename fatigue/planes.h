@@ -4,8 +4,8 @@
 // strain.h5 holds the strain along the fibre and the shear of some wires of every segment and layer: those
 // that see most by several measures (strain/evaluation.h). Each is damaged by the worst of its planes (F18).
 // Every other wire keeps the damage of its signed equivalent strain (F17), times the ratio of both for the
-// worst judged wire of its segment and layer, and is never worse than that one: (F21)
-//     D = min(D_eq D'/D'_eq, D').
+// worst judged wire of its segment and layer: (F21)
+//     D = D_eq D'/D'_eq.
 // Planes cost 36 counted histories a wire; judging all wires would cost 36 times the whole.
 #pragma once
 
