@@ -201,16 +201,17 @@ double MetalTables::morrow_damage(double amplitude, double stress_mean) const {
   return damage < 2 / most_reversals ? 0 : std::min(damage, 2 / fewest_reversals);
 }
 
-/// True if rises and falls take turns strictly, as dresslife-strain writes them. No branch: the compiler
-/// vectorises it.
+/// True if rises and falls take turns strictly, as dresslife-strain writes them. No branch, and whole numbers
+/// instead of truth values: the compiler vectorises it.
 bool alternates(std::span<const float> strains) {
-  bool strict = true;
+  const float* const at = strains.data();
+  int strict = 1;
   for (std::size_t i = 1; i + 1 < strains.size(); ++i) {
-    const bool peak = (strains[i] > strains[i - 1]) & (strains[i] > strains[i + 1]);
-    const bool valley = (strains[i] < strains[i - 1]) & (strains[i] < strains[i + 1]);
-    strict &= peak | valley;
+    const int rise = at[i] > at[i - 1], fall = at[i] < at[i - 1];
+    const int falls_next = at[i] > at[i + 1], rises_next = at[i] < at[i + 1];
+    strict &= (rise & falls_next) | (fall & rises_next);
   }
-  return strict;
+  return strict != 0;
 }
 
 constexpr std::size_t side_by_side = 8;  // independent extremes, which the compiler keeps in wide registers
