@@ -54,6 +54,10 @@ Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinem
     layers_.back().strain_factor = factors.strain;
     layers_.back().shear_factor = factors.shear;
   }
+  for (Layer& layer : layers_) {
+    layer.lay_tangent = std::tan(lay_angle(layer));
+    layer.lay_cosine = std::cos(lay_angle(layer));
+  }
   list_parts(dresspack_itself, dresspack_itself);
 }
 
@@ -114,7 +118,8 @@ void Construction::list_parts(int parent_layer, int parent_part) {
     if (layers_[k].parent != parent_layer || layers_[k].is_wire) continue;
     for (int number = 1; number <= layers_[k].count; ++number) {
       const int index = static_cast<int>(parts_.size()), layer = static_cast<int>(k);
-      parts_.push_back({layer, number, parent_part, wire_path(layer, number, parent_part)});
+      parts_.push_back({layer, number, parent_part, wire_path(layer, number, parent_part),
+                        length_rate(parent_part) / layers_[k].lay_cosine});
       list_parts(layer, index);
     }
   }
@@ -126,13 +131,6 @@ std::vector<int> Construction::ancestry(int part) const {
   return line;
 }
 
-double Construction::length_rate(int part) const {
-  double rate = 1;
-  for (; part != dresspack_itself; part = parts_[part].parent)
-    rate /= std::cos(layers_[parts_[part].layer].lay_angle);
-  return rate;
-}
-
 /// The thesis knows no hands: all its lay angles are positive.
 double Construction::lay_angle(const Layer& layer) const {
   return kinematics_ == pipeline::Kinematics::thesis ? std::abs(layer.lay_angle) : layer.lay_angle;
@@ -141,7 +139,7 @@ double Construction::lay_angle(const Layer& layer) const {
 double Construction::phase(int layer, int number, int parent, double arc) const {
   const Layer& of = layers_[layer];
   double phase = of.phase + 2 * pi * (number - 1) / of.count;
-  if (of.helix_radius > 0) phase += arc * length_rate(parent) * std::tan(lay_angle(of)) / of.helix_radius;
+  if (of.helix_radius > 0) phase += arc * length_rate(parent) * of.lay_tangent / of.helix_radius;
   if (kinematics_ == pipeline::Kinematics::thesis && parent != dresspack_itself) {  // (19)
     const Part& in = parts_[parent];
     phase += pi - this->phase(in.layer, in.number, in.parent, arc);
@@ -150,7 +148,8 @@ double Construction::phase(int layer, int number, int parent, double arc) const 
 }
 
 Placement Construction::placement(int layer, int number, int parent, double arc, double turn) const {
-  return make_placement(kinematics_, layers_[layer].helix_radius, lay_angle(layers_[layer]),
+  const Layer& of = layers_[layer];
+  return make_placement(kinematics_, of.helix_radius, of.lay_tangent, of.lay_cosine,
                         phase(layer, number, parent, arc) + turn);
 }
 

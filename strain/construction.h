@@ -29,23 +29,26 @@ struct Layer {
   double part_radius = 0;         ///< [m]
   double helix_radius = 0;        ///< R [m]
   double lay_angle = 0;           ///< negative = left hand [rad]
-  double phase = 0;               ///< of part 1 at the base clamp [rad]
-  bool is_hose = false;           ///< places around the hose's wall instead of wires
-  double strain_factor = 1;       ///< of the corrugated wall over a smooth one, along the hose
-  double shear_factor = 1;        ///< the same of its shear by twist
-  double friction = 0;            ///< Coulomb, of a part on what it lies against
-  double line_load = 0;           ///< radial, from jacket and tape [N/m]
-  double tension = 0;             ///< of a part at rest [N]
-  double axial_stiffness = 0;     ///< EA of a part, of its wires alone [N]; 0: a material is not known
+  double lay_tangent = 0;         ///< of the lay angle as the kinematics counts it
+  double lay_cosine = 1;
+  double phase = 0;            ///< of part 1 at the base clamp [rad]
+  bool is_hose = false;        ///< places around the hose's wall instead of wires
+  double strain_factor = 1;    ///< of the corrugated wall over a smooth one, along the hose
+  double shear_factor = 1;     ///< the same of its shear by twist
+  double friction = 0;         ///< Coulomb, of a part on what it lies against
+  double line_load = 0;        ///< radial, from jacket and tape [N/m]
+  double tension = 0;          ///< of a part at rest [N]
+  double axial_stiffness = 0;  ///< EA of a part, of its wires alone [N]; 0: a material is not known
 
   double pitch() const;  ///< along the parent [m]; infinite when straight
 };
 
 struct Part {
   int layer;
-  int number;        ///< 1 .. K
-  int parent;        ///< part, or dresspack_itself
-  std::string path;  ///< "signal cable 3/conductor 2"
+  int number;          ///< 1 .. K
+  int parent;          ///< part, or dresspack_itself
+  std::string path;    ///< "signal cable 3/conductor 2"
+  double length_rate;  ///< ideal length per length of the dresspack
 };
 
 struct Bundle {
@@ -70,7 +73,7 @@ class Construction {
   /// Parts from the outermost to `part` itself; empty for the dresspack.
   std::vector<int> ancestry(int part) const;
   /// Ideal length of `part` per length of the dresspack.
-  double length_rate(int part) const;
+  double length_rate(int part) const { return part == dresspack_itself ? 1 : parts_[part].length_rate; }
   /// theta of part `number` of `layer` in `parent` at `arc` along the dresspack [m] (W8).
   double phase(int layer, int number, int parent, double arc) const;
   /// The same as a place to compute with. turn: added to the phase [rad].

@@ -51,21 +51,26 @@ struct Placement {
 
 inline namespace DRESSLIFE_MACHINE {
 
-/// lay_angle signed [rad]; phase = theta at the place [rad].
-inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_angle,
-                                double phase) {
-  assert(radius > 0 || lay_angle == 0);
+/// Tangent and cosine of the lay angle, which is signed; phase = theta at the place [rad].
+inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_tangent,
+                                double lay_cosine, double phase) {
+  assert(radius > 0 || lay_tangent == 0);
   constexpr int highest = Series<double>::capacity - 1;
   Placement place;
   place.kinematics = kinematics;
   place.radius = radius;
-  place.lay_tangent = std::tan(lay_angle);
-  place.lay_cosine = std::cos(lay_angle);
+  place.lay_tangent = lay_tangent;
+  place.lay_cosine = lay_cosine;
   place.turn_rate = radius > 0 ? place.lay_tangent / radius : 0;
   const double sine = std::sin(phase), cosine = std::cos(phase);
   place.sine = sine_series(sine, cosine, place.turn_rate, highest);
   place.cosine = sine_series(cosine, -sine, place.turn_rate, highest);
   return place;
+}
+
+inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_angle,
+                                double phase) {
+  return make_placement(kinematics, radius, std::tan(lay_angle), std::cos(lay_angle), phase);
 }
 
 /// A rod in a uniform state, as the dresspack is within a segment. curvature [1/m], twist [rad/m].
