@@ -58,8 +58,8 @@ std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t group
 /// The `count` worst wires that are damaged at all, worst first.
 std::vector<std::size_t> worst_wires(const SiteDamage& all, std::size_t count);
 
-/// The dresspack of a job that a component's path names, and the path within it; before that of a job with one
-/// dresspack nothing stands. Errors: InputError for a name that the job does not have.
+/// The dresspack of a job that a component's path names, and the path within it; before that of a job with
+/// one dresspack nothing stands. Errors: InputError for a name that the job does not have.
 struct PathInJob {
   std::size_t dresspack = 0;
   std::string inside;

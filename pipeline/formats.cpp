@@ -17,7 +17,11 @@ void add_site_set(std::vector<Dataset>& datasets, const std::string& group, cons
                       "1",
                       "segment of the site, counted from the base, 0 first"});
   datasets.push_back(
-      {group + "/site/component", Type::text, {site}, "1", "path of the wire, outermost part first; before it, among several, the dresspack's name"});
+      {group + "/site/component",
+       Type::text,
+       {site},
+       "1",
+       "path of the wire, outermost part first; before it, among several, the dresspack's name"});
   datasets.push_back({group + "/site/helix",
                       Type::f64,
                       {site, "level", "3"},
@@ -46,14 +50,15 @@ void add_site_set(std::vector<Dataset>& datasets, const std::string& group, cons
 
 /// Which dresspack is where, as in the motion file. Absent in older files.
 void add_dresspacks(std::vector<Dataset>& datasets) {
-  datasets.push_back({"/segment/dresspack",
-                      Type::i32,
-                      {"segment"},
-                      "1",
-                      "dresspack that each segment belongs to, 0 first: one after the other, each from base to tool; "
-                      "absent: one dresspack",
-                      false,
-                      true});
+  datasets.push_back(
+      {"/segment/dresspack",
+       Type::i32,
+       {"segment"},
+       "1",
+       "dresspack that each segment belongs to, 0 first: one after the other, each from base to tool; "
+       "absent: one dresspack",
+       false,
+       true});
   datasets.push_back({"/dresspack/name",
                       Type::text,
                       {"dresspack"},
@@ -88,7 +93,8 @@ void add_checks(std::vector<Dataset>& datasets) {
   add("/check/twist_time", Type::f64, link, "s", "when");
   add("/check/tension", Type::f64, link, "N", "largest pull");
   add("/check/tension_time", Type::f64, link, "s", "when");
-  add("/check/net_twist", Type::f64, "sample", "rad", "twist of the whole dresspack, whole turns counted; of several the sum");
+  add("/check/net_twist", Type::f64, "sample", "rad",
+      "twist of the whole dresspack, whole turns counted; of several the sum");
 }
 
 Format make_motion_format() {
@@ -117,7 +123,8 @@ Format make_motion_format() {
        {"clamp"},
        "1",
        "segments of the file before each clamp: 0 at the first, all at the last; where a further dresspack "
-       "begins, its base clamp repeats the number of the tool clamp before it; absent: two clamps, at the ends",
+       "begins, its base clamp repeats the number of the tool clamp before it; absent: two clamps, at the "
+       "ends",
        false,
        true},
       {"/clamp/travel",
@@ -433,8 +440,8 @@ Format make_life_format() {
       {"worst_component", "path of its wire", true},
       {"worst_time", "time at which its most damaging cycle closes, s"},
       {"worst_step", "program line being executed then", true},
-      {"worst_dresspack", "the dresspack that it lies in, among several; the segment above is counted in it", true,
-       true},
+      {"worst_dresspack", "the dresspack that it lies in, among several; the segment above is counted in it",
+       true, true},
       {"life_hours_p10", "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)", false,
        true},
       {"life_hours_p50",

@@ -865,16 +865,15 @@ void check_shared(const std::vector<MountedDresspack>& dresspacks) {
       posed = &mounted;
     }
     for (const Material& material : mounted.dresspack.materials) {
-      const auto same = std::find_if(known.begin(), known.end(), [&](const Material* other) {
-        return other->name == material.name;
-      });
+      const auto same = std::find_if(known.begin(), known.end(),
+                                     [&](const Material* other) { return other->name == material.name; });
       if (same == known.end())
         known.push_back(&material);
       else if (to_yaml(echo_fields(**same)) != to_yaml(echo_fields(material)))
-        throw InputError(material.where,
-                         fmt::format("material '{}' is another than that of the dresspack before",
-                                     material.name),
-                         "give one of the two another name");
+        throw InputError(
+            material.where,
+            fmt::format("material '{}' is another than that of the dresspack before", material.name),
+            "give one of the two another name");
     }
   }
 }
@@ -934,9 +933,10 @@ void check_forms(const Node& document) {
   for (const char* key : {"dresspack", "routing"}) {
     const Node* alone = document.find(key);
     if (list && alone)
-      throw InputError(alone->where,
-                       fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
-                       "keep one of the two");
+      throw InputError(
+          alone->where,
+          fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
+          "keep one of the two");
     if (!list && !alone)
       throw InputError(document.where, fmt::format("{} is missing (and there is no list dresspacks)", key),
                        "give dresspack and routing, or a list dresspacks of name, dresspack, routing");

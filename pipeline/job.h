@@ -412,8 +412,8 @@ const Material& hose_material_of(const Job& job, const Dresspack& dresspack);
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
                      const Where& job);
 
-/// Sets the value at a key path (`simulation.segments`, `dresspacks.2.routing.free_length_m`); where: who asks for
-/// it.
+/// Sets the value at a key path (`simulation.segments`, `dresspacks.2.routing.free_length_m`); where: who
+/// asks for it.
 void set_value(Node& job, const std::string& path, Node value, const Where& where);
 
 /// Sets the value at `key.path=value` in a job's tree; list items count from 1. Errors: InputError.

@@ -64,9 +64,10 @@ std::string check_table(const std::filesystem::path& motion_file) {
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number{}\">{}</td><td class=\"number\">{}</td><td "
         "class=\"number\">{}</td><td class=\"number\">{:.1f} s</td><td>{}</td></tr>\n",
-        escaped(of.empty() ? names[i] : of + ", " + names[i]), warnings[i] ? " failed" : "", in_words(values[i], units[i]),
-        in_words(limits[i], units[i]), positions[i] < 0 ? "" : rounded(length[dresspack] - positions[i], 2) + " m",
-        times[i], known ? escaped(texts[static_cast<std::size_t>(steps[i])]) : "");
+        escaped(of.empty() ? names[i] : of + ", " + names[i]), warnings[i] ? " failed" : "",
+        in_words(values[i], units[i]), in_words(limits[i], units[i]),
+        positions[i] < 0 ? "" : rounded(length[dresspack] - positions[i], 2) + " m", times[i],
+        known ? escaped(texts[static_cast<std::size_t>(steps[i])]) : "");
   }
   return fmt::format(
       "<p class=\"soft\">{}</p>\n<div class=\"wide\"><table>\n<thead><tr><th>check</th><th "

@@ -36,16 +36,20 @@ std::vector<MotionSpan> motion_spans(const FileReader& motion) {
   for (std::size_t c = 0; fits && c + 1 < before.size(); ++c) {
     const auto first = static_cast<std::size_t>(before[c]), end = static_cast<std::size_t>(before[c + 1]);
     if (first < end) {
+      // No dresspack begins between two clamps, or at the tool clamp of another.
+      const bool shares = !spans.empty() && spans.back().tool_clamp == c;
+      fits =
+          dresspack[first] == dresspack[end - 1] && (!shares || spans.back().dresspack == dresspack[first]);
       spans.push_back({dresspack[first], first, end - first, c, c + 1});
-      fits = dresspack[first] == dresspack[end - 1];  // no dresspack ends between two clamps
     } else {
       fits = first > 0 && end < dresspack.size() && dresspack[end] != dresspack[end - 1];
     }
   }
   if (!fits)
-    throw InputError(motion.where(),
-                     "/clamp/segment does not rise from 0 to the number of segments, span by span of each dresspack",
-                     "run dresslife-sim again");
+    throw InputError(
+        motion.where(),
+        "/clamp/segment does not rise from 0 to the number of segments, span by span of each dresspack",
+        "run dresslife-sim again");
   return spans;
 }
 

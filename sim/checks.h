@@ -2,10 +2,10 @@
 // touches, and whether it is too short or too long; where, when, and during which line of the program.
 //
 // (R9) Every step, at link j, s = j l from the base clamp: bend radius 1/|kappa|, kappa and twist = the
-// link's turn over its compliance length (S5); tension (S9). Net twist is the sum of a dresspack's links' turns
-// about the tangent, so whole turns count; what is left of it after a repeat is its end minus its begin. Slack is
-// the free length of a span minus the straight distance of its clamps; of several spans the one with least of
-// it for its length counts. Each dresspack has a table of its own.
+// link's turn over its compliance length (S5); tension (S9). Net twist is the sum of a dresspack's links'
+// turns about the tangent, so whole turns count; what is left of it after a repeat is its end minus its
+// begin. Slack is the free length of a span minus the straight distance of its clamps; of several spans the
+// one with least of it for its length counts. Each dresspack has a table of its own.
 #pragma once
 
 #include <string>
@@ -61,7 +61,7 @@ class MotionChecks {
   void see(const RodState& state, const std::vector<Contact>& contacts, double time,
            const std::vector<double>& ways = {});
 
-  double net_twist() const;                                             ///< of the last state, all dresspacks [rad]
+  double net_twist() const;  ///< of the last state, all dresspacks [rad]
   const std::vector<Extreme>& curvature() const { return curvature_; }  ///< (link) largest [1/m]
   const std::vector<Extreme>& twist() const { return twist_; }          ///< (link) largest by size [rad/m]
   const std::vector<Extreme>& tension() const { return tension_; }      ///< (link) largest pull [N]

@@ -74,7 +74,7 @@ class RobotPath final : public ClampPath {
   RobotKinematics kinematics_;
   JointMotion motion_;
   std::vector<int> end_links_, ring_links_;
-  std::vector<int> end_clamps_;        // (end) index into clamps_; a free end names the clamp before it
+  std::vector<int> end_clamps_;  // (end) index into clamps_; a free end names the clamp before it
   std::vector<int> clamp_links_;
   std::vector<Frame> clamps_, rings_;  // in their links' frames (R2)
   Eigen::VectorXd mounting_pose_;

@@ -31,8 +31,8 @@ struct Held {
   bool found = false;
 };
 
-/// What of a dresspack is hung up at a time: from clamp to clamp, or, where rings lie between, from ring to ring, each of
-/// them holding the hose until all of it hangs.
+/// What of a dresspack is hung up at a time: from clamp to clamp, or, where rings lie between, from ring to
+/// ring, each of them holding the hose until all of it hangs.
 struct Piece {
   int dresspack = 0;
   RodProperties properties;
@@ -158,15 +158,14 @@ class Mounting {
       ClampFrames at = pose.clamps;
       Frame& base = at.end(2 * span);
       base.position += way * tangent(base.orientation);
-      if (held.tool_end == End::free ||
-          shortest_way(rod, at, span, through) < roomy * held.length)
+      if (held.tool_end == End::free || shortest_way(rod, at, span, through) < roomy * held.length)
         return way;
     }
     return stroke;
   }
 
-  /// Of one span, whose base end is at `from`, in order; each but the last ends in a ring. Segments are dealt by
-  /// length.
+  /// Of one span, whose base end is at `from`, in order; each but the last ends in a ring. Segments are dealt
+  /// by length.
   std::vector<Piece> pieces_of(int k, const Vector3& from) const {
     const Span& span = rod_.spans()[k];
     const Pose pose = mounting_pose();
@@ -281,9 +280,9 @@ class Mounting {
     if (!best.found) fail(piece.dresspack, "finds no equilibrium between its clamps");
     if (best.depth > overlap_share * piece.properties.diameter)
       fail(piece.dresspack,
-           fmt::format("runs {:.0f} mm deep through {} in the mounting pose", 1e3 * best.depth,
-                       best.through < 0 ? "the robot or the floor"
-                                        : pipeline::dresspack_words(job_, best.through)));
+           fmt::format(
+               "runs {:.0f} mm deep through {} in the mounting pose", 1e3 * best.depth,
+               best.through < 0 ? "the robot or the floor" : pipeline::dresspack_words(job_, best.through)));
     return best;
   }
 
@@ -329,7 +328,8 @@ class Mounting {
     const Span& last = rod.spans().back();
     for (const Contact& contact : contacts) {
       const int other = rod.span_of(contact.segment).dresspack;  // the lower segment comes first
-      if (contact.other < last.first_segment || other == last.dresspack || contact.depth <= held.depth) continue;
+      if (contact.other < last.first_segment || other == last.dresspack || contact.depth <= held.depth)
+        continue;
       held.depth = contact.depth;
       held.through = other;
     }
@@ -341,9 +341,10 @@ class Mounting {
     if (found.status == EquilibriumStatus::too_short)
       fail(rod_.most_stretched(found.state).dresspack, "is drawn taut when it is clamped");
     if (found.status != EquilibriumStatus::converged && !(found.residual < near_rest))
-      fail(0, fmt::format("{} (it still moves at {:.3g} m/s)",
-                          rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest",
-                          found.residual));
+      fail(0,
+           fmt::format("{} (it still moves at {:.3g} m/s)",
+                       rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest",
+                       found.residual));
     RodState still = found.state;
     for (int i = 0; i < rod_.segments(); ++i) still.velocity[i] = still.angular_velocity[i] = Vector3::Zero();
     for (Travel& travel : still.travel) travel.speed = 0;

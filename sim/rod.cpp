@@ -94,10 +94,9 @@ void Rod::add(const RodProperties& p, bool new_dresspack) {
 }
 
 int Rod::first_span(int dresspack) const {
-  return static_cast<int>(
-      std::partition_point(spans_.begin(), spans_.end(),
-                           [&](const Span& span) { return span.dresspack < dresspack; }) -
-      spans_.begin());
+  return static_cast<int>(std::partition_point(spans_.begin(), spans_.end(),
+                                               [&](const Span& span) { return span.dresspack < dresspack; }) -
+                          spans_.begin());
 }
 
 double Rod::link_arc(int link) const {

@@ -163,7 +163,9 @@ class Rod {
   double mean_elongation(const RodState& state, const Span& span) const;
   /// The span that is stretched most, and how much.
   const Span& most_stretched(const RodState& state) const;
-  double mean_elongation(const RodState& state) const { return mean_elongation(state, most_stretched(state)); }
+  double mean_elongation(const RodState& state) const {
+    return mean_elongation(state, most_stretched(state));
+  }
   /// Pull along the tangent in each link, from RodState::link_force [N].
   std::vector<double> tensions(const RodState& state) const;
   /// End of the last segment: the tip of a free end [m].

@@ -72,10 +72,10 @@ std::vector<RoutedRing> routed_rings(const pipeline::Job& job) {
   for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;
     for (const pipeline::GuideRing& ring : routing.rings) {
-      const auto before = std::count_if(
-          routing.clamps.begin(), routing.clamps.end(), [&](const pipeline::IntermediateClamp& clamp) {
-            return ring.at_length && clamp.at_length <= *ring.at_length;
-          });
+      const auto before = std::count_if(routing.clamps.begin(), routing.clamps.end(),
+                                        [&](const pipeline::IntermediateClamp& clamp) {
+                                          return ring.at_length && clamp.at_length <= *ring.at_length;
+                                        });
       routed.push_back({ring, first_span + static_cast<int>(before)});
     }
     first_span += static_cast<int>(routing.clamps.size()) + 1;

@@ -1,7 +1,7 @@
 // From the job's dresspacks and their routing to the chain's spans, dresspack after dresspack.
 //
-// Each dresspack has `simulation.segments` = n segments, dealt to its spans by their lengths: of its length L,
-// the span from s_a to s_b has round(n s_b/L) - round(n s_a/L) segments, at least fewest_segments.
+// Each dresspack has `simulation.segments` = n segments, dealt to its spans by their lengths: of its length
+// L, the span from s_a to s_b has round(n s_b/L) - round(n s_a/L) segments, at least fewest_segments.
 #pragma once
 
 #include "pipeline/job.h"

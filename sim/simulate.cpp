@@ -80,13 +80,12 @@ void Simulation::check_reach() const {
   const Span& span = rod_.spans()[where];
   const double length = span.properties.length;
   const std::string between = between_clamps(span);
-  throw InputError(
-      job_.dresspacks[span.dresspack].routing.where,
-      fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
-                  pipeline::dresspack_words(job_, span.dresspack), 1e3 * worst, moment(when),
-                  between.empty() ? "routing.free_length_m is" : "its length" + between + " is", length,
-                  length + worst),
-      "give it more free length, with slack to bend, or move a clamp");
+  throw InputError(job_.dresspacks[span.dresspack].routing.where,
+                   fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
+                               pipeline::dresspack_words(job_, span.dresspack), 1e3 * worst, moment(when),
+                               between.empty() ? "routing.free_length_m is" : "its length" + between + " is",
+                               length, length + worst),
+                   "give it more free length, with slack to bend, or move a clamp");
 }
 
 std::string Simulation::between_clamps(const Span& span) const {
@@ -106,12 +105,11 @@ void Simulation::check_taut(const RodState& state, double time) const {
   const Span& span = rod_.most_stretched(state);
   const double elongation = rod_.mean_elongation(state, span);
   if (elongation <= longest_elongation) return;
-  throw InputError(
-      job_.dresspacks[span.dresspack].routing.where,
-      fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
-                  pipeline::dresspack_words(job_, span.dresspack), between_clamps(span), moment(time),
-                  1e3 * elongation * span.properties.length, 1e2 * elongation),
-      "give it more free length, or keep the motion from winding it around the robot");
+  throw InputError(job_.dresspacks[span.dresspack].routing.where,
+                   fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
+                               pipeline::dresspack_words(job_, span.dresspack), between_clamps(span),
+                               moment(time), 1e3 * elongation * span.properties.length, 1e2 * elongation),
+                   "give it more free length, or keep the motion from winding it around the robot");
 }
 
 std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {
@@ -289,8 +287,7 @@ std::vector<std::string> remarks(const Simulation& simulation, const RunSummary&
         summary.repeats, off));
   for (const Check& check : summary.checks)
     if (check.warning)
-      lines.push_back(fmt::format("warning: {}: {} (limit {}) {}",
-                                  check_words(simulation.job(), check),
+      lines.push_back(fmt::format("warning: {}: {} (limit {}) {}", check_words(simulation.job(), check),
                                   in_words(check.value, check.unit), in_words(check.limit, check.unit),
                                   simulation.moment(check.time)));
   return lines;

@@ -146,8 +146,11 @@ TEST_CASE("set: a key that the job does not write is added, with the groups on t
 
 TEST_CASE("set: items of a list count from 1") {
   CHECK(with({"motion.steps.2.steps.1.joints_deg.2=-7"}).motion.steps[1].steps[0].joints[1] == -7 * degree);
-  CHECK(with({"dresspack.components.1.components.1.count=4"}).dresspacks[0].dresspack.components[0].components[0].count ==
-        4);
+  CHECK(with({"dresspack.components.1.components.1.count=4"})
+            .dresspacks[0]
+            .dresspack.components[0]
+            .components[0]
+            .count == 4);
   CHECK(set_error("motion.steps.4.dwell_s=1") ==
         "--set motion.steps.4.dwell_s=1: error: '4' of motion.steps.4.dwell_s is not an item of the list; "
         "items count from 1 to 3");

@@ -25,7 +25,8 @@ std::string indented(const std::string& text) {
   return result;
 }
 
-const std::string dresspack_block = block("dresspack:", "routing:"), routing_block = block("routing:", "simulation:");
+const std::string dresspack_block = block("dresspack:", "routing:"),
+                  routing_block = block("routing:", "simulation:");
 
 std::string item(const std::string& name) {
   return "  - name: " + name + "\n" + indented(dresspack_block) + indented(routing_block);
@@ -112,21 +113,24 @@ TEST_CASE("dresspacks: what is wrong with the list is told where it stands") {
   const std::string list = listed(two);
   const auto check = [](const std::string& text, const std::string& needle, const std::string& message) {
     INFO(message);
-    CHECK(message_of([&] { job_of_text(text); }) ==
-          place_of_last(text, needle) + ": error: " + message);
+    CHECK(message_of([&] { job_of_text(text); }) == place_of_last(text, needle) + ": error: " + message);
   };
   const std::string before = "simulation: {segments";
   check(edited(list, before, dresspack_block + before), "name: test hose",
-        "both dresspacks and dresspack are given (each of the list has its own dresspack); keep one of the two");
+        "both dresspacks and dresspack are given (each of the list has its own dresspack); keep one of the "
+        "two");
   check(edited(list, before, routing_block + before), "free_length_m",
         "both dresspacks and routing are given (each of the list has its own routing); keep one of the two");
   check(edited(edited(sample_job, dresspack_block, ""), routing_block, ""), "robot:",
-        "dresspack is missing (and there is no list dresspacks); give dresspack and routing, or a list dresspacks "
+        "dresspack is missing (and there is no list dresspacks); give dresspack and routing, or a list "
+        "dresspacks "
         "of name, dresspack, routing");
   check(edited(sample_job, routing_block, ""), "robot:",
-        "routing is missing (and there is no list dresspacks); give dresspack and routing, or a list dresspacks "
+        "routing is missing (and there is no list dresspacks); give dresspack and routing, or a list "
+        "dresspacks "
         "of name, dresspack, routing");
-  const std::string empty = edited(edited(sample_job, dresspack_block, ""), routing_block, "dresspacks: []\n");
+  const std::string empty =
+      edited(edited(sample_job, dresspack_block, ""), routing_block, "dresspacks: []\n");
   check(empty, "[]\n", "dresspacks holds no dresspack; write a list of name, dresspack and routing");
   check(edited(list, "sensor cable", "main hose"), "name: main hose",
         "two dresspacks are named 'main hose'; give each another name");
@@ -134,27 +138,32 @@ TEST_CASE("dresspacks: what is wrong with the list is told where it stands") {
         "name 'a/b' holds a '/'; choose another: it begins the paths of the dresspack's wires");
   check(edited(list, "sensor cable", "''"), "''",
         "dresspacks[2].name must be text; give a name that tells it from the others, without '/'");
-  CHECK(message_of([&] { job_of_text(list, {"motion={clamp_poses: poses.csv}"}); })
-            .find("motion.clamp_poses brings the clamps of one dresspack (there are 2); describe the motion by a "
-                  "robot, or keep one dresspack") != std::string::npos);
+  CHECK(
+      message_of([&] { job_of_text(list, {"motion={clamp_poses: poses.csv}"}); })
+          .find(
+              "motion.clamp_poses brings the clamps of one dresspack (there are 2); describe the motion by a "
+              "robot, or keep one dresspack") != std::string::npos);
 }
 
 TEST_CASE("dresspacks: what they share must agree") {
   const Job job = job_of_text(listed(two));
   CHECK(job.dresspacks[1].routing.mounting_pose.size() == 2);
-  CHECK(message_of([&] { job_of_text(listed(two), {"dresspacks.2.routing.mounting_pose_deg=[0, 8]"}); })
-            .find("mounting_pose_deg differs from that of dresspack 'main hose' (all are clamped in one pose); "
-                  "give the same, or give it once") != std::string::npos);
+  CHECK(
+      message_of([&] { job_of_text(listed(two), {"dresspacks.2.routing.mounting_pose_deg=[0, 8]"}); })
+          .find("mounting_pose_deg differs from that of dresspack 'main hose' (all are clamped in one pose); "
+                "give the same, or give it once") != std::string::npos);
   const std::string soft =
       "dresspacks.2.dresspack.materials=[{name: copper, source: guessed, youngs_modulus_GPa: 100, "
       "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
       "fatigue_ductility_exponent: -0.6}]";
-  CHECK(message_of([&] { job_of_text(listed(two), {soft}); })
-            .find("material 'copper' is another than that of the dresspack before; give one of the two another "
-                  "name") != std::string::npos);
+  CHECK(
+      message_of([&] { job_of_text(listed(two), {soft}); })
+          .find("material 'copper' is another than that of the dresspack before; give one of the two another "
+                "name") != std::string::npos);
   // Levels of slip are those of the deepest.
-  CHECK(message_of([&] { job_of_text(listed(two), {"strain.slip=[stick, free, free]"}); })
-            .find("strain.slip lists 3 levels (the dresspack has 2)") != std::string::npos);
+  CHECK(message_of([&] {
+          job_of_text(listed(two), {"strain.slip=[stick, free, free]"});
+        }).find("strain.slip lists 3 levels (the dresspack has 2)") != std::string::npos);
 }
 
 }  // namespace

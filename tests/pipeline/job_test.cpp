@@ -66,8 +66,10 @@ TEST_CASE("job: steps, parts and clamps remember where they stand") {
   const Job job = job_of_text(sample_job);
   CHECK(job.motion.steps[0].where.text() == place_of(sample_job, "{text: home", "job.yaml"));
   CHECK(job.motion.steps[1].where.text() == place_of(sample_job, "repeat: 3", "job.yaml"));
-  CHECK(job.dresspacks[0].dresspack.components[0].where.text() == place_of(sample_job, "name: cable", "job.yaml"));
-  CHECK(job.dresspacks[0].routing.base_clamp->where.text() == place_of(sample_job, "{link: base", "job.yaml"));
+  CHECK(job.dresspacks[0].dresspack.components[0].where.text() ==
+        place_of(sample_job, "name: cable", "job.yaml"));
+  CHECK(job.dresspacks[0].routing.base_clamp->where.text() ==
+        place_of(sample_job, "{link: base", "job.yaml"));
 }
 
 TEST_CASE("job: unknown keys are refused with the likeliest key") {
@@ -144,10 +146,12 @@ TEST_CASE("job: what is not a number is refused with a reminder of the unit") {
       {"free_length_m: 1.2", "free_length_m: 1.2 m", "1.2 m\n",
        "routing.free_length_m is '1.2 m' (must be a number, the unit is in the key: m); give free length of "
        "dresspack between the clamps"});
-  check_case({"segments: 20", "segments: many", "many",
-              "simulation.segments is 'many' (must be a number); give rigid segments of each dresspack's chain"});
+  check_case(
+      {"segments: 20", "segments: many", "many",
+       "simulation.segments is 'many' (must be a number); give rigid segments of each dresspack's chain"});
   check_case({"segments: 20", "segments: [20]", "[20]",
-              "simulation.segments is not one value (must be a number); give rigid segments of each dresspack's chain"});
+              "simulation.segments is not one value (must be a number); give rigid segments of each "
+              "dresspack's chain"});
   for (const char* word : {"0x10", "1_000", "1,5", "+-5", "1e", "--1", "1.2.3"}) {
     const std::string text = edited(sample_job, "gate: 1e-4", std::string("gate: '") + word + "'");
     CHECK(message_of([&] { job_of_text(text); }).find("must be a number") != std::string::npos);
@@ -167,7 +171,8 @@ TEST_CASE("job: numbers may be written in every usual way") {
 
 TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are told apart") {
   check_case({"segments: 20", "segments: 20.5", "20.5",
-              "simulation.segments is 20.5 (must be a whole number); give rigid segments of each dresspack's chain"});
+              "simulation.segments is 20.5 (must be a whole number); give rigid segments of each dresspack's "
+              "chain"});
   check_case(
       {"mean_stress: swt", "mean_stress: goodman", "goodman",
        "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give correction of the "

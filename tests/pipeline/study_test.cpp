@@ -81,9 +81,9 @@ TEST_CASE("study: a job that cannot be run is told with its place, the others st
   REQUIRE(study.jobs.size() == 3);
   CHECK(study.jobs[0].failure.empty());
   CHECK(study.jobs[2].failure.empty());
-  CHECK(study.jobs[1].failure ==
-        place_of(text, "3, 40", (scratch / "my study.yaml").string()) +
-            ": error: simulation.segments is 3 (must be 4 .. 2000); give rigid segments of each dresspack's chain");
+  CHECK(study.jobs[1].failure == place_of(text, "3, 40", (scratch / "my study.yaml").string()) +
+                                     ": error: simulation.segments is 3 (must be 4 .. 2000); give rigid "
+                                     "segments of each dresspack's chain");
 }
 
 TEST_CASE("study: --set comes after the study's own changes") {

@@ -187,8 +187,10 @@ pipeline::Job turning_job() {
     step.joints = {angle};
     job.motion.steps.push_back(step);
   }
-  job.dresspacks[0].routing.base_clamp = pipeline::Clamp{"base", {0, 0, 1}, {0, 0, 1}, {}, {"job.yaml", 8, 3}};
-  job.dresspacks[0].routing.tool_clamp = pipeline::Clamp{"table", {1, 0, 2}, {1, 0, 0}, 0.25, {"job.yaml", 9, 3}};
+  job.dresspacks[0].routing.base_clamp =
+      pipeline::Clamp{"base", {0, 0, 1}, {0, 0, 1}, {}, {"job.yaml", 8, 3}};
+  job.dresspacks[0].routing.tool_clamp =
+      pipeline::Clamp{"table", {1, 0, 2}, {1, 0, 0}, 0.25, {"job.yaml", 9, 3}};
   return job;
 }
 

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "pipeline/motion_layout.h"
-#include "sim/mounting.h"
 #include "sim/motion_file.h"
+#include "sim/mounting.h"
 #include "sim/routing.h"
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/rod_problems.h"
@@ -110,7 +110,8 @@ TEST_CASE("two dresspacks far apart move as each does in a world of its own") {
     base.position.y() += y, tool.position.y() += y;
     return ClampFrames{base, tool};
   };
-  const Equilibrium a = find_equilibrium(first, clamps_of(0, 0)), b = find_equilibrium(second, clamps_of(0, 2));
+  const Equilibrium a = find_equilibrium(first, clamps_of(0, 0)),
+                    b = find_equilibrium(second, clamps_of(0, 2));
   REQUIRE(a.status == EquilibriumStatus::converged);
   REQUIRE(b.status == EquilibriumStatus::converged);
   WorldSettings settings;
@@ -136,7 +137,8 @@ TEST_CASE("two dresspacks far apart move as each does in a world of its own") {
 }
 
 TEST_CASE("a dresspack laid across another is held by it and takes from it what it gives") {
-  // Both weightless and taut enough to be lines; the second, above, is led down until it would lie 0.2 m below.
+  // Both weightless and taut enough to be lines; the second, above, is led down until it would lie 0.2 m
+  // below.
   RodProperties p = hose_of(24, 1.05, 0.04, 1), q = hose_of(30, 1.1, 0.025, 0.3);
   p.gravity.setZero(), q.gravity.setZero();
   const Rod both({p, q}, {0, 1}), first(p), second(q);
@@ -184,12 +186,14 @@ TEST_CASE("a dresspack laid across another is held by it and takes from it what 
       given += contact.normal_force * contact.normal + contact.friction_force;
       hardest = std::max(hardest, contact.normal_force);
     }
-    const Vector3 to_first = momentum(0) - before[0] - h * pull(0), to_second = momentum(1) - before[1] - h * pull(1);
+    const Vector3 to_first = momentum(0) - before[0] - h * pull(0),
+                  to_second = momentum(1) - before[1] - h * pull(1);
     unexplained = std::max(unexplained, (to_first + to_second).norm());
     difference = std::max(difference, (to_first - h * given).norm());
     exchanged = std::max(exchanged, to_first.norm());
   }
-  INFO("unexplained " << unexplained << " of " << exchanged << " N s, hardest " << hardest << " N, deepest " << depth);
+  INFO("unexplained " << unexplained << " of " << exchanged << " N s, hardest " << hardest << " N, deepest "
+                      << depth);
   const double rounding = 1e-11;  // [N s] as in self_contact_test.cpp
   CHECK(unexplained < rounding);
   CHECK(difference < rounding);
@@ -258,18 +262,19 @@ TEST_CASE("dresspacks of a job that would hang through each other are mounted si
       for (int j = 24; j < 48; ++j) least = std::min(least, (state.position[i] - state.position[j]).norm());
   CHECK(least > 0.029);
   // What cannot be is told: both in the same place.
-  const std::string message = message_of(
-      job_text("dresspacks:\n" + item("hose", hose_text(40, 0.3), routing_text(1.3, 0)) +
-               item("dress cable", hose_text(20, 0.2), routing_text(1.3, 0))));
+  const std::string message =
+      message_of(job_text("dresspacks:\n" + item("hose", hose_text(40, 0.3), routing_text(1.3, 0)) +
+                          item("dress cable", hose_text(20, 0.2), routing_text(1.3, 0))));
   CHECK_THAT(message, Catch::Contains("error: dresspack 'dress cable' runs ") &&
                           Catch::Contains(" mm deep through dresspack 'hose' in the mounting pose"));
 }
 
 TEST_CASE("messages and warnings name the dresspack among several") {
   const std::string hose = item("hose", hose_text(40, 0.3), routing_text(1.3, 0));
-  const std::string too_short =
-      message_of(job_text("dresspacks:\n" + hose + item("dress cable", hose_text(20, 0.2), routing_text(1, 0.6))));
-  CHECK_THAT(too_short, Catch::Contains("job.yaml:17:14: error: dresspack 'dress cable' is 174.1 mm too short at "));
+  const std::string too_short = message_of(
+      job_text("dresspacks:\n" + hose + item("dress cable", hose_text(20, 0.2), routing_text(1, 0.6))));
+  CHECK_THAT(too_short,
+             Catch::Contains("job.yaml:17:14: error: dresspack 'dress cable' is 174.1 mm too short at "));
   const Run both =
       run(job_text("dresspacks:\n" + hose + item("dress cable", hose_text(60, 0.2), routing_text(2.4, 0.6)),
                    ", most_repeats: 1"));
@@ -285,7 +290,8 @@ TEST_CASE("a retraction unit and a ring belong to their dresspack") {
       "{free_length_m: 1.2, base_clamp: {link: bench, position_m: [0, 0.6, 1], direction: [1, 0, 0]}, "
       "tool_clamp: {link: spindle, position_m: [1.25, 0.6, 0], direction: [1, 0, 0]}, "
       "retraction: {force_N: 10, spring_N_per_m: 40, stroke_m: 0.5, damping_Ns_per_m: 20}, "
-      "rings: [{link: bench, position_m: [0.7, 0.6, 1.02], direction: [1, 0, 0], radius_mm: 24, width_mm: 20}]}";
+      "rings: [{link: bench, position_m: [0.7, 0.6, 1.02], direction: [1, 0, 0], radius_mm: 24, width_mm: "
+      "20}]}";
   const std::string text = job_text("dresspacks:\n" + item("hose", hose_text(40, 0.3), routing_text(1.3, 0)) +
                                         item("drawn", hose_text(20, 0.2), unit),
                                     ", most_repeats: 1");

@@ -147,7 +147,8 @@ TEST_CASE("periodic: a motion that does not return is run once") {
 
 TEST_CASE("periodic: a wrist that turns by whole turns winds the hose and unwinds it") {
   pipeline::Job job = simple_job();
-  job.dresspacks[0].dresspack.bending_stiffness = 20;  // nearly straight, does not loop: what the wrist turns is all twist
+  job.dresspacks[0].dresspack.bending_stiffness =
+      20;  // nearly straight, does not loop: what the wrist turns is all twist
   job.dresspacks[0].dresspack.torsional_stiffness = 4;
   job.dresspacks[0].routing.free_length = 0.905;
   job.motion.steps = {move_to(0), move_to(2 * pi, "one turn"), move_to(-2 * pi, "and back"),

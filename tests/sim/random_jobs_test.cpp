@@ -72,7 +72,8 @@ pipeline::Job random_job(unsigned seed) {
   job.motion = random_motion(chance);
   job.dresspacks[0].dresspack.axial_stiffness = std::pow(10, chance.between(4, 6));
   job.dresspacks[0].dresspack.bending_stiffness = chance.between(2, 10);
-  job.dresspacks[0].dresspack.torsional_stiffness = job.dresspacks[0].dresspack.bending_stiffness * chance.between(0.4, 1.5);
+  job.dresspacks[0].dresspack.torsional_stiffness =
+      job.dresspacks[0].dresspack.bending_stiffness * chance.between(0.4, 1.5);
   job.dresspacks[0].dresspack.damping_time = chance.between(0.003, 0.03);
   job.dresspacks[0].dresspack.friction = chance.between(0, 0.6);
   job.dresspacks[0].dresspack.diameter = chance.between(0.03, 0.07);

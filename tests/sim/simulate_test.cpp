@@ -83,7 +83,8 @@ TEST_CASE("simulate: the weight hangs on the two clamps") {
   pipeline::Job job = simple_job();
   job.motion.steps = {move_to(0), dwell_for(0.2)};
   job.dresspacks[0].routing.base_clamp->direction = {0, 0, -1};
-  job.dresspacks[0].routing.tool_clamp->direction = {0, 0, 1};  // a hanging loop: both ends carry half the weight
+  job.dresspacks[0].routing.tool_clamp->direction = {0, 0,
+                                                     1};  // a hanging loop: both ends carry half the weight
   job.dresspacks[0].routing.free_length = 2;
   const Row last = run(Simulation(job)).back();
   const double weight = 2 * 1.5 * 9.81;

@@ -17,7 +17,7 @@ using pipeline::Scratch;
 namespace {
 
 constexpr std::size_t samples = 60;
-constexpr double packing = 1.1e-7;  // turning points are kept to 5e-8, from the least of their chunk on
+constexpr double packing = 1.1e-7;   // turning points are kept to 5e-8, from the least of their chunk on
 constexpr double of_packing = 1e-4;  // of a damage: 5e-8 of strains of 1e-2, to the power of 8 at most
 
 /// A dresspack that bends and twists uniformly, so much of it.
@@ -103,7 +103,8 @@ std::string block(const std::string& from, const std::string& to) {
   const std::size_t begin = pipeline::sample_job.find(from);
   return pipeline::sample_job.substr(begin, pipeline::sample_job.find(to) - begin);
 }
-const std::string thick_block = block("dresspack:", "routing:"), routing_block = block("routing:", "simulation:");
+const std::string thick_block = block("dresspack:", "routing:"),
+                  routing_block = block("routing:", "simulation:");
 /// Of one level only, with a wall.
 const std::string thin_block =
     "dresspack:\n  name: cable\n  source: made for the tests\n  diameter_mm: 20\n  mass_kg_per_m: 0.3\n"
@@ -118,7 +119,8 @@ std::string indented(const std::string& text) {
   return result + "\n";
 }
 
-/// The sample job with other dresspacks in the place of its own, and probes in the second segment from the tool.
+/// The sample job with other dresspacks in the place of its own, and probes in the second segment from the
+/// tool.
 pipeline::Job job_of(const std::string& dresspacks, const std::vector<std::string>& probes) {
   std::string list;
   for (const std::string& probe : probes) list += "{segment_from_tool: 2, component: " + probe + "}, ";
@@ -135,12 +137,13 @@ std::string item(const Hose& hose, const std::string& dresspack) {
 const std::string both = "dresspacks:\n" + item(thick, thick_block) + item(thin, thin_block);
 
 /// motion.h5 to strain.h5 to life.h5, named after `stem`.
-void evaluate(const Scratch& scratch, const std::string& stem, const pipeline::Job& job, std::size_t threads = 1,
-              std::size_t history_bytes = strain::default_history_bytes) {
+void evaluate(const Scratch& scratch, const std::string& stem, const pipeline::Job& job,
+              std::size_t threads = 1, std::size_t history_bytes = strain::default_history_bytes) {
   {
     const FileReader motion(scratch / (stem + ".motion.h5"), pipeline::motion_format());
     FileWriter file(scratch / (stem + ".strain.h5"), pipeline::strain_format());
-    strain::write_strain(motion, job, file, threads, [](double) {}, history_bytes);
+    strain::write_strain(
+        motion, job, file, threads, [](double) {}, history_bytes);
     stamp(file);
   }
   const FileReader strained(scratch / (stem + ".strain.h5"), pipeline::strain_format());
@@ -158,7 +161,8 @@ double furthest(const std::vector<float>& a, const std::vector<float>& b) {
 
 /// A dataset of the first file, then that of the second.
 template <class T>
-std::vector<T> one_after_the_other(const FileReader& first, const FileReader& second, const std::string& dataset) {
+std::vector<T> one_after_the_other(const FileReader& first, const FileReader& second,
+                                   const std::string& dataset) {
   std::vector<T> values = first.read<T>(dataset);
   const std::vector<T> more = second.read<T>(dataset);
   values.insert(values.end(), more.begin(), more.end());
@@ -202,9 +206,9 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
         for (std::size_t i = 0; i < 6; ++i)
           CHECK(helix[6 * k + i] == (i < 3 ? own[3 * (k - of_first) + i] : 0));
     }
-    CHECK(all.read<double>("/probe/strain") ==
-          one_after_the_other<double>(first, second, "/probe/strain"));
-    const auto probe = all.read<std::uint32_t>("/probe/site"), own = second.read<std::uint32_t>("/probe/site");
+    CHECK(all.read<double>("/probe/strain") == one_after_the_other<double>(first, second, "/probe/strain"));
+    const auto probe = all.read<std::uint32_t>("/probe/site"),
+               own = second.read<std::uint32_t>("/probe/site");
     const std::size_t probes = first.rows("/probe/site");
     REQUIRE(probe.size() == probes + own.size());
     for (std::size_t k = 0; k < own.size(); ++k)
@@ -233,8 +237,8 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
   const std::string name = worse_first ? "main hose" : "sensor cable";
   CHECK(all.text_attribute("worst_dresspack") == name);
   CHECK(first.text_attribute("worst_dresspack").empty());
-  for (const char* attribute : {"life_hours", "worst_segment_from_tool", "worst_position_from_tool", "worst_time",
-                                "life_repeats_all_stick"})
+  for (const char* attribute : {"life_hours", "worst_segment_from_tool", "worst_position_from_tool",
+                                "worst_time", "life_repeats_all_stick"})
     CHECK(all.number_attribute(attribute) ==
           Approx(std::string(attribute) == "life_repeats_all_stick"
                      ? std::min(first.number_attribute(attribute), second.number_attribute(attribute))
@@ -264,14 +268,16 @@ TEST_CASE("what does not fit together among several dresspacks is told") {
   const Scratch scratch;
   write_motion(scratch / "both.motion.h5", {thick, thin});
   write_motion(scratch / "thick.motion.h5", {thick});
-  CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "both", job_of(both, {"core 2"})); }),
-             Catch::Contains("strain.probes: 'core 2' does not begin with the name of a dresspack; begin it with "
-                             "'main hose/'"));
+  CHECK_THAT(
+      pipeline::message_of([&] { evaluate(scratch, "both", job_of(both, {"core 2"})); }),
+      Catch::Contains("strain.probes: 'core 2' does not begin with the name of a dresspack; begin it with "
+                      "'main hose/'"));
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "both", job_of(both, {"sensor cable/cor 2"})); }),
              Catch::Contains("strain.probes: no wire is called 'sensor cable/cor 2'") &&
                  Catch::Contains("write it like 'sensor cable/core 1'"));
-  CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "thick", job_of(both, {"main hose/cable 1/wire 1"})); }),
-             Catch::Contains("holds 1 dresspacks (its job has 2)"));
+  CHECK_THAT(
+      pipeline::message_of([&] { evaluate(scratch, "thick", job_of(both, {"main hose/cable 1/wire 1"})); }),
+      Catch::Contains("holds 1 dresspacks (its job has 2)"));
   pipeline::Job bare = job_of(both, {"main hose/cable 1/wire 1"});
   bare.dresspacks[1].dresspack.components.clear();
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "both", bare); }),
