@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "pipeline/files.h"
+#include "pipeline/motion_layout.h"
 #include "pipeline/plot.h"
 #include "pipeline/readable.h"
 
@@ -180,6 +181,46 @@ Axis range_axis(const std::vector<Bin>& bins) {
 
 }  // namespace
 
+namespace {
+
+struct PlaceInFile {
+  std::size_t dresspack = 0, first_segment = 0;
+};
+
+/// The names and lives of all dresspacks, and what is told along the one with the worst wire.
+PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
+  life.dresspack = dresspack_names(file);
+  if (file.has("/dresspack/damage")) life.dresspack_damage = file.read<double>("/dresspack/damage");
+  const std::string worst =
+      file.has_attribute("worst_dresspack") ? file.text_attribute("worst_dresspack") : "";
+  const auto found = std::find(life.dresspack.begin(), life.dresspack.end(), worst);
+  PlaceInFile place;
+  if (found != life.dresspack.end())
+    place.dresspack = static_cast<std::size_t>(found - life.dresspack.begin());
+  const std::vector<std::size_t> of_segment = dresspack_of_segments(file);
+  const auto [first, end] = std::equal_range(of_segment.begin(), of_segment.end(), place.dresspack);
+  place.first_segment = static_cast<std::size_t>(first - of_segment.begin());
+  const auto own = [&](const char* dataset) {
+    const std::vector<double> all = file.read<double>(dataset);
+    return std::vector<double>(all.begin() + (first - of_segment.begin()),
+                               all.begin() + (end - of_segment.begin()));
+  };
+  life.segment_length = own("/segment/length");
+  life.segment_damage = own("/segment/damage");
+  if (!file.has("/clamp/damage") || !file.has("/clamp/name")) return place;
+  const auto names = file.read<std::string>("/clamp/name");
+  const auto damage = file.read<double>("/clamp/damage");
+  const std::string before = worst.empty() ? "" : worst + ", ";
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (names[k].starts_with(before)) {
+      life.clamps.push_back(names[k].substr(before.size()));
+      life.clamp_damage.push_back(damage[k]);
+    }
+  return place;
+}
+
+}  // namespace
+
 LifeSummary read_life(const std::filesystem::path& life_file) {
   const FileReader file(life_file, life_format());
   LifeSummary life;
@@ -189,16 +230,11 @@ LifeSummary read_life(const std::filesystem::path& life_file) {
   life.step_text = file.read<std::string>("/program/text");
   life.step_damage = file.read<double>("/program/damage");
   if (file.has("/program/damage_opened")) life.step_opened = file.read<double>("/program/damage_opened");
-  life.segment_length = file.read<double>("/segment/length");
-  life.segment_damage = file.read<double>("/segment/damage");
+  const PlaceInFile place = read_worst_dresspack(file, life);
   life.layer = file.read<std::string>("/layer/component");
   life.layer_damage = file.read<double>("/layer/damage");
   life.job = file.text_attribute("job");
   life.history = file.text_attribute("history");
-  if (file.has("/clamp/damage") && file.has("/clamp/name")) {
-    life.clamps = file.read<std::string>("/clamp/name");
-    life.clamp_damage = file.read<double>("/clamp/damage");
-  }
   if (file.has("/joint/name")) {
     life.cause = file.read<std::string>("/joint/name");
     life.cause_damage = file.read<double>("/joint/damage");
@@ -209,7 +245,7 @@ LifeSummary read_life(const std::filesystem::path& life_file) {
   const auto segments = static_cast<double>(life.segment_length.size());
   const double row = segments - file.number_attribute("worst_segment_from_tool");
   if (worst < 0 || row < 0 || row >= segments) return life;
-  file.read_rows("/damage_rate", static_cast<std::size_t>(row), 1, life.damage_rate);
+  file.read_rows("/damage_rate", place.first_segment + static_cast<std::size_t>(row), 1, life.damage_rate);
   const auto site = file.read<std::uint32_t>("/cycles/site");
   const auto range = file.read<double>("/cycles/range"), count = file.read<double>("/cycles/count"),
              damage = file.read<double>("/cycles/damage");

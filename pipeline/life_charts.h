@@ -23,8 +23,10 @@ struct LifeSummary {
   std::vector<std::string> step_text;  ///< (line)
   std::vector<double> step_damage;  ///< (line) of the worst wire, per repeat, by the line that closes a cycle
   std::vector<double> step_opened;  ///< (line) the same by the line that opens it; empty: not told
-  std::vector<double> segment_length;     ///< (segment) from the base [m]
-  std::vector<double> segment_damage;     ///< (segment) of its worst wire, per repeat
+  std::vector<std::string> dresspack;     ///< names of several; {""}: the only one
+  std::vector<double> dresspack_damage;   ///< (dresspack) of its worst wire, per repeat; empty: not told
+  std::vector<double> segment_length;     ///< (segment of the worst dresspack) from the base [m]
+  std::vector<double> segment_damage;     ///< (segment of the worst dresspack) of its worst wire, per repeat
   std::vector<std::string> layer;         ///< (layer) path of a layer of wires
   std::vector<double> layer_damage;       ///< (layer) of its worst wire, per repeat
   std::vector<WorstCycle> cycles;         ///< of the worst wire
@@ -32,7 +34,7 @@ struct LifeSummary {
   std::vector<double> cause_damage;       ///< (cause) of the worst wire
   std::vector<double> line_cause_damage;  ///< (line, cause) of those of its cycles that close in the line
   double explained = 0;                   ///< share of its strain's variance that follows from the joints
-  std::vector<std::string> clamps;        ///< of the dresspacks; empty: not told
+  std::vector<std::string> clamps;        ///< of the worst dresspack; empty: not told
   std::vector<double> clamp_damage;       ///< (clamp) of the segments near each
   std::string job, history;
 };
@@ -52,7 +54,7 @@ std::vector<ProgramRun> program_runs(const LifeSummary& life);
 /// that cost most are named above.
 std::string strain_chart(const LifeSummary& life);
 
-/// Damage per repeat along the dresspack, base to tool; worst_from_tool is marked, 0: none.
+/// Damage per repeat along the worst dresspack, base to tool; worst_from_tool is marked, 0: none.
 std::string segment_chart(const LifeSummary& life, int worst_from_tool);
 
 /// Share of the length on which the damage is at least 0.8 of the largest: near 1, the worst segment says

@@ -59,6 +59,7 @@ RankingRow read_row(const JobResult& result) {
     row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
     row.worst_time = file.number_attribute("worst_time");
     if (file.has_attribute("worst_component")) row.worst_component = file.text_attribute("worst_component");
+    if (file.has_attribute("worst_dresspack")) row.worst_dresspack = file.text_attribute("worst_dresspack");
     if (file.has_attribute("worst_step")) row.worst_step = file.text_attribute("worst_step");
     if (file.has_attribute("worst_shear_range"))
       row.worst_shear_range = file.number_attribute("worst_shear_range");
@@ -172,10 +173,10 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,worst_time_s,worst_step,"
       "status,message,life_hours_p10,life_hours_p50,life_hours_p90,conductor_life_hours_p10,"
       "conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,hose_segment_from_tool,"
-      "hose_position_from_tool_m,worst_joint,worst_joint_share\n";
+      "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack\n";
   for (const RankingRow& row : rows) {
     if (!row.done()) {
-      text += fmt::format("{},,,,,,,,,,,,failed,{},,,,,,,,,,,\n", csv_cell(row.job), csv_cell(row.failure));
+      text += fmt::format("{},,,,,,,,,,,,failed,{},,,,,,,,,,,,\n", csv_cell(row.job), csv_cell(row.failure));
       continue;
     }
     const bool evaluated = row.worst_segment_from_tool > 0;
@@ -200,6 +201,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     cells.push_back(row.hose ? shortest_text(row.hose->position_from_tool) : "");
     cells.push_back(row.worst_joint);
     cells.push_back(row.worst_joint.empty() ? "" : shortest_text(row.worst_joint_share));
+    cells.push_back(row.worst_dresspack);
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }

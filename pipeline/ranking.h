@@ -38,7 +38,8 @@ struct RankingRow {
   double life_repeats_all_free = 0;     ///< bound: every part slips freely
   double repeat_seconds = 0;            ///< duration of one repeat [s]
   double damage_per_repeat = 0;         ///< of the worst wire
-  int worst_segment_from_tool = 0;      ///< 1 is nearest to the tool; 0: no wire was evaluated
+  std::string worst_dresspack;          ///< in which the worst wire lies, among several; empty: the only one
+  int worst_segment_from_tool = 0;      ///< of it, 1 is nearest to the tool; 0: no wire was evaluated
   double worst_position_from_tool = 0;  ///< along the dresspack, from the tool clamp [m]
   std::string worst_component;          ///< path of the wire, outermost part first; empty: none was evaluated
   double worst_time = 0;                ///< when its most damaging cycle closes [s]

@@ -68,8 +68,9 @@ std::string first_break_cell(const RankingRow& row) {
 }
 
 std::string place_words(const RankingRow& row) {
-  return fmt::format("segment {} from the tool ({:.2f} m)", row.worst_segment_from_tool,
-                     row.worst_position_from_tool);
+  return fmt::format("segment {} from the tool ({:.2f} m){}", row.worst_segment_from_tool,
+                     row.worst_position_from_tool,
+                     row.worst_dresspack.empty() ? "" : " of the " + escaped(row.worst_dresspack));
 }
 
 bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
@@ -322,6 +323,29 @@ std::string layer_table(const LifeSummary& life, const RankingRow& row) {
          rows + "</tbody></table></div>\n";
 }
 
+/// The shortest life of each, where there are several.
+std::string dresspack_table(const LifeSummary& life, const RankingRow& row) {
+  if (life.dresspack.size() < 2 || life.dresspack_damage.size() != life.dresspack.size()) return "";
+  std::string rows;
+  for (std::size_t d = 0; d < life.dresspack.size(); ++d) {
+    const double damage = life.dresspack_damage[d];
+    rows += damage > 0
+                ? fmt::format(
+                      "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+                      "class=\"number\">{}</td></tr>\n",
+                      escaped(life.dresspack[d]), printed(row.hours_of(1 / damage)), printed(1 / damage),
+                      printed(damage))
+                : fmt::format("<tr><td>{}</td><td class=\"number\" colspan=\"3\">no damage</td></tr>\n",
+                              escaped(life.dresspack[d]));
+  }
+  return "<h3>Life by dresspack</h3>\n<p class=\"soft\">Of the worst wire in each; the charts below are "
+         "about the "
+         "worst of them.</p>\n<div class=\"wide\"><table>\n<thead><tr><th>dresspack</th><th "
+         "class=\"number\">life [h]</th><th class=\"number\">repeats</th><th class=\"number\">damage per "
+         "repeat</th></tr></thead>\n<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
 std::string facts(const RankingRow& row) {
   std::string list;
   const auto fact = [&](const std::string& name, const std::string& value) {
@@ -397,12 +421,15 @@ std::string place_remark(const LifeSummary& life) {
 
 std::string charts(const RankingRow& row) {
   const LifeSummary life = read_life(row.life_file);
-  return under("Strain of the worst wire over time",
+  const std::string along =
+      row.worst_dresspack.empty() ? "the dresspack" : "the " + escaped(row.worst_dresspack);
+  return dresspack_table(life, row) +
+         under("Strain of the worst wire over time",
                "Below the strain, the lines of the program (rest the pointer on one for its text); those "
                "that cost most are "
                "marked and named.",
                strain_chart(life)) +
-         under("Damage along the dresspack", place_remark(life),
+         under("Damage along " + along, place_remark(life),
                segment_chart(life, row.worst_segment_from_tool)) +
          under("Cycles of the worst wire",
                "How often each strain range occurs in a repeat, and its share of the damage.",
@@ -421,7 +448,7 @@ std::string scene(const RankingRow& row) {
   if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
   return under("The moment",
                "Robot and dresspack when the most damaging cycle closes; the worst segment is marked.",
-               scene_picture(motion, row.worst_time, row.worst_segment_from_tool));
+               scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack));
 }
 
 /// What a cell designer asks; none when the motion file has been cleared away.

@@ -178,7 +178,7 @@ std::string scale_bar(const View& view, double height) {
 }  // namespace
 
 std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
-                          std::size_t worst_dresspack) {
+                          const std::string& worst_dresspack) {
   const FileReader file(motion_file, motion_format());
   const Job job = job_from(parse_yaml(file.text_attribute("job"), motion_file.string() + " (attribute job)"));
   const std::size_t sample = sample_at(file, time);
@@ -188,7 +188,7 @@ std::string scene_picture(const std::filesystem::path& motion_file, double time,
   const std::vector<std::vector<Vector3d>> hoses = hose_points(file, sample);
   for (std::size_t d = 0; d < std::min(hoses.size(), job.dresspacks.size()); ++d)
     add_hose(strokes, hoses[d], job.dresspacks[d].dresspack.diameter / 2,
-             d == worst_dresspack ? worst_from_tool : 0);
+             name_among(job, d) == worst_dresspack ? worst_from_tool : 0);
 
   double height = 0;
   const View view = fit(strokes, height);

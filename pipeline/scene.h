@@ -7,10 +7,9 @@
 
 namespace dresslife::pipeline {
 
-/// time: the sample nearest to it [s]; worst_from_tool: segment of worst_dresspack to mark, 1 nearest to the tool,
-/// 0: none.
-/// Errors: InputError when the file is missing or cannot be read.
+/// time: the sample nearest to it [s]; worst_from_tool: segment of the named dresspack to mark, 1 nearest to
+/// the tool, 0: none. Errors: InputError when the file is missing or cannot be read.
 std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
-                          std::size_t worst_dresspack = 0);
+                          const std::string& worst_dresspack = "");
 
 }  // namespace dresslife::pipeline

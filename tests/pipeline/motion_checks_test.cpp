@@ -11,7 +11,8 @@ namespace {
 
 /// One sample of two segments of half a metre; with two checks, or as an older version wrote it.
 void write_motion(const std::filesystem::path& name, bool checked, bool returns = true,
-                  const std::vector<double>& values = {0.25, 3.14159265358979}, double position = 0.9) {
+                  const std::vector<double>& values = {0.25, 3.14159265358979}, double position = 0.9,
+                  const std::vector<std::int32_t>& dresspacks = {}) {
   FileWriter file(name, motion_format());
   file.set_axis("segment", 2);
   file.set_axis("clamp", 2);
@@ -35,6 +36,12 @@ void write_motion(const std::filesystem::path& name, bool checked, bool returns 
     file.append("/check/time", std::vector<double>{1.25, 2});
     file.append("/check/step", std::vector<std::int32_t>{1, 0});
     file.append("/check/position", std::vector<double>{position, -1});
+    if (!dresspacks.empty()) {
+      file.set_axis("dresspack", 2);
+      file.append("/segment/dresspack", std::vector<std::int32_t>{0, 1});
+      file.append("/dresspack/name", std::vector<std::string>{"hose", "red & blue"});
+      file.append("/check/dresspack", dresspacks);
+    }
     file.attribute("repeats", 3.0);
     if (returns) file.attribute("repeat_distance", 2e-4);
   }
@@ -69,6 +76,18 @@ TEST_CASE("motion checks: nothing has no sign") {
   CHECK(contains(table, ">0.00 turns<"));
   CHECK(contains(table, ">0.00 m<"));
   CHECK_FALSE(contains(table, "-0"));
+}
+
+TEST_CASE("motion checks: each names its dresspack among several and counts from its tool") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5", true, true, {0.25, 3.14159265358979}, 0.4, {1, 0});
+  const std::string table = check_table(scratch / "motion.h5");
+  CHECK(contains(table, "<td>red &amp; blue, smallest bend radius</td>"));
+  CHECK(contains(table, "<td class=\"number\">0.10 m</td>"));
+  CHECK(contains(table, "<td>hose, largest net twist</td>"));
+  write_motion(scratch / "wrong.h5", true, true, {0.25, 3.14159265358979}, 0.4, {1, 2});
+  CHECK(contains(message_of([&] { check_table(scratch / "wrong.h5"); }),
+                 "/check/dresspack names dresspack 2; run dresslife-sim again"));
 }
 
 TEST_CASE("motion checks: a file without them has no table") {

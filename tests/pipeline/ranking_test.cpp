@@ -78,7 +78,7 @@ TEST_CASE("ranking: a dresspack without wires has no worst place") {
   CHECK(rows[0].done());
   CHECK(std::isinf(rows[0].life_hours));
   CHECK(rows[0].worst_segment_from_tool == 0);
-  CHECK(ranking_csv(rows).find("\nempty hose,inf,inf,,,0,inf,inf,inf,,,,done,,,,,,,,,,,,\n") !=
+  CHECK(ranking_csv(rows).find("\nempty hose,inf,inf,,,0,inf,inf,inf,,,,done,,,,,,,,,,,,,\n") !=
         std::string::npos);
   CHECK(ranking_table(rows).find("no wire was evaluated") != std::string::npos);
 }

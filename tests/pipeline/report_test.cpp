@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "pipeline/life_charts.h"
+#include "pipeline/plot.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 
@@ -82,13 +83,49 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   CHECK(page.find("80 % by joint_5</span>") != std::string::npos);
   CHECK(page.find("hose 5, segment 2 from the tool (0.07 m)") != std::string::npos);
   CHECK(ranking_table(rows).find("80 % by joint_5; hose's wall 3,400 h") != std::string::npos);
-  CHECK(ranking_csv(rows).find(",joint_5,0.8\n") != std::string::npos);
+  CHECK(ranking_csv(rows).find(",joint_5,0.8,\n") != std::string::npos);
   life.causes = false;
   life.hose_hours = 0;
   write_sample_life(scratch / "old.h5", life);
   const std::string old = report_page("old", read_ranking({{"old", scratch / "old.h5", ""}}));
   CHECK(old.find("What moved") == std::string::npos);
   CHECK(old.find("hose's wall") == std::string::npos);
+}
+
+TEST_CASE("report: of several dresspacks each has its shortest life and the worst one is named") {
+  const Scratch scratch;
+  SampleLife life;
+  life.causes = true;
+  life.dresspacks = {"main hose", "sensor <cable>"};
+  write_sample_life(scratch / "two.h5", life);
+  const auto rows = read_ranking({{"two", scratch / "two.h5", ""}});
+  CHECK(rows[0].worst_dresspack == "sensor <cable>");
+  const std::string csv = ranking_csv(rows);
+  CHECK(csv.substr(0, csv.find('\n')).ends_with(",worst_joint_share,worst_dresspack"));
+  CHECK(csv.find(",joint_5,0.8,sensor <cable>\n") != std::string::npos);
+  const std::string page = report_page("two", rows);
+  check_page(page);
+  CHECK(page.find("Life by dresspack</h3>") != std::string::npos);
+  const auto cells = [&](const std::string& name, double repeats) {
+    return "<tr><td>" + name + "</td><td class=\"number\">" + printed(rows[0].hours_of(repeats)) +
+           "</td><td class=\"number\">" + printed(repeats) + "</td>";
+  };
+  CHECK(page.find(cells("main hose", 8 * life.repeats)) != std::string::npos);
+  CHECK(page.find(cells("sensor &lt;cable&gt;", life.repeats)) != std::string::npos);
+  CHECK(page.find("segment 3 from the tool (0.12 m) of the sensor &lt;cable&gt;") != std::string::npos);
+  CHECK(page.find("Damage along the sensor &lt;cable&gt;</h3>") != std::string::npos);
+  // Along the worst one only, with its own clamps and the damage of its own worst segment over time.
+  const LifeSummary told = read_life(scratch / "two.h5");
+  CHECK(told.segment_length.size() == 25);
+  CHECK(*std::max_element(told.segment_damage.begin(), told.segment_damage.end()) == 1 / life.repeats);
+  CHECK(*std::max_element(told.damage_rate.begin(), told.damage_rate.end()) > 0);
+  CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") != std::string::npos);
+  // The only dresspack of a job needs no table.
+  life.dresspacks.clear();
+  write_sample_life(scratch / "one.h5", life);
+  const std::string one = report_page("one", read_ranking({{"one", scratch / "one.h5", ""}}));
+  CHECK(one.find("Life by dresspack") == std::string::npos);
+  CHECK(one.find("Damage along the dresspack</h3>") != std::string::npos);
 }
 
 TEST_CASE("report: a page for a study stands alone and is whole") {

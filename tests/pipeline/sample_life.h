@@ -19,6 +19,8 @@ struct SampleLife {
   bool causes = false;    ///< whether it tells which joint costs the life
   double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
   bool wires = true;      ///< false: the dresspack holds none
+  std::vector<std::string>
+      dresspacks{};  ///< two: each has half of the segments, the worst lies in the second
   std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
   std::string line_name = "weld spot";
   std::string job = "robot:\n  name: <R&D> \"two\"\n";
@@ -123,11 +125,29 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
     std::vector<double> by_line;
     for (const double of : line_damage) by_line.insert(by_line.end(), {0.8 * of, -0.1 * of, 0.3 * of});
     put(writer, "/program/joint_damage", by_line);
-    put(writer, "/clamp/name", std::vector<std::string>{"base clamp", "tool clamp"});
-    put(writer, "/clamp/damage", std::vector<double>{damage, 3 * damage});
+    std::vector<std::string> clamps{"base clamp", "tool clamp"};
+    std::vector<double> near{damage, 3 * damage};
+    if (!sample.dresspacks.empty()) {
+      for (std::string& clamp : clamps) clamp = sample.dresspacks[1] + ", " + clamp;
+      clamps.insert(clamps.begin(),
+                    {sample.dresspacks[0] + ", base clamp", sample.dresspacks[0] + ", tool clamp"});
+      near.insert(near.begin(), {damage / 2, damage / 8});
+    }
+    put(writer, "/clamp/name", clamps);
+    put(writer, "/clamp/damage", near);
     writer.attribute("joint_explained", 0.75);
     writer.attribute("worst_joint", damaged ? "joint_5" : "");
     writer.attribute("worst_joint_share", damaged ? 0.8 : 0.0);
+  }
+  if (!sample.dresspacks.empty()) {
+    writer.set_axis("dresspack", 2);
+    std::vector<std::int32_t> of_segment(segments, 0);
+    std::fill(of_segment.begin() + sample.segments / 2, of_segment.end(), 1);
+    put(writer, "/segment/dresspack", of_segment);
+    put(writer, "/dresspack/name", sample.dresspacks);
+    put(writer, "/dresspack/worst_site", std::vector<std::uint32_t>{4294967295u, 0});
+    put(writer, "/dresspack/damage", std::vector<double>{damage / 8, damage});
+    writer.attribute("worst_dresspack", sample.dresspacks[1]);
   }
   const double repeats = damaged ? sample.repeats : infinity, seconds = time.back();
   const auto hours = [&](double times) { return times * seconds / 3600; };
