@@ -125,23 +125,13 @@ std::vector<double> damage_at(const Context& c, const std::vector<std::size_t>& 
 }
 
 void write_sites(const Context& c) {
-  c.life.set_axis("level", c.strain.row_size("/site/helix") / 3);
-  c.life.set_text_width("/site/component", c.component.longest());
-  c.life.set_text_width("/site/material", c.sites.material().longest());
-  std::vector<std::int32_t> segment;
   std::vector<double> values;
-  const auto copy = [&](std::size_t first, std::size_t count) {
-    c.strain.read_rows("/site/segment", first, count, segment);
-    put(c.life, "/site/segment", segment);
-    put(c.life, "/site/component", c.component.rows(first, count));
-    for (const char* dataset : {"/site/helix", "/site/fibre"}) {
-      c.strain.read_rows(dataset, first, count, values);
-      put(c.life, dataset, values);
-    }
-    put(c.life, "/site/material", c.sites.material().rows(first, count));
-  };
-  copy(0, 0);  // a file without sites has the tables too
-  in_blocks(c.sites.size(), copy);
+  in_blocks(c.sites.size(), [&](std::size_t first, std::size_t count) {  // refuses what is no number
+    for (const char* table : {"/site/helix", "/site/fibre"}) c.strain.read_rows(table, first, count, values);
+  });
+  for (const char* table :
+       {"/site/segment", "/site/component", "/site/helix", "/site/fibre", "/site/material"})
+    c.life.copy(c.strain, table);
   put(c.life, "/damage", c.damage.damage);
   std::vector<double> life;
   for (const double damage : c.damage.damage) life.push_back(life_in_repeats(damage));

@@ -15,18 +15,6 @@ void in_blocks(std::size_t rows, const std::function<void(std::size_t, std::size
     copy(first, std::min(block_rows, rows - first));
 }
 
-std::vector<std::string> TextColumn::rows(std::size_t first, std::size_t count) const {
-  std::vector<std::string> texts;
-  for (std::size_t row = first; row < first + count; ++row) texts.push_back((*this)[row]);
-  return texts;
-}
-
-std::size_t TextColumn::longest() const {
-  std::size_t bytes = 0;
-  for (const std::string& value : values) bytes = std::max(bytes, value.size());
-  return bytes;
-}
-
 TextColumn read_column(const pipeline::FileReader& file, const std::string& dataset) {
   TextColumn column;
   std::unordered_map<std::string, int> known;

@@ -17,8 +17,6 @@ struct TextColumn {
   std::vector<std::string> values;  ///< in order of appearance
   std::vector<int> index;           ///< (row)
   const std::string& operator[](std::size_t row) const { return values[index[row]]; }
-  std::vector<std::string> rows(std::size_t first, std::size_t count) const;
-  std::size_t longest() const;  ///< [bytes]
 };
 TextColumn read_column(const pipeline::FileReader& file, const std::string& dataset);
 

@@ -632,6 +632,23 @@ struct FileReader::Impl {
   }
 };
 
+void FileWriter::copy(const FileReader& from, const std::string& dataset) {
+  const FileReader::Impl::Open& source = from.impl_->dataset(dataset);
+  const Dataset& description = impl_->format->find(dataset);
+  if (impl_->open.count(dataset) || description.unit != source.description->unit ||
+      description.type != source.description->type || description.shape.size() != source.lengths.size())
+    throw std::logic_error("dataset " + dataset + " cannot be copied");
+  impl_->make_groups(dataset);
+  if (H5Ocopy(from.impl_->file, dataset.c_str(), impl_->file, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+    from.impl_->fail(
+        fmt::format("dataset {} cannot be copied (the file is damaged, or the disk full)", dataset));
+  Impl::Open& made = impl_->open[dataset];
+  made.description = &description;
+  made.rows = source.lengths[0];
+  made.row_values = source.row_values;
+  made.id = Handle(H5Dopen2(impl_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+}
+
 FileReader::FileReader(const std::filesystem::path& file, const Format& format, Scope scope)
     : impl_(std::make_unique<Impl>()) {
   silence_library();

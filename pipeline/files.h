@@ -59,6 +59,8 @@ const Format& life_format();
 /// All three formats as Markdown.
 std::string file_manual();
 
+class FileReader;
+
 /// Writes FILE.part and, on commit(), makes it FILE; without commit() nothing stays behind.
 /// Errors: InputError when the file cannot be created or the disk is full.
 class FileWriter {
@@ -79,6 +81,10 @@ class FileWriter {
   void append(const std::string& dataset, std::span<const std::uint32_t> rows);
   void append(const std::string& dataset, std::span<const std::uint64_t> rows);
   void append(const std::string& dataset, std::span<const std::string> rows);
+
+  /// The whole dataset of another file, as it lies there: packed rows are not unpacked. Precondition: of the
+  /// same path, unit and kind of values in both formats, and not appended to.
+  void copy(const FileReader& from, const std::string& dataset);
 
   void attribute(const std::string& name, const std::string& value);
   void attribute(const std::string& name, double value);
@@ -135,6 +141,7 @@ class FileReader {
   Where where() const;  ///< the file, for messages
 
  private:
+  friend class FileWriter;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -236,6 +236,52 @@ TEST_CASE("files: packed numbers are the same through this program's reader and 
   }
 }
 
+TEST_CASE(
+    "files: a dataset copied from another file is that dataset, its rows count, and others are refused") {
+  const Scratch scratch;
+  Format format{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
+  format.datasets = {{"/group/a", Type::f64, {"site", "2"}, "m", ""},
+                     {"/group/name", Type::text, {"site"}, "1", ""},
+                     {"/b", Type::f64, {"site"}, "1", ""}};
+  format.datasets[0].deflate = format.datasets[1].deflate = true;
+  constexpr std::size_t sites = 20000;  // several chunks
+  std::vector<double> a(2 * sites), b(sites, 1.0);
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] = std::sqrt(static_cast<double>(k));
+  for (std::size_t k = 0; k < sites; ++k) names.push_back("wire " + std::to_string(k));
+  {
+    FileWriter writer(scratch / "one.h5", format);
+    writer.append("/group/a", a);
+    writer.append("/group/name", std::span<const std::string>(names));
+    writer.append("/b", b);
+    writer.commit();
+  }
+  const FileReader one(scratch / "one.h5", format);
+  for (const char* name : {"two.h5", "three.h5"}) {
+    FileWriter writer(scratch / name, format);
+    writer.copy(one, "/group/a");
+    writer.copy(one, "/group/name");
+    CHECK_THROWS_AS(writer.copy(one, "/group/a"), std::logic_error);
+    writer.append("/b", b);
+    writer.commit();
+  }
+  const FileReader two(scratch / "two.h5", format);
+  CHECK(two.read<double>("/group/a") == a);
+  CHECK(two.read<std::string>("/group/name") == names);
+  CHECK(bytes_of(scratch / "two.h5") == bytes_of(scratch / "three.h5"));
+  {
+    FileWriter writer(scratch / "short.h5", format);
+    writer.copy(one, "/group/a");
+    writer.copy(one, "/group/name");
+    writer.append("/b", std::span<const double>(b).first(3));
+    CHECK_THROWS_AS(writer.commit(), std::logic_error);  // it counts as so many sites
+  }
+  Format other = format;
+  other.datasets[0].unit = "1/m";
+  FileWriter writer(scratch / "other.h5", other);
+  CHECK_THROWS_AS(writer.copy(one, "/group/a"), std::logic_error);
+}
+
 TEST_CASE("files: the same content twice is the same bytes, and the file stays untouched") {
   const Scratch scratch;
   const Format format = sample_format();
