@@ -9,7 +9,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// (W22) In the delivered shape.
+// (W25) In the delivered shape.
 Rod<double> dresspack_at_rest(const Construction& construction) {
   return uniform_rod<double>(0, 0, construction.rest_curvature(), 0, Series<double>::capacity - 1);
 }

@@ -275,10 +275,10 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
     const std::size_t count = block.size() / segments;
     for (std::size_t k = 0; k < evaluations.size(); ++k) {
       const auto [begin, size] = std::pair(reader.spans()[k].first_segment, reader.spans()[k].segments);
-      DeformationHistory all(size, count);
+      DeformationHistory of_span(size, count);
       for (std::size_t t = 0; t < count; ++t)
-        for (std::size_t i = 0; i < size; ++i) all.set(i, t, block[t * segments + begin + i]);
-      evaluations[k]->add(all);
+        for (std::size_t i = 0; i < size; ++i) of_span.set(i, t, block[t * segments + begin + i]);
+      evaluations[k]->add(of_span);
     }
     keep(0, first, block);
     progress(first_pass_share * static_cast<double>(first) / static_cast<double>(samples));

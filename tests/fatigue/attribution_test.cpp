@@ -61,7 +61,7 @@ TEST_CASE("attribution: joints of a linear strain cost what they contribute") {
   const auto strain = motion.strain([](double a, double b, double) { return 0.01 * a - 0.004 * b; });
   const StrainOfJoints surface(motion.position, known(strain), {true, true, true});
   CHECK(surface.explained() == Approx(1).epsilon(ridge_pull));
-  for (const auto [from, to] : {std::pair<std::size_t, std::size_t>{0, 140}, {500, 20}, {899, 1}}) {
+  for (const auto& [from, to] : {std::pair<std::size_t, std::size_t>{0, 140}, {500, 20}, {899, 1}}) {
     const std::vector<double> change = surface.change(from, to);
     CHECK(change[0] == Approx(0.01 * (motion.at(to, 0) - motion.at(from, 0))).margin(0.01 * ridge_pull));
     CHECK(change[1] == Approx(-0.004 * (motion.at(to, 1) - motion.at(from, 1))).margin(0.01 * ridge_pull));
