@@ -360,7 +360,7 @@ class Assembly {
     const Side a = has_a ? segment_side(before) : clamp_side(first_end_);
     const Side b = has_b ? segment_side(after) : clamp_side(first_end_ + 1);
     const LinkTurn turn = link_turn(*a.orientation, *b.orientation);
-    const LinkArms arms = system_.arms[j] = link_arms(a.half, b.half, span_.segment_length / 2);
+    const LinkArms& arms = system_.arms[j] = link_arms(a.half, b.half, span_.segment_length / 2);
     const Vector3 force = gap_force(j, a, b, arms);
     const Vector3 moment = turn_moment(j, turn, *b.angular_velocity - *a.angular_velocity) -
                            force.dot(arms.lengthening) * arms.normal;
@@ -410,6 +410,7 @@ class Assembly {
   // k1 (s^2 1 + (1 - s^2) u u^T) + (k3 - k1) g3 g3^T; and what the gap's stiffness k adds as the arms lengthen.
   struct TurnMatrix {
     double value[9];
+    double along[9];  ///< k e n^T: of turns on ways
   };
   TurnMatrix turn_matrix(int j, const LinkTurn& turn, double k, const LinkArms& arms) const {
     const double weight = turn_beta * h_ * h_ + turn_theta * h_ * damping_;
@@ -424,6 +425,9 @@ class Assembly {
         m.value[3 * r + c] =
             axis * turn.axis[r] * turn.axis[c] + third * g3[r] * g3[c] + lengthening * n[r] * n[c] +
             (r == c ? sphere : 0);
+    const Vector3 e = k * arms.lengthening;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) m.along[3 * r + c] = e[r] * n[c];
     return m;
   }
 
@@ -444,10 +448,12 @@ class Assembly {
     const double a2 = arm.squaredNorm();
     add_diagonal(b.diagonal, k);
     add_skew(b.diagonal + 3, (-side * k) * arm);
-    add_outer(b.diagonal + 3, -k, arms.lengthening, arms.normal);
     double* m = b.diagonal + 21;
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) m[6 * r + c] += turning.value[3 * r + c];
+      for (int c = 0; c < 3; ++c) {
+        b.diagonal[6 * r + 3 + c] -= turning.along[3 * r + c];
+        m[6 * r + c] += turning.value[3 * r + c];
+      }
     add_diagonal(m, k * a2 + taut);
     add_outer(m, -(k + taut / a2), arm, arm);
     add(b.value, (side * h_) * force);
@@ -460,13 +466,15 @@ class Assembly {
     std::fill(u, u + 36, 0.0);
     add_diagonal(u, -k);
     add_skew(u + 3, -k * arms.b);
-    add_outer(u + 3, k, arms.lengthening, arms.normal);
     add_skew(u + 18, -k * arms.a);
-    add_outer(u + 18, k, arms.normal, arms.lengthening);
     add_outer(u + 21, -k, arms.b, arms.a);
     add_diagonal(u + 21, k * arms.a.dot(arms.b));
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) u[21 + 6 * r + c] -= turning.value[3 * r + c];
+      for (int c = 0; c < 3; ++c) {
+        u[3 + 6 * r + c] += turning.along[3 * r + c];
+        u[18 + 6 * r + c] += turning.along[3 * c + r];
+        u[21 + 6 * r + c] -= turning.value[3 * r + c];
+      }
   }
 
   // A point mass at the end of the arm moves with v + w x arm. (Kept out of the loop over the segments.)
