@@ -80,13 +80,14 @@ double Statics::unbalance(const RodState& state) {
   for (int j = 0; j <= n; ++j) {
     if (rod_.gap_stiffness(j) == 0) continue;
     const LinkEnds ends = link_ends(rod_, state, j);
+    const LinkArms arms = ends.arms();
     const LinkState link = rod_.link_state(state, j);
     const Vector3 force = rod_.gap_stiffness(j) * link.gap;
     const Vector3 moment = link_turn(*ends.orientation_a, *ends.orientation_b).map * link.moment -
-                           force.dot(ends.arms.lengthening) * ends.arms.normal;
+                           force.dot(arms.lengthening) * arms.normal;
     scale = std::max({scale, force.norm(), moment.norm() / rod_.properties().length});
-    if (j > 0) push(j - 1, force, ends.arms.a.cross(force) + moment);
-    if (j < n) push(j, -force, ends.arms.b.cross(force) - moment);
+    if (j > 0) push(j - 1, force, arms.a.cross(force) + moment);
+    if (j < n) push(j, -force, arms.b.cross(force) - moment);
   }
   double largest = 0;
   for (const Twist6& u : unbalanced_)
@@ -140,7 +141,7 @@ void Statics::add_link(const RodState& state, int j) {
   const Vector3& stiffness = rod_.turn_stiffness(j);
   const Vector3 local_moment = stiffness.cwiseProduct(turn.phi - rod_.rest_turn(j));
   const Vector3 moment = turn.map * local_moment, f = pull_[j];
-  const LinkArms& arms = ends.arms;
+  const LinkArms arms = ends.arms();
   const double k = rod_.gap_stiffness(j);
   const Matrix3 h = turn.map * stiffness.asDiagonal() * turn.map.transpose() +
                     turn_curvature(turn, local_moment) +
@@ -241,7 +242,7 @@ void Statics::predict_pull(const RodState& state, double part) {
     const Twist6 none{};
     const Twist6 &before = j > 0 ? step_[j - 1] : none, &after = j < n ? step_[j] : none;
     const Vector3 change =
-        gap_change(ends.arms, before.linear(), before.angular(), after.linear(), after.angular());
+        gap_change(ends.arms(), before.linear(), before.angular(), after.linear(), after.angular());
     pull_[j] = rod_.gap_stiffness(j) * (rod_.link_state(state, j).gap + part * change);
   }
 }

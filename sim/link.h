@@ -1,6 +1,8 @@
 // Geometry of one elastic link: its two ends and its rotation vector. Shared by the step and the statics.
 #pragma once
 
+#include <algorithm>
+
 #include "sim/rod.h"
 
 namespace dresslife::sim {
@@ -79,7 +81,14 @@ inline Vector3 gap_change(const LinkArms& arms, const Vector3& x_a, const Vector
 struct LinkEnds {
   const Vector3 *position_a, *position_b;
   const Quaternion *orientation_a, *orientation_b;
-  LinkArms arms;
+  Vector3 tangent_a, tangent_b;
+  double half_a, half_b;  ///< of the segment on that side; 0 for a clamp [m]
+
+  LinkArms arms() const {
+    return link_arms(half_a * tangent_a, half_b * tangent_b, std::max(half_a, half_b));
+  }
+  /// (S1), with arms().
+  Vector3 gap(const LinkArms& arms) const { return (*position_b - arms.b) - (*position_a + arms.a); }
 };
 
 inline LinkEnds link_ends(const Rod& rod, const RodState& state, int link) {
@@ -94,8 +103,8 @@ inline LinkEnds link_ends(const Rod& rod, const RodState& state, int link) {
   ends.position_b = has_b ? &state.position[before + 1] : &tool.position;
   ends.orientation_b = has_b ? &state.orientation[before + 1] : &tool.orientation;
   const double a = span.segment_length / 2;
-  ends.arms = link_arms((has_a ? a : 0) * tangent(*ends.orientation_a),
-                        (has_b ? a : 0) * tangent(*ends.orientation_b), a);
+  ends.tangent_a = tangent(*ends.orientation_a), ends.tangent_b = tangent(*ends.orientation_b);
+  ends.half_a = has_a ? a : 0, ends.half_b = has_b ? a : 0;
   return ends;
 }
 

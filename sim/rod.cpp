@@ -144,7 +144,7 @@ LinkState Rod::link_state(const RodState& state, int link) const {
   const LinkEnds ends = link_ends(*this, state, link);
   if (gap_stiffness_[link] == 0) return {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
   const LinkTurn turn = link_turn(*ends.orientation_a, *ends.orientation_b);
-  return {(*ends.position_b - ends.arms.b) - (*ends.position_a + ends.arms.a), turn.phi,
+  return {ends.gap(ends.arms()), turn.phi,
           turn_stiffness_[link].cwiseProduct(turn.phi - rest_turn_[link])};
 }
 
@@ -207,8 +207,9 @@ double Rod::mean_elongation(const RodState& state, const Span& span) const {
   double stretch = 0;
   for (int j = span.first_link; j <= span.last_link(); ++j) {
     const LinkEnds ends = link_ends(*this, state, j);
-    const Vector3 t = tangent(*ends.orientation_a) + tangent(*ends.orientation_b);
-    stretch += link_state(state, j).gap.dot(t) / std::max(t.norm(), 1e-12);
+    if (gap_stiffness_[j] == 0) continue;
+    const Vector3 t = ends.tangent_a + ends.tangent_b;
+    stretch += ends.gap(ends.arms()).dot(t) / std::max(t.norm(), 1e-12);
   }
   return stretch / span.properties.length;
 }
@@ -223,7 +224,7 @@ std::vector<double> Rod::tensions(const RodState& state) const {
   std::vector<double> tension(links());
   for (int j = 0; j < links(); ++j) {
     const LinkEnds ends = link_ends(*this, state, j);
-    const Vector3 t = tangent(*ends.orientation_a) + tangent(*ends.orientation_b);
+    const Vector3 t = ends.tangent_a + ends.tangent_b;
     tension[j] = state.link_force[j].dot(t) / std::max(t.norm(), 1e-12);
   }
   return tension;
