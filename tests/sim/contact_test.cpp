@@ -57,15 +57,16 @@ TEST_CASE("a hose lifted and dragged by a capsule stays outside it") {
     const Frame below{{0.7, 0, lowest(start.state) - 0.13}, Quaternion::Identity()};
     World world(rod, {}, start.state, std::span(&below, 1));
     world.add(0, CapsuleShape{{0, -0.5, 0}, {0, 0.5, 0}, 0.05});
+    // Dragged, the arch snaps over the capsule, at a moment that rounding decides; then it comes to rest.
     const Run r = run(
-        world, 4, [](double) { return hanging; },
+        world, 6, [](double) { return hanging; },
         [&](double t) {
           Frame frame = below;
           frame.position += Vector3(0.2 * smooth((t - 1.5) / smooth_time), 0, 0.35 * smooth(t / smooth_time));
           return frame;
         });
     CHECK(r.depth < deepest);
-    CHECK(r.force.z() > 1);  // it does lie there
+    CHECK(r.force.z() > 30);  // it does lie there, with the larger part of its 49 N
   }
 }
 
