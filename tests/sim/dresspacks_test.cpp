@@ -28,16 +28,6 @@ RodProperties hose_of(int segments, double length, double diameter, double stiff
   return p;
 }
 
-double furthest(const RodState& a, int first, const RodState& b) {
-  double most = 0;
-  for (size_t i = 0; i < b.position.size(); ++i) {
-    most = std::max(most, (a.position[first + i] - b.position[i]).norm());
-    most = std::max(most, (a.orientation[first + i].coeffs() - b.orientation[i].coeffs()).norm());
-    most = std::max(most, (a.velocity[first + i] - b.velocity[i]).norm());
-  }
-  return most;
-}
-
 /// A spindle about x, 1 m above the floor, that turns; both dresspacks lie along x.
 std::string job_text(const std::string& dresspacks, const std::string& more = "") {
   return "robot:\n"

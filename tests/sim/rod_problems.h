@@ -1,6 +1,7 @@
 // What the tests of the chain share: clamp frames in a plane, quick statics, elliptic integrals, orders.
 #pragma once
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -75,6 +76,17 @@ inline RodState tip_loaded(const Rod& rod, const Frame& base, const Vector3& for
 inline Vector3 on_axis(const Rod& rod, const RodState& state, int link) {
   const Vector3 before = tangent(state.orientation[link - 1]), after = tangent(state.orientation[link]);
   return state.position[link - 1] + rod.segment_length() * (before / 2 + (after - before) / 12);
+}
+
+/// How far the segments of `a` from `first` on are from those of `b`: places [m], quaternions, velocities [m/s].
+inline double furthest(const RodState& a, int first, const RodState& b) {
+  double most = 0;
+  for (size_t i = 0; i < b.position.size(); ++i) {
+    most = std::max(most, (a.position[first + i] - b.position[i]).norm());
+    most = std::max(most, (a.orientation[first + i].coeffs() - b.orientation[i].coeffs()).norm());
+    most = std::max(most, (a.velocity[first + i] - b.velocity[i]).norm());
+  }
+  return most;
 }
 
 /// Bending curvature of a link [1/m].

@@ -12,16 +12,6 @@ Frame swinging(double x, double t, double phase) {
   return rolled(planar_frame(x + 0.1 * s, 0.2 * s, 0.4 * s), 0.8 * s);
 }
 
-double furthest(const RodState& a, int first, const RodState& b) {
-  double most = 0;
-  for (size_t i = 0; i < b.position.size(); ++i) {
-    most = std::max(most, (a.position[first + i] - b.position[i]).norm());
-    most = std::max(most, (a.orientation[first + i].coeffs() - b.orientation[i].coeffs()).norm());
-    most = std::max(most, (a.velocity[first + i] - b.velocity[i]).norm());
-  }
-  return most;
-}
-
 }  // namespace
 
 TEST_CASE("the spans on either side of a clamp move as two dresspacks would") {
