@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "strain/lane_groups.h"
+
 namespace dresslife::strain {
 namespace {
 
@@ -69,12 +71,19 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
 void BundleScan::list_groups(const std::vector<int>& layers) {
   layers_ = layers;
   groups_.clear();
+  place_.clear();
   std::size_t lists = 0;
   for (std::size_t k = 0; k < layers.size(); ++k) {
     const int count = construction_.layers()[layers[k]].count;
-    for (int first = 0; first < count; first += lanes) {
-      Group& group = groups_.emplace_back(Group{k, {}, {}, {}, lists});
-      for (int j = first; j < std::min(count, first + lanes); ++j) group.angles.push_back(2 * pi * j / count);
+    const std::size_t first_wire = place_.size();
+    place_.resize(first_wire + count);
+    for (const LaneGroup& lane_group : lane_groups(count, kernels().wires_at_once)) {
+      Group& group = groups_.emplace_back(Group{k, lane_group.mirrors, {}, {}, {}, lists});
+      for (const int wire : lane_group.wires) {
+        place_[first_wire + wire] = {groups_.size() - 1, group.angles.size()};
+        const int turned = lane_group.mirrors ? wire - count : wire;  // exactly the opposite of its image
+        group.angles.push_back(2 * pi * turned / count);
+      }
       for (int f = 0; f < settings_.fibre_count; ++f) group.scans.emplace_back(group.angles, settings_.gate);
       lists += settings_.fibre_count * group.angles.size();
     }
@@ -109,11 +118,12 @@ LaneRun& BundleScan::add_run(Group& group, int fibre, std::size_t count, Wanted 
 void BundleScan::scan_waves(std::size_t count, Wanted wanted) {
   const int fibres = settings_.fibre_count;
   runs_.clear();
-  for (Group& group : groups_)
-    for (int f = 0; f < fibres; ++f) {
-      Waves& waves = add_run(group, f, count, wanted).waves;
+  for (int f = 0; f < fibres; ++f)  // groups inside: images follow their wires
+    for (Group& group : groups_) {
+      LaneRun& run = add_run(group, f, count, wanted);
+      run.mirrors = group.mirrors;
       for (int w = 0; w < waves_per_layer; ++w)
-        waves.at[w] = waves_.data() + ((group.layer * fibres + f) * waves_per_layer + w) * block_samples;
+        run.waves.at[w] = waves_.data() + ((group.layer * fibres + f) * waves_per_layer + w) * block_samples;
     }
   const auto scan = wanted == Wanted::turns ? kernels().scan : kernels().rank;
   scan(runs_.data(), runs_.size(), count);
@@ -178,21 +188,19 @@ void BundleScan::rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, 
 
 void BundleScan::for_each_site(
     const std::function<void(std::size_t, int, std::span<const TurningPoint>)>& found) const {
-  std::size_t wire = 0;
-  for (const Group& group : groups_) {
-    const std::size_t wires = group.scans[0].wires();
-    for (std::size_t lane = 0; lane < wires; ++lane, ++wire)
-      for (int f = 0; f < settings_.fibre_count; ++f)
-        found(wire, f, lists_[group.first_list + f * wires + lane].points());
+  for (std::size_t wire = 0; wire < place_.size(); ++wire) {
+    const auto [number, lane] = place_[wire];
+    const Group& group = groups_[number];
+    for (int f = 0; f < settings_.fibre_count; ++f)
+      found(wire, f, lists_[group.first_list + f * group.angles.size() + lane].points());
   }
 }
 
 void BundleScan::for_each_rank(
     const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const {
-  std::size_t wire = 0;
-  for (const Group& group : groups_)
-    for (int lane = 0; lane < group.scans[0].wires(); ++lane, ++wire)
-      for (int f = 0; f < settings_.fibre_count; ++f) found(wire, f, group.scans[f].measures(lane));
+  for (std::size_t wire = 0; wire < place_.size(); ++wire)
+    for (int f = 0; f < settings_.fibre_count; ++f)
+      found(wire, f, groups_[place_[wire].group].scans[f].measures(place_[wire].lane));
 }
 
 }  // namespace dresslife::strain

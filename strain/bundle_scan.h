@@ -59,10 +59,15 @@ class BundleScan {
   /// Up to sixteen wires of one layer.
   struct Group {
     std::size_t layer;  ///< in the bundle
+    bool mirrors;       ///< wires at the opposite angles of those of the group before
     std::vector<double> angles;
     MixedLanes mixed;
     std::vector<LaneScan> scans;  ///< (fibre)
     std::size_t first_list;       ///< of (fibre, wire) lists
+  };
+  /// Where a wire of the bundle is scanned.
+  struct Place {
+    std::size_t group, lane;
   };
 
   void list_groups(const std::vector<int>& layers);
@@ -86,6 +91,7 @@ class BundleScan {
   ScanSettings settings_;
   std::vector<int> layers_;  ///< for whose wires the groups are
   std::vector<Group> groups_;
+  std::vector<Place> place_;  ///< (wire)
   std::vector<TurningList> lists_;
   std::vector<float> waves_, strains_;
   std::vector<LaneRun> runs_;

@@ -163,6 +163,9 @@ struct LaneRun {
   const float* strain;
   LaneRanks* ranks;    ///< for rank()
   TurningPoint** end;  ///< (wire) where its next turning point goes; moves on. Room: count + spare_points.
+  /// Its wires lie at the opposite angles of those of the run before, lane by lane, in the same waves; not
+  /// more of them than there.
+  bool mirrors = false;
 };
 
 // ---- the set for this machine -----------------------------------------------------------------------------
@@ -185,6 +188,7 @@ struct MixedLanes {
 
 struct Kernels {
   const char* machine;
+  int wires_at_once;  ///< in one register
   /// Strains of every node and fibre at samples [first, first + count), to out[(node * fibres + fibre) *
   /// stride + t].
   void (*node_strains)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,

@@ -855,7 +855,7 @@ StrainMeasures measures(const float* strain, std::size_t count) {
 
 extern const Kernels set;
 const Kernels set{
-    DRESSLIFE_MACHINE_NAME, node_strains, layer_waves,    deviations, part_states,  node_ingredients,
+    DRESSLIFE_MACHINE_NAME, float_pack_size, node_strains, layer_waves,    deviations, part_states,  node_ingredients,
     ingredient_waves,       mix,          add_path_rates, scan,       scan_strains, rank,
     rank_strains,           measures};
 

@@ -6,7 +6,8 @@
 //     h <- min(max(h, x), x + g)
 // Where h rises x is a new highest strain, where it falls a new lowest one; the last place before it changes
 // its direction is a turning point. So one bit each for rising and falling is all that the loop over samples
-// keeps; 32 of them make a word per wire, and the turning points are found in the words.
+// keeps; 32 of them make a word per wire, and the turning points are found in the words. What the edge was
+// when it moved last is told by the edge: h after a rise, h - g after a fall.
 //
 // The first turn: a wire is decided once it has moved by the gate. Started in a valley (h = x + g), h rises
 // where the wire is decided by a rise; started on a peak (h = x), it falls where it is decided by a fall.
@@ -23,8 +24,15 @@ namespace {
 
 constexpr int word = 32;  ///< samples
 
+/// A word's first sample is its highest bit.
+constexpr std::uint32_t first_of_word = 1u << (word - 1);
+
+/// Which sample of its word a single bit stands for; of no bit, any number.
+inline IntPack sample_of(const IntPack& bit) { return word - 1 - place_of(bit); }
+
 /// Where a run's strains come from: waves, and their factors for a pack of wires (W13).
 struct FromWaves {
+  static constexpr bool are_waves = true;
   const float* wave[waves_per_layer];
 
   FromWaves() = default;
@@ -42,14 +50,21 @@ struct WaveShape {
         sine2(load<FloatPack>(state.shape[2] + lane)),
         cosine2(load<FloatPack>(state.shape[3] + lane)) {}
 
+  /// Of the strain, what a wire at the opposite angle feels too, and what it feels the other way round.
+  inline __attribute__((always_inline)) FloatPack even(const FromWaves& from, std::size_t t) const {
+    return from.wave[0][t] + from.wave[2][t] * cosine1 + from.wave[4][t] * cosine2;
+  }
+  inline __attribute__((always_inline)) FloatPack odd(const FromWaves& from, std::size_t t) const {
+    return from.wave[1][t] * sine1 + from.wave[3][t] * sine2;
+  }
   inline __attribute__((always_inline)) FloatPack at(const FromWaves& from, std::size_t t) const {
-    return (from.wave[0][t] + from.wave[1][t] * sine1 + from.wave[2][t] * cosine1) +
-           (from.wave[3][t] * sine2 + from.wave[4][t] * cosine2);
+    return even(from, t) + odd(from, t);
   }
 };
 
 /// The same for strains that are there already.
 struct FromStrains {
+  static constexpr bool are_waves = false;
   const float* strain;
 
   FromStrains() = default;
@@ -66,12 +81,76 @@ struct StrainShape {
   }
 };
 
+/// A pack of the wires of a run, the first of them lane `lane`.
+struct PackOf {
+  const LaneRun* run;
+  int lane;
+};
+
+/// The strains of one pack or two.
+template <class Shape, class Source, int packs>
+struct Apart {
+  static constexpr int side = packs;
+  Shape shape[side];
+  Source source[side];
+
+  explicit Apart(const PackOf* of) {
+    for (int k = 0; k < side; ++k) {
+      shape[k] = Shape(*of[k].run->state, of[k].lane);
+      source[k] = Source(*of[k].run);
+    }
+  }
+  inline __attribute__((always_inline)) void at(std::size_t t, FloatPack* x) const {
+    for (int k = 0; k < side; ++k) x[k] = shape[k].at(source[k], t);
+  }
+};
+
+/// Those of wires and their mirror images: the products are shared.
+struct Mirrored {
+  static constexpr int side = 2;
+  WaveShape shape;
+  FromWaves source;
+
+  explicit Mirrored(const PackOf* of) : shape(*of[0].run->state, of[0].lane), source(*of[0].run) {}
+  inline __attribute__((always_inline)) void at(std::size_t t, FloatPack* x) const {
+    const FloatPack even = shape.even(source, t), odd = shape.odd(source, t);
+    x[0] = even + odd;
+    x[1] = even - odd;
+  }
+};
+
+/// Calls use(strains, packs) for all packs of the runs, two at a time: one alone would wait for itself at the
+/// sample before.
+template <class Shape, class Source, class Use>
+inline void for_packs(const LaneRun* runs, std::size_t run_count, const Use& use) {
+  const LaneRun* const end = runs + run_count;
+  PackOf waiting[2];
+  int count = 0;
+  for (const LaneRun* run = runs; run != end; ++run) {
+    const LaneRun* const images = run + 1 != end && run[1].mirrors ? run + 1 : nullptr;
+    const int imaged = images ? images->state->used : 0;
+    for (int lane = 0; lane < run->state->used; lane += float_pack_size) {
+      if constexpr (Source::are_waves)
+        if (lane < imaged) {
+          const PackOf both[] = {{run, lane}, {images, lane}};
+          use(Mirrored(both), both);
+          continue;
+        }
+      waiting[count++] = {run, lane};
+      if (count == 2) use(Apart<Shape, Source, 2>(waiting), waiting);
+      count %= 2;
+    }
+    if (images) ++run;
+  }
+  if (count == 1) use(Apart<Shape, Source, 1>(waiting), waiting);
+}
+
 /// Which way the edge moved, a bit per sample.
 struct Moves {
   IntPack up{}, down{};
 };
 
-/// A pack of the wires of one LaneRun, the first of them lane `lane`.
+/// What the scan of a pack goes by.
 template <class Shape, class Source>
 struct Scan {
   LaneState& state;
@@ -80,7 +159,7 @@ struct Scan {
   TurningPoint** end;
   alignas(64) float strain[word + 1][float_pack_size];  ///< the last: no sample
 
-  Scan(const LaneRun& run, int first) : state(*run.state), source(run), lane(first), end(run.end) {}
+  explicit Scan(const PackOf& of) : state(*of.run->state), source(*of.run), lane(of.lane), end(of.run->end) {}
 
   unsigned used() const { return (((1u << state.used) - 1) >> lane) & ((1u << float_pack_size) - 1); }
 
@@ -90,7 +169,7 @@ struct Scan {
     Moves moves;
     for (int t = 0; t < count; ++t) {
       const FloatPack x = load<FloatPack>(strain[t]), above = x + state.below_gate;
-      const IntPack bit = IntPack{} + static_cast<std::int32_t>(1u << t);
+      const IntPack bit = IntPack{} + static_cast<std::int32_t>(first_of_word >> t);
       moves.up = marked(moves.up, greater(x, edge), bit);
       moves.down = marked(moves.down, greater(edge, above), bit);
       edge = smaller(larger(edge, x), above);
@@ -109,11 +188,11 @@ struct Scan {
     for (; open != 0; open &= open - 1) {
       const int wire = __builtin_ctz(open), of = lane + wire;
       const std::uint32_t rise = rises[wire], fall = falls[wire];
-      const bool falls_first = fall != 0 && (rise == 0 || __builtin_ctz(fall) < __builtin_ctz(rise));
+      const bool falls_first = fall > rise;  // no sample is both: the highest bit decides
       std::uint32_t before = peaks[wire];
-      if (falls_first) before &= (fall & -fall) - 1;
+      if (falls_first) before &= ~(0xffffffffu >> __builtin_clz(fall));
       if (before != 0) {
-        const int at = 31 - __builtin_clz(before);
+        const int at = word - 1 - __builtin_ctz(before);
         state.top[of] = strain[at][wire];
         state.top_at[of] = first + at;
       }
@@ -123,29 +202,28 @@ struct Scan {
     }
   }
 
-  /// Puts the extremes of which the moves of `count` samples from `first` on tell that they are turns.
+  /// Puts the extremes of which the moves of a word from sample `first` on tell that they are turns.
+  ///
+  /// A rise is a turn if the next move is a fall. In down - up - 1 = down + ~up a fall, being the lower bit,
+  /// carries through all that are no rises up to the rise before it, and leaves its mark there; a rise that
+  /// another one follows catches no carry. Falls likewise, in up + ~down.
   inline void put_turns(const Moves& moves, std::int32_t first) {
-    const IntPack event = moves.up | moves.down;
-    // Of each sample, whether there is a later event in the word and whether the next one is a rise: from the
-    // right neighbour, from two to the right, four, ..., where it is not known yet.
-    IntPack known = shifted_right(event, 1), rises = shifted_right(moves.up, 1);
-    for (int step = 1; step < word; step *= 2) {
-      rises |= shifted_right(rises, step) & ~known;
-      known |= shifted_right(known, step);
-    }
-    const IntPack turns = (moves.up & known & ~rises) | (moves.down & rises);
-    // The extreme from the words before turns if the first event leads away from it.
-    const IntPack first_event = event & -event;
+    const IntPack event = moves.up | moves.down, last = event & -event;
+    const IntPack away = moves.down - moves.up;
+    const IntPack turns = (moves.up & (away - 1)) | (moves.down & ~away);
+    // The extreme from the words before turns if the first move leads away from it.
     const IntPack rose = load<IntPack>(state.rises + lane);
-    const Mask old_turns = nonzero(first_event & ((moves.down & rose) | (moves.up & ~rose)));
-    const unsigned old = bits(old_turns), any = (old | bits(nonzero(turns))) & used();
+    const unsigned moved = bits(nonzero(event));
+    const unsigned old = bits(nonzero(above(moves.up, moves.down) ^ rose)) & moved;
+    const unsigned any = (old | bits(nonzero(turns))) & used();
     if (any != 0) put(any, old, turns, first);
-    const Mask moved = nonzero(event);
-    const IntPack last = highest_bit(event);
-    store(select(moved, first + last, load<IntPack>(state.extreme_at + lane)), state.extreme_at + lane);
-    store(select(moved, gathered(strain, last), load<FloatPack>(state.extreme + lane)), state.extreme + lane);
-    const Mask up = nonzero(moves.up & ((IntPack{} + 1) << last));
-    store(select(moved, select(up, IntPack{} - 1, IntPack{}), rose), state.rises + lane);
+    const Mask moves_on = nonzero(event), rises = nonzero(moves.up & last);
+    const IntPack rising = select(moves_on, select(rises, IntPack{} - 1, IntPack{}), rose);
+    const FloatPack edge = load<FloatPack>(state.edge + lane);
+    store(rising, state.rises + lane);
+    store(select(moves_on, first + sample_of(last), load<IntPack>(state.extreme_at + lane)),
+          state.extreme_at + lane);
+    store(select(nonzero(rising), edge, edge - state.below_gate), state.extreme + lane);
   }
 
   /// Two turns of a word are written whether they are there or not: that is rarely guessed wrong.
@@ -159,9 +237,9 @@ struct Scan {
       to += (old >> wire & 1) & (state.extreme_at[of] > 0);
       std::uint32_t left = of_wire[wire];
       const auto put_next = [&](int place) {
-        const int at = left != 0 ? __builtin_ctz(left) : word;
+        const int at = left != 0 ? __builtin_clz(left) : word;
         to[place] = {strain[at][wire], static_cast<std::uint32_t>(first + at)};
-        left &= left - 1;
+        left &= ~(static_cast<std::uint64_t>(first_of_word) >> at);
       };
       const int count = __builtin_popcount(left);
       put_next(0);
@@ -190,49 +268,53 @@ struct Scan {
   }
 };
 
-/// Strains of samples [from, from + count), and how they move the edge, of `side` packs at a time: each waits
-/// for its edge at the sample before, the others fill the gaps.
-template <int side, class Shape, class Source>
-inline __attribute__((always_inline)) void follow(Scan<Shape, Source>* scans, std::size_t from, int count,
-                                                  Moves* moves) {
-  Source source[side];
-  FloatPack edge[side], gate[side];
-  Shape shape[side];
+/// Strains of samples [from, from + count), and how they move the edges.
+template <class Strains, class One>
+inline __attribute__((always_inline)) void follow(const Strains& strains, One* scans, std::size_t from,
+                                                  int count, Moves* moves) {
+  constexpr int side = Strains::side;
+  FloatPack edge[side], gate[side], x[side];
   Moves moved[side];
   for (int k = 0; k < side; ++k) {
     const LaneState& state = scans[k].state;
-    source[k] = scans[k].source;
-    shape[k] = Shape(state, scans[k].lane);
     edge[k] = load<FloatPack>(state.edge + scans[k].lane);
     gate[k] = FloatPack{} + state.below_gate;
   }
-  IntPack bit = IntPack{} + 1;
-  for (int t = 0; t < count; ++t, bit += bit)
-#pragma GCC unroll 4
+  IntPack bit = IntPack{} + static_cast<std::int32_t>(first_of_word);
+  for (int t = 0; t < count; ++t, bit = shifted_right(bit, 1)) {
+    strains.at(from + t, x);
+#pragma GCC unroll 2
     for (int k = 0; k < side; ++k) {
-      const FloatPack x = shape[k].at(source[k], from + t), above = x + gate[k];
-      store(x, scans[k].strain[t]);
-      moved[k].up = marked(moved[k].up, greater(x, edge[k]), bit);
+      const FloatPack above = x[k] + gate[k];
+      store(x[k], scans[k].strain[t]);
+      moved[k].up = marked(moved[k].up, greater(x[k], edge[k]), bit);
       moved[k].down = marked(moved[k].down, greater(edge[k], above), bit);
-      edge[k] = smaller(larger(edge[k], x), above);
+      edge[k] = smaller(larger(edge[k], x[k]), above);
     }
+  }
   for (int k = 0; k < side; ++k) {
     store(edge[k], scans[k].state.edge + scans[k].lane);
     moves[k] = moved[k];
   }
 }
 
-template <int side, class Shape, class Source>
-void scan_packs(Scan<Shape, Source>* scans, std::size_t count) {
+template <class Shape, class Source, class Strains>
+void scan_packs(const Strains& strains, const PackOf* packs, std::size_t count) {
+  using One = Scan<Shape, Source>;
+  constexpr int side = Strains::side;
+  alignas(64) unsigned char room[side * sizeof(One)];
+  auto* const scans = reinterpret_cast<One*>(room);
   Moves moves[side];
-  for (int k = 0; k < side; ++k)
+  for (int k = 0; k < side; ++k) {
+    new (scans + k) One(packs[k]);
     if (scans[k].state.sample == 0) scans[k].start();
+  }
   for (std::size_t from = 0; from < count; from += word) {
     const int here = count - from < word ? static_cast<int>(count - from) : word;
     if (here == word)
-      follow<side>(scans, from, word, moves);
+      follow(strains, scans, from, word, moves);
     else
-      follow<side>(scans, from, here, moves);
+      follow(strains, scans, from, here, moves);
     for (int k = 0; k < side; ++k) scans[k].turn(moves[k], from, here);
   }
   for (int k = 0; k < side; ++k)
@@ -242,18 +324,9 @@ void scan_packs(Scan<Shape, Source>* scans, std::size_t count) {
 
 template <class Shape, class Source>
 void scan_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
-  constexpr int side = 2;
-  alignas(64) unsigned char room[side * sizeof(Scan<Shape, Source>)];
-  auto* const scans = reinterpret_cast<Scan<Shape, Source>*>(room);
-  int waiting = 0;
-  for (const LaneRun* run = runs; run != runs + run_count; ++run)
-    for (int lane = 0; lane < run->state->used; lane += float_pack_size) {
-      new (scans + waiting++) Scan<Shape, Source>(*run, lane);
-      if (waiting < side) continue;
-      scan_packs<side>(scans, count);
-      waiting = 0;
-    }
-  if (waiting != 0) scan_packs<1>(scans, count);
+  for_packs<Shape, Source>(runs, run_count, [&](const auto& strains, const PackOf* packs) {
+    scan_packs<Shape, Source>(strains, packs, count);
+  });
   for (const LaneRun* run = runs; run != runs + run_count; ++run)
     run->state->sample += static_cast<std::int32_t>(count);
 }
@@ -277,21 +350,15 @@ inline FloatPack cycle_share(const FloatPack& before, const FloatPack& now) {
 /// Here turns need no list: a wire is followed as strain times its direction, whose highest value is the
 /// turning point once it has fallen from there by the gate. The first direction is a guess that can cost one
 /// range below the gate.
-template <class Shape, class Source>
 struct Ranking {
   const LaneRun* run;
   int lane;
-  Shape shape;
-  Source source;
   FloatPack below_gate, direction, turn, extreme, sum, low, high;
 
   Ranking() = default;
-  Ranking(const LaneRun& of, int first)
-      : run(&of),
-        lane(first),
-        shape(*of.state, first),
-        source(of),
-        below_gate(FloatPack{} + of.state->below_gate) {
+  /// first: its strain at the first sample of all.
+  Ranking(const PackOf& of, const FloatPack& first)
+      : run(of.run), lane(of.lane), below_gate(FloatPack{} + of.run->state->below_gate) {
     const LaneRanks& ranks = *run->ranks;
     direction = load<FloatPack>(ranks.direction + lane);
     turn = load<FloatPack>(ranks.turn + lane);
@@ -302,11 +369,11 @@ struct Ranking {
     if (run->state->sample != 0) return;
     direction = FloatPack{} + 1.0f;
     sum = FloatPack{};
-    low = high = turn = extreme = shape.at(source, 0);
+    low = high = turn = extreme = first;
   }
 
-  inline __attribute__((always_inline)) void next(std::size_t t) {
-    const FloatPack x = shape.at(source, t), y = direction * x;
+  inline __attribute__((always_inline)) void next(const FloatPack& x) {
+    const FloatPack y = direction * x;
     low = smaller(low, x);
     high = larger(high, x);
     extreme = larger(extreme, y);
@@ -318,7 +385,7 @@ struct Ranking {
     direction = select(turned, -direction, direction);
   }
 
-  void keep(std::size_t count) const {
+  void keep(const FloatPack& last) const {
     LaneRanks& ranks = *run->ranks;
     store(direction, ranks.direction + lane);
     store(turn, ranks.turn + lane);
@@ -326,33 +393,30 @@ struct Ranking {
     store(sum, ranks.sum + lane);
     store(low, ranks.low + lane);
     store(high, ranks.high + lane);
-    const FloatPack last = shape.at(source, count - 1), peak = direction * extreme;
+    const FloatPack peak = direction * extreme;
     store(FloatPack(sum + cycle_share(turn, peak) + cycle_share(peak, last)), ranks.cycle_sum + lane);
   }
 };
 
-/// Packs two at a time: each waits for itself at the sample before.
+template <class Strains>
+void rank_packs(const Strains& strains, const PackOf* packs, std::size_t count) {
+  constexpr int side = Strains::side;
+  FloatPack x[side];
+  Ranking ranking[side];
+  strains.at(0, x);
+  for (int k = 0; k < side; ++k) ranking[k] = Ranking(packs[k], x[k]);
+  for (std::size_t t = 0; t < count; ++t) {
+    strains.at(t, x);
+#pragma GCC unroll 2
+    for (int k = 0; k < side; ++k) ranking[k].next(x[k]);
+  }
+  for (int k = 0; k < side; ++k) ranking[k].keep(x[k]);
+}
+
 template <class Shape, class Source>
 void rank_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
-  using One = Ranking<Shape, Source>;
-  const LaneRun* waiting = nullptr;
-  int waiting_lane = 0;
-  for (const LaneRun* run = runs; run != runs + run_count; ++run)
-    for (int lane = 0; lane < run->state->used; lane += float_pack_size) {
-      if (waiting == nullptr) {
-        waiting = run, waiting_lane = lane;
-        continue;
-      }
-      One a(*waiting, waiting_lane), b(*run, lane);
-      for (std::size_t t = 0; t < count; ++t) a.next(t), b.next(t);
-      a.keep(count), b.keep(count);
-      waiting = nullptr;
-    }
-  if (waiting != nullptr) {
-    One a(*waiting, waiting_lane);
-    for (std::size_t t = 0; t < count; ++t) a.next(t);
-    a.keep(count);
-  }
+  for_packs<Shape, Source>(
+      runs, run_count, [&](const auto& strains, const PackOf* packs) { rank_packs(strains, packs, count); });
   for (const LaneRun* run = runs; run != runs + run_count; ++run)
     run->state->sample += static_cast<std::int32_t>(count);
 }

@@ -117,36 +117,19 @@ inline IntPack shifted_right(const IntPack& word, int by) {
   return reinterpret_cast<IntPack>(reinterpret_cast<WordPack>(word) >> static_cast<std::uint32_t>(by));
 }
 
-/// The number of the highest bit that is set; of a word without any, some number from 0 to 31.
-inline IntPack highest_bit(const IntPack& word) {
+/// The number of the one bit that is set; of a word without any, any number.
+inline IntPack place_of(const IntPack& bit) {
 #if DRESSLIFE_REGISTER_BYTES == 64
-  return (31 - reinterpret_cast<IntPack>(_mm512_lzcnt_epi32(reinterpret_cast<__m512i>(word)))) & 31;
-#elif DRESSLIFE_REGISTER_BYTES == 32
-  // The exponent of the word as a float; with the bit below the highest one cleared it cannot be rounded up.
-  const IntPack top = word & ~shifted_right(word, 1);
-  const IntPack number = reinterpret_cast<IntPack>(_mm256_cvtepi32_ps(reinterpret_cast<__m256i>(top)));
-  return ((shifted_right(number, 23) - 127) | (word >> 31)) & 31;
-#else
-  IntPack number;
-  for (int lane = 0; lane < float_pack_size; ++lane)
-    number[lane] = word[lane] != 0 ? 31 - __builtin_clz(static_cast<unsigned>(word[lane])) : 0;
-  return number;
+  return 31 - reinterpret_cast<IntPack>(_mm512_lzcnt_epi32(reinterpret_cast<__m512i>(bit)));
+#else  // the exponent of the word as a float
+  const FloatPack number = __builtin_convertvector(bit, FloatPack);
+  return (shifted_right(reinterpret_cast<IntPack>(number), 23) & 255) - 127;
 #endif
 }
 
-/// Of each lane j, rows[row[j]][j].
-inline FloatPack gathered(const float (*rows)[float_pack_size], const IntPack& row) {
-#if DRESSLIFE_REGISTER_BYTES == 64
-  const IntPack lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  return _mm512_i32gather_ps(reinterpret_cast<__m512i>(row * float_pack_size + lane), rows, sizeof(float));
-#elif DRESSLIFE_REGISTER_BYTES == 32
-  const IntPack lane{0, 1, 2, 3, 4, 5, 6, 7};
-  return _mm256_i32gather_ps(rows[0], reinterpret_cast<__m256i>(row * float_pack_size + lane), sizeof(float));
-#else
-  FloatPack value;
-  for (int lane = 0; lane < float_pack_size; ++lane) value[lane] = rows[row[lane]][lane];
-  return value;
-#endif
+/// -1 where a is larger than b, as words without a sign; else 0.
+inline IntPack above(const IntPack& a, const IntPack& b) {
+  return reinterpret_cast<IntPack>(reinterpret_cast<WordPack>(a) > reinterpret_cast<WordPack>(b));
 }
 
 // ---- roots and quotients, to a few units of the last place ------------------------------------------------

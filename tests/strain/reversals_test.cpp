@@ -151,6 +151,50 @@ TEST_CASE("sixteen wires side by side turn where each turns alone") {
       }
 }
 
+TEST_CASE("wires and their mirror images turn together where they turn apart") {
+  std::mt19937 engine(13);
+  std::normal_distribution<float> noise(0, 1);
+  const std::size_t samples = 500;
+  std::array<std::vector<float>, waves_per_layer> wave;
+  for (auto& w : wave) {
+    float value = 0;
+    for (std::size_t t = 0; t < samples; ++t) w.push_back(value = 0.98f * value + noise(engine));
+  }
+  for (const Kernels* machine : kernels_of_this_machine())
+    for (const std::size_t images : {0, 1, 5, 9, 16})
+      for (const float gate : {0.0f, 0.3f, 3.0f}) {
+        std::vector<double> angles(std::min<std::size_t>(images + 2, lanes)), opposite;
+        for (std::size_t j = 0; j < angles.size(); ++j) angles[j] = 0.1 + 0.3 * static_cast<double>(j);
+        for (std::size_t j = 0; j < images; ++j) opposite.push_back(-angles[j]);
+        const auto lists = [&](bool together) {
+          std::vector<LaneScan> scans{{angles, gate}};
+          std::vector<std::vector<TurningList>> of(1);
+          if (images > 0) scans.emplace_back(opposite, gate), of.emplace_back(images);
+          of[0].resize(angles.size());
+          std::vector<LaneRun> runs;
+          for (std::size_t k = 0; k < scans.size(); ++k) {
+            LaneRun& run = runs.emplace_back(scans[k].next(samples, of[k]));
+            for (int w = 0; w < waves_per_layer; ++w) run.waves.at[w] = wave[w].data();
+            run.mirrors = together && k == 1;
+          }
+          machine->scan(runs.data(), runs.size(), samples);
+          std::vector<Kept> all;
+          for (std::size_t k = 0; k < scans.size(); ++k) {
+            scans[k].done(of[k]);
+            scans[k].finish(of[k]);
+            for (const TurningList& list : of[k]) all.push_back(kept(list));
+          }
+          return all;
+        };
+        const std::vector<Kept> together = lists(true), apart = lists(false);
+        REQUIRE(together.size() == angles.size() + images);
+        for (std::size_t j = 0; j < apart.size(); ++j) {
+          CHECK(together[j].sample == apart[j].sample);
+          CHECK(together[j].strain == apart[j].strain);
+        }
+      }
+}
+
 TEST_CASE("wires ranked without turning points have the measures of their turning points") {
   std::mt19937 engine(12);
   std::normal_distribution<float> noise(0, 1);
