@@ -1,11 +1,13 @@
 #include "strain/kernels.h"
 
-#include <cstdlib>
+#include <cassert>
 #include <string>
 
-#include "pipeline/errors.h"
+#include "pipeline/instruction_set.h"
 
 namespace dresslife::strain {
+
+using pipeline::InstructionSet;
 
 namespace baseline_kernels {
 extern const Kernels set;
@@ -19,33 +21,32 @@ extern const Kernels set;
 }
 #endif
 
-std::vector<const Kernels*> kernels_of_this_machine() {
-  std::vector<const Kernels*> sets{&baseline_kernels::set};
+namespace {
+
+const Kernels& kernels_for(InstructionSet instructions) {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2) sets.push_back(&avx2_kernels::set);
-  if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512cd"))
-    sets.push_back(&avx512_kernels::set);
+  if (instructions == InstructionSet::avx512) return avx512_kernels::set;
+  if (instructions == InstructionSet::avx2) return avx2_kernels::set;
 #endif
+  assert(instructions == InstructionSet::baseline);
+  return baseline_kernels::set;
+}
+
+}  // namespace
+
+std::vector<const Kernels*> kernels_of_this_machine() {
+  std::vector<const Kernels*> sets;
+  for (const InstructionSet instructions : pipeline::instruction_sets())
+    sets.push_back(&kernels_for(instructions));
   return sets;
 }
 
 const Kernels& kernels_named(const std::string& name) {
-  std::string names;
-  for (const Kernels* set : kernels_of_this_machine()) {
-    if (name == set->machine) return *set;
-    names += (names.empty() ? "" : ", ") + std::string(set->machine);
-  }
-  throw pipeline::InputError(pipeline::Where{"DRESSLIFE_KERNELS"},
-                             fmt::format("is '{}' (this machine can run {})", name, names),
-                             "set it to one of these, or unset it for the widest");
+  return kernels_for(pipeline::instruction_set_named(name));
 }
 
 const Kernels& kernels() {
-  static const char* const wanted = std::getenv("DRESSLIFE_KERNELS");
-  static const Kernels& set = wanted ? kernels_named(wanted) : *kernels_of_this_machine().back();
+  static const Kernels& set = kernels_for(pipeline::instruction_set());
   return set;
 }
 
