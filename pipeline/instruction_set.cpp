@@ -15,7 +15,8 @@ std::vector<InstructionSet> instruction_sets() {
   if (avx2) sets.push_back(InstructionSet::avx2);
   if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512cd"))
+      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512vbmi") &&
+      __builtin_cpu_supports("gfni"))
     sets.push_back(InstructionSet::avx512);
 #endif
   return sets;

@@ -8,7 +8,8 @@
 
 namespace dresslife::pipeline {
 
-enum class InstructionSet { baseline, avx2, avx512 };  ///< baseline: whatever the build is for
+/// baseline: whatever the build is for; avx512: with its byte permutations and GFNI.
+enum class InstructionSet { baseline, avx2, avx512 };
 
 std::vector<InstructionSet> instruction_sets();  ///< all that this machine can run, plain one first
 const char* name_of(InstructionSet set);

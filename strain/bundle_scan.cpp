@@ -11,7 +11,6 @@ namespace dresslife::strain {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::size_t block_samples = 256;  // waves of five layers: 26 kB, within the first-level cache
 
 /// Share of node `node` in the value at one angle of the waves through a layer's nodes: Dirichlet's kernel.
 double nodal_share(double angle, int node) {
@@ -122,8 +121,7 @@ void BundleScan::scan_waves(std::size_t count, Wanted wanted) {
     for (Group& group : groups_) {
       LaneRun& run = add_run(group, f, count, wanted);
       run.mirrors = group.mirrors;
-      for (int w = 0; w < waves_per_layer; ++w)
-        run.waves.at[w] = waves_.data() + ((group.layer * fibres + f) * waves_per_layer + w) * block_samples;
+      run.waves = waves_.data() + (group.layer * fibres + f) * waves_per_layer * block_samples;
     }
   const auto scan = wanted == Wanted::turns ? kernels().scan : kernels().rank;
   scan(runs_.data(), runs_.size(), count);

@@ -114,12 +114,6 @@ constexpr std::size_t part_state_rows(int order) { return 4 * (static_cast<std::
 
 // ---- turning points ---------------------------------------------------------------------------------------
 
-/// The five waves of a block of samples: strain_j = w0 + w1 sin(theta_j) + w2 cos(theta_j) + w3 sin(2
-/// theta_j) + w4 cos(2 theta_j). (W13)
-struct Waves {
-  const float* at[waves_per_layer];
-};
-
 /// Sixteen wires between two blocks of samples. Spare lanes repeat the first wire and write nothing.
 struct LaneState {
   alignas(64) float shape[waves_per_layer - 1][lanes];  ///< sin, cos, sin 2, cos 2 of each wire's angle
@@ -159,7 +153,9 @@ struct LaneRanks {
 /// Up to sixteen wires and what they go through next: waves, or strain[t * lanes + lane].
 struct LaneRun {
   LaneState* state;
-  Waves waves;
+  /// Wave w of a block at waves[w * block_samples + t]: strain_j = w0 + w1 sin(theta_j) + w2 cos(theta_j) +
+  /// w3 sin(2 theta_j) + w4 cos(2 theta_j). (W13)
+  const float* waves;
   const float* strain;
   LaneRanks* ranks;    ///< for rank()
   TurningPoint** end;  ///< (wire) where its next turning point goes; moves on. Room: count + spare_points.

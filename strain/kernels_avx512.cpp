@@ -19,7 +19,7 @@
 #include "pipeline/job.h"
 
 #pragma GCC push_options
-#pragma GCC target("avx,avx2,fma,bmi,bmi2,avx512f,avx512vl,avx512bw,avx512dq,avx512cd,prefer-vector-width=512")
+#pragma GCC target("avx,avx2,fma,bmi,bmi2,avx512f,avx512vl,avx512bw,avx512dq,avx512cd,avx512vbmi,gfni,prefer-vector-width=512")
 #include "strain/kernels_body.h"
 #pragma GCC pop_options
 #endif

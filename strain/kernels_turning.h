@@ -22,22 +22,18 @@ namespace dresslife::strain {
 namespace DRESSLIFE_MACHINE_KERNELS {
 namespace {
 
-constexpr int word = 32;  ///< samples
-
-/// A word's first sample is its highest bit.
-constexpr std::uint32_t first_of_word = 1u << (word - 1);
-
 /// Which sample of its word a single bit stands for; of no bit, any number.
 inline IntPack sample_of(const IntPack& bit) { return word - 1 - place_of(bit); }
 
 /// Where a run's strains come from: waves, and their factors for a pack of wires (W13).
 struct FromWaves {
   static constexpr bool are_waves = true;
-  const float* wave[waves_per_layer];
+  const float* waves;
 
   FromWaves() = default;
-  explicit FromWaves(const LaneRun& run) {
-    for (int w = 0; w < waves_per_layer; ++w) wave[w] = run.waves.at[w];
+  explicit FromWaves(const LaneRun& run) : waves(run.waves) {}
+  inline __attribute__((always_inline)) float wave(std::size_t w, std::size_t t) const {
+    return waves[w * block_samples + t];
   }
 };
 struct WaveShape {
@@ -52,10 +48,10 @@ struct WaveShape {
 
   /// Of the strain, what a wire at the opposite angle feels too, and what it feels the other way round.
   inline __attribute__((always_inline)) FloatPack even(const FromWaves& from, std::size_t t) const {
-    return from.wave[0][t] + from.wave[2][t] * cosine1 + from.wave[4][t] * cosine2;
+    return from.wave(0, t) + from.wave(2, t) * cosine1 + from.wave(4, t) * cosine2;
   }
   inline __attribute__((always_inline)) FloatPack odd(const FromWaves& from, std::size_t t) const {
-    return from.wave[1][t] * sine1 + from.wave[3][t] * sine2;
+    return from.wave(1, t) * sine1 + from.wave(3, t) * sine2;
   }
   inline __attribute__((always_inline)) FloatPack at(const FromWaves& from, std::size_t t) const {
     return even(from, t) + odd(from, t);
@@ -119,35 +115,69 @@ struct Mirrored {
   }
 };
 
-/// Calls use(strains, packs) for all packs of the runs, two at a time: one alone would wait for itself at the
-/// sample before.
-template <class Shape, class Source, class Use>
+/// Two such sets side by side.
+template <class First, class Second>
+struct Both {
+  static constexpr int side = First::side + Second::side;
+  First first;
+  Second second;
+
+  explicit Both(const PackOf* of) : first(of), second(of + First::side) {}
+  inline __attribute__((always_inline)) void at(std::size_t t, FloatPack* x) const {
+    first.at(t, x);
+    second.at(t, x + First::side);
+  }
+};
+
+/// Calls use(strains, packs) for all packs of the runs, up to `most` (2 or 4) at a time: one alone would wait
+/// for itself at the sample before.
+template <int most, class Shape, class Source, class Use>
 inline void for_packs(const LaneRun* runs, std::size_t run_count, const Use& use) {
   const LaneRun* const end = runs + run_count;
-  PackOf waiting[2];
-  int count = 0;
+  PackOf pair[4], single[4];  // that wait for company
+  int pairs = 0, singles = 0;
   for (const LaneRun* run = runs; run != end; ++run) {
     const LaneRun* const images = run + 1 != end && run[1].mirrors ? run + 1 : nullptr;
     const int imaged = images ? images->state->used : 0;
     for (int lane = 0; lane < run->state->used; lane += float_pack_size) {
       if constexpr (Source::are_waves)
         if (lane < imaged) {
-          const PackOf both[] = {{run, lane}, {images, lane}};
-          use(Mirrored(both), both);
+          pair[2 * pairs] = {run, lane};
+          pair[2 * pairs + 1] = {images, lane};
+          if (2 * ++pairs < most) continue;
+          if constexpr (most == 4)
+            use(Both<Mirrored, Mirrored>(pair), pair);
+          else
+            use(Mirrored(pair), pair);
+          pairs = 0;
           continue;
         }
-      waiting[count++] = {run, lane};
-      if (count == 2) use(Apart<Shape, Source, 2>(waiting), waiting);
-      count %= 2;
+      single[singles++] = {run, lane};
+      if (singles < most) continue;
+      use(Apart<Shape, Source, most>(single), single);
+      singles = 0;
     }
     if (images) ++run;
   }
-  if (count == 1) use(Apart<Shape, Source, 1>(waiting), waiting);
+  if constexpr (Source::are_waves && most == 4) {
+    if (pairs == 1 && singles >= 2) {
+      pair[2] = single[--singles];
+      pair[3] = single[--singles];
+      use(Both<Mirrored, Apart<Shape, Source, 2>>(pair), pair);
+    } else if (pairs == 1) {
+      use(Mirrored(pair), pair);
+    }
+  }
+  if (singles >= 2) {
+    singles -= 2;
+    use(Apart<Shape, Source, 2>(single + singles), single + singles);
+  }
+  if (singles == 1) use(Apart<Shape, Source, 1>(single), single);
 }
 
 /// Which way the edge moved, a bit per sample.
 struct Moves {
-  IntPack up{}, down{};
+  IntPack up, down;
 };
 
 /// What the scan of a pack goes by.
@@ -166,16 +196,16 @@ struct Scan {
   /// The same edge started on a peak, along strains that are known.
   Moves follow_top(int count) {
     FloatPack edge = load<FloatPack>(state.top_edge + lane);
-    Moves moves;
+    WordRecord up, down;
     for (int t = 0; t < count; ++t) {
       const FloatPack x = load<FloatPack>(strain[t]), above = x + state.below_gate;
       const IntPack bit = IntPack{} + static_cast<std::int32_t>(first_of_word >> t);
-      moves.up = marked(moves.up, greater(x, edge), bit);
-      moves.down = marked(moves.down, greater(edge, above), bit);
+      up.put(t, bit, greater(x, edge));
+      down.put(t, bit, greater(edge, above));
       edge = smaller(larger(edge, x), above);
     }
     store(edge, state.top_edge + lane);
-    return moves;
+    return {up.words(), down.words()};
   }
 
   /// Undecided wires of which samples [state.sample + from, + count) decide.
@@ -261,7 +291,7 @@ struct Scan {
   }
 
   /// After follow() of samples [from, from + count).
-  void turn(const Moves& moves, std::size_t from, int count) {
+  __attribute__((noinline)) void turn(const Moves& moves, std::size_t from, int count) {
     const std::int32_t first = state.sample + static_cast<std::int32_t>(from);
     if (const unsigned open = used() & ~(state.decided >> lane); open != 0) decide(open, moves, count, first);
     put_turns(moves, first);
@@ -274,7 +304,7 @@ inline __attribute__((always_inline)) void follow(const Strains& strains, One* s
                                                   int count, Moves* moves) {
   constexpr int side = Strains::side;
   FloatPack edge[side], gate[side], x[side];
-  Moves moved[side];
+  WordRecord up[side], down[side];
   for (int k = 0; k < side; ++k) {
     const LaneState& state = scans[k].state;
     edge[k] = load<FloatPack>(state.edge + scans[k].lane);
@@ -283,18 +313,18 @@ inline __attribute__((always_inline)) void follow(const Strains& strains, One* s
   IntPack bit = IntPack{} + static_cast<std::int32_t>(first_of_word);
   for (int t = 0; t < count; ++t, bit = shifted_right(bit, 1)) {
     strains.at(from + t, x);
-#pragma GCC unroll 2
+#pragma GCC unroll 4
     for (int k = 0; k < side; ++k) {
       const FloatPack above = x[k] + gate[k];
       store(x[k], scans[k].strain[t]);
-      moved[k].up = marked(moved[k].up, greater(x[k], edge[k]), bit);
-      moved[k].down = marked(moved[k].down, greater(edge[k], above), bit);
+      up[k].put(t, bit, greater(x[k], edge[k]));
+      down[k].put(t, bit, greater(edge[k], above));
       edge[k] = smaller(larger(edge[k], x[k]), above);
     }
   }
   for (int k = 0; k < side; ++k) {
     store(edge[k], scans[k].state.edge + scans[k].lane);
-    moves[k] = moved[k];
+    moves[k] = {up[k].words(), down[k].words()};
   }
 }
 
@@ -324,7 +354,8 @@ void scan_packs(const Strains& strains, const PackOf* packs, std::size_t count) 
 
 template <class Shape, class Source>
 void scan_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
-  for_packs<Shape, Source>(runs, run_count, [&](const auto& strains, const PackOf* packs) {
+  constexpr int most = register_bytes == 64 ? 4 : 2;  // as many as there are registers for
+  for_packs<most, Shape, Source>(runs, run_count, [&](const auto& strains, const PackOf* packs) {
     scan_packs<Shape, Source>(strains, packs, count);
   });
   for (const LaneRun* run = runs; run != runs + run_count; ++run)
@@ -415,7 +446,7 @@ void rank_packs(const Strains& strains, const PackOf* packs, std::size_t count) 
 
 template <class Shape, class Source>
 void rank_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
-  for_packs<Shape, Source>(
+  for_packs<2, Shape, Source>(
       runs, run_count, [&](const auto& strains, const PackOf* packs) { rank_packs(strains, packs, count); });
   for (const LaneRun* run = runs; run != runs + run_count; ++run)
     run->state->sample += static_cast<std::int32_t>(count);

@@ -108,8 +108,7 @@ inline IntPack marked(const IntPack& word, const Mask& where, const IntPack& bit
 
 #endif
 
-// ---- words of bits, one a lane
-// -----------------------------------------------------------------------------
+// ---- words of bits, one a lane ----------------------------------------------------------------------------
 
 typedef std::uint32_t WordPack __attribute__((vector_size(register_bytes)));
 
@@ -131,6 +130,47 @@ inline IntPack place_of(const IntPack& bit) {
 inline IntPack above(const IntPack& a, const IntPack& b) {
   return reinterpret_cast<IntPack>(reinterpret_cast<WordPack>(a) > reinterpret_cast<WordPack>(b));
 }
+
+constexpr int word = 32;                                   ///< samples
+constexpr std::uint32_t first_of_word = 1u << (word - 1);  ///< a word's first sample is its highest bit
+
+/// Which lanes passed a test, sample by sample, and then as a word a lane.
+class WordRecord {
+ public:
+#if DRESSLIFE_REGISTER_BYTES == 64
+  /// t: sample of the word, bit: its own.
+  inline void put(int t, const IntPack&, Mask mask) { rows_[t] = mask; }
+
+  /// Bits as 32 samples x 16 lanes, a byte an octet of lanes, turned octet by octet.
+  inline IntPack words() const {
+    alignas(64) static constexpr struct Orders {
+      std::uint8_t by_octets[64]{}, by_lanes[64]{};
+      constexpr Orders() {
+        for (int half = 0; half < 2; ++half)
+          for (int octet = 0; octet < 4; ++octet)
+            for (int k = 0; k < 8; ++k) {
+              const int block = 8 * (4 * half + octet);
+              by_octets[block + k] = static_cast<std::uint8_t>(2 * (8 * octet + k) + half);
+              by_lanes[4 * (8 * half + k) + 3 - octet] = static_cast<std::uint8_t>(block + k);
+            }
+      }
+    } orders;
+    const __m512i unit = _mm512_set1_epi64(0x8040201008040201);
+    const __m512i octets = _mm512_permutexvar_epi8(load<__m512i>(orders.by_octets), load<__m512i>(rows_));
+    const __m512i turned = _mm512_gf2p8affine_epi64_epi8(unit, octets, 0);
+    return reinterpret_cast<IntPack>(_mm512_permutexvar_epi8(load<__m512i>(orders.by_lanes), turned));
+  }
+
+ private:
+  alignas(64) Mask rows_[word]{};
+#else
+  inline void put(int, const IntPack& bit, const Mask& mask) { words_ = marked(words_, mask, bit); }
+  inline IntPack words() const { return words_; }
+
+ private:
+  IntPack words_{};
+#endif
+};
 
 // ---- roots and quotients, to a few units of the last place ------------------------------------------------
 

@@ -65,10 +65,10 @@ void LaneScan::restart() {
 LaneRun LaneScan::next(std::size_t count, std::span<TurningList> out) {
   assert(static_cast<int>(out.size()) == state_.used && count > 0);
   for (std::size_t wire = 0; wire < out.size(); ++wire) end_[wire] = out[wire].room(count + spare_points);
-  return {&state_, {}, nullptr, nullptr, end_.data()};
+  return {&state_, nullptr, nullptr, nullptr, end_.data()};
 }
 
-LaneRun LaneScan::next_to_rank() { return {&state_, {}, nullptr, &ranks_, nullptr}; }
+LaneRun LaneScan::next_to_rank() { return {&state_, nullptr, nullptr, &ranks_, nullptr}; }
 
 StrainMeasures LaneScan::measures(std::size_t wire) const {
   return {ranks_.low[wire], ranks_.high[wire], ranks_.cycle_sum[wire]};

@@ -129,7 +129,11 @@ TEST_CASE("sixteen wires side by side turn where each turns alone") {
         for (std::size_t from = 0; from < samples;) {  // in uneven blocks
           const std::size_t count = std::min<std::size_t>(samples - from, 1 + from % 97);
           LaneRun run = scan.next(count, lists);
-          for (int w = 0; w < waves_per_layer; ++w) run.waves.at[w] = wave[w].data() + from;
+          std::vector<float> block(waves_per_layer * block_samples);
+          for (int w = 0; w < waves_per_layer; ++w)
+            std::copy_n(wave[w].begin() + static_cast<std::ptrdiff_t>(from), count,
+                        block.begin() + w * block_samples);
+          run.waves = block.data();
           machine->scan(&run, 1, count);
           scan.done(lists);
           from += count;
@@ -154,12 +158,11 @@ TEST_CASE("sixteen wires side by side turn where each turns alone") {
 TEST_CASE("wires and their mirror images turn together where they turn apart") {
   std::mt19937 engine(13);
   std::normal_distribution<float> noise(0, 1);
-  const std::size_t samples = 500;
-  std::array<std::vector<float>, waves_per_layer> wave;
-  for (auto& w : wave) {
-    float value = 0;
-    for (std::size_t t = 0; t < samples; ++t) w.push_back(value = 0.98f * value + noise(engine));
-  }
+  const std::size_t samples = block_samples - 3;
+  std::vector<float> waves;
+  float value = 0;
+  for (std::size_t k = 0; k < waves_per_layer * block_samples; ++k)
+    waves.push_back(value = 0.98f * value + noise(engine));
   for (const Kernels* machine : kernels_of_this_machine())
     for (const std::size_t images : {0, 1, 5, 9, 16})
       for (const float gate : {0.0f, 0.3f, 3.0f}) {
@@ -174,7 +177,7 @@ TEST_CASE("wires and their mirror images turn together where they turn apart") {
           std::vector<LaneRun> runs;
           for (std::size_t k = 0; k < scans.size(); ++k) {
             LaneRun& run = runs.emplace_back(scans[k].next(samples, of[k]));
-            for (int w = 0; w < waves_per_layer; ++w) run.waves.at[w] = wave[w].data();
+            run.waves = waves.data();
             run.mirrors = together && k == 1;
           }
           machine->scan(runs.data(), runs.size(), samples);
