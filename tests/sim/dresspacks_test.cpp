@@ -80,12 +80,7 @@ Run run(const std::string& text) {
 }
 
 std::string message_of(const std::string& text) {
-  try {
-    run(text);
-  } catch (const pipeline::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return pipeline::message_of([&] { run(text); });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "sim/inverse_kinematics.h"
 #include "sim/motion.h"
 #include "sim/tool_path.h"
+#include "tests/sim/small_arm.h"
 
 namespace dresslife::sim {
 namespace {
@@ -17,26 +18,12 @@ constexpr double pi = std::numbers::pi;
 constexpr double limit_margin = 1e-9;  // what the issue asks: no limit exceeded by more than this
 constexpr double rounding = 1e-12;     // of a few products of numbers near 1
 
-/// An arm of 1 m and 1 m on a column of 1 m, whose tool points forward at zero.
 pipeline::Robot arm(double speed = 2, double acceleration = 8) {
-  pipeline::Robot robot;
-  robot.name = "test arm";
-  const Vector3 origins[] = {{0, 0, 1}, {0, 0, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
-  const Vector3 axes[] = {Vector3::UnitZ(), Vector3::UnitY(), Vector3::UnitY(),
-                          Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitX()};
-  for (int i = 0; i < 6; ++i) {
-    pipeline::Joint joint;
-    joint.name = "axis_" + std::to_string(i + 1);
-    joint.origin = origins[i];
-    joint.axis = axes[i];
-    joint.lower = -3;
-    joint.upper = 3;
-    joint.speed = i < 3 ? speed : 2 * speed;
-    joint.acceleration = i < 3 ? acceleration : 4 * acceleration;
-    robot.joints.push_back(joint);
+  pipeline::Robot robot = small_arm();
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    robot.joints[i].speed = i < 3 ? speed : 2 * speed;
+    robot.joints[i].acceleration = i < 3 ? acceleration : 4 * acceleration;
   }
-  robot.links.resize(7);
-  robot.flange_orientation = {0, pi / 2, 0};
   return robot;
 }
 

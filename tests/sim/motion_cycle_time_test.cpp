@@ -12,6 +12,7 @@
 #include "sim/inverse_kinematics.h"
 #include "sim/motion.h"
 #include "sim/program/import.h"
+#include "tests/sim/small_arm.h"
 
 namespace dresslife::sim {
 namespace {
@@ -21,28 +22,14 @@ constexpr double closed_form = 1e-9;  // of seconds, where the hand has the prog
 /// Where the hand neglects how fast axes let a tool speed up: what the issue asks of a cycle time.
 constexpr double by_hand = 0.05;
 
-/// 1 m and 1 m on a column of 1 m, the tool forward at zero; 100, 90, 90, 170, 140, 190 deg/s, 400 deg/s2 for
-/// the arm, 2000 deg/s2 for the wrist.
+/// 100, 90, 90, 170, 140, 190 deg/s, 400 deg/s2 for the arm, 2000 deg/s2 for the wrist.
 pipeline::Robot arm() {
-  pipeline::Robot robot;
-  robot.name = "test arm";
-  const Vector3 origins[] = {{0, 0, 1}, {0, 0, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
-  const Vector3 axes[] = {Vector3::UnitZ(), Vector3::UnitY(), Vector3::UnitY(),
-                          Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitX()};
+  pipeline::Robot robot = small_arm();
   const double speeds[] = {100, 90, 90, 170, 140, 190};
-  for (int i = 0; i < 6; ++i) {
-    pipeline::Joint joint;
-    joint.name = "axis_" + std::to_string(i + 1);
-    joint.origin = origins[i];
-    joint.axis = axes[i];
-    joint.lower = -3;
-    joint.upper = 3;
-    joint.speed = speeds[i] * degree;
-    joint.acceleration = (i < 3 ? 400 : 2000) * degree;
-    robot.joints.push_back(joint);
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    robot.joints[i].speed = speeds[i] * degree;
+    robot.joints[i].acceleration = (i < 3 ? 400 : 2000) * degree;
   }
-  robot.links.resize(7);
-  robot.flange_orientation = {0, std::numbers::pi / 2, 0};
   return robot;
 }
 

@@ -92,12 +92,7 @@ double twist_of(const Rod& rod, const RodState& state, const Span& span) {
 }
 
 std::string message_of(const std::string& text) {
-  try {
-    run(text);
-  } catch (const pipeline::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return pipeline::message_of([&] { run(text); });
 }
 
 }  // namespace
