@@ -87,6 +87,19 @@ WireNode node_at(const Construction& construction, const std::vector<LayerSlip>&
   return node;
 }
 
+void add_wire_layer(const Construction& construction, const std::vector<LayerSlip>& plan, BundleChain& chain,
+                    int layer, int part, double arc) {
+  for (int node = 0; node < waves_per_layer; ++node)
+    chain.nodes.push_back(
+        node_at(construction, plan, chain, layer, 1, part, arc, 2 * pi * node / waves_per_layer));
+  const WireNode& first = chain.nodes[chain.nodes.size() - waves_per_layer];
+  const bool by_bend2_alone = chain.order == 0 && first.place.kinematics == pipeline::Kinematics::exact;
+  chain.sliding.push_back(
+      by_bend2_alone && first.slide.sliding == Sliding::over_pitch
+          ? sliding_layer(rest_at_end(chain, dresspack_at_rest(construction)), first.place)
+          : SlidingLayer{});
+}
+
 double fibre_angle(int fibre, int count) { return count == 0 ? 0 : pi + 2 * pi * fibre / count; }
 
 std::vector<Fibre> surface_fibres(int count) {

@@ -20,6 +20,11 @@ BundleChain chain_to(const Construction& construction, const std::vector<LayerSl
 WireNode node_at(const Construction& construction, const std::vector<LayerSlip>& plan,
                  const BundleChain& chain, int layer, int number, int part, double arc, double turn);
 
+/// Five places evenly around wire layer `layer` of the part at the end of `chain`, and how it slides: what
+/// its waves need. Without the clamp means.
+void add_wire_layer(const Construction& construction, const std::vector<LayerSlip>& plan, BundleChain& chain,
+                    int layer, int part, double arc);
+
 /// count = 0: the wire's axis. Otherwise `count` fibres evenly around the wire, the first the outward one, pi
 /// from n.
 std::vector<Fibre> surface_fibres(int count);

@@ -147,14 +147,13 @@ BundleChain Evaluation::part_chain(int part, std::size_t segment, const ClampMea
 BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
                                     Worker& worker) const {
   BundleChain chain = part_chain(bundle.part, segment, means, fibres_, worker);
-  for (const int layer : bundle.wire_layers)
-    for (int node = 0; node < waves_per_layer; ++node) {
-      WireNode at = node_at(construction_, means.plan(), chain, layer, 1, bundle.part, arcs_[segment],
-                            2 * pi * node / waves_per_layer);
-      if (at.slide.sliding == Sliding::clamp_to_clamp)
-        at.slide.clamp_strain = means.of_node(bundle.part, layer, node);
-      chain.nodes.push_back(at);
-    }
+  for (const int layer : bundle.wire_layers) {
+    add_wire_layer(construction_, means.plan(), chain, layer, bundle.part, arcs_[segment]);
+    WireNode* const nodes = &chain.nodes[chain.nodes.size() - waves_per_layer];
+    for (int node = 0; node < waves_per_layer; ++node)
+      if (nodes[node].slide.sliding == Sliding::clamp_to_clamp)
+        nodes[node].slide.clamp_strain = means.of_node(bundle.part, layer, node);
+  }
   return chain;
 }
 

@@ -14,6 +14,7 @@
 
 #include "strain/helix.h"
 #include "strain/sizes.h"
+#include "strain/sliding_layer.h"
 #include "strain/slip.h"
 #include "strain/turning_list.h"
 
@@ -73,6 +74,7 @@ struct Fibre {
 struct BundleChain {
   std::vector<ChainStep> steps;
   std::vector<WireNode> nodes;  ///< for waves: waves_per_layer nodes a layer, evenly spaced
+  std::vector<SlidingLayer> sliding;  ///< of each layer; empty: all waves are those of the nodes
   std::vector<Fibre> fibres;
   int order = 0;              ///< of the part's state: 1 when fibres feel bend1
   double rest_curvature = 0;  ///< of the undeformed dresspack, about d2 [1/m]
@@ -89,6 +91,7 @@ struct BundlePointers {
   const float* parent_rows = nullptr;  ///< the same, (PartRow, sample)
   std::size_t parent_stride = 0;
   double rest_curvature = 0;
+  const SlidingLayer* sliding = nullptr;  ///< (layer), or null
 };
 
 /// What goes on inside a part needs of it, in single precision, one row of samples each: its state, that
@@ -244,7 +247,8 @@ inline BundlePointers pointers(const BundleChain& chain) {
           nullptr,
           nullptr,
           0,
-          chain.rest_curvature};
+          chain.rest_curvature,
+          chain.sliding.empty() ? nullptr : chain.sliding.data()};
 }
 
 }  // namespace dresslife::strain

@@ -209,7 +209,7 @@ void node_ingredients(const BundlePointers& chain, const DeformationColumns& in,
 
 constexpr std::size_t chunk = 256;  ///< samples for which the rows stay in the first-level cache
 
-struct PartState {
+struct alignas(64) PartState {
   float rows[part_rows][chunk];
 
   FloatPack operator()(int row, std::size_t t) const { return load<FloatPack>(rows[row] + t); }
@@ -680,6 +680,16 @@ void ingredients_of_layer(const LayerNumbers& layer, const PartState& part, std:
   }
 }
 
+}  // namespace
+}  // namespace DRESSLIFE_MACHINE_KERNELS
+}  // namespace dresslife::strain
+
+#include "strain/kernels_sliding.h"
+
+namespace dresslife::strain {
+namespace DRESSLIFE_MACHINE_KERNELS {
+namespace {
+
 using OfLayer = void (*)(const LayerNumbers&, const PartState&, std::size_t, float*, std::size_t);
 
 /// The loops of one kind for every way of sliding.
@@ -712,20 +722,30 @@ constexpr BySliding ingredients_by_sliding{ingredients_of_layer<thesis, with_ben
                                            ingredients_of_layer<thesis, with_bend1, Sliding::clamp_to_clamp>,
                                            ingredients_of_layer<thesis, with_bend1, Sliding::along_ancestor>};
 
-/// Runs `by` over all layers, chunk by chunk. kinds: of waves per layer.
+/// Runs `by` over all layers, chunk by chunk, but for those of `sliding` that have closed forms. kinds: of
+/// waves per layer.
 void over_layers(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
-                 std::size_t count, int kinds, float* out, std::size_t stride, const BySliding& by) {
+                 std::size_t count, int kinds, float* out, std::size_t stride, const SlidingLayer* sliding,
+                 const BySliding& by) {
   const int layers = chain.node_count / waves_per_layer;
   const PartAtRest at_rest(chain, chain.step_count);
   const std::size_t per_layer = static_cast<std::size_t>(kinds) * waves_per_layer * stride;
+  const SlidingLayer* any_closed = nullptr;
+  for (int layer = 0; sliding && layer < layers; ++layer)
+    if (sliding[layer].closed) any_closed = &sliding[layer];
   PartState part;
+  BendShape shape;
   for (std::size_t done = 0; done < count; done += chunk) {
     const std::size_t here = count - done < chunk ? count - done : chunk;
     fill_part(chain, in, first + done, here, part, out + done, stride, kinds);
+    if (any_closed) shape.fill(*any_closed, part, here);
     for (int layer = 0; layer < layers; ++layer) {
       const WireNode* nodes = chain.nodes + layer * waves_per_layer;
-      by(nodes->slide.sliding)(LayerNumbers(chain, nodes, at_rest), part, here,
-                               out + layer * per_layer + done, stride);
+      float* const to = out + layer * per_layer + done;
+      if (any_closed && shape.suits(sliding[layer]))
+        closed_strains_of_layer(sliding[layer], chain, nodes->wire_radius, part, shape, here, to, stride);
+      else
+        by(nodes->slide.sliding)(LayerNumbers(chain, nodes, at_rest), part, here, to, stride);
     }
   }
 }
@@ -736,7 +756,7 @@ bool is_thesis(const BundlePointers& chain) {
 
 void layer_waves(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
                  std::size_t count, float* out, std::size_t stride) {
-  over_layers(chain, in, first, count, chain.fibre_count, out, stride,
+  over_layers(chain, in, first, count, chain.fibre_count, out, stride, chain.sliding,
               is_thesis(chain)  ? strains_by_sliding<true, true>
               : chain.order > 0 ? strains_by_sliding<false, true>
                                 : strains_by_sliding<false, false>);
@@ -744,7 +764,7 @@ void layer_waves(const BundlePointers& chain, const DeformationColumns& in, std:
 
 void ingredient_waves(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
                       std::size_t count, float* out, std::size_t stride) {
-  over_layers(chain, in, first, count, ingredients(chain.fibre_count), out, stride,
+  over_layers(chain, in, first, count, ingredients(chain.fibre_count), out, stride, nullptr,
               is_thesis(chain)  ? ingredients_by_sliding<true, true>
               : chain.order > 0 ? ingredients_by_sliding<false, true>
                                 : ingredients_by_sliding<false, false>);

@@ -16,7 +16,6 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include "fatigue/damage.h"
@@ -133,9 +132,7 @@ class Bench {
         strain::BundleChain chain =
             strain::chain_to(construction_, plan, bundle.part, arc, strain::surface_fibres(1));
         for (const int layer : bundle.wire_layers)
-          for (int node = 0; node < strain::waves_per_layer; ++node)
-            chain.nodes.push_back(strain::node_at(construction_, plan, chain, layer, 1, bundle.part, arc,
-                                                  2 * std::numbers::pi * node / strain::waves_per_layer));
+          strain::add_wire_layer(construction_, plan, chain, layer, bundle.part, arc);
         strain::BundlePointers from = pointers(chain);
         cable.lend(from);
         scan.run(bundle, plan, from, false, history_.columns(i), samples);

@@ -1,0 +1,52 @@
+// A layer of wires that slides over its pitch, each with its outward fibre, in numbers that give the waves of
+// its strain without any node (README W27).
+//
+// What depends on the angle theta is bending alone: by W6 and W11 the fibre feels g (f (1 + strain) - f0),
+//     f = (R sigma^2 + y X) / (R^2 sigma^2 + y^2) = (1 - s Re 1/(z + R X)) / R,   z = s + i R sigma,
+// s and sigma the parent's stretch and the layer's turning, g the stretch at rest, index 0 the parent at
+// rest. X is a first harmonic of amplitude B, so with b = theta - psi, psi the angle at which X0 is largest,
+//     X = P sin b + Q cos b,   D = |z|^2 = s^2 + R^2 sigma^2,   tau = R^2 sigma^2 / D,   k = R^2 B^2 / D,
+// the harmonics of 1/(z + R X) are series in k of which the next term is small, with Chebyshev's C2 = 1 - 2
+// tau, C(n+2) = 2 C2 Cn - C(n-2), E1 = (C2 + C4)/2, E2 = (C4 + C6)/2, E3 = (C6 + C8)/2:
+//     mean    f_0 = (tau - k/2 (E1 + 3/4 k E2 + 5/8 k^2 E3)) / R
+//     first   f_1 = s/D (C2 + 3/4 k C4 + 5/8 k^2 C6 + 35/64 k^3 C8)          times P sin b + Q cos b
+//     second  f_2 = -R/(2 D) (E1 + k E2 + 15/16 k^2 E3)          times 2 P Q sin 2b + (Q^2 - P^2) cos 2b
+//     third   f_3 = s R^2/(4 D^2) C4            times (3 Q^2 P - P^3) sin 3b + (Q^3 - 3 Q P^2) cos 3b
+// and g = cos(alpha) |z0 + R B0 cos b| has its own, in powers of R B0 / |z0|. Products of harmonics are
+// harmonics again. E2 and C6 are taken linear in tau, E3 and C8 as at rest: all of them stand beside powers
+// of k.
+#pragma once
+
+#include "strain/helix.h"
+
+namespace dresslife::strain {
+
+/// Up to here the closed forms differ from the exact harmonics by less than 1e-6 of the layer's largest
+/// strain; beyond, five nodes do (W13).
+constexpr float most_bend_squared = 0.01F;    ///< of k
+constexpr float most_square_stretch = 0.06F;  ///< of the change of D over its value at rest
+
+struct SlidingLayer {
+  bool closed = false;  ///< whether the numbers below hold
+  // The parent's frame turned so that the rest's bending is largest at angle 0.
+  float turn_sine, turn_cosine;
+  float stretch0;
+  // Of the helix at rest
+  float two_sigma0, inverse_D0, R2_over_D0, tau0;
+  float second_scale, second0, second_slope;  ///< of the mean over the pitch
+  // Coefficients in tau and k
+  float E2_constant, E2_slope, E3_mean, E3_second, C6_constant, C6_slope, C8;
+  // What they are at rest
+  float mean0, first0, second_wave0;
+  // Products with the harmonics of g. of_X: how much of the strain's own harmonics comes from f's.
+  float mean_of_mean, mean_of_first, mean_of_second;
+  float sine_of_sine, first_of_second, cosine_of_cosine, cosine_of_mean;
+  float second_of_second, sine2_of_sine, cosine2_of_cosine, second_of_third, cosine2_of_mean, third0;
+  // Back to angles from wire 1: of the turn, and of twice the turn.
+  float sine1, cosine1, sine2, cosine2;
+};
+
+/// parent: at rest; first: the place of wire 1. Precondition: exact kinematics, a helix (radius > 0).
+SlidingLayer sliding_layer(const Rod<double>& parent, const Placement& first);
+
+}  // namespace dresslife::strain
