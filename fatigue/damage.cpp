@@ -117,6 +117,8 @@ class BranchTable {
     if (range < table_.low()) return elastic_ * range;
     return range <= table_.high() ? table_(range) : curve_.stress_range(range);
   }
+  double elastic() const { return elastic_; }  ///< stress over strain below the table
+  LogTable::View view() const { return table_.view(); }
 
  private:
   static constexpr double largest_range = 8;         // strain; beyond it the exact curve
@@ -156,6 +158,8 @@ class CurveTable {
               return -2 / (x * x * curve.slope(x));
             }) {}
   double operator()(double y) const { return y < low_ ? 0 : y >= high_ ? at_high_ : table_(y); }
+  double at_high() const { return at_high_; }
+  LogTable::View view() const { return table_.view(); }
 
  private:
   double low_, high_, at_high_;
@@ -214,107 +218,21 @@ bool alternates(std::span<const float> strains) {
   return strict != 0;
 }
 
-constexpr std::size_t side_by_side = 8;  // independent extremes, which the compiler keeps in wide registers
-
-std::size_t largest_of(std::span<const float> strains) {
-  float largest = 0;
-  std::array<float, side_by_side> of{};
-  std::size_t k = 0;
-  for (; k + side_by_side <= strains.size(); k += side_by_side)
-    for (std::size_t j = 0; j < side_by_side; ++j) {
-      const float size = std::fabs(strains[k + j]);
-      of[j] = size > of[j] ? size : of[j];
-    }
-  for (const float strain : strains.subspan(k)) largest = std::max(largest, std::fabs(strain));
-  for (const float strain : of) largest = std::max(largest, strain);
-  const auto is_largest = [&](float strain) { return std::fabs(strain) == largest; };
-  return std::find_if(strains.begin(), strains.end(), is_largest) - strains.begin();
-}
-
-/// One period of a repeated history: starts and ends with the largest |strain|, alternating (as
-/// rotate_to_largest()). Where the history alternates, only the joint of its end and its begin needs care:
-/// after its first two reversals the last direction is the history's own again.
-void rotate(std::span<const float> strains, std::vector<double>& period) {
-  const std::size_t largest = largest_of(strains), careful = alternates(strains) ? 2 : strains.size();
-  period.resize(strains.size() + 1);
-  double* const out = period.data();
-  std::size_t n = 0;
-  const auto append = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      if (strains[i] == out[n]) continue;
-      const bool continues = n > 0 && (out[n] > out[n - 1]) == (strains[i] > out[n]);
-      n += continues ? 0 : 1;
-      out[n] = strains[i];
-    }
-  };
-  const auto copy = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) out[n + 1 + i - from] = strains[i];
-    n += to > from ? to - from : 0;
-  };
-  out[0] = strains[largest];
-  const std::size_t after_joint = std::min(largest + 1, careful);
-  if (careful == 2) {
-    copy(largest + 1, strains.size());
-  } else {
-    append(largest + 1, strains.size());
+/// The reversals of a repeated history that need not alternate: rises and falls in turns, also over the joint
+/// of its end and its begin. Empty for a constant one.
+std::vector<float> alternating_period(std::span<const float> strains) {
+  const auto is_smaller = [](float a, float b) { return std::fabs(a) < std::fabs(b); };
+  const std::size_t largest = std::max_element(strains.begin(), strains.end(), is_smaller) - strains.begin();
+  std::vector<float> period;
+  for (std::size_t i = 0; i <= strains.size(); ++i) {
+    const float strain = strains[(largest + i) % strains.size()];
+    const std::size_t n = period.size();
+    if (n > 0 && strain == period[n - 1]) continue;
+    const bool continues = n > 1 && (period[n - 1] > period[n - 2]) == (strain > period[n - 1]);
+    continues ? period[n - 1] = strain : period.emplace_back(strain);
   }
-  append(0, after_joint);
-  copy(after_joint, largest + 1);
-  period.resize(n + 1);
-}
-
-/// Sum of damage(eps_a, s_max, s_m) over the cycles of a period from rotate().
-///
-/// open[1..top] are the reversals of the loops still open, open[1] the largest |strain| L. open[0] is beyond
-/// any strain, so that nothing closes below L. Steps away from L and back to it alternate, so the loop knows
-/// whether it rises or falls, and only a step back can reach L itself; then everything is closed and the path
-/// stands at L again.
-template <bool away_falls, class Range, class Damage>
-double sum_period(const std::vector<double>& period, double first_stress, const Range& stress_range,
-                  const Damage& damage, double* open, double* stress) {
-  double sum = 0;
-  std::size_t top = 1;
-  open[0] = away_falls ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
-  open[1] = period[0];
-  stress[1] = first_stress;
-  const auto close = [&] {
-    const double amplitude = std::fabs(open[top] - open[top - 1]) / 2;
-    sum += damage(amplitude, std::max(stress[top], stress[top - 1]), stress[top] / 2 + stress[top - 1] / 2);
-    top -= 2;
-  };
-  const auto reach = [&](double strain, double branch) {
-    stress[top + 1] = stress[top] + branch;
-    open[++top] = strain;
-  };
-  for (std::size_t i = 1; i + 1 < period.size(); i += 2) {
-    const double out = period[i], back = period[i + 1];
-    while (away_falls ? out <= open[top - 1] : out >= open[top - 1]) close();
-    const double down = stress_range(std::fabs(out - open[top]));
-    reach(out, away_falls ? -down : down);
-    while (away_falls ? back >= open[top - 1] : back <= open[top - 1]) {
-      close();
-      if (top == 0) break;
-    }
-    if (top == 0) {
-      top = 1;
-      continue;
-    }
-    const double up = stress_range(std::fabs(back - open[top]));
-    reach(back, away_falls ? up : -up);
-  }
-  return sum;
-}
-
-template <class Range, class Damage>
-double sum_repeating(std::span<const float> strains, const Range& stress_range, const Damage& damage,
-                     DamageCounter::Workspace& w) {
-  rotate(strains, w.period);
-  w.strain.resize(w.period.size() + 2);
-  w.stress.resize(w.period.size() + 2);
-  const double largest = w.period[0];
-  const double first_stress = std::copysign(stress_range(2 * std::fabs(largest)) / 2, largest);
-  const auto sum = largest > 0 ? sum_period<true, Range, Damage> : sum_period<false, Range, Damage>;
-  return sum(w.period, first_stress, stress_range, damage, w.strain.data(), w.stress.data());
+  period.pop_back();  // the largest once more
+  return period;
 }
 
 /// Stress at every reversal of a history that starts at rest: MemoryPath without its calls. Alternating
@@ -376,24 +294,30 @@ double sum_half_cycles(std::span<const float> strains, const Range& stress_range
 }  // namespace
 
 struct DamageCounter::Tables {
-  Tables(const pipeline::Material& m, const pipeline::Fatigue& f) : material(m), settings(f) {
+  Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set)
+      : material(m), settings(f), lockstep(lockstep_for(set)) {
     if (m.strain_life_table.empty()) {
       metal.emplace(m, f);
     } else {
       measured.emplace(m.strain_life_table);
     }
+    fill_side_by_side();
   }
   template <class Use>
   auto with_functions(const Use& use) const;
+  void fill_side_by_side();
 
   pipeline::Material material;
   pipeline::Fatigue settings;
   std::optional<MetalTables> metal;  // one of the two
   std::optional<StrainLifeTable> measured;
+  const Lockstep& lockstep;
+  LockstepTables side_by_side;
 };
 
-DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings)
-    : tables_(std::make_unique<Tables>(material, settings)) {}
+DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings,
+                             pipeline::InstructionSet set)
+    : tables_(std::make_unique<Tables>(material, settings, set)) {}
 DamageCounter::~DamageCounter() = default;
 DamageCounter::DamageCounter(DamageCounter&&) noexcept = default;
 
@@ -429,22 +353,86 @@ auto DamageCounter::Tables::with_functions(const Use& use) const {
   return with_damage([modulus = material.youngs_modulus](double range) { return modulus * range; });
 }
 
-double DamageCounter::operator()(std::span<const float> strains, Workspace& workspace) const {
-  if (strains.size() < 2) return 0;
-  if (tables_->settings.counting == Counting::half_cycles) {
-    if (alternates(strains)) {
-      return tables_->with_functions([&](const auto& stress_range, const auto& damage) {
-        return sum_half_cycles(strains, stress_range, damage, workspace);
-      });
-    }
-    std::vector<Reversal> reversals;
-    for (const float strain : strains)
-      reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});
-    return sum_of_damage(cycles(reversals));
+/// The tables of (8) and (9) are read side by side; Morrow, Walker and measured points one load at a time.
+void DamageCounter::Tables::fill_side_by_side() {
+  LockstepTables& to = side_by_side;
+  to.material = this;
+  to.endurance = settings.endurance_strain;
+  to.elastic = material.youngs_modulus;
+  if (metal && settings.stress == Stress::cyclic) {
+    to.elastic = metal->branch.elastic();
+    to.branch = metal->branch.view();
+    to.far_branch = [](const void* self, double range) {
+      return static_cast<const Tables*>(self)->metal->branch(range);
+    };
   }
-  return tables_->with_functions([&](const auto& stress_range, const auto& damage) {
-    return sum_repeating(strains, stress_range, damage, workspace);
-  });
+  const auto read = [&](const CurveTable& table) {
+    to.damage = table.view();
+    to.damage_at_high = table.at_high();
+  };
+  if (measured) {
+    to.damage_of = [](const void* self, double amplitude, double, double) {
+      return static_cast<const Tables*>(self)->measured->damage(amplitude);
+    };
+  } else if (settings.mean_stress == MeanStress::none) {
+    read(metal->strain_damage);
+  } else if (settings.mean_stress == MeanStress::swt) {
+    read(metal->swt_damage);
+    to.times_stress_max = true;
+  } else if (settings.mean_stress == MeanStress::morrow) {
+    to.damage_of = [](const void* self, double amplitude, double, double mean) {
+      return static_cast<const Tables*>(self)->metal->morrow_damage(amplitude, mean);
+    };
+  } else {
+    to.damage_of = [](const void* self, double amplitude, double max, double mean) {
+      return static_cast<const Tables*>(self)->metal->walker_damage(amplitude, max, mean);
+    };
+  }
+}
+
+void DamageCounter::operator()(std::span<const StrainList> histories, std::span<double> damage,
+                               Workspace& workspace) const {
+  assert(histories.size() == damage.size());
+  if (tables_->settings.counting == Counting::half_cycles) {
+    for (std::size_t k = 0; k < histories.size(); ++k) damage[k] = damage_once(histories[k], workspace);
+    return;
+  }
+  const Lockstep& lockstep = tables_->lockstep;
+  for (std::size_t first = 0; first < histories.size(); first += lockstep.lanes) {
+    const auto group = histories.subspan(first, std::min(lockstep.lanes, histories.size() - first));
+    std::size_t longest = 0;
+    for (const StrainList& history : group) longest = std::max(longest, history.size);
+    const std::size_t lines = lockstep.lines(longest);
+    if (workspace.lines.size() < lines) workspace.lines.resize(lines);
+    const unsigned amiss = lockstep.sum(tables_->side_by_side, group.data(), group.size(),
+                                        workspace.lines.data(), &damage[first]);
+    for (std::size_t k = 0; amiss >> k != 0; ++k)
+      if (amiss >> k & 1) {
+        const std::vector<float> period = alternating_period({group[k].strain, group[k].size});
+        damage[first + k] = (*this)(period, workspace);
+      }
+  }
+}
+
+double DamageCounter::operator()(std::span<const float> strains, Workspace& workspace) const {
+  const StrainList list{strains.data(), strains.size()};
+  double damage = 0;
+  (*this)(std::span(&list, 1), std::span(&damage, 1), workspace);
+  return damage;
+}
+
+double DamageCounter::damage_once(const StrainList& list, Workspace& workspace) const {
+  const std::span<const float> strains(list.strain, list.size);
+  if (strains.size() < 2) return 0;
+  if (alternates(strains)) {
+    return tables_->with_functions([&](const auto& stress_range, const auto& damage) {
+      return sum_half_cycles(strains, stress_range, damage, workspace);
+    });
+  }
+  std::vector<Reversal> reversals;
+  for (const float strain : strains)
+    reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});
+  return sum_of_damage(cycles(reversals));
 }
 
 std::vector<DamagingCycle> DamageCounter::cycles(std::span<const Reversal> reversals) const {

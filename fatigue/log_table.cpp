@@ -14,7 +14,7 @@ LogTable::LogTable(double low, double high, const std::function<double(double)>&
   double x0 = node(first_), y0 = y(x0), d0 = slope(x0);
   for (std::uint64_t cell = first_; cell <= last; ++cell) {
     const double x1 = node(cell + 1), y1 = y(x1), d1 = slope(x1), h = x1 - x0, rise = y1 - y0;
-    cells_.push_back({y0, h * d0, 3 * rise - h * (2 * d0 + d1), h * (d0 + d1) - 2 * rise});
+    cells_.push_back({{y0, h * d0, 3 * rise - h * (2 * d0 + d1), h * (d0 + d1) - 2 * rise}});
     x0 = x1, y0 = y1, d0 = d1;
   }
 }

@@ -25,19 +25,29 @@ class LogTable {
   LogTable(double low, double high, const std::function<double(double)>& y,
            const std::function<double(double)>& slope);
 
+  /// The table as plain numbers, for loops that read several values at a time.
+  struct View {
+    const double* cells = nullptr;  ///< (cell, power of the place in it), each cell on a boundary of 32 bytes
+    std::uint64_t first = 0;        ///< number of the first cell
+    double low = 0, high = 0;
+  };
+  View view() const { return {cells_.front().of.data(), first_, low_, high_}; }
+
   double low() const { return low_; }
   double high() const { return high_; }
 
   /// Precondition: low() <= x <= high().
   double operator()(double x) const {
     const auto bits = std::bit_cast<std::uint64_t>(x);
-    const Cell& c = cells_[(bits >> shift) - first_];
+    const std::array<double, 4>& c = cells_[(bits >> shift) - first_].of;
     const double t = std::bit_cast<double>(((bits << cells_per_octave_log2) & mantissa) | one) - 1;
     return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
   }
 
  private:
-  using Cell = std::array<double, 4>;
+  struct alignas(32) Cell {
+    std::array<double, 4> of;
+  };
   static constexpr int shift = 52 - cells_per_octave_log2;
   static constexpr std::uint64_t mantissa = (std::uint64_t{1} << 52) - 1;
   static constexpr std::uint64_t one = std::uint64_t{0x3ff} << 52;

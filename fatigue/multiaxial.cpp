@@ -5,6 +5,11 @@
 #include <numbers>
 
 namespace dresslife::fatigue {
+namespace {
+
+double lean_of(int plane, int planes) { return std::numbers::pi * (double(plane) / planes - 0.5); }
+
+}  // namespace
 
 std::vector<double> equivalent_strain(std::span<const double> strain, std::span<const double> shear) {
   assert(strain.size() == shear.size());
@@ -29,7 +34,7 @@ CriticalPlane critical_plane(std::span<const double> strain, std::span<const dou
                              int planes) {
   CriticalPlane worst;
   for (int plane = 0; plane < planes; ++plane) {
-    const double theta = std::numbers::pi * (double(plane) / planes - 0.5);
+    const double theta = lean_of(plane, planes);
     const auto history = plane_strain(strain, shear, material.poisson_ratio, theta);
     const double damage = sum_of_damage(evaluate_cycles(find_reversals(history), material, settings));
     if (damage > worst.damage) worst = {theta, damage};
@@ -40,16 +45,19 @@ CriticalPlane critical_plane(std::span<const double> strain, std::span<const dou
 CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,
                              double poisson_ratio, const DamageCounter& counter,
                              DamageCounter::Workspace& workspace, int planes) {
-  CriticalPlane worst;
-  std::vector<float> reversals;
+  std::vector<std::vector<float>> reversals(planes);
+  std::vector<StrainList> lists;
   for (int plane = 0; plane < planes; ++plane) {
-    const double theta = std::numbers::pi * (double(plane) / planes - 0.5);
-    reversals.clear();
-    for (const Reversal& reversal : find_reversals(plane_strain(strain, shear, poisson_ratio, theta)))
-      reversals.push_back(static_cast<float>(reversal.strain));
-    const double damage = counter(reversals, workspace);
-    if (damage > worst.damage) worst = {theta, damage};
+    for (const Reversal& reversal :
+         find_reversals(plane_strain(strain, shear, poisson_ratio, lean_of(plane, planes))))
+      reversals[plane].push_back(static_cast<float>(reversal.strain));
+    lists.push_back({reversals[plane].data(), reversals[plane].size()});
   }
+  std::vector<double> damage(planes);
+  counter(lists, damage, workspace);
+  CriticalPlane worst;
+  for (int plane = 0; plane < planes; ++plane)
+    if (damage[plane] > worst.damage) worst = {lean_of(plane, planes), damage[plane]};
   return worst;
 }
 

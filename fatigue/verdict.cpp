@@ -78,6 +78,26 @@ const DamageCounter& SiteCounters::of(std::size_t site) const {
   return wall >= 0 ? wall_[wall] : by_material_[material_[site]];
 }
 
+namespace {
+
+/// Of the sites [begin, end), as many of one material in a row as there are at a time.
+void add_damage_of(const SiteSet::Block& block, std::size_t begin, std::size_t end,
+                   const SiteCounters& counters, DamageCounter::Workspace& workspace, SiteDamage& all) {
+  std::vector<StrainList> lists;
+  for (std::size_t first = begin; first < end; first += lists.size()) {
+    const DamageCounter& counter = counters.of(first);
+    lists.clear();
+    for (std::size_t site = first; site < end && &counters.of(site) == &counter; ++site) {
+      const std::span<const float> strains = block.strains_of(site);
+      lists.push_back({strains.data(), strains.size()});
+      all.range[site] = range_of(strains);
+    }
+    counter(lists, std::span(all.damage).subspan(first, lists.size()), workspace);
+  }
+}
+
+}  // namespace
+
 SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::size_t threads,
                      const std::function<void(double)>& progress) {
   SiteDamage all;
@@ -92,11 +112,7 @@ SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::si
     pipeline::in_parallel(threads, [&](std::size_t part) {
       if (part == 0) read_ahead();
       for (std::size_t piece = next++; piece + 1 < cuts.size(); piece = next++)
-        for (std::size_t site = cuts[piece]; site < cuts[piece + 1]; ++site) {
-          const std::span<const float> strains = block.strains_of(site);
-          all.damage[site] = counters.of(site)(strains, workspaces[part]);
-          all.range[site] = range_of(strains);
-        }
+        add_damage_of(block, cuts[piece], cuts[piece + 1], counters, workspaces[part], all);
     });
     progress(double(block.end) / sites.size());
   });

@@ -74,8 +74,12 @@ int main() {
   const fatigue::DamageCounter counter(copper, {});
   fatigue::DamageCounter::Workspace workspace;
   volatile double keep = 0;
+  std::vector<fatigue::StrainList> lists;
+  for (const auto& history : all) lists.push_back({history.data(), history.size()});
+  std::vector<double> damage(lists.size());
   const double seconds = best_seconds([&] {
-    for (const auto& history : all) keep = keep + counter(history, workspace);
+    counter(lists, damage, workspace);
+    keep = keep + damage[0];
   });
   const double reference = best_seconds([&] {
     for (const auto& history : all) keep = keep + three_point_ranges(history);

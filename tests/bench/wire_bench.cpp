@@ -104,10 +104,15 @@ class Bench {
     sink.bound_free = sink.bound_stick = [](const strain::SiteRows&) {};
     sink.probe = [](const strain::Probe&) {};
     sink.sites = [&](const strain::SiteRows& rows) {
-      std::size_t first = 0;
       points_ += static_cast<double>(rows.strain.size());
-      for (std::size_t site = 0; damage && site < rows.segment.size(); first += rows.turning[site++])
-        keep = keep + counter_(std::span(rows.strain).subspan(first, rows.turning[site]), workspace_);
+      if (!damage) return;
+      lists_.clear();
+      std::size_t first = 0;
+      for (std::size_t site = 0; site < rows.segment.size(); first += rows.turning[site++])
+        lists_.push_back({rows.strain.data() + first, static_cast<std::size_t>(rows.turning[site])});
+      damage_.resize(lists_.size());
+      counter_(lists_, damage_, workspace_);
+      keep = keep + damage_.back();
     };
     for (std::size_t i = 0; i < segments; ++i) evaluation.evaluate(i, history_, i, sink);
   }
@@ -161,6 +166,8 @@ class Bench {
   pipeline::Strain settings_;
   const fatigue::DamageCounter counter_{copper(), {}};
   fatigue::DamageCounter::Workspace workspace_;
+  std::vector<fatigue::StrainList> lists_;
+  std::vector<double> damage_;
   double sites_ = 0, points_ = 0;
 };
 

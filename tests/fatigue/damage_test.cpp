@@ -188,6 +188,49 @@ TEST_CASE("tables agree with the exact evaluation for every combination of setti
   CHECK(worst < DamageCounter::table_error);
 }
 
+TEST_CASE("histories counted together have each the damage they have alone on every instruction set") {
+  std::mt19937 random(37);
+  std::vector<std::vector<float>> histories;
+  for (int k = 0; k < 150; ++k) {
+    if (k % 3 > 0) {  // a neighbour: nearly the same
+      histories.push_back(histories.back());
+      for (float& strain : histories.back()) strain *= 1 + 1e-3f * static_cast<float>(k % 5);
+    } else {
+      const double size = std::pow(10, -4 + 3.5 * (k % 20) / 20.0);
+      histories.push_back(strains_of(random_history(random, 2 + 3 * k, size, k % 2 == 0 ? -size : 0)));
+    }
+  }
+  histories[7] = {};
+  histories[20] = {0.01f};
+  histories[33] = {0.004f, 0.001f, 0.002f, 0.002f, -0.001f, -0.003f, 0.002f};  // does not alternate
+  histories[46] = {0, 3, -30, 10, 0};                                          // beyond the tables
+  histories[59] = {0.02f, 0.02f};
+  histories[60] = {0, -0.01f, 0};
+  std::vector<StrainList> lists;
+  for (const auto& history : histories) lists.push_back({history.data(), history.size()});
+
+  for (const auto mean_stress : {MeanStress::swt, MeanStress::none, MeanStress::morrow}) {
+    pipeline::Fatigue settings;
+    settings.mean_stress = mean_stress;
+    for (const pipeline::InstructionSet set : pipeline::instruction_sets()) {
+      INFO(pipeline::name_of(set));
+      const DamageCounter counter(copper(), settings, set);
+      DamageCounter::Workspace workspace;
+      std::vector<double> alone, together(lists.size()), shifted(lists.size() - 1);
+      for (const auto& history : histories) alone.push_back(counter(history, workspace));
+      counter(lists, together, workspace);
+      CHECK(together == alone);
+      counter(std::span(lists).subspan(1), shifted, workspace);
+      CHECK(shifted == std::vector<double>(alone.begin() + 1, alone.end()));
+      for (std::size_t k = 0; k < histories.size(); ++k) {
+        const auto reversals = find_reversals(std::vector<double>(histories[k].begin(), histories[k].end()));
+        const double exact = sum_of_damage(evaluate_cycles(reversals, copper(), settings));
+        CHECK(together[k] == Approx(exact).epsilon(DamageCounter::table_error).margin(0));
+      }
+    }
+  }
+}
+
 TEST_CASE("a polymer's damage is its table's, whatever the settings of metals") {
   pipeline::Material hose;
   hose.name = "hose";
