@@ -147,10 +147,11 @@ double Construction::phase(int layer, int number, int parent, double arc) const 
   return std::remainder(phase, 2 * pi);
 }
 
-Placement Construction::placement(int layer, int number, int parent, double arc, double turn) const {
+Placement Construction::placement(int layer, int number, int parent, double arc, double turn,
+                                  int order) const {
   const Layer& of = layers_[layer];
   return make_placement(kinematics_, of.helix_radius, of.lay_tangent, of.lay_cosine,
-                        phase(layer, number, parent, arc) + turn);
+                        phase(layer, number, parent, arc) + turn, order);
 }
 
 std::string Construction::wire_path(int layer, int number, int parent) const {

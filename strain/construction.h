@@ -76,8 +76,9 @@ class Construction {
   double length_rate(int part) const { return part == dresspack_itself ? 1 : parts_[part].length_rate; }
   /// theta of part `number` of `layer` in `parent` at `arc` along the dresspack [m] (W8).
   double phase(int layer, int number, int parent, double arc) const;
-  /// The same as a place to compute with. turn: added to the phase [rad].
-  Placement placement(int layer, int number, int parent, double arc, double turn = 0) const;
+  /// The same as a place to compute with. turn: added to the phase [rad]. order: of the parent's state.
+  Placement placement(int layer, int number, int parent, double arc, double turn = 0,
+                      int order = Series<double>::capacity - 1) const;
   std::string wire_path(int layer, int number, int parent) const;
 
  private:

@@ -147,6 +147,7 @@ BundleChain Evaluation::part_chain(int part, std::size_t segment, const ClampMea
 BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
                                     Worker& worker) const {
   BundleChain chain = part_chain(bundle.part, segment, means, fibres_, worker);
+  chain.nodes.reserve(waves_per_layer * bundle.wire_layers.size());
   for (const int layer : bundle.wire_layers) {
     add_wire_layer(construction_, means.plan(), chain, layer, bundle.part, arcs_[segment]);
     WireNode* const nodes = &chain.nodes[chain.nodes.size() - waves_per_layer];

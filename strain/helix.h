@@ -51,11 +51,11 @@ struct Placement {
 
 inline namespace DRESSLIFE_MACHINE {
 
-/// Tangent and cosine of the lay angle, which is signed; phase = theta at the place [rad].
+/// Tangent and cosine of the lay angle, which is signed; phase = theta at the place [rad]. order: of the
+/// parent's state; 0 is enough for wires.
 inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_tangent,
-                                double lay_cosine, double phase) {
+                                double lay_cosine, double phase, int order = Series<double>::capacity - 1) {
   assert(radius > 0 || lay_tangent == 0);
-  constexpr int highest = Series<double>::capacity - 1;
   Placement place;
   place.kinematics = kinematics;
   place.radius = radius;
@@ -63,8 +63,8 @@ inline Placement make_placement(pipeline::Kinematics kinematics, double radius, 
   place.lay_cosine = lay_cosine;
   place.turn_rate = radius > 0 ? place.lay_tangent / radius : 0;
   const double sine = std::sin(phase), cosine = std::cos(phase);
-  place.sine = sine_series(sine, cosine, place.turn_rate, highest);
-  place.cosine = sine_series(cosine, -sine, place.turn_rate, highest);
+  place.sine = sine_series(sine, cosine, place.turn_rate, order);
+  place.cosine = sine_series(cosine, -sine, place.turn_rate, order);
   return place;
 }
 

@@ -73,11 +73,11 @@ struct Fibre {
 /// A bundle in one segment.
 struct BundleChain {
   std::vector<ChainStep> steps;
-  std::vector<WireNode> nodes;  ///< for waves: waves_per_layer nodes a layer, evenly spaced
+  std::vector<WireNode> nodes;        ///< for waves: waves_per_layer nodes a layer, evenly spaced
   std::vector<SlidingLayer> sliding;  ///< of each layer; empty: all waves are those of the nodes
   std::vector<Fibre> fibres;
-  int order = 0;              ///< of the part's state: 1 when fibres feel bend1
-  double rest_curvature = 0;  ///< of the undeformed dresspack, about d2 [1/m]
+  int order = 0;                  ///< of the part's state: 1 when fibres feel bend1
+  Rod<double> dresspack_at_rest;  ///< (W25) in the shape in which it was delivered
 };
 
 struct BundlePointers {
@@ -90,7 +90,7 @@ struct BundlePointers {
   const double* parent = nullptr;
   const float* parent_rows = nullptr;  ///< the same, (PartRow, sample)
   std::size_t parent_stride = 0;
-  double rest_curvature = 0;
+  double rest_curvature = 0;              ///< of the undeformed dresspack, about d2 [1/m]
   const SlidingLayer* sliding = nullptr;  ///< (layer), or null
 };
 
@@ -247,7 +247,7 @@ inline BundlePointers pointers(const BundleChain& chain) {
           nullptr,
           nullptr,
           0,
-          chain.rest_curvature,
+          chain.dresspack_at_rest.bend2.at[0],
           chain.sliding.empty() ? nullptr : chain.sliding.data()};
 }
 
