@@ -243,30 +243,28 @@ inline Pack branch_one_by_one(const LockstepTables& tables, const Pack& range) {
 
 /// A closed loop in each lane.
 struct Load {
-  Pack amplitude, stress, other_stress;  ///< stress: at its ends
+  Pack amplitude, stress_max, stress_min;
 };
 
 /// Of the lanes in `closing`; of the others 0.
 inline Pack damage_of(const LockstepTables& tables, const Mask& closing, const Load& loop) {
   const LogTable::View& table = tables.damage;
   const Pack low = filled(table.low), high = filled(table.high);
-  const Pack y =
-      tables.times_stress_max ? loop.amplitude * larger(loop.stress, loop.other_stress) : loop.amplitude;
-  Pack damage = looked_up(table, smaller(larger(y, low), high));
-  damage = select(at_least(y, high), filled(tables.damage_at_high), damage);
+  const Pack y = tables.times_stress_max ? loop.amplitude * loop.stress_max : loop.amplitude;
   const Mask damaging = closing & at_least(y, low) & greater(loop.amplitude, filled(tables.endurance));
-  return select(damaging, damage, Pack{});
+  if (bits(damaging) == 0) return Pack{};
+  const Pack damage = looked_up(table, smaller(larger(y, low), high));
+  return select(damaging, select(at_least(y, high), filled(tables.damage_at_high), damage), Pack{});
 }
 
 inline Pack damage_one_by_one(const LockstepTables& tables, const Mask& closing, const Load& loop) {
   if (tables.damage_of == nullptr) return damage_of(tables, closing, loop);
-  double amplitude[lanes], a[lanes], b[lanes], damage[lanes] = {};
-  store(loop.amplitude, amplitude), store(loop.stress, a), store(loop.other_stress, b);
+  double amplitude[lanes], max[lanes], min[lanes], damage[lanes] = {};
+  store(loop.amplitude, amplitude), store(loop.stress_max, max), store(loop.stress_min, min);
   for (unsigned left = bits(closing); left != 0; left &= left - 1) {
     const int j = __builtin_ctz(left);
     if (amplitude[j] > tables.endurance)
-      damage[j] =
-          tables.damage_of(tables.material, amplitude[j], a[j] > b[j] ? a[j] : b[j], a[j] / 2 + b[j] / 2);
+      damage[j] = tables.damage_of(tables.material, amplitude[j], max[j], max[j] / 2 + min[j] / 2);
   }
   return load<Pack>(damage);
 }
@@ -336,7 +334,7 @@ class Loops {
  public:
   DRESSLIFE_INLINE Loops(const LockstepTables& tables, const Pack& largest, const Pack& sign,
                          const OpenRows& rows)
-      : tables_(tables), rows_(rows), sign_(sign) {
+      : tables_(tables), rows_(rows), mirrored_(greater(Pack{}, sign)) {
     const Pack first = branch_of(2 * largest) / 2;
     constexpr double more = 1 + 0x1p-52, smallest = 0x1p-1000;
     rows_.put(-1, filled(__builtin_inf()), first);
@@ -364,13 +362,17 @@ class Loops {
     return one_by_one ? branch_one_by_one(tables_, range) : branch(tables_, range);
   }
 
+  DRESSLIFE_INLINE bool agree() const { return lanes == 1 || agree_; }
+
   template <bool falls>
   DRESSLIFE_INLINE void close(const Mask& closing) {
     const Pack amplitude = (falls ? top_.strain - top_.below : top_.below - top_.strain) * 0.5;
-    const Load loop{amplitude, sign_ * top_.stress, sign_ * top_.stress_below};
+    const Pack peak = falls ? top_.stress : top_.stress_below,
+               valley = falls ? top_.stress_below : top_.stress;
+    const Load loop{amplitude, select(mirrored_, -valley, peak), select(mirrored_, -peak, valley)};
     sum_ += one_by_one ? damage_one_by_one(tables_, closing, loop) : damage_of(tables_, closing, loop);
     depth_ = two_less(closing, depth_);
-    if (agree_ && bits(closing) == all_lanes) {
+    if (agree() && bits(closing) == all_lanes) {
       common_ -= 2;
       top_ = Top::of(rows_, common_);
     } else {
@@ -386,7 +388,7 @@ class Loops {
     top_ = {next, top_.strain, falls ? top_.stress - stress : top_.stress + stress, top_.stress};
     depth_ += 1;
     ++common_;
-    if (agree_) {
+    if (agree()) {
       rows_.put(common_, top_.strain, top_.stress);
     } else {
       put_apart(rows_, depth_, top_.strain, top_.stress);
@@ -395,7 +397,7 @@ class Loops {
 
   const LockstepTables tables_;
   const OpenRows rows_;
-  const Pack sign_;
+  const Mask mirrored_;
   Top top_;
   Pack sum_{};
   IntPack depth_ = IntPack{} + 1;
