@@ -26,15 +26,21 @@ double rest_ingredient(const WireNode& node, const Fibre* fibre) {
   return fibre_strain(node.rest.bend1, node.rest.bend2, node.wire_radius, fibre->phi_sine, fibre->phi_cosine);
 }
 
-void PartStates::fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples) {
+void PartStates::fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples,
+                      bool in_double) {
   stride_ = padded(samples);
-  rows_.resize(part_state_rows(chain.order) * stride_);
   single_.resize(part_rows * stride_);
+  const ChainStep& last = chain.steps.back();
+  const bool from_dresspack = chain.steps.size() == 1 && single_suffices(last, nullptr, 0, 0);
+  in_double_ = in_double || !from_dresspack;
+  if (!in_double_)
+    return kernels().part_rows_of_dresspack(pointers(chain), columns, 0, samples, single_.data(), stride_);
+  rows_.resize(part_state_rows(chain.order) * stride_);
   kernels().part_states(pointers(chain), columns, 0, samples, rows_.data(), single_.data(), stride_);
 }
 
 void PartStates::lend(BundlePointers& chain) const {
-  chain.parent = rows_.data();
+  chain.parent = in_double_ ? rows_.data() : nullptr;
   chain.parent_rows = single_.data();
   chain.parent_stride = stride_;
 }

@@ -25,8 +25,9 @@ double rest_ingredient(const WireNode& node, const Fibre* fibre);
 /// The state of a part over the motion, from which its own parts go on: worked out once for all of them.
 class PartStates {
  public:
-  /// chain: down to the part, its order that of its parts plus one.
-  void fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples);
+  /// chain: down to the part, its order that of its parts plus one. in_double: whether that is wanted too.
+  void fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples, bool in_double);
+  bool in_double() const { return in_double_; }
   /// To the chain of one of its parts.
   void lend(BundlePointers& chain) const;
 
@@ -34,6 +35,7 @@ class PartStates {
   std::vector<double> rows_;
   std::vector<float> single_;
   std::size_t stride_ = 0;
+  bool in_double_ = false;
 };
 
 /// Reused from bundle to bundle by one thread.

@@ -177,10 +177,11 @@ BundlePointers Evaluation::from_parent(const BundleChain& chain, int part, std::
   const int parent = part == dresspack_itself ? dresspack_itself : construction_.parts()[part].parent;
   if (parent == dresspack_itself || !parent_suffices(chain)) return from;
   const std::pair wanted{parent, chain.order + 1};
-  if (worker.parent_is != wanted) {
+  const bool in_double = !single_suffices(chain.steps.back(), from.nodes, from.node_count, chain.order);
+  if (worker.parent_is != wanted || (in_double && !worker.parent.in_double())) {
     BundleChain to_parent = part_chain(parent, segment, means, fibres_, worker);
     to_parent.order = chain.order + 1;
-    worker.parent.fill(to_parent, history.columns(row), history.samples());
+    worker.parent.fill(to_parent, history.columns(row), history.samples(), in_double);
     worker.parent_is = wanted;
   }
   worker.parent.lend(from);

@@ -112,6 +112,19 @@ enum PartRow {
   part_rows
 };
 
+inline namespace DRESSLIFE_MACHINE {
+
+/// Whether waves in a part need its parent in single precision only. nodes: in the part, which `last` leads
+/// to.
+inline bool single_suffices(const ChainStep& last, const WireNode* nodes, int node_count, int order) {
+  bool suffice = order == 0 && last.place.kinematics == pipeline::Kinematics::exact &&
+                 last.slide.held == nullptr && last.slide.sliding != Sliding::along_ancestor;
+  for (int n = 0; n < node_count; ++n) suffice &= nodes[n].slide.sliding != Sliding::along_ancestor;
+  return suffice;
+}
+
+}  // namespace DRESSLIFE_MACHINE
+
 /// Rows of a part's state: stretch, bend1, bend2, twist, each with its powers 0 .. order.
 constexpr std::size_t part_state_rows(int order) { return 4 * (static_cast<std::size_t>(order) + 1); }
 
@@ -205,6 +218,10 @@ struct Kernels {
   /// rows[PartRow * stride + t], without slopes where the order is 0.
   void (*part_states)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                       double* out, float* rows, std::size_t stride);
+  /// The same rows of the only part of a chain, in single precision all the way: exact kinematics, nothing
+  /// held by friction.
+  void (*part_rows_of_dresspack)(const BundlePointers&, const DeformationColumns&, std::size_t first,
+                                 std::size_t count, float* rows, std::size_t stride);
   /// Ingredients of every node, to out[(node * ingredients + ingredient) * stride + t].
   void (*node_ingredients)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                            std::size_t count, double* out, std::size_t stride);

@@ -293,15 +293,17 @@ struct ParentAt {
   FloatPack stretch, bend1, bend2, twist, stretch_by, bend1_by, bend2_by, twist_by;  ///< by: changes
   FloatPack sigma, turning, twisting;  ///< turning: R sigma; twisting: R^2 (sigma^2 - sigma0^2)
 
-  ParentAt(const HelixNumbers& helix, const float* rows, std::size_t stride)
-      : stretch(load<FloatPack>(rows + part_stretch * stride)),
-        bend1(load<FloatPack>(rows + part_bend1 * stride)),
-        bend2(load<FloatPack>(rows + part_bend2 * stride)),
-        twist(load<FloatPack>(rows + part_twist * stride)),
-        stretch_by(load<FloatPack>(rows + stretch_change * stride)),
-        bend1_by(load<FloatPack>(rows + bend1_change * stride)),
-        bend2_by(load<FloatPack>(rows + bend2_change * stride)),
-        twist_by(load<FloatPack>(rows + twist_change * stride)),
+  /// of: gives the PartRows.
+  template <class Source>
+  ParentAt(const HelixNumbers& helix, const Source& of, std::size_t t)
+      : stretch(of(part_stretch, t)),
+        bend1(of(part_bend1, t)),
+        bend2(of(part_bend2, t)),
+        twist(of(part_twist, t)),
+        stretch_by(of(stretch_change, t)),
+        bend1_by(of(bend1_change, t)),
+        bend2_by(of(bend2_change, t)),
+        twist_by(of(twist_change, t)),
         sigma(helix.turn_rate + twist),
         turning(helix.radius * sigma),
         twisting(helix.radius * helix.radius * twist_by * (sigma + helix.sigma0)) {}
@@ -324,12 +326,8 @@ inline bool slides_from_afar(const SlidingNumbers& slide) {
 }
 
 inline FloatPack in_single(const double* from) {
-  FloatPack values;
-  for (int half = 0; half < 2; ++half) {
-    const HalfPack part = __builtin_convertvector(load<Pack>(from + half * pack_size), HalfPack);
-    __builtin_memcpy(reinterpret_cast<char*>(&values) + half * sizeof(part), &part, sizeof(part));
-  }
-  return values;
+  return joined(__builtin_convertvector(load<Pack>(from), HalfPack),
+                __builtin_convertvector(load<Pack>(from + pack_size), HalfPack));
 }
 
 /// Where a node's strain waits in `out` if it slides from afar: where the first waves of its layer will be,
@@ -338,30 +336,72 @@ inline float* waiting_place(float* out, int node, int kinds, std::size_t stride)
   return out + (node / waves_per_layer * kinds * waves_per_layer + node % waves_per_layer) * stride;
 }
 
-/// Whether the last part's state follows from its parent's rows alone, see fill_from_rows().
+/// Whether the last part's state follows from its parent's rows alone, see part_from().
 inline bool rows_suffice(const BundlePointers& chain) {
-  if (chain.parent_rows == nullptr || chain.order > 0) return false;
-  const ChainStep& last = chain.steps[chain.step_count - 1];
-  bool suffice = last.place.kinematics == pipeline::Kinematics::exact && last.slide.held == nullptr &&
-                 last.slide.sliding != Sliding::along_ancestor;
-  for (int n = 0; n < chain.node_count; ++n)
-    suffice &= chain.nodes[n].slide.sliding != Sliding::along_ancestor;
-  return suffice;
+  return chain.parent_rows != nullptr &&
+         single_suffices(chain.steps[chain.step_count - 1], chain.nodes, chain.node_count, chain.order);
 }
 
-/// The state of the last part, child() and slid() of its parent's, all in changes. With N = R sigma^2 + y X,
-/// V / V0 = 1 + e and (1 + e)^2 = 1 + q,
+/// The PartRows of a part from `first` on.
+struct RowsOfParent {
+  const float* rows;
+  std::size_t stride;
+
+  inline FloatPack operator()(int row, std::size_t t) const {
+    return load<FloatPack>(rows + row * stride + t);
+  }
+};
+
+/// The same of the dresspack: uniform, at rest with nothing but its curvature.
+struct RowsOfDresspack {
+  const DeformationColumns& in;
+  std::size_t first;
+  float rest_curvature;
+
+  __attribute__((always_inline)) FloatPack operator()(int row, std::size_t t) const {
+    switch (row) {
+      case part_stretch:
+        return 1.0f + in_single(in.elongation + first + t);
+      case stretch_change:
+        return in_single(in.elongation + first + t);
+      case part_bend1:
+      case bend1_change:
+        return in_single(in.curvature1 + first + t);
+      case part_bend2:
+        return in_single(in.curvature2 + first + t);
+      case bend2_change:
+        return in_single(in.curvature2 + first + t) - rest_curvature;
+      case part_twist:
+      case twist_change:
+        return in_single(in.twist + first + t);
+      default:
+        return FloatPack{};
+    }
+  }
+};
+
+/// The state of the last part, child() and slid() of its parent's, all in changes, to rows[PartRow * stride].
+/// With N = R sigma^2 + y X, V / V0 = 1 + e and (1 + e)^2 = 1 + q,
 ///     bend2 = c N / V (1 + strain) / (1 + e),    bend2 - bend2_0 = c / V0 (N - N0 + N m),
 ///     m = (1 + strain) / (1 + q) - 1 = (strain - q) / (1 + q);    glued, strain = e: m = -e / (1 + e),
-/// and the same for the twist with M = sigma stretch.
-template <Sliding how>
-void fill_from_rows(const BundlePointers& chain, std::size_t first, std::size_t count, PartState& state) {
+/// and the same for the twist with M = sigma stretch. Its own slopes in a parent that has none (`slopes`):
+/// along the parent radial' = -theta' X, X' = theta' radial, y' = R X', y'' = -R theta'^2 X, and with w =
+/// V'/V = y y'/V^2
+///     a' = -R sigma y' / V^2,   a'' = -R sigma (y'' - 2 y' w) / V^2;   (N / V)' = (N' - N w) / V,
+/// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0.
+template <Sliding how, bool slopes, class Source>
+void part_from(const Source& of, const BundlePointers& chain, std::size_t first, std::size_t count,
+               float* rows, std::size_t stride) {
   const ChainStep& step = chain.steps[chain.step_count - 1];
   const PartAtRest parent0(chain, chain.step_count - 1), rest(chain, chain.step_count);
   const HelixNumbers helix(step.place, parent0);
   const double rest_V = rest.stretch / step.place.lay_cosine;
   const double rest_X = parent0.bend1 * step.place.sine.at[0] - parent0.bend2 * step.place.cosine.at[0];
-  const auto y0 = static_cast<float>(parent0.stretch + step.place.radius * rest_X);
+  const double rest_radial = parent0.bend1 * step.place.cosine.at[0] + parent0.bend2 * step.place.sine.at[0];
+  const double rest_y = parent0.stretch + step.place.radius * rest_X;
+  const auto y0 = static_cast<float>(rest_y);
+  const auto w0 =
+      static_cast<float>(rest_y * step.place.radius * step.place.turn_rate * rest_radial / (rest_V * rest_V));
   const auto scale = static_cast<float>(step.place.lay_cosine / rest_V);
   const auto inverse_V0_squared = static_cast<float>(1 / (rest_V * rest_V));
   const auto sine = static_cast<float>(step.place.sine.at[0]);
@@ -370,9 +410,7 @@ void fill_from_rows(const BundlePointers& chain, std::size_t first, std::size_t 
                            static_cast<float>(rest.bend2), static_cast<float>(rest.twist)};
   const float R = helix.radius;
   for (std::size_t t = 0; t < count; t += float_pack_size) {
-    const float* const rows = chain.parent_rows + first + t;
-    const ParentAt p(helix, rows, chain.parent_stride);
-    const auto slope_of = [&](int row) { return load<FloatPack>(rows + row * chain.parent_stride); };
+    const ParentAt p(helix, of, t);
     const FloatPack X = p.bend1 * sine - p.bend2 * cosine, radial = p.bend1 * cosine + p.bend2 * sine;
     const FloatPack X_by = p.bend1_by * sine - p.bend2_by * cosine;
     const FloatPack y = p.stretch + R * X, y_by = p.stretch_by + R * X_by;
@@ -389,29 +427,59 @@ void fill_from_rows(const BundlePointers& chain, std::size_t first, std::size_t 
     const FloatPack N = p.turning * p.sigma + y * X, M = p.sigma * p.stretch;
     const FloatPack N_by = R * p.twist_by * (p.sigma + helix.sigma0) + y_by * X + y0 * X_by;
     const FloatPack M_by = p.twist_by * p.stretch + helix.sigma0 * p.stretch_by;
-    const FloatPack y_slope = slope_of(stretch_slope) +
-                              R * (slope_of(bend1_slope) * sine - slope_of(bend2_slope) * cosine) +
+    const FloatPack y_slope = of(stretch_slope, t) +
+                              R * (of(bend1_slope, t) * sine - of(bend2_slope, t) * cosine) +
                               R * helix.turn_rate * radial;
-    const FloatPack angle_slope =
-        R * (slope_of(twist_slope) * y - p.sigma * y_slope) * (root * root * inverse_V0_squared);
+    const FloatPack over_V2 = root * root * inverse_V0_squared;
+    const FloatPack angle_slope = R * (of(twist_slope, t) * y - p.sigma * y_slope) * over_V2;
     const FloatPack by[] = {strain * at_rest[0], helix.c * (angle_slope - radial) * along - at_rest[1],
                             scale * (N_by + N * m), scale * (M_by + M * m)};
+    const auto put = [&](int row, const FloatPack& value) { store(value, rows + row * stride + t); };
     for (int k = 0; k < 4; ++k) {
-      store(FloatPack(at_rest[k] + by[k]), state.rows[part_stretch + k] + t);
-      store(by[k], state.rows[stretch_change + k] + t);
+      put(part_stretch + k, at_rest[k] + by[k]);
+      put(stretch_change + k, by[k]);
+    }
+    if constexpr (slopes) {
+      const FloatPack w = y * y_slope * over_V2, left = how == Sliding::glued ? -w : w0 - 2.0f * w;
+      const FloatPack X_slope = helix.turn_rate * radial;
+      const FloatPack y_curve = -R * helix.turn_rate * helix.turn_rate * X;
+      const FloatPack angle_curve = -p.turning * (y_curve - 2.0f * y_slope * w) * over_V2;
+      const FloatPack over_V = helix.c * scale * root * along;  // along the part, and what slides
+      put(stretch_slope, helix.c * (at_rest[0] + by[0]) * (how == Sliding::glued ? w : w0 + FloatPack{}));
+      put(bend1_slope, helix.c * helix.c * along *
+                           (angle_curve + helix.turn_rate * X +
+                            (how == Sliding::glued ? FloatPack{} : (angle_slope - radial) * (w0 - w))));
+      put(bend2_slope, over_V * (y_slope * X + y * X_slope + N * left));
+      put(twist_slope, over_V * (M * left));
     }
   }
 }
 
-void fill_from_rows(const BundlePointers& chain, std::size_t first, std::size_t count, PartState& state,
-                    float* out, std::size_t stride, int kinds) {
+template <bool slopes, class Source>
+void part_from(const Source& of, const BundlePointers& chain, std::size_t first, std::size_t count,
+               float* rows, std::size_t stride) {
   const Sliding how = chain.steps[chain.step_count - 1].slide.sliding;
   if (how == Sliding::glued)
-    fill_from_rows<Sliding::glued>(chain, first, count, state);
+    part_from<Sliding::glued, slopes>(of, chain, first, count, rows, stride);
   else if (how == Sliding::over_pitch)
-    fill_from_rows<Sliding::over_pitch>(chain, first, count, state);
+    part_from<Sliding::over_pitch, slopes>(of, chain, first, count, rows, stride);
   else
-    fill_from_rows<Sliding::clamp_to_clamp>(chain, first, count, state);
+    part_from<Sliding::clamp_to_clamp, slopes>(of, chain, first, count, rows, stride);
+}
+
+void part_rows_of_dresspack(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
+                            std::size_t count, float* rows, std::size_t stride) {
+  const RowsOfDresspack of{in, first, static_cast<float>(chain.rest_curvature)};
+  if (chain.order > 0)
+    part_from<true>(of, chain, first, count, rows, stride);
+  else
+    part_from<false>(of, chain, first, count, rows, stride);
+}
+
+void fill_from_rows(const BundlePointers& chain, std::size_t first, std::size_t count, PartState& state,
+                    float* out, std::size_t stride, int kinds) {
+  part_from<false>(RowsOfParent{chain.parent_rows + first, chain.parent_stride}, chain, first, count,
+                   state.rows[0], chunk);
   for (int n = 0; n < chain.node_count; ++n)
     if (const SlidingNumbers& slide = chain.nodes[n].slide; slides_from_afar(slide))
       for (std::size_t t = 0; t < count; t += float_pack_size)
@@ -493,7 +561,7 @@ struct LayerAt : ParentAt {
   FloatPack cosine, cosine_squared, sine_cosine;  ///< of the thesis' angle (13)
 
   LayerAt(const LayerNumbers& of, const PartState& in, std::size_t at)
-      : ParentAt(of, in.rows[0] + at, chunk), layer(of), part(in), t(at) {
+      : ParentAt(of, in, at), layer(of), part(in), t(at) {
     if constexpr (thesis) {
       const FloatPack angle = (of.tangent + of.radius * twist) * inverse(stretch);
       cosine = inverse_root(1.0f + angle * angle);
@@ -874,10 +942,22 @@ StrainMeasures measures(const float* strain, std::size_t count) {
 }  // namespace
 
 extern const Kernels set;
-const Kernels set{
-    DRESSLIFE_MACHINE_NAME, float_pack_size, node_strains, layer_waves,    deviations, part_states,  node_ingredients,
-    ingredient_waves,       mix,          add_path_rates, scan,       scan_strains, rank,
-    rank_strains,           measures};
+const Kernels set{DRESSLIFE_MACHINE_NAME,
+                  float_pack_size,
+                  node_strains,
+                  layer_waves,
+                  deviations,
+                  part_states,
+                  part_rows_of_dresspack,
+                  node_ingredients,
+                  ingredient_waves,
+                  mix,
+                  add_path_rates,
+                  scan,
+                  scan_strains,
+                  rank,
+                  rank_strains,
+                  measures};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain

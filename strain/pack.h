@@ -38,6 +38,17 @@ inline void store(const Vector& vector, Value* to) {
   __builtin_memcpy(to, &vector, sizeof(vector));
 }
 
+/// One after the other.
+inline FloatPack joined(const HalfPack& low, const HalfPack& high) {
+#if DRESSLIFE_REGISTER_BYTES == 64
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#elif DRESSLIFE_REGISTER_BYTES == 32
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+#endif
+}
+
 inline Pack square_root(const Pack& x) {
   Pack root;
   for (int k = 0; k < pack_size; ++k) root[k] = std::sqrt(x[k]);

@@ -132,7 +132,7 @@ class Bench {
               strain::chain_to(construction_, plan, part.parent, arc, strain::surface_fibres(1));
           to_cable.order = 1;
           to_cable.steps[0].slide.clamp_strain = clamp_strain.data();
-          cable.fill(to_cable, history_.columns(i), samples);
+          cable.fill(to_cable, history_.columns(i), samples, false);
         }
         strain::BundleChain chain =
             strain::chain_to(construction_, plan, bundle.part, arc, strain::surface_fibres(1));
