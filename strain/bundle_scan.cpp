@@ -33,10 +33,12 @@ void PartStates::fill(const BundleChain& chain, const DeformationColumns& column
   const ChainStep& last = chain.steps.back();
   const bool from_dresspack = chain.steps.size() == 1 && single_suffices(last, nullptr, 0, 0);
   in_double_ = in_double || !from_dresspack;
-  if (!in_double_)
-    return kernels().part_rows_of_dresspack(pointers(chain), columns, 0, samples, single_.data(), stride_);
+  if (from_dresspack)  // the same numbers whatever else is wanted
+    kernels().part_rows_of_dresspack(pointers(chain), columns, 0, samples, single_.data(), stride_);
+  if (!in_double_) return;
   rows_.resize(part_state_rows(chain.order) * stride_);
-  kernels().part_states(pointers(chain), columns, 0, samples, rows_.data(), single_.data(), stride_);
+  kernels().part_states(pointers(chain), columns, 0, samples, rows_.data(),
+                        from_dresspack ? nullptr : single_.data(), stride_);
 }
 
 void PartStates::lend(BundlePointers& chain) const {

@@ -271,6 +271,29 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
   return histories;
 }
 
+void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                            const DeformationHistory& history, std::size_t row, Worker& worker,
+                            std::span<TurningList> lists) const {
+  const auto list = [&](const auto* strain, TurningList& to) {
+    TurningPoints points(scan_.gate);
+    for (std::size_t t = 0; t < history.samples(); ++t) points.next(static_cast<float>(strain[t]), to);
+    points.finish(to);
+  };
+  if (mixed(means)) {
+    const auto histories = histories_of(sites, segment, means, history, row, worker);
+    for (std::size_t k = 0; k < sites.size(); ++k) list(histories[k].data(), lists[k]);
+    return;
+  }
+  std::vector<std::vector<double>> sliding;
+  const BundleChain chain = site_chain(sites, segment, means, sliding, worker);
+  const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
+  const BundlePointers from = from_parent(chain, part, segment, means, history, row, worker);
+  const std::size_t stride = padded(history.samples());
+  std::vector<float> strain(sites.size() * stride);
+  kernels().node_strains_in_single(from, history.columns(row), 0, history.samples(), strain.data(), stride);
+  for (std::size_t k = 0; k < sites.size(); ++k) list(strain.data() + k * stride, lists[k]);
+}
+
 FibreHistory Evaluation::fibre_history(Site site, std::size_t segment, const ClampMeans& means,
                                        const DeformationHistory& history, std::size_t row,
                                        Worker& worker) const {
@@ -471,17 +494,13 @@ void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& me
     if (k == 0 || piece(k) != piece(k - 1)) cuts.push_back(k);
   cuts.push_back(list.size());
   std::vector<TurningList> turning(list.size());
+  for (Worker& worker : workers_) worker.parent_is = {};
   std::atomic<std::size_t> next = 0;
   pipeline::in_parallel(workers_.size(), [&](std::size_t part) {
     for (std::size_t cut = next++; cut + 1 < cuts.size(); cut = next++) {
-      const auto sites_of_piece = std::span(list).subspan(cuts[cut], cuts[cut + 1] - cuts[cut]);
-      const auto histories = histories_of(sites_of_piece, segment, means, history, row, workers_[part]);
-      for (std::size_t k = 0; k < histories.size(); ++k) {
-        TurningPoints points(scan_.gate);
-        for (const double strain : histories[k])
-          points.next(static_cast<float>(strain), turning[cuts[cut] + k]);
-        points.finish(turning[cuts[cut] + k]);
-      }
+      const std::size_t first = cuts[cut], count = cuts[cut + 1] - first;
+      list_turns(std::span(list).subspan(first, count), segment, means, history, row, workers_[part],
+                 std::span(turning).subspan(first, count));
     }
   });
   SiteRows rows;

@@ -154,6 +154,10 @@ class Evaluation {
   std::vector<std::vector<double>> histories_of(std::span<const Site> sites, std::size_t segment,
                                                 const ClampMeans& means, const DeformationHistory& history,
                                                 std::size_t row, Worker& worker) const;
+  /// The turning points of such sites, in single precision.
+  void list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                  const DeformationHistory& history, std::size_t row, Worker& worker,
+                  std::span<TurningList> lists) const;
   /// Strain along the fibre and shear of a site, in double precision.
   FibreHistory fibre_history(Site site, std::size_t segment, const ClampMeans& means,
                              const DeformationHistory& history, std::size_t row, Worker& worker) const;

@@ -205,6 +205,9 @@ struct Kernels {
   /// stride + t].
   void (*node_strains)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                        double* out, std::size_t stride);
+  /// The same in single precision, of nodes with one fibre, to out[node * stride + t].
+  void (*node_strains_in_single)(const BundlePointers&, const DeformationColumns&, std::size_t first,
+                                 std::size_t count, float* out, std::size_t stride);
   /// The waves of every wire layer and fibre, to out[((layer * fibres + fibre) * waves_per_layer + wave) *
   /// stride + t].
   void (*layer_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
@@ -215,7 +218,7 @@ struct Kernels {
   void (*deviations)(const BundlePointers&, int turn, int turned_level, const DeformationColumns&,
                      std::size_t first, std::size_t count, double* out, std::size_t stride);
   /// States of the last part of a chain, to out[row * stride + t], see part_state_rows(), and to
-  /// rows[PartRow * stride + t], without slopes where the order is 0.
+  /// rows[PartRow * stride + t] (null: not), without slopes where the order is 0.
   void (*part_states)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                       double* out, float* rows, std::size_t stride);
   /// The same rows of the only part of a chain, in single precision all the way: exact kinematics, nothing

@@ -258,7 +258,7 @@ __attribute__((flatten)) void part_states(const BundlePointers& chain, const Def
     for (const Series<Pack>* series : {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist})
       for (int power = 0; power <= chain.order; ++power, row += stride)
         store(power <= series->order ? series->at[power] : Pack{}, row);  // `thesis` has values only
-    put_part(rod, rest, chain.order, rows + t, stride);
+    if (rows) put_part(rod, rest, chain.order, rows + t, stride);
   }
 }
 
@@ -533,18 +533,24 @@ struct NodeNumbers {
 
 /// What the nodes of a layer share.
 struct LayerNumbers : HelixNumbers {
+  float mean_strain0, inverse_mean_rest_rate;
+
+  LayerNumbers(const WireNode& node, const PartAtRest& parent)
+      : HelixNumbers(node.place, parent),
+        mean_strain0(static_cast<float>(node.slide.mean_rest_rate - 1)),
+        inverse_mean_rest_rate(static_cast<float>(1 / node.slide.mean_rest_rate)) {}
+};
+
+struct FiveNodes : LayerNumbers {
   const BundlePointers& chain;
   const WireNode* nodes;
   NodeNumbers node[waves_per_layer];
-  float mean_strain0, inverse_mean_rest_rate;
 
-  LayerNumbers(const BundlePointers& of, const WireNode* at, const PartAtRest& parent)
-      : HelixNumbers(at->place, parent),
+  FiveNodes(const BundlePointers& of, const WireNode* at, const PartAtRest& parent)
+      : LayerNumbers(at[0], parent),
         chain(of),
         nodes(at),
-        node{{at[0], parent}, {at[1], parent}, {at[2], parent}, {at[3], parent}, {at[4], parent}},
-        mean_strain0(static_cast<float>(at->slide.mean_rest_rate - 1)),
-        inverse_mean_rest_rate(static_cast<float>(1 / at->slide.mean_rest_rate)) {}
+        node{{at[0], parent}, {at[1], parent}, {at[2], parent}, {at[3], parent}, {at[4], parent}} {}
 };
 
 /// wire_state() with the glued strain in place of the stretch.
@@ -609,6 +615,12 @@ struct LayerAt : ParentAt {
     return mean_over_pitch(layer);
   }
 
+  /// Where curvature per path length stays (W11), what it is multiplied by.
+  inline FloatPack curvature_factor(bool glued, const FloatPack& axial, const NodeNumbers& n,
+                                    const NodeState& node) const {
+    return glued || thesis ? FloatPack{} + 1.0f : (1.0f + axial) * n.rest_stretch * node.inverse_stretch;
+  }
+
   /// Strain of each node where it slides; glued nodes: nothing. waiting: what fill_part() left for this
   /// layer.
   inline void sliding(Sliding how, const float* waiting, std::size_t stride, FloatPack* strain) const {
@@ -646,7 +658,7 @@ struct FiveToWaves {
 /// Waves of the strains of the fibres of a layer that slides and whose fibres feel bend2 alone. From W6 and
 /// W11 bend2 = (1 + strain) rest_stretch (R sigma^2 + y X) / V^2.
 template <Sliding how>
-void sliding_strains_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
+void sliding_strains_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
                               std::size_t stride) {
   const FiveToWaves to_waves;
   const BundlePointers& chain = layer.chain;
@@ -676,7 +688,7 @@ void sliding_strains_of_layer(const LayerNumbers& layer, const PartState& part, 
 
 /// Waves of the strains of a layer's fibres at `count` samples.
 template <bool thesis, bool with_bend1, Sliding how>
-void strains_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
+void strains_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
                       std::size_t stride) {
   constexpr bool glued = how == Sliding::glued;
   if constexpr (!thesis && !with_bend1 && !glued)
@@ -691,10 +703,7 @@ void strains_of_layer(const LayerNumbers& layer, const PartState& part, std::siz
     for (int n = 0; n < waves_per_layer; ++n) {
       const NodeState node = at(layer.node[n]);
       if (glued) axial[n] = node.strain;
-      // where it slides, curvature per path length stays (W11)
-      const FloatPack factor = glued || thesis
-                                   ? FloatPack{} + 1.0f
-                                   : (1.0f + axial[n]) * layer.node[n].rest_stretch * node.inverse_stretch;
+      const FloatPack factor = at.curvature_factor(glued, axial[n], layer.node[n], node);
       bend1[n] = node.bend1 * factor - layer.node[n].rest_bend1;
       bend2[n] = node.bend2 * factor - layer.node[n].rest_bend2;
       axial[n] *= factor_of_wall;
@@ -715,7 +724,7 @@ void strains_of_layer(const LayerNumbers& layer, const PartState& part, std::siz
 
 /// Waves of the ingredients of a layer at `count` samples.
 template <bool thesis, bool with_bend1, Sliding how>
-void ingredients_of_layer(const LayerNumbers& layer, const PartState& part, std::size_t count, float* out,
+void ingredients_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
                           std::size_t stride) {
   const FiveToWaves to_waves;
   const BundlePointers& chain = layer.chain;
@@ -758,7 +767,7 @@ namespace dresslife::strain {
 namespace DRESSLIFE_MACHINE_KERNELS {
 namespace {
 
-using OfLayer = void (*)(const LayerNumbers&, const PartState&, std::size_t, float*, std::size_t);
+using OfLayer = void (*)(const FiveNodes&, const PartState&, std::size_t, float*, std::size_t);
 
 /// The loops of one kind for every way of sliding.
 struct BySliding {
@@ -813,7 +822,7 @@ void over_layers(const BundlePointers& chain, const DeformationColumns& in, std:
       if (any_closed && shape.suits(sliding[layer]))
         closed_strains_of_layer(sliding[layer], chain, nodes->wire_radius, part, shape, here, to, stride);
       else
-        by(nodes->slide.sliding)(LayerNumbers(chain, nodes, at_rest), part, here, to, stride);
+        by(nodes->slide.sliding)(FiveNodes(chain, nodes, at_rest), part, here, to, stride);
     }
   }
 }
@@ -828,6 +837,46 @@ void layer_waves(const BundlePointers& chain, const DeformationColumns& in, std:
               is_thesis(chain)  ? strains_by_sliding<true, true>
               : chain.order > 0 ? strains_by_sliding<false, true>
                                 : strains_by_sliding<false, false>);
+}
+
+/// Strains of one node with one fibre. out: where fill_part() left its strain if it slides from afar.
+template <bool thesis, bool with_bend1>
+void strains_of_one(const BundlePointers& chain, const WireNode& of, const PartAtRest& at_rest,
+                    const PartState& part, std::size_t count, float* out) {
+  const LayerNumbers layer(of, at_rest);
+  const NodeNumbers number(of, at_rest);
+  const Sliding how = of.slide.sliding;
+  const Fibre& fibre = chain.fibres[0];
+  const double radius = fibre.on_axis ? 0 : of.wire_radius;
+  const auto by_bend1 = static_cast<float>(radius * fibre.phi_sine);
+  const auto by_bend2 = static_cast<float>(-radius * fibre.phi_cosine);
+  const auto factor_of_wall = static_cast<float>(of.strain_factor);
+  for (std::size_t t = 0; t < count; t += float_pack_size) {
+    const LayerAt<thesis, with_bend1> at(layer, part, t);
+    const NodeState node = at(number);
+    const FloatPack axial = how == Sliding::glued        ? node.strain
+                            : how == Sliding::over_pitch ? at.mean_strain_over_pitch()
+                                                         : load<FloatPack>(out + t);
+    const FloatPack factor = at.curvature_factor(how == Sliding::glued, axial, number, node);
+    FloatPack strain = axial * factor_of_wall + by_bend2 * (node.bend2 * factor - number.rest_bend2);
+    if constexpr (with_bend1) strain += by_bend1 * (node.bend1 * factor - number.rest_bend1);
+    store(strain, out + t);
+  }
+}
+
+void node_strains_in_single(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
+                            std::size_t count, float* out, std::size_t stride) {
+  const PartAtRest at_rest(chain, chain.step_count);
+  const auto strains = is_thesis(chain)  ? strains_of_one<true, true>
+                       : chain.order > 0 ? strains_of_one<false, true>
+                                         : strains_of_one<false, false>;
+  PartState part;
+  for (std::size_t done = 0; done < count; done += chunk) {
+    const std::size_t here = count - done < chunk ? count - done : chunk;
+    fill_part(chain, in, first + done, here, part, out + done, stride, 1);
+    for (int n = 0; n < chain.node_count; ++n)
+      strains(chain, chain.nodes[n], at_rest, part, here, out + n * stride + done);
+  }
 }
 
 void ingredient_waves(const BundlePointers& chain, const DeformationColumns& in, std::size_t first,
@@ -945,6 +994,7 @@ extern const Kernels set;
 const Kernels set{DRESSLIFE_MACHINE_NAME,
                   float_pack_size,
                   node_strains,
+                  node_strains_in_single,
                   layer_waves,
                   deviations,
                   part_states,

@@ -401,8 +401,8 @@ Dresspack laid_dresspack(double cable_lay_angle_deg, double rest_curvature) {
   return dresspack;
 }
 
-/// Largest difference of the waves of a bundle's layers from the strains of their nodes in double precision,
-/// over the largest strain. start: where the part's state comes from.
+/// Largest difference of the waves of a bundle's layers, and of its nodes one by one, from the strains of
+/// their nodes in double precision, over the largest strain. start: where the part's state comes from.
 enum class Start { dresspack, parent, parent_in_single };
 double error_of_waves(const Kernels& set, const Construction& construction, const std::vector<Slip>& slip,
                       int fibres, Start start) {
@@ -437,6 +437,9 @@ double error_of_waves(const Kernels& set, const Construction& construction, cons
     from.parent_rows = rows.data(), from.parent_stride = stride;
   }
   set.layer_waves(from, history.columns(0), 0, samples, waves.data(), stride);
+  std::vector<float> one_by_one(fibres == 1 ? strains.size() : 0);
+  if (fibres == 1)
+    set.node_strains_in_single(from, history.columns(0), 0, samples, one_by_one.data(), stride);
   double largest = 0, worst = 0;
   for (std::size_t row = 0; row < strains.size() / stride; ++row)
     for (std::size_t t = 0; t < samples; ++t) {
@@ -447,6 +450,8 @@ double error_of_waves(const Kernels& set, const Construction& construction, cons
                             wave[3 * stride] * std::sin(2 * turn) + wave[4 * stride] * std::cos(2 * turn);
       largest = std::max(largest, std::abs(strains[row * stride + t]));
       worst = std::max(worst, std::abs(strain - strains[row * stride + t]));
+      if (fibres == 1)
+        worst = std::max(worst, std::abs(one_by_one[row * stride + t] - strains[row * stride + t]));
     }
   return worst / largest;
 }
