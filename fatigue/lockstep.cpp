@@ -23,7 +23,7 @@ const Lockstep& lockstep_for(InstructionSet instructions) {
   if (instructions == InstructionSet::avx512) return avx512_lockstep::set;
   if (instructions == InstructionSet::avx2) return avx2_lockstep::set;
 #endif
-  assert(instructions == InstructionSet::baseline);
+  assert(instructions == InstructionSet::baseline || instructions == InstructionSet::sse4);
   return baseline_lockstep::set;
 }
 

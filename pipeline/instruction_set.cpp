@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <hwy/targets.h>
+#include <cstdint>
 #include <cstdlib>
 
 #include "pipeline/errors.h"
@@ -11,19 +13,18 @@ namespace dresslife::pipeline {
 std::vector<InstructionSet> instruction_sets() {
   std::vector<InstructionSet> sets{InstructionSet::baseline};
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (avx2) sets.push_back(InstructionSet::avx2);
-  if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512vbmi") &&
-      __builtin_cpu_supports("gfni"))
-    sets.push_back(InstructionSet::avx512);
+  const std::int64_t found = hwy::SupportedTargets();
+  if (found & HWY_SSE4) sets.push_back(InstructionSet::sse4);
+  if (found & HWY_AVX2) sets.push_back(InstructionSet::avx2);
+  if ((found & HWY_AVX3_DL) && __builtin_cpu_supports("gfni")) sets.push_back(InstructionSet::avx512);
 #endif
   return sets;
 }
 
 const char* name_of(InstructionSet set) {
   switch (set) {
+    case InstructionSet::sse4:
+      return "sse4";
     case InstructionSet::avx2:
       return "avx2";
     case InstructionSet::avx512:

@@ -8,8 +8,9 @@
 
 namespace dresslife::pipeline {
 
-/// baseline: whatever the build is for; avx512: with its byte permutations and GFNI.
-enum class InstructionSet { baseline, avx2, avx512 };
+/// baseline: whatever the build is for, number by number where that is plain x86-64; avx512: with its byte
+/// permutations and GFNI (Ice Lake, Zen 4 and later).
+enum class InstructionSet { baseline, sse4, avx2, avx512 };
 
 std::vector<InstructionSet> instruction_sets();  ///< all that this machine can run, plain one first
 const char* name_of(InstructionSet set);

@@ -13,6 +13,9 @@ namespace baseline_kernels {
 extern const Kernels set;
 }
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+namespace sse4_kernels {
+extern const Kernels set;
+}
 namespace avx2_kernels {
 extern const Kernels set;
 }
@@ -27,6 +30,7 @@ const Kernels& kernels_for(InstructionSet instructions) {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
   if (instructions == InstructionSet::avx512) return avx512_kernels::set;
   if (instructions == InstructionSet::avx2) return avx2_kernels::set;
+  if (instructions == InstructionSet::sse4) return sse4_kernels::set;
 #endif
   assert(instructions == InstructionSet::baseline);
   return baseline_kernels::set;

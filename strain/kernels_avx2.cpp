@@ -1,12 +1,11 @@
-// The hot loops for AVX2 with fused multiply-add (x86-64 since 2013).
+// The hot loops for AVX2.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define DRESSLIFE_MACHINE avx2
 #define DRESSLIFE_MACHINE_KERNELS avx2_kernels
 #define DRESSLIFE_MACHINE_NAME "avx2"
-#define DRESSLIFE_REGISTER_BYTES 32
+#define DRESSLIFE_TARGET HWY_AVX2
 
 // Everything from outside comes first: it must be compiled for any machine.
-#include <immintrin.h>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -17,9 +16,9 @@
 #include <vector>
 
 #include "pipeline/job.h"
+#include "pipeline/simd.h"
 
-#pragma GCC push_options
-#pragma GCC target("avx,avx2,fma,bmi,bmi2")
+DRESSLIFE_BEGIN_MACHINE
 #include "strain/kernels_body.h"
-#pragma GCC pop_options
+DRESSLIFE_END_MACHINE
 #endif

@@ -3,10 +3,9 @@
 #define DRESSLIFE_MACHINE avx512
 #define DRESSLIFE_MACHINE_KERNELS avx512_kernels
 #define DRESSLIFE_MACHINE_NAME "avx512"
-#define DRESSLIFE_REGISTER_BYTES 64
+#define DRESSLIFE_TARGET HWY_AVX3_DL
 
 // Everything from outside comes first: it must be compiled for any machine.
-#include <immintrin.h>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -17,9 +16,9 @@
 #include <vector>
 
 #include "pipeline/job.h"
+#include "pipeline/simd.h"
 
-#pragma GCC push_options
-#pragma GCC target("avx,avx2,fma,bmi,bmi2,avx512f,avx512vl,avx512bw,avx512dq,avx512cd,avx512vbmi,gfni,prefer-vector-width=512")
+DRESSLIFE_BEGIN_MACHINE
 #include "strain/kernels_body.h"
-#pragma GCC pop_options
+DRESSLIFE_END_MACHINE
 #endif

@@ -2,7 +2,9 @@
 #define DRESSLIFE_MACHINE baseline
 #define DRESSLIFE_MACHINE_KERNELS baseline_kernels
 #define DRESSLIFE_MACHINE_NAME "baseline"
-#define DRESSLIFE_REGISTER_BYTES 16
+#if defined(__x86_64__)
+#define DRESSLIFE_TARGET HWY_EMU128
+#endif
 
 // Everything from outside comes first: it must be compiled for any machine.
 #include <array>
@@ -15,5 +17,8 @@
 #include <vector>
 
 #include "pipeline/job.h"
+#include "pipeline/simd.h"
 
+DRESSLIFE_BEGIN_MACHINE
 #include "strain/kernels_body.h"
+DRESSLIFE_END_MACHINE

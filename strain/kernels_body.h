@@ -1,14 +1,15 @@
-// The hot loops, for one instruction set: included by kernels_*.cpp, each of which defines DRESSLIFE_MACHINE
-// and, in front of this file, the target. Needs every standard header it uses to be included before the
-// target is set.
-#include "strain/pack.h"
-// pack.h declares what the templates below are used with
+// The hot loops, for one instruction set: included by kernels_*.cpp, each of which names it (pipeline/simd.h). Needs
+// every standard header it uses to be included before.
+#include "pipeline/simd.h"
+// simd.h declares what the templates below are used with
 #include "strain/kernels.h"
 #include "strain/kernels_turning.h"
 
 namespace dresslife::strain {
 namespace DRESSLIFE_MACHINE_KERNELS {
 namespace {
+
+using namespace simd;
 
 // ---- strains of a bundle ----------------------------------------------------------------------------------
 
@@ -237,7 +238,7 @@ inline void put_part(const Rod<Pack>& rod, const PartAtRest& rest, int order, fl
   const Series<Pack>* const of[] = {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist};
   const double at_rest[] = {rest.stretch, rest.bend1, rest.bend2, rest.twist};
   const auto put = [&](int row, const Pack& value) {
-    store(__builtin_convertvector(value, HalfPack), rows + row * stride);
+    store(in_single(value), rows + row * stride);
   };
   for (int k = 0; k < 4; ++k) {
     put(part_stretch + k, of[k]->at[0]);
@@ -326,8 +327,7 @@ inline bool slides_from_afar(const SlidingNumbers& slide) {
 }
 
 inline FloatPack in_single(const double* from) {
-  return joined(__builtin_convertvector(load<Pack>(from), HalfPack),
-                __builtin_convertvector(load<Pack>(from + pack_size), HalfPack));
+  return joined(in_single(load<Pack>(from)), in_single(load<Pack>(from + pack_size)));
 }
 
 /// Where a node's strain waits in `out` if it slides from afar: where the first waves of its layer will be,
@@ -503,8 +503,7 @@ __attribute__((flatten)) void fill_part(const BundlePointers& chain, const Defor
     put_part(descent.rods[steps], rest, chain.order, state.rows[0] + t, chunk);
     for (int n = 0; any_from_afar && n < chain.node_count; ++n)
       if (const WireNode& node = chain.nodes[n]; slides_from_afar(node.slide))
-        store(__builtin_convertvector(free_strain(chain, descent, steps, node.place, node.slide, first + t),
-                                      HalfPack),
+        store(in_single(free_strain(chain, descent, steps, node.place, node.slide, first + t)),
               waiting_place(out, n, kinds, stride) + t);
   }
 }
@@ -973,17 +972,20 @@ StrainMeasures measures(const float* strain, std::size_t count) {
   std::size_t k = 1;
   for (; k + float_pack_size <= count; k += float_pack_size)
     take(load<FloatPack>(strain + k - 1), load<FloatPack>(strain + k));
-  for (; k < count; ++k) {  // one by one, in the first lane
-    FloatPack before = zero + strain[0], now = before;
-    before[0] = strain[k - 1];
-    now[0] = strain[k];
-    take(before, now);
+  float from[float_pack_size], to[float_pack_size];  // the rest, and moves from the first strain to itself
+  for (int lane = 0; lane < float_pack_size; ++lane, ++k) {
+    from[lane] = k < count ? strain[k - 1] : strain[0];
+    to[lane] = k < count ? strain[k] : strain[0];
   }
-  StrainMeasures of{low[0], high[0], 0};
+  take(load<FloatPack>(from), load<FloatPack>(to));
+
+  float lows[float_pack_size], highs[float_pack_size], sums[float_pack_size];
+  store(low, lows), store(high, highs), store(sum, sums);
+  StrainMeasures of{lows[0], highs[0], 0};
   for (int lane = 0; lane < float_pack_size; ++lane) {
-    of.lowest = low[lane] < of.lowest ? low[lane] : of.lowest;
-    of.highest = high[lane] > of.highest ? high[lane] : of.highest;
-    of.cycle_sum += sum[lane];
+    of.lowest = lows[lane] < of.lowest ? lows[lane] : of.lowest;
+    of.highest = highs[lane] > of.highest ? highs[lane] : of.highest;
+    of.cycle_sum += sums[lane];
   }
   return of;
 }

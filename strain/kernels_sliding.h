@@ -31,15 +31,9 @@ struct alignas(64) BendShape {
       most_square = larger(most_square, larger(square, -square));
       most_twisted = larger(most_twisted, larger(part(twist_change, t), -part(twist_change, t)));
     }
-    most_bend_squared = highest(most_bend);
-    most_square_stretch = highest(most_square);
-    most_twist = highest(most_twisted);
-  }
-
-  static float highest(const FloatPack& values) {
-    float most = values[0];
-    for (int k = 1; k < float_pack_size; ++k) most = values[k] > most ? values[k] : most;
-    return most;
+    most_bend_squared = largest_lane(most_bend);
+    most_square_stretch = largest_lane(most_square);
+    most_twist = largest_lane(most_twisted);
   }
 
   inline FloatPack operator()(Row row, std::size_t t) const { return load<FloatPack>(rows[row] + t); }

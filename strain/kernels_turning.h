@@ -14,13 +14,15 @@
 // From there on both are the same, so the second only has to run until then, for the peak before the fall.
 #pragma once
 
-#include "strain/pack.h"
-// pack.h declares what the templates below are used with
+#include "pipeline/simd.h"
+// simd.h declares what the templates below are used with
 #include "strain/kernels.h"
 
 namespace dresslife::strain {
 namespace DRESSLIFE_MACHINE_KERNELS {
 namespace {
+
+using namespace simd;
 
 /// Which sample of its word a single bit stands for; of no bit, any number.
 inline IntPack sample_of(const IntPack& bit) { return word - 1 - place_of(bit); }
@@ -311,7 +313,7 @@ inline __attribute__((always_inline)) void follow(const Strains& strains, One* s
     gate[k] = FloatPack{} + state.below_gate;
   }
   IntPack bit = IntPack{} + static_cast<std::int32_t>(first_of_word);
-  for (int t = 0; t < count; ++t, bit = shifted_right(bit, 1)) {
+  for (int t = 0; t < count; ++t, bit = shifted_right<1>(bit)) {
     strains.at(from + t, x);
 #pragma GCC unroll 4
     for (int k = 0; k < side; ++k) {
@@ -354,7 +356,7 @@ void scan_packs(const Strains& strains, const PackOf* packs, std::size_t count) 
 
 template <class Shape, class Source>
 void scan_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
-  constexpr int most = register_bytes == 64 ? 4 : 2;  // as many as there are registers for
+  constexpr int most = float_pack_size == 16 ? 4 : 2;  // as many as there are registers for
   for_packs<most, Shape, Source>(runs, run_count, [&](const auto& strains, const PackOf* packs) {
     scan_packs<Shape, Source>(strains, packs, count);
   });
