@@ -106,9 +106,9 @@ class Evaluation {
   /// measures. Which of them lives shortest depends on the material and the mean-stress correction.
   struct Seen;
   struct Worst {
-    enum By { range, size, tension, range_times_tension, cycles, measures };
+    enum By { range, size, tension, range_times_tension, cycles, yielding_cycles, measures };
     std::array<Site, measures> site;
-    std::array<float, measures> value{-1, -1, -1, -1, -1};
+    std::array<float, measures> value{-1, -1, -1, -1, -1, -1};
     void consider(const Seen& seen);
   };
   struct Seen {
