@@ -1,15 +1,14 @@
-// The loop of lockstep.h for AVX2 with fused multiply-add (x86-64 since 2013).
+// The loop of lockstep.h for AVX2.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define DRESSLIFE_MACHINE avx2_lockstep
-#define DRESSLIFE_REGISTER_BYTES 32
+#define DRESSLIFE_MACHINE avx2
+#define DRESSLIFE_LOCKSTEP avx2_lockstep
+#define DRESSLIFE_TARGET HWY_AVX2
 
 // Everything from outside comes first: it must be compiled for any machine.
-#include <immintrin.h>
-
 #include "fatigue/lockstep.h"
+#include "pipeline/simd.h"
 
-#pragma GCC push_options
-#pragma GCC target("avx,avx2,fma,bmi,bmi2")
+DRESSLIFE_BEGIN_MACHINE
 #include "fatigue/lockstep_body.h"
-#pragma GCC pop_options
+DRESSLIFE_END_MACHINE
 #endif

@@ -1,16 +1,14 @@
 // The loop of lockstep.h for AVX-512.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define DRESSLIFE_MACHINE avx512_lockstep
-#define DRESSLIFE_REGISTER_BYTES 64
+#define DRESSLIFE_MACHINE avx512
+#define DRESSLIFE_LOCKSTEP avx512_lockstep
+#define DRESSLIFE_TARGET HWY_AVX3_DL
 
 // Everything from outside comes first: it must be compiled for any machine.
-#include <immintrin.h>
-
 #include "fatigue/lockstep.h"
+#include "pipeline/simd.h"
 
-#pragma GCC push_options
-#pragma GCC target( \
-    "avx,avx2,fma,bmi,bmi2,avx512f,avx512vl,avx512bw,avx512dq,avx512cd,prefer-vector-width=512")
+DRESSLIFE_BEGIN_MACHINE
 #include "fatigue/lockstep_body.h"
-#pragma GCC pop_options
+DRESSLIFE_END_MACHINE
 #endif

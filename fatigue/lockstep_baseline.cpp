@@ -1,8 +1,14 @@
 // The loop of lockstep.h for the plain instruction set of the build: any machine of its kind.
-#define DRESSLIFE_MACHINE baseline_lockstep
-#define DRESSLIFE_REGISTER_BYTES 8
+#define DRESSLIFE_MACHINE baseline
+#define DRESSLIFE_LOCKSTEP baseline_lockstep
+#if defined(__x86_64__)
+#define DRESSLIFE_TARGET HWY_EMU128
+#endif
 
 // Everything from outside comes first: it must be compiled for any machine.
 #include "fatigue/lockstep.h"
+#include "pipeline/simd.h"
 
+DRESSLIFE_BEGIN_MACHINE
 #include "fatigue/lockstep_body.h"
+DRESSLIFE_END_MACHINE

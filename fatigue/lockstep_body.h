@@ -1,220 +1,27 @@
-// The loop of lockstep.h for one instruction set. Included once by each lockstep_*.cpp, which names the
-// instruction set and how wide its registers are.
+// The loop of lockstep.h for one instruction set. Included once by each lockstep_*.cpp, which names it
+// (pipeline/simd.h).
 #pragma once
 
-#ifndef DRESSLIFE_REGISTER_BYTES
-#error "lockstep_body.h belongs to the files that name their instruction set and how wide it is"
-#endif
+#include "fatigue/lockstep.h"
+#include "pipeline/simd.h"
 
-namespace dresslife::fatigue::DRESSLIFE_MACHINE {
+namespace dresslife::fatigue::DRESSLIFE_LOCKSTEP {
+
+using namespace simd;
 
 #define DRESSLIFE_INLINE __attribute__((always_inline)) inline
 
-// ---- numbers side by side: all that instruction sets do differently --------------------------------------
-
-constexpr std::size_t lanes = DRESSLIFE_REGISTER_BYTES / sizeof(double);
+constexpr std::size_t lanes = pack_size;
 constexpr unsigned all_lanes = (1u << lanes) - 1;
-
-template <class Vector, class Value>
-inline Vector load(const Value* from) {
-  Vector vector;
-  __builtin_memcpy(&vector, from, sizeof(vector));
-  return vector;
-}
-
-template <class Vector, class Value>
-inline void store(const Vector& vector, Value* to) {
-  __builtin_memcpy(to, &vector, sizeof(vector));
-}
-
-#if DRESSLIFE_REGISTER_BYTES == 64
-
-typedef double Pack __attribute__((vector_size(64)));
-typedef std::int64_t IntPack __attribute__((vector_size(64)));
-typedef std::uint64_t WordPack __attribute__((vector_size(64)));
-typedef __mmask8 Mask;
-inline Pack filled(double value) { return _mm512_set1_pd(value); }
-inline Mask at_least(const Pack& a, const Pack& b) { return _mm512_cmp_pd_mask(a, b, _CMP_GE_OQ); }
-inline Mask greater(const Pack& a, const Pack& b) { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }
-inline Mask equal(const IntPack& a, std::int64_t b) {
-  return _mm512_cmpeq_epi64_mask(reinterpret_cast<__m512i>(a), _mm512_set1_epi64(b));
-}
-inline unsigned bits(Mask mask) { return mask; }  ///< bit j: of lane j
-inline Pack select(Mask mask, const Pack& yes, const Pack& no) { return _mm512_mask_blend_pd(mask, no, yes); }
-inline IntPack two_less(Mask where, const IntPack& from) {
-  const __m512i a = reinterpret_cast<__m512i>(from);
-  return reinterpret_cast<IntPack>(_mm512_mask_sub_epi64(a, where, a, _mm512_set1_epi64(2)));
-}
-// Where a is no number, b:
-inline Pack larger(const Pack& a, const Pack& b) { return _mm512_max_pd(a, b); }
-inline Pack smaller(const Pack& a, const Pack& b) { return _mm512_min_pd(a, b); }
-inline Pack widened(const float* from) { return _mm512_cvtps_pd(_mm256_loadu_ps(from)); }
-
-typedef float FloatPack __attribute__((vector_size(64)));
-inline FloatPack filled_floats(float value) { return _mm512_set1_ps(value); }
-/// The first `count` of them, then zeros.
-inline FloatPack load_some(const float* from, std::size_t count) {
-  return _mm512_maskz_loadu_ps(count < 16 ? (1u << count) - 1 : 0xffff, from);
-}
-inline FloatPack size_of(const FloatPack& a) { return _mm512_abs_ps(a); }
-inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return _mm512_max_ps(a, b); }
-inline float largest_lane(const FloatPack& a) { return _mm512_reduce_max_ps(a); }
-inline unsigned equal(const FloatPack& a, const FloatPack& b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
-/// to[step * lanes + lane] = from[lane * stride + step] of `lanes` steps.
-inline void transpose(const float* from, std::size_t stride, float* to) {
-  const auto half = [&](std::size_t lane, std::size_t half_lane) {  // four steps of two lanes
-    const __m128 first = _mm_loadu_ps(from + lane * stride + half_lane);
-    const __m128 second = _mm_loadu_ps(from + (lane + 4) * stride + half_lane);
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(first), second, 1);
-  };
-  for (std::size_t step = 0; step < 8; step += 4) {
-    const __m256 a = half(0, step), b = half(1, step), c = half(2, step), d = half(3, step);
-    const __m256 ab01 = _mm256_unpacklo_ps(a, b), ab23 = _mm256_unpackhi_ps(a, b);
-    const __m256 cd01 = _mm256_unpacklo_ps(c, d), cd23 = _mm256_unpackhi_ps(c, d);
-    _mm256_storeu_ps(to + 8 * step, _mm256_shuffle_ps(ab01, cd01, 0x44));
-    _mm256_storeu_ps(to + 8 * step + 8, _mm256_shuffle_ps(ab01, cd01, 0xee));
-    _mm256_storeu_ps(to + 8 * step + 16, _mm256_shuffle_ps(ab23, cd23, 0x44));
-    _mm256_storeu_ps(to + 8 * step + 24, _mm256_shuffle_ps(ab23, cd23, 0xee));
-  }
-}
-
-#elif DRESSLIFE_REGISTER_BYTES == 32
-
-typedef double Pack __attribute__((vector_size(32)));
-typedef std::int64_t IntPack __attribute__((vector_size(32)));
-typedef std::uint64_t WordPack __attribute__((vector_size(32)));
-typedef IntPack Mask;
-inline Pack filled(double value) { return _mm256_set1_pd(value); }
-inline Mask at_least(const Pack& a, const Pack& b) { return a >= b; }
-inline Mask greater(const Pack& a, const Pack& b) { return a > b; }
-inline Mask equal(const IntPack& a, std::int64_t b) { return a == b; }
-inline unsigned bits(const Mask& mask) { return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)); }
-inline Pack select(const Mask& mask, const Pack& yes, const Pack& no) {
-  return _mm256_blendv_pd(no, yes, reinterpret_cast<__m256d>(mask));
-}
-inline IntPack two_less(const Mask& where, const IntPack& from) { return from + where + where; }
-inline Pack larger(const Pack& a, const Pack& b) { return _mm256_max_pd(a, b); }
-inline Pack smaller(const Pack& a, const Pack& b) { return _mm256_min_pd(a, b); }
-inline Pack widened(const float* from) { return _mm256_cvtps_pd(_mm_loadu_ps(from)); }
-
-typedef float FloatPack __attribute__((vector_size(32)));
-inline FloatPack filled_floats(float value) { return _mm256_set1_ps(value); }
-/// The first `count` of them, then zeros.
-inline FloatPack load_some(const float* from, std::size_t count) {
-  if (count >= 8) return _mm256_loadu_ps(from);
-  const __m256i place = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  return _mm256_maskload_ps(from, _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(count)), place));
-}
-inline FloatPack size_of(const FloatPack& a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
-inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return _mm256_max_ps(a, b); }
-inline float largest_lane(const FloatPack& a) {
-  const __m128 four = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
-  const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
-  return _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)));
-}
-inline unsigned equal(const FloatPack& a, const FloatPack& b) {
-  return _mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_EQ_OQ));
-}
-/// to[step * lanes + lane] = from[lane * stride + step] of `lanes` steps.
-inline void transpose(const float* from, std::size_t stride, float* to) {
-  __m128 a = _mm_loadu_ps(from), b = _mm_loadu_ps(from + stride);
-  __m128 c = _mm_loadu_ps(from + 2 * stride), d = _mm_loadu_ps(from + 3 * stride);
-  _MM_TRANSPOSE4_PS(a, b, c, d);
-  _mm_storeu_ps(to, a), _mm_storeu_ps(to + 4, b), _mm_storeu_ps(to + 8, c), _mm_storeu_ps(to + 12, d);
-}
-
-#else  // one lane: packs of two numbers gain nothing over the tables' look-ups
-
-typedef double Pack;
-typedef std::int64_t IntPack;
-typedef std::uint64_t WordPack;
-typedef bool Mask;
-inline Pack filled(double value) { return value; }
-inline Mask at_least(Pack a, Pack b) { return a >= b; }
-inline Mask greater(Pack a, Pack b) { return a > b; }
-inline Mask equal(IntPack a, IntPack b) { return a == b; }
-inline unsigned bits(Mask mask) { return mask; }
-inline Pack select(Mask mask, Pack yes, Pack no) { return mask ? yes : no; }
-inline IntPack two_less(Mask where, IntPack from) { return where ? from - 2 : from; }
-inline Pack larger(Pack a, Pack b) { return a > b ? a : b; }
-inline Pack smaller(Pack a, Pack b) { return a < b ? a : b; }
-inline Pack widened(const float* from) { return *from; }
-
-typedef float FloatPack __attribute__((vector_size(16)));
-inline FloatPack filled_floats(float value) { return FloatPack{value, value, value, value}; }
-/// The first `count` of them, then zeros.
-inline FloatPack load_some(const float* from, std::size_t count) {
-  if (count >= 4) return load<FloatPack>(from);
-  return FloatPack{count > 0 ? from[0] : 0, count > 1 ? from[1] : 0, count > 2 ? from[2] : 0, 0};
-}
-inline FloatPack size_of(const FloatPack& a) { return a < 0.0f ? -a : a; }
-inline FloatPack larger(const FloatPack& a, const FloatPack& b) { return a > b ? a : b; }
-inline float largest_lane(const FloatPack& a) {
-  const float first = a[0] > a[1] ? a[0] : a[1], second = a[2] > a[3] ? a[2] : a[3];
-  return first > second ? first : second;
-}
-inline unsigned equal(const FloatPack& a, const FloatPack& b) {
-  const auto same = a == b;
-  return (same[0] & 1) | (same[1] & 2) | (same[2] & 4) | (same[3] & 8);
-}
-inline void transpose(const float* from, std::size_t, float* to) { *to = *from; }
-
-#endif
-
-inline std::int64_t first_of(const IntPack& a) { return load<std::int64_t>(&a); }
 
 // ---- tables -----------------------------------------------------------------------------------------------
 
-struct Cubic {
-  Pack c0, c1, c2, c3;
-};
-
-/// Of each lane j the four numbers that lie offset[j] bytes on.
-inline Cubic gathered(const double* cells, const WordPack& offset) {
-#if DRESSLIFE_REGISTER_BYTES == 8
-  const double* const c = cells + offset / sizeof(double);
-  return {c[0], c[1], c[2], c[3]};
-#else
-  std::uint64_t at[lanes];
-  store(offset, at);
-  asm("" : "+m"(at));  // through memory: taking them out of the register costs twice as much
-  const auto cell = [&](std::size_t lane) { return cells + at[lane] / sizeof(double); };
-#endif
-#if DRESSLIFE_REGISTER_BYTES == 64
-  const auto two = [&](std::size_t lane) {
-    const __m256d first = _mm256_load_pd(cell(lane)), second = _mm256_load_pd(cell(lane + 4));
-    return _mm512_insertf64x4(_mm512_castpd256_pd512(first), second, 1);
-  };
-  const __m512d a = two(0), b = two(1), c = two(2), d = two(3);
-  const __m512d ab0 = _mm512_unpacklo_pd(a, b), ab1 = _mm512_unpackhi_pd(a, b);
-  const __m512d cd0 = _mm512_unpacklo_pd(c, d), cd1 = _mm512_unpackhi_pd(c, d);
-  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
-  const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
-  return {_mm512_permutex2var_pd(ab0, low, cd0), _mm512_permutex2var_pd(ab1, low, cd1),
-          _mm512_permutex2var_pd(ab0, high, cd0), _mm512_permutex2var_pd(ab1, high, cd1)};
-#elif DRESSLIFE_REGISTER_BYTES == 32
-  const __m256d a = _mm256_load_pd(cell(0)), b = _mm256_load_pd(cell(1));
-  const __m256d c = _mm256_load_pd(cell(2)), d = _mm256_load_pd(cell(3));
-  const __m256d ab0 = _mm256_unpacklo_pd(a, b), ab1 = _mm256_unpackhi_pd(a, b);
-  const __m256d cd0 = _mm256_unpacklo_pd(c, d), cd1 = _mm256_unpackhi_pd(c, d);
-  return {_mm256_permute2f128_pd(ab0, cd0, 0x20), _mm256_permute2f128_pd(ab1, cd1, 0x20),
-          _mm256_permute2f128_pd(ab0, cd0, 0x31), _mm256_permute2f128_pd(ab1, cd1, 0x31)};
-#endif
-}
-
 /// As LogTable. Precondition: x within the table.
 inline Pack looked_up(const LogTable::View& table, const Pack& x) {
-  constexpr std::uint64_t mantissa = (std::uint64_t{1} << 52) - 1, one = std::uint64_t{0x3ff} << 52;
-  constexpr int in_octave = LogTable::cells_per_octave_log2;
-  constexpr std::uint64_t cell_bytes = 4 * sizeof(double);
-  WordPack word;
-  __builtin_memcpy(&word, &x, sizeof(x));
-  const WordPack offset = (word >> (52 - in_octave)) * cell_bytes - table.first * cell_bytes;
-  const WordPack fraction = ((word << in_octave) & mantissa) | one;
-  Pack t;
-  __builtin_memcpy(&t, &fraction, sizeof(t));
-  t = t - 1.0;
-  const Cubic c = gathered(table.cells, offset);
+  constexpr int below = 52 - LogTable::cells_per_octave_log2;
+  const LongPack cell = leading_bits<below>(x) - LongPack(static_cast<std::int64_t>(table.first));
+  const Pack t = fraction_below<below>(x);
+  const Four c = gathered_fours(table.cells, shifted_left<2>(cell));
   return c.c0 + t * (c.c1 + t * (c.c2 + t * c.c3));
 }
 
@@ -228,14 +35,14 @@ inline bool beyond_table(const LockstepTables& tables, double range) {
 inline Pack branch(const LockstepTables& tables, const Pack& range) {
   const Pack straight = tables.elastic * range;
   if (tables.branch.cells == nullptr) return straight;
-  const Pack low = filled(tables.branch.low);
+  const Pack low = Pack(tables.branch.low);
   return select(greater(low, range), straight, looked_up(tables.branch, larger(range, low)));
 }
 
 inline Pack branch_one_by_one(const LockstepTables& tables, const Pack& range) {
   double ranges[lanes], stress[lanes];
   store(range, ranges);
-  store(branch(tables, tables.branch.cells ? smaller(range, filled(tables.branch.high)) : range), stress);
+  store(branch(tables, tables.branch.cells ? smaller(range, Pack(tables.branch.high)) : range), stress);
   for (std::size_t lane = 0; lane < lanes; ++lane)
     if (beyond_table(tables, ranges[lane])) stress[lane] = tables.far_branch(tables.material, ranges[lane]);
   return load<Pack>(stress);
@@ -247,17 +54,17 @@ struct Load {
 };
 
 /// Of the lanes in `closing`; of the others 0.
-inline Pack damage_of(const LockstepTables& tables, const Mask& closing, const Load& loop) {
+inline Pack damage_of(const LockstepTables& tables, const DoubleMask& closing, const Load& loop) {
   const LogTable::View& table = tables.damage;
-  const Pack low = filled(table.low), high = filled(table.high);
+  const Pack low = Pack(table.low), high = Pack(table.high);
   const Pack y = tables.times_stress_max ? loop.amplitude * loop.stress_max : loop.amplitude;
-  const Mask damaging = closing & at_least(y, low) & greater(loop.amplitude, filled(tables.endurance));
+  const DoubleMask damaging = closing & at_least(y, low) & greater(loop.amplitude, Pack(tables.endurance));
   if (bits(damaging) == 0) return Pack{};
   const Pack damage = looked_up(table, smaller(larger(y, low), high));
-  return select(damaging, select(at_least(y, high), filled(tables.damage_at_high), damage), Pack{});
+  return select(damaging, select(at_least(y, high), Pack(tables.damage_at_high), damage), Pack{});
 }
 
-inline Pack damage_one_by_one(const LockstepTables& tables, const Mask& closing, const Load& loop) {
+inline Pack damage_one_by_one(const LockstepTables& tables, const DoubleMask& closing, const Load& loop) {
   if (tables.damage_of == nullptr) return damage_of(tables, closing, loop);
   double amplitude[lanes], max[lanes], min[lanes], damage[lanes] = {};
   store(loop.amplitude, amplitude), store(loop.stress_max, max), store(loop.stress_min, min);
@@ -280,7 +87,7 @@ struct OpenRows {
     store(strains, strain + row * std::int64_t{lanes});
     store(stresses, stress + row * std::int64_t{lanes});
   }
-  void put_where(const Mask& where, std::int64_t row, const Pack& strains, const Pack& stresses) const {
+  void put_where(const DoubleMask& where, std::int64_t row, const Pack& strains, const Pack& stresses) const {
     put(row, select(where, strains, load<Pack>(strain + row * std::int64_t{lanes})),
         select(where, stresses, load<Pack>(stress + row * std::int64_t{lanes})));
   }
@@ -298,12 +105,12 @@ struct Top {
 };
 
 /// Top::of(), where lanes are at different rows.
-DRESSLIFE_INLINE void take_apart(const OpenRows& rows, const IntPack& depth, Top& top) {
+DRESSLIFE_INLINE void take_apart(const OpenRows& rows, const LongPack& depth, Top& top) {
   std::int64_t row[lanes];
   store(depth, row);
   for (unsigned left = all_lanes; left != 0;) {
     const std::int64_t of = row[__builtin_ctz(left)];
-    const Mask same = equal(depth, of);
+    const DoubleMask same = equal(depth, of);
     const Top there = Top::of(rows, of);
     top.strain = select(same, there.strain, top.strain);
     top.below = select(same, there.below, top.below);
@@ -313,13 +120,13 @@ DRESSLIFE_INLINE void take_apart(const OpenRows& rows, const IntPack& depth, Top
   }
 }
 
-DRESSLIFE_INLINE void put_apart(const OpenRows& rows, const IntPack& depth, const Pack& strain,
+DRESSLIFE_INLINE void put_apart(const OpenRows& rows, const LongPack& depth, const Pack& strain,
                                 const Pack& stress) {
   std::int64_t row[lanes];
   store(depth, row);
   for (unsigned left = all_lanes; left != 0;) {
     const std::int64_t of = row[__builtin_ctz(left)];
-    const Mask same = equal(depth, of);
+    const DoubleMask same = equal(depth, of);
     rows.put_where(same, of, strain, stress);
     left &= ~bits(same);
   }
@@ -337,7 +144,7 @@ class Loops {
       : tables_(tables), rows_(rows), mirrored_(greater(Pack{}, sign)) {
     const Pack first = branch_of(2 * largest) / 2;
     constexpr double more = 1 + 0x1p-52, smallest = 0x1p-1000;
-    rows_.put(-1, filled(__builtin_inf()), first);
+    rows_.put(-1, Pack(__builtin_inf()), first);
     rows_.put(0, -largest * more - smallest, -first);
     rows_.put(1, largest, first);
     top_ = Top::of(rows_, 1);
@@ -345,9 +152,9 @@ class Loops {
 
   template <bool falls>
   DRESSLIFE_INLINE void go_to(const Pack& next) {
-    amiss_ |= falls ? greater(next, top_.strain) : greater(top_.strain, next);
+    amiss_ = amiss_ | (falls ? greater(next, top_.strain) : greater(top_.strain, next));
     for (;;) {
-      const Mask closing = falls ? at_least(top_.below, next) : at_least(next, top_.below);
+      const DoubleMask closing = falls ? at_least(top_.below, next) : at_least(next, top_.below);
       if (bits(closing) == 0) break;
       close<falls>(closing);
     }
@@ -365,19 +172,19 @@ class Loops {
   DRESSLIFE_INLINE bool agree() const { return lanes == 1 || agree_; }
 
   template <bool falls>
-  DRESSLIFE_INLINE void close(const Mask& closing) {
+  DRESSLIFE_INLINE void close(const DoubleMask& closing) {
     const Pack amplitude = (falls ? top_.strain - top_.below : top_.below - top_.strain) * 0.5;
     const Pack peak = falls ? top_.stress : top_.stress_below,
                valley = falls ? top_.stress_below : top_.stress;
     const Load loop{amplitude, select(mirrored_, -valley, peak), select(mirrored_, -peak, valley)};
     sum_ += one_by_one ? damage_one_by_one(tables_, closing, loop) : damage_of(tables_, closing, loop);
-    depth_ = two_less(closing, depth_);
+    depth_ = select(closing, depth_ - 2, depth_);
     if (agree() && bits(closing) == all_lanes) {
       common_ -= 2;
       top_ = Top::of(rows_, common_);
     } else {
       take_apart(rows_, depth_, top_);
-      common_ = first_of(depth_);
+      common_ = first_lane(depth_);
       agree_ = bits(equal(depth_, common_)) == all_lanes;
     }
   }
@@ -397,13 +204,13 @@ class Loops {
 
   const LockstepTables tables_;
   const OpenRows rows_;
-  const Mask mirrored_;
+  const DoubleMask mirrored_;
   Top top_;
   Pack sum_{};
-  IntPack depth_ = IntPack{} + 1;
+  LongPack depth_ = 1;
   std::int64_t common_ = 1;  // depth of all lanes, where they agree
   bool agree_ = true;
-  Mask amiss_{};
+  DoubleMask amiss_{};
 };
 
 // ---- periods ----------------------------------------------------------------------------------------------
@@ -415,9 +222,9 @@ inline std::size_t largest_of(const StrainList& list) {
   const auto sizes_at = [&](std::size_t i) { return size_of(load_some(list.strain + i, list.size - i)); };
   FloatPack sizes = sizes_at(0);
   for (std::size_t i = float_lanes; i < list.size; i += float_lanes) sizes = larger(sizes, sizes_at(i));
-  const FloatPack largest = filled_floats(largest_lane(sizes));
+  const FloatPack largest = FloatPack(largest_lane(sizes));
   for (std::size_t i = 0; i < list.size; i += float_lanes)
-    if (const unsigned found = equal(sizes_at(i), largest)) return i + __builtin_ctz(found);
+    if (const unsigned found = bits(equal(sizes_at(i), largest))) return i + __builtin_ctz(found);
   return 0;
 }
 
@@ -442,7 +249,7 @@ inline Period rotated(const StrainList& list, float* to) {
   std::size_t steps = 0;
   const auto copy = [&](std::size_t from, std::size_t end) {
     for (std::size_t i = from; i < end; i += float_lanes)
-      store(filled_floats(sign) * load_some(h + i, end - i), to + steps + (i - from));
+      store(FloatPack(sign) * load_some(h + i, end - i), to + steps + (i - from));
     steps += end - from;
   };
   copy(at + 1, drop_b ? n - 1 : n);
@@ -483,8 +290,8 @@ unsigned sum_lanes(const LockstepTables& tables, const Periods& periods, unsigne
       transpose(periods.strains + first + i, periods.stride, rows + i * lanes);
     const std::size_t count = steps - first < steps_at_once ? steps - first : steps_at_once;
     for (std::size_t i = 0; i < count; i += 2) {
-      loops.template go_to<true>(widened(rows + i * lanes));
-      loops.template go_to<false>(widened(rows + (i + 1) * lanes));
+      loops.template go_to<true>(in_double(load<HalfPack>(rows + i * lanes)));
+      loops.template go_to<false>(in_double(load<HalfPack>(rows + (i + 1) * lanes)));
     }
   }
   double sums[lanes];
@@ -531,4 +338,4 @@ unsigned sum(const LockstepTables& tables, const StrainList* histories, std::siz
 extern const Lockstep set;
 const Lockstep set{lanes, lines, sum};
 
-}  // namespace dresslife::fatigue::DRESSLIFE_MACHINE
+}  // namespace dresslife::fatigue::DRESSLIFE_LOCKSTEP

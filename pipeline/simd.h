@@ -43,6 +43,7 @@ using DoubleTag = hn::ScalableTag<double>;
 using FloatTag = hn::ScalableTag<float>;
 using IntTag = hn::ScalableTag<std::int32_t>;
 using WordTag = hn::ScalableTag<std::uint32_t>;
+using LongTag = hn::ScalableTag<std::int64_t>;
 using HalfTag = hn::Rebind<float, DoubleTag>;
 
 constexpr int pack_size = static_cast<int>(hn::MaxLanes(DoubleTag()));
@@ -77,6 +78,7 @@ struct Vector {
 using Pack = Vector<DoubleTag>;
 using FloatPack = Vector<FloatTag>;
 using IntPack = Vector<IntTag>;
+using LongPack = Vector<LongTag>;  ///< beside a Pack
 using HalfPack = Vector<HalfTag>;  ///< a Pack in single precision
 
 template <class Pack_>
@@ -90,6 +92,19 @@ HWY_INLINE void store(const Vector<Tag>& pack, Value* to) {
   hn::StoreU(hn::BitCast(hn::Rebind<Value, Tag>(), pack.raw), hn::Rebind<Value, Tag>(), to);
 }
 
+/// The first `count` of them, then zeros.
+HWY_INLINE FloatPack load_some(const float* from, std::size_t count) {
+  if (count >= float_pack_size) return load<FloatPack>(from);
+#if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_AVX2
+  return hn::MaskedLoad(hn::FirstN(FloatTag(), count), FloatTag(), from);
+#else
+  float values[float_pack_size] = {};
+  for (std::size_t k = 0; k < count; ++k) values[k] = from[k];
+  return load<FloatPack>(values);
+#endif
+}
+
+HWY_INLINE Pack in_double(const HalfPack& pack) { return hn::PromoteTo(DoubleTag(), pack.raw); }
 HWY_INLINE HalfPack in_single(const Pack& pack) { return hn::DemoteTo(HalfTag(), pack.raw); }
 HWY_INLINE FloatPack joined(const HalfPack& first, const HalfPack& second) {
   return hn::Combine(FloatTag(), second.raw, first.raw);
@@ -98,31 +113,144 @@ HWY_INLINE FloatPack joined(const HalfPack& first, const HalfPack& second) {
 // ---- what comparisons give
 // ----------------------------------------------------------------------------------------
 
-struct Mask {
-  hn::Mask<FloatTag> raw;
-};
+template <class Tag>
+struct MaskOf {
+  hn::Mask<Tag> raw;
 
-HWY_INLINE Mask greater(const FloatPack& a, const FloatPack& b) { return {hn::Gt(a.raw, b.raw)}; }
+  friend HWY_INLINE MaskOf operator&(const MaskOf& a, const MaskOf& b) { return {hn::And(a.raw, b.raw)}; }
+  friend HWY_INLINE MaskOf operator|(const MaskOf& a, const MaskOf& b) { return {hn::Or(a.raw, b.raw)}; }
+};
+using Mask = MaskOf<FloatTag>;         ///< of a FloatPack or an IntPack
+using DoubleMask = MaskOf<DoubleTag>;  ///< of a Pack or a LongPack
+
+template <class Tag>
+HWY_INLINE MaskOf<Tag> greater(const Vector<Tag>& a, const Vector<Tag>& b) {
+  return {hn::Gt(a.raw, b.raw)};
+}
+template <class Tag>
+HWY_INLINE MaskOf<Tag> at_least(const Vector<Tag>& a, const Vector<Tag>& b) {
+  return {hn::Ge(a.raw, b.raw)};
+}
+template <class Tag>
+HWY_INLINE MaskOf<Tag> equal(const Vector<Tag>& a, const Vector<Tag>& b) {
+  return {hn::Eq(a.raw, b.raw)};
+}
+HWY_INLINE DoubleMask equal(const LongPack& a, std::int64_t b) {
+  return {hn::RebindMask(DoubleTag(), hn::Eq(a.raw, hn::Set(LongTag(), b)))};
+}
 HWY_INLINE Mask nonzero(const IntPack& a) {
   return {hn::RebindMask(FloatTag(), hn::Ne(a.raw, hn::Zero(IntTag())))};
 }
-HWY_INLINE FloatPack select(const Mask& mask, const FloatPack& yes, const FloatPack& no) {
+template <class Tag>
+HWY_INLINE Vector<Tag> select(const MaskOf<Tag>& mask, const Vector<Tag>& yes, const Vector<Tag>& no) {
   return hn::IfThenElse(mask.raw, yes.raw, no.raw);
 }
 HWY_INLINE IntPack select(const Mask& mask, const IntPack& yes, const IntPack& no) {
   return hn::IfThenElse(hn::RebindMask(IntTag(), mask.raw), yes.raw, no.raw);
 }
+HWY_INLINE LongPack select(const DoubleMask& mask, const LongPack& yes, const LongPack& no) {
+  return hn::IfThenElse(hn::RebindMask(LongTag(), mask.raw), yes.raw, no.raw);
+}
 /// Bit j: of lane j.
-HWY_INLINE unsigned bits(const Mask& mask) {
+template <class Tag>
+HWY_INLINE unsigned bits(const MaskOf<Tag>& mask) {
   std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(FloatTag(), mask.raw, bytes);
+  hn::StoreMaskBits(Tag(), mask.raw, bytes);
   std::uint32_t word;
   __builtin_memcpy(&word, bytes, sizeof(word));
-  return word & ((1u << float_pack_size) - 1);
+  return word & ((1u << hn::MaxLanes(Tag())) - 1);
 }
-HWY_INLINE FloatPack larger(const FloatPack& a, const FloatPack& b) { return hn::Max(a.raw, b.raw); }
-HWY_INLINE FloatPack smaller(const FloatPack& a, const FloatPack& b) { return hn::Min(a.raw, b.raw); }
+
+// Where a is no number, b:
+template <class Tag>
+HWY_INLINE Vector<Tag> larger(const Vector<Tag>& a, const Vector<Tag>& b) {
+  return HWY_ARCH_X86 ? hn::Max(a.raw, b.raw) : select(greater(a, b), a, b).raw;
+}
+template <class Tag>
+HWY_INLINE Vector<Tag> smaller(const Vector<Tag>& a, const Vector<Tag>& b) {
+  return HWY_ARCH_X86 ? hn::Min(a.raw, b.raw) : select(greater(b, a), a, b).raw;
+}
 HWY_INLINE float largest_lane(const FloatPack& a) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.raw)); }
+HWY_INLINE std::int64_t first_lane(const LongPack& a) { return hn::GetLane(a.raw); }
+HWY_INLINE FloatPack size_of(const FloatPack& a) { return hn::Abs(a.raw); }
+
+// ---- rows of memory turned into lanes
+// -----------------------------------------------------------------------------
+
+/// to[step * pack_size + lane] = from[lane * stride + step] of pack_size steps.
+HWY_INLINE void transpose(const float* from, std::size_t stride, float* to) {
+#if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_AVX2
+  const hn::CappedTag<float, 4> four;
+  for (std::size_t step = 0; step < pack_size; step += 4)
+    for (std::size_t lane = 0; lane < pack_size; lane += 4) {
+      const float* const at = from + lane * stride + step;
+      const auto a = hn::LoadU(four, at), b = hn::LoadU(four, at + stride);
+      const auto c = hn::LoadU(four, at + 2 * stride), d = hn::LoadU(four, at + 3 * stride);
+      const auto ab01 = hn::InterleaveLower(four, a, b), ab23 = hn::InterleaveUpper(four, a, b);
+      const auto cd01 = hn::InterleaveLower(four, c, d), cd23 = hn::InterleaveUpper(four, c, d);
+      float* const out = to + step * pack_size + lane;
+      hn::StoreU(hn::ConcatLowerLower(four, cd01, ab01), four, out);
+      hn::StoreU(hn::ConcatUpperUpper(four, cd01, ab01), four, out + pack_size);
+      hn::StoreU(hn::ConcatLowerLower(four, cd23, ab23), four, out + 2 * pack_size);
+      hn::StoreU(hn::ConcatUpperUpper(four, cd23, ab23), four, out + 3 * pack_size);
+    }
+#else
+  for (std::size_t step = 0; step < pack_size; ++step)
+    for (std::size_t lane = 0; lane < pack_size; ++lane)
+      to[step * pack_size + lane] = from[lane * stride + step];
+#endif
+}
+
+struct Four {
+  Pack c0, c1, c2, c3;
+};
+
+/// Of each lane the four numbers that begin at cells[offset], offset a multiple of four.
+HWY_INLINE Four gathered_fours(const double* cells, const LongPack& offset) {
+  alignas(64) std::int64_t at[pack_size];
+  store(offset, at);
+  asm("" : "+m"(at));  // through memory: taking them out of the register costs twice as much
+#if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_AVX2
+  const hn::CappedTag<double, 4> four;
+  const DoubleTag all;
+  const auto rows_of = [&](int lane) HWY_ATTR {
+#if HWY_TARGET == HWY_AVX3_DL
+    return hn::Combine(all, hn::Load(four, cells + at[lane + 4]), hn::Load(four, cells + at[lane]));
+#else
+    return hn::Load(four, cells + at[lane]);
+#endif
+  };
+  const auto a = rows_of(0), b = rows_of(1), c = rows_of(2), d = rows_of(3);
+  const auto ab0 = hn::InterleaveLower(all, a, b), ab1 = hn::InterleaveUpper(all, a, b);
+  const auto cd0 = hn::InterleaveLower(all, c, d), cd1 = hn::InterleaveUpper(all, c, d);
+  return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd0), ab0),
+          hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd1), ab1),
+          hn::OddEvenBlocks(cd0, hn::SwapAdjacentBlocks(ab0)),
+          hn::OddEvenBlocks(cd1, hn::SwapAdjacentBlocks(ab1))};
+#else
+  double rows[4][pack_size];
+  for (int lane = 0; lane < pack_size; ++lane)
+    for (int k = 0; k < 4; ++k) rows[k][lane] = cells[at[lane] + k];
+  return {load<Pack>(rows[0]), load<Pack>(rows[1]), load<Pack>(rows[2]), load<Pack>(rows[3])};
+#endif
+}
+
+/// The bits of x from `by` on as a number, and those below as a fraction of 1: what a table in octaves goes
+/// by.
+template <int by>
+HWY_INLINE LongPack leading_bits(const Pack& x) {
+  const hn::ScalableTag<std::uint64_t> words;
+  return hn::BitCast(LongTag(), hn::ShiftRight<by>(hn::BitCast(words, x.raw)));
+}
+template <int by>
+HWY_INLINE Pack fraction_below(const Pack& x) {
+  constexpr int mantissa = 52;
+  const hn::ScalableTag<std::uint64_t> words;
+  const auto shifted = hn::ShiftLeft<mantissa - by>(hn::BitCast(words, x.raw));
+  const auto one = hn::BitCast(words, hn::Set(DoubleTag(), 1.0));
+  const auto number = hn::Or(hn::And(shifted, hn::Set(words, (std::uint64_t{1} << mantissa) - 1)), one);
+  return hn::Sub(hn::BitCast(DoubleTag(), number), hn::Set(DoubleTag(), 1.0));
+}
 
 // ---- words of bits, one a lane
 // ------------------------------------------------------------------------------------
@@ -130,6 +258,11 @@ HWY_INLINE float largest_lane(const FloatPack& a) { return hn::GetLane(hn::MaxOf
 template <int by>
 HWY_INLINE IntPack shifted_right(const IntPack& word) {
   return hn::BitCast(IntTag(), hn::ShiftRight<by>(hn::BitCast(WordTag(), word.raw)));
+}
+
+template <int by>
+HWY_INLINE LongPack shifted_left(const LongPack& number) {
+  return hn::ShiftLeft<by>(number.raw);
 }
 
 /// The number of the one bit that is set; of a word without any, any number.

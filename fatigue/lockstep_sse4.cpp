@@ -1,0 +1,14 @@
+// The loop of lockstep.h for SSE4.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define DRESSLIFE_MACHINE sse4
+#define DRESSLIFE_LOCKSTEP sse4_lockstep
+#define DRESSLIFE_TARGET HWY_SSE4
+
+// Everything from outside comes first: it must be compiled for any machine.
+#include "fatigue/lockstep.h"
+#include "pipeline/simd.h"
+
+DRESSLIFE_BEGIN_MACHINE
+#include "fatigue/lockstep_body.h"
+DRESSLIFE_END_MACHINE
+#endif
