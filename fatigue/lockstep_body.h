@@ -87,9 +87,11 @@ struct OpenRows {
     store(strains, strain + row * std::int64_t{lanes});
     store(stresses, stress + row * std::int64_t{lanes});
   }
-  void put_where(const DoubleMask& where, std::int64_t row, const Pack& strains, const Pack& stresses) const {
-    put(row, select(where, strains, load<Pack>(strain + row * std::int64_t{lanes})),
-        select(where, stresses, load<Pack>(stress + row * std::int64_t{lanes})));
+  /// Where lanes are at different rows. No branch: which are where is hard to foretell.
+  void put_apart(const LongPack& row, const Pack& strains, const Pack& stresses) const {
+    const LongPack place = places(row);
+    scattered(strains, strain, place);
+    scattered(stresses, stress, place);
   }
 };
 
@@ -102,35 +104,12 @@ struct Top {
     const double* const s = rows.stress + row * std::int64_t{lanes};
     return {load<Pack>(e), load<Pack>(e - lanes), load<Pack>(s), load<Pack>(s - lanes)};
   }
+  static Top apart(const OpenRows& rows, const LongPack& row) {
+    const LongPack place = places(row);
+    return {gathered(rows.strain, place), gathered(rows.strain - lanes, place), gathered(rows.stress, place),
+            gathered(rows.stress - lanes, place)};
+  }
 };
-
-/// Top::of(), where lanes are at different rows.
-DRESSLIFE_INLINE void take_apart(const OpenRows& rows, const LongPack& depth, Top& top) {
-  std::int64_t row[lanes];
-  store(depth, row);
-  for (unsigned left = all_lanes; left != 0;) {
-    const std::int64_t of = row[__builtin_ctz(left)];
-    const DoubleMask same = equal(depth, of);
-    const Top there = Top::of(rows, of);
-    top.strain = select(same, there.strain, top.strain);
-    top.below = select(same, there.below, top.below);
-    top.stress = select(same, there.stress, top.stress);
-    top.stress_below = select(same, there.stress_below, top.stress_below);
-    left &= ~bits(same);
-  }
-}
-
-DRESSLIFE_INLINE void put_apart(const OpenRows& rows, const LongPack& depth, const Pack& strain,
-                                const Pack& stress) {
-  std::int64_t row[lanes];
-  store(depth, row);
-  for (unsigned left = all_lanes; left != 0;) {
-    const std::int64_t of = row[__builtin_ctz(left)];
-    const DoubleMask same = equal(depth, of);
-    rows.put_where(same, of, strain, stress);
-    left &= ~bits(same);
-  }
-}
 
 /// Goes through one period of a history in each lane, which starts and ends with its largest strain L >= 0;
 /// where that was compression the lane is mirrored. Row 0 holds the mirrored tip of the outermost loop, -L on
@@ -183,7 +162,7 @@ class Loops {
       common_ -= 2;
       top_ = Top::of(rows_, common_);
     } else {
-      take_apart(rows_, depth_, top_);
+      top_ = Top::apart(rows_, depth_);
       common_ = first_lane(depth_);
       agree_ = bits(equal(depth_, common_)) == all_lanes;
     }
@@ -198,7 +177,7 @@ class Loops {
     if (agree()) {
       rows_.put(common_, top_.strain, top_.stress);
     } else {
-      put_apart(rows_, depth_, top_.strain, top_.stress);
+      rows_.put_apart(depth_, top_.strain, top_.stress);
     }
   }
 
