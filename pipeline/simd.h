@@ -171,6 +171,7 @@ HWY_INLINE Vector<Tag> smaller(const Vector<Tag>& a, const Vector<Tag>& b) {
   return HWY_ARCH_X86 ? hn::Min(a.raw, b.raw) : select(greater(b, a), a, b).raw;
 }
 HWY_INLINE float largest_lane(const FloatPack& a) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.raw)); }
+HWY_INLINE float sum_of_lanes(const FloatPack& a) { return hn::GetLane(hn::SumOfLanes(FloatTag(), a.raw)); }
 HWY_INLINE std::int64_t first_lane(const LongPack& a) { return hn::GetLane(a.raw); }
 HWY_INLINE FloatPack size_of(const FloatPack& a) { return hn::Abs(a.raw); }
 

@@ -144,7 +144,7 @@ double Construction::phase(int layer, int number, int parent, double arc) const 
     const Part& in = parts_[parent];
     phase += pi - this->phase(in.layer, in.number, in.parent, arc);
   }
-  return std::remainder(phase, 2 * pi);
+  return phase - 2 * pi * std::nearbyint(phase / (2 * pi));
 }
 
 Placement Construction::placement(int layer, int number, int parent, double arc, double turn,

@@ -1,5 +1,5 @@
-// The hot loops, for one instruction set: included by kernels_*.cpp, each of which names it (pipeline/simd.h). Needs
-// every standard header it uses to be included before.
+// The hot loops, for one instruction set: included by kernels_*.cpp, each of which names it
+// (pipeline/simd.h). Needs every standard header it uses to be included before.
 #include "pipeline/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/kernels.h"
@@ -237,9 +237,7 @@ inline void put_part(const Rod<Pack>& rod, const PartAtRest& rest, int order, fl
                      std::size_t stride) {
   const Series<Pack>* const of[] = {&rod.stretch, &rod.bend1, &rod.bend2, &rod.twist};
   const double at_rest[] = {rest.stretch, rest.bend1, rest.bend2, rest.twist};
-  const auto put = [&](int row, const Pack& value) {
-    store(in_single(value), rows + row * stride);
-  };
+  const auto put = [&](int row, const Pack& value) { store(in_single(value), rows + row * stride); };
   for (int k = 0; k < 4; ++k) {
     put(part_stretch + k, of[k]->at[0]);
     put(stretch_change + k, of[k]->at[0] - at_rest[k]);
@@ -972,22 +970,22 @@ StrainMeasures measures(const float* strain, std::size_t count) {
   std::size_t k = 1;
   for (; k + float_pack_size <= count; k += float_pack_size)
     take(load<FloatPack>(strain + k - 1), load<FloatPack>(strain + k));
-  float from[float_pack_size], to[float_pack_size];  // the rest, and moves from the first strain to itself
-  for (int lane = 0; lane < float_pack_size; ++lane, ++k) {
-    from[lane] = k < count ? strain[k - 1] : strain[0];
-    to[lane] = k < count ? strain[k] : strain[0];
+  if (k < count && count > float_pack_size) {  // the rest, behind some that were taken: those stand still
+    float lane[float_pack_size];
+    for (int j = 0; j < float_pack_size; ++j) lane[j] = static_cast<float>(j);
+    const auto taken = static_cast<float>(float_pack_size - (count - k));
+    const float* const last = strain + count - float_pack_size;
+    const FloatPack now = load<FloatPack>(last);
+    take(select(greater(FloatPack(taken), load<FloatPack>(lane)), now, load<FloatPack>(last - 1)), now);
+  } else if (k < count) {  // few in all, and moves from the first strain to itself
+    float from[float_pack_size], to[float_pack_size];
+    for (int lane = 0; lane < float_pack_size; ++lane, ++k) {
+      from[lane] = k < count ? strain[k - 1] : strain[0];
+      to[lane] = k < count ? strain[k] : strain[0];
+    }
+    take(load<FloatPack>(from), load<FloatPack>(to));
   }
-  take(load<FloatPack>(from), load<FloatPack>(to));
-
-  float lows[float_pack_size], highs[float_pack_size], sums[float_pack_size];
-  store(low, lows), store(high, highs), store(sum, sums);
-  StrainMeasures of{lows[0], highs[0], 0};
-  for (int lane = 0; lane < float_pack_size; ++lane) {
-    of.lowest = lows[lane] < of.lowest ? lows[lane] : of.lowest;
-    of.highest = highs[lane] > of.highest ? highs[lane] : of.highest;
-    of.cycle_sum += sums[lane];
-  }
-  return of;
+  return {-largest_lane(-low), largest_lane(high), sum_of_lanes(sum)};
 }
 
 }  // namespace

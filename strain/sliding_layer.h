@@ -23,8 +23,8 @@ namespace dresslife::strain {
 
 /// Up to here the closed forms differ from the exact harmonics by less than 1e-6 of the layer's largest
 /// strain; beyond, five nodes do (W13).
-constexpr float most_bend_squared = 0.01F;    ///< of k
-constexpr float most_square_stretch = 0.06F;  ///< of the change of D over its value at rest
+constexpr float most_bend_squared = 0.01F;     ///< of k
+constexpr float most_square_stretch = 0.065F;  ///< of the change of D over its value at rest
 
 struct SlidingLayer {
   bool closed = false;  ///< whether the numbers below hold
