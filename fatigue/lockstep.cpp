@@ -10,9 +10,6 @@ namespace baseline_lockstep {
 extern const Lockstep set;
 }
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-namespace sse4_lockstep {
-extern const Lockstep set;
-}
 namespace avx2_lockstep {
 extern const Lockstep set;
 }
@@ -25,9 +22,8 @@ const Lockstep& lockstep_for(InstructionSet instructions) {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
   if (instructions == InstructionSet::avx512) return avx512_lockstep::set;
   if (instructions == InstructionSet::avx2) return avx2_lockstep::set;
-  if (instructions == InstructionSet::sse4) return sse4_lockstep::set;
 #endif
-  assert(instructions == InstructionSet::baseline);
+  assert(instructions == InstructionSet::baseline || instructions == InstructionSet::sse4);
   return baseline_lockstep::set;
 }
 

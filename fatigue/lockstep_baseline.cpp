@@ -1,9 +1,7 @@
 // The loop of lockstep.h for the plain instruction set of the build: any machine of its kind.
 #define DRESSLIFE_MACHINE baseline
 #define DRESSLIFE_LOCKSTEP baseline_lockstep
-#if defined(__x86_64__)
-#define DRESSLIFE_TARGET HWY_EMU128
-#endif
+#define DRESSLIFE_TARGET HWY_SCALAR  // two lanes gain less than their look-ups in tables cost
 
 // Everything from outside comes first: it must be compiled for any machine.
 #include "fatigue/lockstep.h"

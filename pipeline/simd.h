@@ -106,9 +106,11 @@ HWY_INLINE FloatPack load_some(const float* from, std::size_t count) {
 
 HWY_INLINE Pack in_double(const HalfPack& pack) { return hn::PromoteTo(DoubleTag(), pack.raw); }
 HWY_INLINE HalfPack in_single(const Pack& pack) { return hn::DemoteTo(HalfTag(), pack.raw); }
+#if HWY_TARGET != HWY_SCALAR
 HWY_INLINE FloatPack joined(const HalfPack& first, const HalfPack& second) {
   return hn::Combine(FloatTag(), second.raw, first.raw);
 }
+#endif
 
 // ---- what comparisons give
 // ----------------------------------------------------------------------------------------
@@ -156,6 +158,7 @@ template <class Tag>
 HWY_INLINE unsigned bits(const MaskOf<Tag>& mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(Tag(), mask.raw, bytes);
+  if constexpr (hn::MaxLanes(Tag()) <= 8) return bytes[0] & ((1u << hn::MaxLanes(Tag())) - 1);
   std::uint32_t word;
   __builtin_memcpy(&word, bytes, sizeof(word));
   return word & ((1u << hn::MaxLanes(Tag())) - 1);
@@ -232,6 +235,10 @@ struct Four {
 
 /// Of each lane the four numbers that begin at cells[offset], offset a multiple of four.
 HWY_INLINE Four gathered_fours(const double* cells, const LongPack& offset) {
+#if HWY_TARGET == HWY_SCALAR
+  const double* const cell = cells + first_lane(offset);
+  return {cell[0], cell[1], cell[2], cell[3]};
+#else
   alignas(64) std::int64_t at[pack_size];
   store(offset, at);
   asm("" : "+m"(at));  // through memory: taking them out of the register costs twice as much
@@ -259,6 +266,7 @@ HWY_INLINE Four gathered_fours(const double* cells, const LongPack& offset) {
   const auto b01 = hn::LoadU(all, cells + at[1]), b23 = hn::LoadU(all, cells + at[1] + 2);
   return {hn::InterleaveLower(all, a01, b01), hn::InterleaveUpper(all, a01, b01),
           hn::InterleaveLower(all, a23, b23), hn::InterleaveUpper(all, a23, b23)};
+#endif
 #endif
 }
 
