@@ -112,8 +112,7 @@ HWY_INLINE FloatPack joined(const HalfPack& first, const HalfPack& second) {
 }
 #endif
 
-// ---- what comparisons give
-// ----------------------------------------------------------------------------------------
+// ---- what comparisons give -------------------------------------------------------------------------------
 
 template <class Tag>
 struct MaskOf {
@@ -178,8 +177,7 @@ HWY_INLINE float sum_of_lanes(const FloatPack& a) { return hn::GetLane(hn::SumOf
 HWY_INLINE std::int64_t first_lane(const LongPack& a) { return hn::GetLane(a.raw); }
 HWY_INLINE FloatPack size_of(const FloatPack& a) { return hn::Abs(a.raw); }
 
-// ---- rows of memory turned into lanes
-// -----------------------------------------------------------------------------
+// ---- rows of memory turned into lanes --------------------------------------------------------------------
 
 /// to[step * pack_size + lane] = from[lane * stride + step] of pack_size steps.
 HWY_INLINE void transpose(const float* from, std::size_t stride, float* to) {
@@ -287,8 +285,7 @@ HWY_INLINE Pack fraction_below(const Pack& x) {
   return hn::Sub(hn::BitCast(DoubleTag(), number), hn::Set(DoubleTag(), 1.0));
 }
 
-// ---- words of bits, one a lane
-// ------------------------------------------------------------------------------------
+// ---- words of bits, one a lane ---------------------------------------------------------------------------
 
 template <int by>
 HWY_INLINE IntPack shifted_right(const IntPack& word) {
@@ -356,8 +353,7 @@ class WordRecord {
 #endif
 };
 
-// ---- roots and quotients, to a few units of the last place
-// --------------------------------------------------------
+// ---- roots and quotients, to a few units of the last place -----------------------------------------------
 
 HWY_INLINE Pack square_root(const Pack& x) { return hn::Sqrt(x.raw); }
 HWY_INLINE FloatPack square_root(const FloatPack& x) { return hn::Sqrt(x.raw); }

@@ -51,8 +51,7 @@ struct Corner {
   double after() const { return out * duration / 2; }
 };
 
-// ---- speeds at the corners (M4), (M5)
-// ----------------------------------------------------------------------
+// ---- speeds at the corners (M4), (M5) --------------------------------------------------------------------
 
 class CornerSpeeds {
  public:
@@ -137,8 +136,7 @@ class CornerSpeeds {
   Corner still_;
 };
 
-// ---- legs into pieces
-// --------------------------------------------------------------------------------------
+// ---- legs into pieces ------------------------------------------------------------------------------------
 
 class Pieces {
  public:

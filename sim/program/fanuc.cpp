@@ -149,8 +149,7 @@ class Run {
   long executed_ = 0;
 };
 
-// ---- values
-// -------------------------------------------------------------------------------------------------
+// ---- values ----------------------------------------------------------------------------------------------
 
 Number Run::value(FanucCursor& at, int depth) {
   if (depth > ImportLimits::nesting) return {};
@@ -264,8 +263,7 @@ std::optional<bool> Run::condition(FanucCursor& at, int depth) {
   }
 }
 
-// ---- statements
-// ---------------------------------------------------------------------------------------------
+// ---- statements ------------------------------------------------------------------------------------------
 
 std::optional<bool> Run::assumed() const {
   const pipeline::Where at = where();
@@ -462,8 +460,7 @@ void Run::assign_position(FanucCursor& at) {
     position_registers_.erase(number);
 }
 
-// ---- branches and loops
-// -------------------------------------------------------------------------------------
+// ---- branches and loops ----------------------------------------------------------------------------------
 
 /// Index of the statement that closes (or, with `middle`, parts) the block whose inside begins at `from`.
 std::size_t Run::matching(std::size_t from, const char* opening, const char* middle,
@@ -626,8 +623,7 @@ void Run::end_for() {
     routine().loops.pop_back();
 }
 
-// ---- moves
-// --------------------------------------------------------------------------------------------------
+// ---- moves -----------------------------------------------------------------------------------------------
 
 /// P[3:name] or PR[4], also as an operand of an assignment. Absent: not there or not known.
 std::optional<FanucPosition> Run::position(FanucCursor& at) {
