@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "pipeline/job/job.h"
+
 namespace dresslife::fatigue {
 namespace {
 

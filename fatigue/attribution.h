@@ -24,7 +24,11 @@
 #include <vector>
 
 #include "fatigue/damage.h"
-#include "pipeline/job.h"
+#include "pipeline/job/routing.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
 
 namespace dresslife::fatigue {
 

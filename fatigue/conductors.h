@@ -8,7 +8,7 @@
 #include "fatigue/scatter.h"
 #include "fatigue/strain_file.h"
 #include "fatigue/verdict.h"
-#include "pipeline/job.h"
+#include "pipeline/job/fatigue.h"
 
 namespace dresslife::fatigue {
 

@@ -11,11 +11,12 @@
 #include <span>
 #include <vector>
 
-#include "fatigue/lockstep.h"
+#include "fatigue/kernels/lockstep.h"
 #include "fatigue/rainflow.h"
 #include "fatigue/strain_life.h"
 #include "pipeline/instruction_set.h"
-#include "pipeline/job.h"
+#include "pipeline/job/fatigue.h"
+#include "pipeline/job/material.h"
 
 namespace dresslife::fatigue {
 

@@ -12,7 +12,8 @@
 #include "fatigue/planes.h"
 #include "fatigue/stress_path.h"
 #include "fatigue/verdict.h"
-#include "pipeline/motion_layout.h"
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job.h"
 #include "pipeline/readable.h"
 #include "pipeline/threads.h"
 

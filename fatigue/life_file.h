@@ -1,12 +1,16 @@
-// strain.h5 in, life.h5 out: reads, evaluates and writes what pipeline/formats.cpp lists for dresslife-life.
+// strain.h5 in, life.h5 out: reads, evaluates and writes what pipeline/files/formats.cpp lists for
+// dresslife-life.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "pipeline/files.h"
-#include "pipeline/job.h"
+#include "pipeline/files/files.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
 
 namespace dresslife::fatigue {
 

@@ -1,5 +1,6 @@
 // dresslife-fatigue: strain.h5 in, life.h5 out.
 #include "fatigue/life_file.h"
+#include "pipeline/job/job.h"
 #include "pipeline/stage.h"
 #include "pipeline/threads.h"
 

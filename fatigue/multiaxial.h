@@ -16,7 +16,8 @@
 #include <vector>
 
 #include "fatigue/damage.h"
-#include "pipeline/job.h"
+#include "pipeline/job/fatigue.h"
+#include "pipeline/job/material.h"
 
 namespace dresslife::fatigue {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "pipeline/job/job.h"
 #include "pipeline/threads.h"
 
 namespace dresslife::fatigue {

@@ -15,8 +15,11 @@
 #include "fatigue/multiaxial.h"
 #include "fatigue/strain_file.h"
 #include "fatigue/verdict.h"
-#include "pipeline/files.h"
-#include "pipeline/job.h"
+#include "pipeline/files/files.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
 
 namespace dresslife::fatigue {
 

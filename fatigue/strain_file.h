@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fatigue/rainflow.h"
-#include "pipeline/files.h"
+#include "pipeline/files/files.h"
 
 namespace dresslife::fatigue {
 

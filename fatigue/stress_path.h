@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job.h"
+#include "pipeline/job/fatigue.h"
+#include "pipeline/job/material.h"
 
 namespace dresslife::fatigue {
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "pipeline/job/job.h"
 #include "pipeline/threads.h"
 
 namespace dresslife::fatigue {

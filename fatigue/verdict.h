@@ -10,7 +10,13 @@
 
 #include "fatigue/damage.h"
 #include "fatigue/strain_file.h"
-#include "pipeline/job.h"
+#include "pipeline/job/dresspack.h"
+#include "pipeline/job/material.h"
+#include "pipeline/job/strain.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
 
 namespace dresslife::fatigue {
 

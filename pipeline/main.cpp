@@ -10,12 +10,12 @@
 #include <map>
 #include <thread>
 
-#include "pipeline/build_graph.h"
 #include "pipeline/progress.h"
-#include "pipeline/ranking.h"
-#include "pipeline/report.h"
+#include "pipeline/report/report.h"
 #include "pipeline/stage.h"
-#include "pipeline/study.h"
+#include "pipeline/study/build_graph.h"
+#include "pipeline/study/ranking.h"
+#include "pipeline/study/study.h"
 
 using namespace dresslife::pipeline;
 namespace fs = std::filesystem;

@@ -3,7 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "pipeline/digest.h"
+#include "pipeline/files/digest.h"
+#include "pipeline/job/job.h"
 #include "pipeline/threads.h"
 
 namespace dresslife::pipeline {

@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/files.h"
-#include "pipeline/job.h"
+#include "pipeline/files/files.h"
 #include "pipeline/progress.h"
 
 namespace dresslife::pipeline {
+
+struct Job;
+enum class Part;
 
 /// An option of one stage only; it may be given several times.
 struct StageOption {

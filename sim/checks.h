@@ -11,9 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/job/dresspack.h"
 #include "sim/clamp_path.h"
-#include "sim/contact.h"
-#include "sim/rod.h"
+#include "sim/contact/contact.h"
+#include "sim/rod/rod.h"
 
 namespace dresslife::sim {
 

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "pipeline/job/job.h"
 #include "sim/program/import.h"
 
 namespace dresslife::sim {

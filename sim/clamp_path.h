@@ -17,12 +17,18 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job.h"
-#include "sim/contact.h"
-#include "sim/motion.h"
-#include "sim/robot.h"
-#include "sim/rod.h"
-#include "sim/spline.h"
+#include "pipeline/job/motion.h"
+#include "pipeline/job/robot.h"
+#include "pipeline/job/routing.h"
+#include "sim/contact/contact.h"
+#include "sim/robot/motion.h"
+#include "sim/robot/robot.h"
+#include "sim/robot/spline.h"
+#include "sim/rod/rod.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
 
 namespace dresslife::sim {
 

@@ -4,9 +4,9 @@
 #include <cassert>
 #include <cmath>
 
-#include "sim/block_tridiagonal.h"
-#include "sim/link.h"
-#include "sim/start_curve.h"
+#include "sim/rod/block_tridiagonal.h"
+#include "sim/rod/link.h"
+#include "sim/rod/start_curve.h"
 
 namespace dresslife::sim {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <span>
 
-#include "sim/rod.h"
-#include "sim/world.h"
+#include "sim/contact/world.h"
+#include "sim/rod/rod.h"
 
 namespace dresslife::sim {
 

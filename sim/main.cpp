@@ -1,6 +1,7 @@
 // dresslife-sim: a job in, motion.h5 out.
 #include <optional>
 
+#include "pipeline/job/job.h"
 #include "pipeline/stage.h"
 #include "sim/motion_file.h"
 #include "sim/simulate.h"

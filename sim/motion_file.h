@@ -1,10 +1,10 @@
-// Samples of a run into motion.h5 (the format's table is in pipeline/formats.cpp).
+// Samples of a run into motion.h5 (the format's table is in pipeline/files/formats.cpp).
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "pipeline/files.h"
+#include "pipeline/files/files.h"
 #include "sim/simulate.h"
 
 namespace dresslife::sim {

@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/job/job.h"
+#include "sim/contact/self_contact.h"
 #include "sim/equilibrium.h"
 #include "sim/routing.h"
-#include "sim/self_contact.h"
 
 namespace dresslife::sim {
 namespace {
@@ -58,7 +59,8 @@ void add_shapes(World& world, int link, const Shapes& shapes) {
     std::vector<Triangle> triangles = read_triangles(file.file);
     for (Triangle& triangle : triangles)
       for (Vector3& corner : triangle) corner *= file.scale;
-    world.add(link, std::make_shared<const Mesh>(std::move(triangles)), frame_of(file.position, file.orientation));
+    world.add(link, std::make_shared<const Mesh>(std::move(triangles)),
+              frame_of(file.position, file.orientation));
   }
 }
 

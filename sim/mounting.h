@@ -11,10 +11,13 @@
 
 #include <memory>
 
-#include "pipeline/job.h"
 #include "sim/clamp_path.h"
-#include "sim/rod.h"
-#include "sim/world.h"
+#include "sim/contact/world.h"
+#include "sim/rod/rod.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
 
 namespace dresslife::sim {
 

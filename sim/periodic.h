@@ -7,16 +7,17 @@
 // as far apart as the largest of
 //   |x - x'| + (d/2) |log(q^-1 q')| + tau |v - v'|
 // over the segments: how far a point of the hose's surface has moved, and by how much a sway of period 2 pi
-// tau will move it. tau = 0.1 s: slower sways differ less in speed than in place. A retraction unit counts with
-// the difference of its travel in the same way.
+// tau will move it. tau = 0.1 s: slower sways differ less in speed than in place. A retraction unit counts
+// with the difference of its travel in the same way.
 #pragma once
 
 #include "sim/clamp_path.h"
-#include "sim/rod.h"
+#include "sim/rod/rod.h"
 
 namespace dresslife::sim {
 
-/// Largest distance (R8) over the segments and retraction units [m]. Precondition: both states are of this rod.
+/// Largest distance (R8) over the segments and retraction units [m]. Precondition: both states are of this
+/// rod.
 double state_distance(const Rod& rod, const RodState& a, const RodState& b);
 
 /// Whether the path ends where it begins, so that it can be repeated: joints within 1e-6 rad, or, where there

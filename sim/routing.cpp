@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/job/job.h"
+
 namespace dresslife::sim {
 namespace {
 

@@ -4,8 +4,12 @@
 // L, the span from s_a to s_b has round(n s_b/L) - round(n s_a/L) segments, at least fewest_segments.
 #pragma once
 
-#include "pipeline/job.h"
-#include "sim/rod.h"
+#include "pipeline/job/routing.h"
+#include "sim/rod/rod.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
 
 namespace dresslife::sim {
 

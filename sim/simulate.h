@@ -2,9 +2,8 @@
 //
 // (R6) From rest in its mounting (mounting.h), time goes on in steps h, clamps and links follow the motion,
 // and every 1/(rate h)-th state is a sample: t = k/rate, k = 0, 1, ... until the motion has ended. A motion
-// that returns is repeated until two successive repeats begin alike (R8, periodic.h); the last one counts, the
-// first only leads in.
-// Memory does not grow with the motion's length.
+// that returns is repeated until two successive repeats begin alike (R8, periodic.h); the last one counts,
+// the first only leads in. Memory does not grow with the motion's length.
 #pragma once
 
 #include <functional>
@@ -12,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job.h"
+#include "pipeline/job/job.h"
 #include "sim/checks.h"
 #include "sim/clamp_path.h"
+#include "sim/contact/touch.h"
+#include "sim/contact/world.h"
 #include "sim/step_choice.h"
-#include "sim/touch.h"
-#include "sim/world.h"
 
 namespace dresslife::sim {
 

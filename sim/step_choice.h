@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "sim/clamp_path.h"
-#include "sim/world.h"
+#include "sim/contact/world.h"
 
 namespace dresslife::sim {
 

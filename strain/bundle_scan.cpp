@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "strain/lane_groups.h"
+#include "strain/kernels/lane_groups.h"
 
 namespace dresslife::strain {
 namespace {
@@ -26,25 +26,25 @@ double rest_ingredient(const WireNode& node, const Fibre* fibre) {
   return fibre_strain(node.rest.bend1, node.rest.bend2, node.wire_radius, fibre->phi_sine, fibre->phi_cosine);
 }
 
-void PartStates::fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples,
+void PartStates::fill(const BundleNesting& nesting, const DeformationColumns& columns, std::size_t samples,
                       bool in_double) {
   stride_ = padded(samples);
   single_.resize(part_rows * stride_);
-  const ChainStep& last = chain.steps.back();
-  const bool from_dresspack = chain.steps.size() == 1 && single_suffices(last, nullptr, 0, 0);
+  const NestingLevel& last = nesting.steps.back();
+  const bool from_dresspack = nesting.steps.size() == 1 && single_suffices(last, nullptr, 0, 0);
   in_double_ = in_double || !from_dresspack;
   if (from_dresspack)  // the same numbers whatever else is wanted
-    kernels().part_rows_of_dresspack(pointers(chain), columns, 0, samples, single_.data(), stride_);
+    kernels().part_rows_of_dresspack(pointers(nesting), columns, 0, samples, single_.data(), stride_);
   if (!in_double_) return;
-  rows_.resize(part_state_rows(chain.order) * stride_);
-  kernels().part_states(pointers(chain), columns, 0, samples, rows_.data(),
+  rows_.resize(part_state_rows(nesting.order) * stride_);
+  kernels().part_states(pointers(nesting), columns, 0, samples, rows_.data(),
                         from_dresspack ? nullptr : single_.data(), stride_);
 }
 
-void PartStates::lend(BundlePointers& chain) const {
-  chain.parent = in_double_ ? rows_.data() : nullptr;
-  chain.parent_rows = single_.data();
-  chain.parent_stride = stride_;
+void PartStates::lend(BundlePointers& nesting) const {
+  nesting.parent = in_double_ ? rows_.data() : nullptr;
+  nesting.parent_rows = single_.data();
+  nesting.parent_stride = stride_;
 }
 
 MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
@@ -99,14 +99,14 @@ void BundleScan::list_groups(const std::vector<int>& layers) {
 }
 
 /// Bundles of the same layers, one after the other, keep their groups.
-void BundleScan::start(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
-                       bool mixed) {
+void BundleScan::start(const Bundle& bundle, const std::vector<LayerSlip>& plan,
+                       const BundlePointers& nesting, bool mixed) {
   if (bundle.wire_layers != layers_) list_groups(bundle.wire_layers);
   for (TurningList& list : lists_) list.clear();
   for (Group& group : groups_) {
     for (LaneScan& scan : group.scans) scan.restart();
     if (mixed)
-      group.mixed = mixed_lanes(chain.nodes + group.layer * waves_per_layer, chain.fibres,
+      group.mixed = mixed_lanes(nesting.nodes + group.layer * waves_per_layer, nesting.fibres,
                                 plan[bundle.wire_layers[group.layer]], group.angles);
   }
 }
@@ -154,15 +154,15 @@ void BundleScan::scan_mixed(std::size_t count, Wanted wanted) {
   }
 }
 
-void BundleScan::run_blocks(const BundlePointers& chain, bool mixed, Wanted wanted,
+void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted,
                             const DeformationColumns& columns, std::size_t samples) {
-  const std::size_t layers = chain.node_count / waves_per_layer;
+  const std::size_t layers = nesting.node_count / waves_per_layer;
   const int kinds = mixed ? ingredients(settings_.fibre_count) : settings_.fibre_count;
   waves_.resize(layers * kinds * waves_per_layer * block_samples);
   for (std::size_t first = 0; first < samples; first += block_samples) {
     const std::size_t count = std::min(block_samples, samples - first);
     const auto fill = mixed ? kernels().ingredient_waves : kernels().layer_waves;
-    fill(chain, columns, first, count, waves_.data(), block_samples);
+    fill(nesting, columns, first, count, waves_.data(), block_samples);
     if (mixed)
       scan_mixed(count, wanted);
     else
@@ -171,25 +171,25 @@ void BundleScan::run_blocks(const BundlePointers& chain, bool mixed, Wanted want
 }
 
 void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan,
-                         const BundlePointers& chain, bool mixed, const DeformationColumns& columns,
+                         const BundlePointers& nesting, bool mixed, const DeformationColumns& columns,
                          std::size_t samples, Wanted wanted) {
-  start(bundle, plan, chain, mixed);
+  start(bundle, plan, nesting, mixed);
   const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
                                    [&](int layer) { return plan[layer].friction; });
-  if (settles) run_blocks(chain, mixed, Wanted::nothing, columns, samples);
-  run_blocks(chain, mixed, wanted, columns, samples);
+  if (settles) run_blocks(nesting, mixed, Wanted::nothing, columns, samples);
+  run_blocks(nesting, mixed, wanted, columns, samples);
 }
 
-void BundleScan::run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+void BundleScan::run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
                      bool mixed, const DeformationColumns& columns, std::size_t samples) {
-  run_all(bundle, plan, chain, mixed, columns, samples, Wanted::turns);
+  run_all(bundle, plan, nesting, mixed, columns, samples, Wanted::turns);
   for (Group& group : groups_)
     for (int f = 0; f < settings_.fibre_count; ++f) group.scans[f].finish(lists_of(group, f));
 }
 
-void BundleScan::rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+void BundleScan::rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
                       bool mixed, const DeformationColumns& columns, std::size_t samples) {
-  run_all(bundle, plan, chain, mixed, columns, samples, Wanted::ranks);
+  run_all(bundle, plan, nesting, mixed, columns, samples, Wanted::ranks);
 }
 
 void BundleScan::for_each_site(

@@ -25,11 +25,12 @@ double rest_ingredient(const WireNode& node, const Fibre* fibre);
 /// The state of a part over the motion, from which its own parts go on: worked out once for all of them.
 class PartStates {
  public:
-  /// chain: down to the part, its order that of its parts plus one. in_double: whether that is wanted too.
-  void fill(const BundleChain& chain, const DeformationColumns& columns, std::size_t samples, bool in_double);
+  /// nesting: down to the part, its order that of its parts plus one. in_double: whether that is wanted too.
+  void fill(const BundleNesting& nesting, const DeformationColumns& columns, std::size_t samples,
+            bool in_double);
   bool in_double() const { return in_double_; }
-  /// To the chain of one of its parts.
-  void lend(BundlePointers& chain) const;
+  /// To the nesting of one of its parts.
+  void lend(BundlePointers& nesting) const;
 
  private:
   std::vector<double> rows_;
@@ -44,16 +45,16 @@ class BundleScan {
   BundleScan(const Construction& construction, const ScanSettings& settings)
       : construction_(construction), settings_(settings) {}
 
-  /// chain: with the nodes of the bundle's layers. mixed: strains are put together wire by wire.
-  void run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain, bool mixed,
-           const DeformationColumns& columns, std::size_t samples);
+  /// nesting: with the nodes of the bundle's layers. mixed: strains are put together wire by wire.
+  void run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
+           bool mixed, const DeformationColumns& columns, std::size_t samples);
   /// After run(): calls found(wire, fibre, points) for every site, wire by wire; wires count through the
   /// bundle.
   void for_each_site(const std::function<void(std::size_t, int, std::span<const TurningPoint>)>& found) const;
 
   /// The same without turning points.
-  void rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain, bool mixed,
-            const DeformationColumns& columns, std::size_t samples);
+  void rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
+            bool mixed, const DeformationColumns& columns, std::size_t samples);
   /// After rank().
   void for_each_rank(const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const;
 
@@ -73,16 +74,16 @@ class BundleScan {
   };
 
   void list_groups(const std::vector<int>& layers);
-  void start(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+  void start(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
              bool mixed);
   MixedLanes mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
                          const std::vector<double>& angles) const;
   std::span<TurningList> lists_of(const Group& group, int fibre);
   /// What is wanted of the samples: nothing, while friction settles, turning points, or ranks.
   enum class Wanted { nothing, turns, ranks };
-  void run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& chain,
+  void run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
                bool mixed, const DeformationColumns& columns, std::size_t samples, Wanted wanted);
-  void run_blocks(const BundlePointers& chain, bool mixed, Wanted wanted, const DeformationColumns& columns,
+  void run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted, const DeformationColumns& columns,
                   std::size_t samples);
   /// The next `count` samples of all groups, from the waves of the block.
   void scan_waves(std::size_t count, Wanted wanted);

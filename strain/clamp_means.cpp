@@ -51,11 +51,11 @@ void ClampMeans::list_group(int parent) {
   if (members.empty()) return;
   for (std::size_t segment = 0; segment < lengths_.size(); ++segment) {
     const double arc = arcs_[segment];
-    BundleChain chain = chain_to(construction_, plan_, parent, arc, surface_fibres(0));
+    BundleNesting nesting = nesting_to(construction_, plan_, parent, arc, surface_fibres(0));
     for (const Member& member : members)
-      chain.nodes.push_back(
-          node_at(construction_, plan_, chain, member.layer, member.number, parent, arc, member.turn));
-    group.chains.push_back(std::move(chain));
+      nesting.nodes.push_back(
+          node_at(construction_, plan_, nesting, member.layer, member.number, parent, arc, member.turn));
+    group.nestings.push_back(std::move(nesting));
   }
   groups_.push_back(std::move(group));
 }
@@ -67,11 +67,11 @@ void ClampMeans::add(const DeformationHistory& block) {
     const std::size_t nodes = group.rows.size();
     std::vector<double> path(nodes * stride, 0.0), rest(nodes, 0.0);
     for (std::size_t segment = 0; segment < lengths_.size(); ++segment) {
-      BundleChain& chain = group.chains[segment];
-      attach(chain, group.parent, next_);
-      kernels().add_path_rates(pointers(chain), block.columns(segment), 0, count, lengths_[segment],
+      BundleNesting& nesting = group.nestings[segment];
+      attach(nesting, group.parent, next_);
+      kernels().add_path_rates(pointers(nesting), block.columns(segment), 0, count, lengths_[segment],
                                path.data(), stride);
-      for (std::size_t n = 0; n < nodes; ++n) rest[n] += lengths_[segment] * chain.nodes[n].rest_rate;
+      for (std::size_t n = 0; n < nodes; ++n) rest[n] += lengths_[segment] * nesting.nodes[n].rest_rate;
     }
     for (std::size_t n = 0; n < nodes; ++n)
       for (std::size_t t = 0; t < count; ++t)
@@ -118,11 +118,11 @@ ClampMeans::ClampMeans(const ClampMeans& whole, std::size_t every)
   }
 }
 
-void ClampMeans::attach(BundleChain& chain, int part, std::size_t first) const {
+void ClampMeans::attach(BundleNesting& nesting, int part, std::size_t first) const {
   const std::vector<int> line = construction_.ancestry(part);
   for (std::size_t k = 0; k < line.size(); ++k)
-    if (chain.steps[k].slide.sliding == Sliding::clamp_to_clamp)
-      chain.steps[k].slide.clamp_strain = of_part(line[k]) + first;
+    if (nesting.steps[k].slide.sliding == Sliding::clamp_to_clamp)
+      nesting.steps[k].slide.clamp_strain = of_part(line[k]) + first;
 }
 
 }  // namespace dresslife::strain

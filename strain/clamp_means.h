@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "strain/chain.h"
 #include "strain/history.h"
+#include "strain/nesting.h"
 
 namespace dresslife::strain {
 
@@ -34,14 +34,14 @@ class ClampMeans {
   /// The same at every `every`-th sample, to read only.
   ClampMeans thinned(std::size_t every) const { return {*this, every}; }
 
-  /// Gives each sliding step of `chain` its strains, from sample `first` on.
-  void attach(BundleChain& chain, int part, std::size_t first = 0) const;
+  /// Gives each sliding step of `nesting` its strains, from sample `first` on.
+  void attach(BundleNesting& nesting, int part, std::size_t first = 0) const;
 
  private:
   struct Group {  ///< what slides in one parent
     int parent;
-    std::vector<BundleChain> chains;  ///< one per segment, nodes: the sliding components
-    std::vector<std::size_t> rows;    ///< of strain_, one per node
+    std::vector<BundleNesting> nestings;  ///< one per segment, nodes: the sliding components
+    std::vector<std::size_t> rows;        ///< of strain_, one per node
   };
 
   ClampMeans(const ClampMeans& whole, std::size_t every);

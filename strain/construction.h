@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job.h"
+#include "pipeline/job/dresspack.h"
+#include "pipeline/job/strain.h"
 #include "strain/helix.h"
 
 namespace dresslife::strain {

@@ -21,7 +21,7 @@
 // see the factor, with either sign.
 #pragma once
 
-#include "pipeline/job.h"
+#include "pipeline/job/dresspack.h"
 
 namespace dresslife::strain {
 

@@ -30,7 +30,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/job.h"
+#include "pipeline/job/strain.h"
 
 namespace dresslife::strain {
 
@@ -51,8 +51,8 @@ struct ChainPose {
 
 class DeformationGauge {
  public:
-  /// lengths: rest length of each segment [m]. free_end: where the tool end is free, the rotation rates of the
-  /// unloaded dresspack about d1, d2, d3, which it has there [1/m].
+  /// lengths: rest length of each segment [m]. free_end: where the tool end is free, the rotation rates of
+  /// the unloaded dresspack about d1, d2, d3, which it has there [1/m].
   DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure,
                    std::optional<Eigen::Vector3d> free_end = {});
 

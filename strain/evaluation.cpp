@@ -149,51 +149,51 @@ bool Evaluation::mixed(const ClampMeans& means) const {
                                          [](const LayerSlip& slip) { return slip.friction; });
 }
 
-BundleChain Evaluation::part_chain(int part, std::size_t segment, const ClampMeans& means,
-                                   const std::vector<Fibre>& fibres, Worker& worker) const {
-  BundleChain chain = chain_to(construction_, means.plan(), part, arcs_[segment], fibres);
-  means.attach(chain, part);
-  if (&means == &means_) worker.held.attach(chain, part);
-  return chain;
+BundleNesting Evaluation::part_nesting(int part, std::size_t segment, const ClampMeans& means,
+                                       const std::vector<Fibre>& fibres, Worker& worker) const {
+  BundleNesting nesting = nesting_to(construction_, means.plan(), part, arcs_[segment], fibres);
+  means.attach(nesting, part);
+  if (&means == &means_) worker.held.attach(nesting, part);
+  return nesting;
 }
 
-BundleChain Evaluation::layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
-                                    Worker& worker) const {
-  BundleChain chain = part_chain(bundle.part, segment, means, fibres_, worker);
-  chain.nodes.reserve(waves_per_layer * bundle.wire_layers.size());
+BundleNesting Evaluation::layer_nesting(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
+                                        Worker& worker) const {
+  BundleNesting nesting = part_nesting(bundle.part, segment, means, fibres_, worker);
+  nesting.nodes.reserve(waves_per_layer * bundle.wire_layers.size());
   for (const int layer : bundle.wire_layers) {
-    add_wire_layer(construction_, means.plan(), chain, layer, bundle.part, arcs_[segment]);
-    WireNode* const nodes = &chain.nodes[chain.nodes.size() - waves_per_layer];
+    add_wire_layer(construction_, means.plan(), nesting, layer, bundle.part, arcs_[segment]);
+    WireNode* const nodes = &nesting.nodes[nesting.nodes.size() - waves_per_layer];
     for (int node = 0; node < waves_per_layer; ++node)
       if (nodes[node].slide.sliding == Sliding::clamp_to_clamp)
         nodes[node].slide.clamp_strain = means.of_node(bundle.part, layer, node);
   }
-  return chain;
+  return nesting;
 }
 
-/// Whether every part that is moved on along its pitch in this chain lies in the chain's last part's parent
-/// or below.
-bool parent_suffices(const BundleChain& chain) {
-  const int steps = static_cast<int>(chain.steps.size());
+/// Whether every part that is moved on along its pitch in this nesting lies in the nesting's last part's
+/// parent or below.
+bool parent_suffices(const BundleNesting& nesting) {
+  const int steps = static_cast<int>(nesting.steps.size());
   auto reaches_above = [&](const SlidingNumbers& slide) {
     return slide.sliding == Sliding::along_ancestor && slide.helical_level < steps;
   };
-  return steps > 0 && !reaches_above(chain.steps.back().slide) &&
-         std::none_of(chain.nodes.begin(), chain.nodes.end(),
+  return steps > 0 && !reaches_above(nesting.steps.back().slide) &&
+         std::none_of(nesting.nodes.begin(), nesting.nodes.end(),
                       [&](const WireNode& node) { return reaches_above(node.slide); });
 }
 
-BundlePointers Evaluation::from_parent(const BundleChain& chain, int part, std::size_t segment,
+BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, std::size_t segment,
                                        const ClampMeans& means, const DeformationHistory& history,
                                        std::size_t row, Worker& worker) const {
-  BundlePointers from = pointers(chain);
+  BundlePointers from = pointers(nesting);
   const int parent = part == dresspack_itself ? dresspack_itself : construction_.parts()[part].parent;
-  if (parent == dresspack_itself || !parent_suffices(chain)) return from;
-  const std::pair wanted{parent, chain.order + 1};
-  const bool in_double = !single_suffices(chain.steps.back(), from.nodes, from.node_count, chain.order);
+  if (parent == dresspack_itself || !parent_suffices(nesting)) return from;
+  const std::pair wanted{parent, nesting.order + 1};
+  const bool in_double = !single_suffices(nesting.steps.back(), from.nodes, from.node_count, nesting.order);
   if (worker.parent_is != wanted || (in_double && !worker.parent.in_double())) {
-    BundleChain to_parent = part_chain(parent, segment, means, fibres_, worker);
-    to_parent.order = chain.order + 1;
+    BundleNesting to_parent = part_nesting(parent, segment, means, fibres_, worker);
+    to_parent.order = nesting.order + 1;
     worker.parent.fill(to_parent, history.columns(row), history.samples(), in_double);
     worker.parent_is = wanted;
   }
@@ -205,8 +205,8 @@ void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMean
                              const DeformationHistory& history, std::size_t row, bool with_rows,
                              Worker& worker, BundleSites& out) const {
   const Bundle& bundle = construction_.bundles()[b];
-  const BundleChain chain = layer_chain(bundle, segment, means, worker);
-  const BundlePointers from = from_parent(chain, bundle.part, segment, means, history, row, worker);
+  const BundleNesting nesting = layer_nesting(bundle, segment, means, worker);
+  const BundlePointers from = from_parent(nesting, bundle.part, segment, means, history, row, worker);
   out.rows.clear();
   out.seen.clear();
   const auto site_of = [&](std::size_t wire, int fibre) { return Site{first_wire_[b] + wire, fibre}; };
@@ -243,21 +243,22 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
       [&](std::size_t b) { use(found_[b % ahead]); });
 }
 
-BundleChain Evaluation::site_chain(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                                   std::vector<std::vector<double>>& sliding, Worker& worker) const {
+BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t segment,
+                                       const ClampMeans& means, std::vector<std::vector<double>>& sliding,
+                                       Worker& worker) const {
   const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
-  BundleChain chain = part_chain(part, segment, means, {fibres_[sites[0].fibre]}, worker);
+  BundleNesting nesting = part_nesting(part, segment, means, {fibres_[sites[0].fibre]}, worker);
   sliding.resize(sites.size());
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const Wire& wire = wires_[sites[k].wire];
-    WireNode& node = chain.nodes.emplace_back(
-        node_at(construction_, means.plan(), chain, wire.layer, wire.number, part, arcs_[segment], 0));
+    WireNode& node = nesting.nodes.emplace_back(
+        node_at(construction_, means.plan(), nesting, wire.layer, wire.number, part, arcs_[segment], 0));
     if (node.slide.sliding != Sliding::clamp_to_clamp) continue;
     sliding[k] = means.at_angle(part, wire.layer,
                                 2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
     node.slide.clamp_strain = sliding[k].data();
   }
-  return chain;
+  return nesting;
 }
 
 std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> sites, std::size_t segment,
@@ -277,9 +278,9 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
     return histories;
   }
   std::vector<std::vector<double>> sliding;
-  const BundleChain chain = site_chain(sites, segment, means, sliding, worker);
+  const BundleNesting nesting = site_nesting(sites, segment, means, sliding, worker);
   std::vector<double> strain(sites.size() * stride);
-  kernels().node_strains(pointers(chain), history.columns(row), 0, samples, strain.data(), stride);
+  kernels().node_strains(pointers(nesting), history.columns(row), 0, samples, strain.data(), stride);
   for (auto from = strain.begin(); from != strain.end(); from += stride)
     histories.emplace_back(from, from + samples);
   return histories;
@@ -299,9 +300,9 @@ void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, co
     return;
   }
   std::vector<std::vector<double>> sliding;
-  const BundleChain chain = site_chain(sites, segment, means, sliding, worker);
+  const BundleNesting nesting = site_nesting(sites, segment, means, sliding, worker);
   const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
-  const BundlePointers from = from_parent(chain, part, segment, means, history, row, worker);
+  const BundlePointers from = from_parent(nesting, part, segment, means, history, row, worker);
   const std::size_t stride = padded(history.samples());
   std::vector<float> strain(sites.size() * stride);
   kernels().node_strains_in_single(from, history.columns(row), 0, history.samples(), strain.data(), stride);
@@ -312,22 +313,22 @@ FibreHistory Evaluation::fibre_history(Site site, std::size_t segment, const Cla
                                        const DeformationHistory& history, std::size_t row,
                                        Worker& worker) const {
   std::vector<std::vector<double>> sliding;
-  const BundleChain chain = site_chain({&site, 1}, segment, means, sliding, worker);
+  const BundleNesting nesting = site_nesting({&site, 1}, segment, means, sliding, worker);
   FibreHistory both =
-      mixed_history(chain, means.plan()[wires_[site.wire].layer], history.columns(row), history.samples());
+      mixed_history(nesting, means.plan()[wires_[site.wire].layer], history.columns(row), history.samples());
   both.site = site_row(segment, site);
   return both;
 }
 
 /// What Kernels::mix does, of one fibre in double precision.
-FibreHistory Evaluation::mixed_history(const BundleChain& chain, const LayerSlip& slip,
+FibreHistory Evaluation::mixed_history(const BundleNesting& nesting, const LayerSlip& slip,
                                        const DeformationColumns& columns, std::size_t samples) const {
   const std::size_t stride = padded(samples);
   std::vector<double> rows(ingredients(1) * stride);
   FibreHistory both{0, std::vector<double>(samples), std::vector<double>(samples)};
-  kernels().node_ingredients(pointers(chain), columns, 0, samples, rows.data(), stride);
-  const WireNode& node = chain.nodes[0];
-  const Fibre& fibre = chain.fibres[0];
+  kernels().node_ingredients(pointers(nesting), columns, 0, samples, rows.data(), stride);
+  const WireNode& node = nesting.nodes[0];
+  const Fibre& fibre = nesting.fibres[0];
   const double rest_bending = rest_ingredient(node, &fibre), rest_shear = rest_ingredient(node, nullptr);
   const bool scales = construction_.kinematics() == pipeline::Kinematics::exact;
   constexpr double glued = std::numeric_limits<double>::infinity();
@@ -503,7 +504,7 @@ void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& me
     for (int by = 0; by < Worst::measures; ++by)
       if (layer.value[by] >= 0) sites.insert(layer.site[by]);
   const std::vector<Site> list(sites.begin(), sites.end());
-  std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one chain for all of a piece
+  std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one nesting for all of a piece
   const auto piece = [&](std::size_t k) { return std::pair(list[k].fibre, wires_[list[k].wire].bundle); };
   for (std::size_t k = 0; k < list.size(); ++k)
     if (k == 0 || piece(k) != piece(k - 1)) cuts.push_back(k);

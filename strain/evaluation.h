@@ -137,19 +137,20 @@ class Evaluation {
   /// Wires whose strain is put together one by one: of layers with friction, and all when shear counts.
   bool mixed(const ClampMeans& means) const;
   void find_probes(const std::vector<pipeline::Probe>& probes);
-  BundleChain part_chain(int part, std::size_t segment, const ClampMeans& means,
-                         const std::vector<Fibre>& fibres, Worker& worker) const;
-  BundleChain layer_chain(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
-                          Worker& worker) const;
+  BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means,
+                             const std::vector<Fibre>& fibres, Worker& worker) const;
+  BundleNesting layer_nesting(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
+                              Worker& worker) const;
   void scan_bundle(std::size_t bundle, std::size_t segment, const ClampMeans& means,
                    const DeformationHistory& history, std::size_t row, bool with_rows, Worker& worker,
                    BundleSites& out) const;
   /// Calls use() for every bundle in order; threads share the work.
   void scan_bundles(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
                     std::size_t row, bool with_rows, const std::function<void(const BundleSites&)>& use);
-  /// The chain to `part`, from its parent's states where they are enough.
-  BundlePointers from_parent(const BundleChain& chain, int part, std::size_t segment, const ClampMeans& means,
-                             const DeformationHistory& history, std::size_t row, Worker& worker) const;
+  /// The nesting to `part`, from its parent's states where they are enough.
+  BundlePointers from_parent(const BundleNesting& nesting, int part, std::size_t segment,
+                             const ClampMeans& means, const DeformationHistory& history, std::size_t row,
+                             Worker& worker) const;
   /// Whole histories, in double precision, of sites of one bundle and one fibre.
   std::vector<std::vector<double>> histories_of(std::span<const Site> sites, std::size_t segment,
                                                 const ClampMeans& means, const DeformationHistory& history,
@@ -161,11 +162,11 @@ class Evaluation {
   /// Strain along the fibre and shear of a site, in double precision.
   FibreHistory fibre_history(Site site, std::size_t segment, const ClampMeans& means,
                              const DeformationHistory& history, std::size_t row, Worker& worker) const;
-  FibreHistory mixed_history(const BundleChain& chain, const LayerSlip& slip,
+  FibreHistory mixed_history(const BundleNesting& nesting, const LayerSlip& slip,
                              const DeformationColumns& columns, std::size_t samples) const;
-  /// The chain to such sites, which are its nodes. sliding: keeps the clamp means that they point to.
-  BundleChain site_chain(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                         std::vector<std::vector<double>>& sliding, Worker& worker) const;
+  /// The nesting to such sites, which are its nodes. sliding: keeps the clamp means that they point to.
+  BundleNesting site_nesting(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                             std::vector<std::vector<double>>& sliding, Worker& worker) const;
   std::size_t site_row(std::size_t segment, Site site) const {
     return place_.sites_before +
            ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;

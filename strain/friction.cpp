@@ -73,15 +73,15 @@ const HeldStrains::Rows& HeldStrains::rows_of(int part, int level) {
 /// The parts above are asked for on the way, each of them at a level of its own.
 void HeldStrains::fill(Rows& rows, int part) {
   const auto& plan = means_.plan();
-  BundleChain chain = chain_to(construction_, plan, part, arc_, surface_fibres(0));
-  const int level = static_cast<int>(chain.steps.size()) - 1, powers = this->powers(level);
-  chain.order = powers - 1;
-  means_.attach(chain, part);
+  BundleNesting nesting = nesting_to(construction_, plan, part, arc_, surface_fibres(0));
+  const int level = static_cast<int>(nesting.steps.size()) - 1, powers = this->powers(level);
+  nesting.order = powers - 1;
+  means_.attach(nesting, part);
   if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself)
-    attach(chain, parent);
+    attach(nesting, parent);
   deviations_.resize((powers + 1) * stride_);
   const auto hold_turned = [&](int turn, std::vector<double>& held) {
-    kernels().deviations(pointers(chain), turn, turned_level(construction_, construction_.ancestry(part)),
+    kernels().deviations(pointers(nesting), turn, turned_level(construction_, construction_.ancestry(part)),
                          columns_, 0, samples_, deviations_.data(), stride_);
     hold(deviations_, powers, stride_, samples_, plan[construction_.parts()[part].layer].cap, held);
   };
@@ -89,12 +89,12 @@ void HeldStrains::fill(Rows& rows, int part) {
   hold_turned(-1, rows.own);
 }
 
-void HeldStrains::attach(BundleChain& chain, int part) {
+void HeldStrains::attach(BundleNesting& nesting, int part) {
   const std::vector<int> line = construction_.ancestry(part);
   for (std::size_t k = 0; k < line.size(); ++k) {
     if (!means_.plan()[construction_.parts()[line[k]].layer].friction) continue;
     const Rows& rows = rows_of(line[k], static_cast<int>(k));
-    SlidingNumbers& slide = chain.steps[k].slide;
+    SlidingNumbers& slide = nesting.steps[k].slide;
     slide.held = rows.own.data();
     for (int turn = 0; turn < phases_per_pitch; ++turn)
       slide.turned_held[turn] = rows.turned[turn].empty() ? nullptr : rows.turned[turn].data();

@@ -62,9 +62,9 @@ class HeldStrains {
   /// begin().
   void begin(double arc, const DeformationColumns& columns, std::size_t samples);
 
-  /// Gives each part of `chain`, which ends in `part`, what friction holds of it: good until a part beside
+  /// Gives each part of `nesting`, which ends in `part`, what friction holds of it: good until a part beside
   /// one of them is asked for.
-  void attach(BundleChain& chain, int part);
+  void attach(BundleNesting& nesting, int part);
 
  private:
   static constexpr int nobody = -1;

@@ -20,7 +20,7 @@
 // minus one (W7). Nothing is approximated. `thesis` kinematics is Backman's set (12) to (23), see README W9.
 #pragma once
 
-#include "pipeline/job.h"
+#include "pipeline/job/strain.h"
 #include "strain/series.h"
 
 namespace dresslife::strain {

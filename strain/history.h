@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "strain/deformation.h"
-#include "strain/kernels.h"
+#include "strain/kernels/kernels.h"
 
 namespace dresslife::strain {
 

@@ -1,4 +1,5 @@
 // dresslife-strain: motion.h5 in, strain.h5 out.
+#include "pipeline/job/job.h"
 #include "pipeline/stage.h"
 #include "pipeline/threads.h"
 #include "strain/strain_file.h"

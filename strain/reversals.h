@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <span>
 
-#include "strain/kernels.h"
+#include "strain/kernels/kernels.h"
 
 namespace dresslife::strain {
 

@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "pipeline/job.h"
+#include "pipeline/job/strain.h"
 #include "strain/construction.h"
 
 namespace dresslife::strain {

@@ -6,7 +6,8 @@
 #include <numeric>
 #include <span>
 
-#include "pipeline/motion_layout.h"
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job.h"
 #include "strain/evaluation.h"
 
 namespace dresslife::strain {

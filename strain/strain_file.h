@@ -5,8 +5,11 @@
 #include <functional>
 #include <string>
 
-#include "pipeline/files.h"
-#include "pipeline/job.h"
+#include "pipeline/files/files.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
 
 namespace dresslife::strain {
 

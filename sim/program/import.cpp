@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/document.h"
+#include "pipeline/job/document.h"
 #include "sim/program/fanuc.h"
 #include "sim/program/krl.h"
 #include "sim/program/rapid.h"

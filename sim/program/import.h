@@ -6,7 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "pipeline/job.h"
+#include "pipeline/job/motion.h"
+#include "pipeline/job/robot.h"
 #include "sim/program/program.h"
 
 namespace dresslife::sim {

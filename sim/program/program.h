@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "pipeline/errors.h"
-#include "sim/rotation.h"
+#include "sim/rod/rotation.h"
 
 namespace dresslife::sim {
 

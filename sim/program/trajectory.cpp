@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/document.h"
+#include "pipeline/job/document.h"
 #include "sim/program/tokens.h"
 
 namespace dresslife::sim {
@@ -128,9 +128,11 @@ void read_joint_columns(const SourceFile& file, Program& program, Problems& prob
     }
     std::vector<double> joints;
     std::optional<double> time;
-    bool whole = std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return number_in(cell); });
+    bool whole =
+        std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return number_in(cell); });
     if (!whole) {
-      problems.add(where, "has no numbers", "put one line of names first, then a row of joint angles per line");
+      problems.add(where, "has no numbers",
+                   "put one line of names first, then a row of joint angles per line");
       continue;
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/files.h"
+#include "pipeline/files/files.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife;

@@ -10,9 +10,9 @@
 #include <chrono>
 #include <cstdio>
 
-#include "pipeline/build_graph.h"
-#include "pipeline/digest.h"
-#include "pipeline/ranking.h"
+#include "pipeline/files/digest.h"
+#include "pipeline/study/build_graph.h"
+#include "pipeline/study/ranking.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/sample_life.h"
 

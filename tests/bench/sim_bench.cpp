@@ -1,5 +1,5 @@
-// What the chain costs on one core: the driven cable of tests/sim/rod_driven_cable.h, no contact, processor
-// time.
+// What the chain costs on one core: the driven cable of tests/sim/rod/rod_driven_cable.h, no contact,
+// processor time.
 //
 // sim_cpu_s_per_s_n40: processor seconds per simulated second at n = 40, 5 ms.
 // sim_cost_ratio_n240_n30: processor time per segment and step at n = 240 over that at n = 30.
@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "tests/sim/rod_driven_cable.h"
+#include "tests/sim/rod/rod_driven_cable.h"
 
 namespace {
 

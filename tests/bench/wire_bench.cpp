@@ -128,17 +128,17 @@ class Bench {
         const double arc = 0.3 * (static_cast<double>(i) + 0.5);
         const strain::Part& part = construction_.parts()[bundle.part];
         if (part.number == 1) {
-          strain::BundleChain to_cable =
-              strain::chain_to(construction_, plan, part.parent, arc, strain::surface_fibres(1));
+          strain::BundleNesting to_cable =
+              strain::nesting_to(construction_, plan, part.parent, arc, strain::surface_fibres(1));
           to_cable.order = 1;
           to_cable.steps[0].slide.clamp_strain = clamp_strain.data();
           cable.fill(to_cable, history_.columns(i), samples, false);
         }
-        strain::BundleChain chain =
-            strain::chain_to(construction_, plan, bundle.part, arc, strain::surface_fibres(1));
+        strain::BundleNesting nesting =
+            strain::nesting_to(construction_, plan, bundle.part, arc, strain::surface_fibres(1));
         for (const int layer : bundle.wire_layers)
-          strain::add_wire_layer(construction_, plan, chain, layer, bundle.part, arc);
-        strain::BundlePointers from = pointers(chain);
+          strain::add_wire_layer(construction_, plan, nesting, layer, bundle.part, arc);
+        strain::BundlePointers from = pointers(nesting);
         cable.lend(from);
         scan.run(bundle, plan, from, false, history_.columns(i), samples);
       }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "pipeline/files.h"
+#include "pipeline/files/files.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

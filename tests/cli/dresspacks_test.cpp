@@ -1,7 +1,7 @@
 // Two dresspacks on one robot, from a job file to the ranking and the report.
 #include <catch2/catch.hpp>
 
-#include "pipeline/files.h"
+#include "pipeline/files/files.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife;

@@ -1,5 +1,6 @@
 // Which joint costs the life, on histories whose causes are known.
 #include "fatigue/attribution.h"
+#include "pipeline/job/job.h"
 
 #include <fmt/format.h>
 

@@ -13,6 +13,7 @@
 
 #include "fatigue/scatter.h"
 #include "fatigue/verdict.h"
+#include "pipeline/job/job.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

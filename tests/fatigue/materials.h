@@ -1,7 +1,7 @@
 // Materials of the fatigue tests. Copper and aluminium: S. Backman's thesis (2018), table 2.
 #pragma once
 
-#include "pipeline/job.h"
+#include "pipeline/job/material.h"
 
 namespace dresslife::fatigue_tests {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/files.h"
+#include "pipeline/files/files.h"
 
 namespace dresslife::pipeline {
 

@@ -5,7 +5,8 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "pipeline/digest.h"
+#include "pipeline/files/digest.h"
+#include "pipeline/job/job.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

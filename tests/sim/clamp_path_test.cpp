@@ -1,4 +1,5 @@
 #include "sim/clamp_path.h"
+#include "pipeline/job/job.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>

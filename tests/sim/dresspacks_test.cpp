@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "pipeline/motion_layout.h"
+#include "pipeline/files/motion_layout.h"
 #include "sim/motion_file.h"
 #include "sim/mounting.h"
 #include "sim/routing.h"
 #include "tests/pipeline/scratch.h"
-#include "tests/sim/rod_problems.h"
+#include "tests/sim/rod/rod_problems.h"
 
 using namespace dresslife;
 using namespace dresslife::sim;

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "sim/start_curve.h"
-#include "tests/sim/rod_problems.h"
+#include "sim/rod/start_curve.h"
+#include "tests/sim/rod/rod_problems.h"
 
 using namespace dresslife::sim;
 using namespace dresslife::sim::test;

@@ -1,7 +1,7 @@
 // A job small enough to reason about: one axis along x that turns the tool clamp, the hose lying along it.
 #pragma once
 
-#include "pipeline/job.h"
+#include "pipeline/job/job.h"
 
 namespace dresslife::sim {
 

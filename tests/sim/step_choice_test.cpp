@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "sim/simulate.h"
-#include "tests/sim/rod_driven_cable.h"
+#include "tests/sim/rod/rod_driven_cable.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {

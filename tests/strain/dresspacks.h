@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "pipeline/job.h"
+#include "pipeline/job/dresspack.h"
 
 namespace test_dresspacks {
 

@@ -77,7 +77,7 @@ Rod<double> dresspack_rod(const DeformationHistory& history, std::size_t segment
   return uniform_rod<double>(c.elongation[t], c.curvature1[t], c.curvature2[t], c.twist[t], order);
 }
 
-/// One component of the chain to a wire.
+/// One component of the nesting to a wire.
 struct Link {
   int layer, number, parent;
 };
@@ -370,14 +370,14 @@ TEST_CASE("every instruction set of this machine gives the same strains") {
   const Construction construction(thesis_dresspack(), Kinematics::exact);
   const auto plan = plan_slip(construction, {Slip::stick, Slip::free}, 2.0);
   const Bundle& bundle = construction.bundles()[3];
-  BundleChain chain = chain_to(construction, plan, bundle.part, 0.1, surface_fibres(3));
+  BundleNesting nesting = nesting_to(construction, plan, bundle.part, 0.1, surface_fibres(3));
   for (const int layer : bundle.wire_layers)
     for (int number = 1; number <= construction.layers()[layer].count; ++number)
-      chain.nodes.push_back(node_at(construction, plan, chain, layer, number, bundle.part, 0.1, 0));
+      nesting.nodes.push_back(node_at(construction, plan, nesting, layer, number, bundle.part, 0.1, 0));
   std::vector<std::vector<double>> strains;
   for (const Kernels* set : kernels_of_this_machine()) {
-    strains.emplace_back(chain.nodes.size() * 3 * 64);
-    set->node_strains(pointers(chain), history.columns(0), 0, 64, strains.back().data(), 64);
+    strains.emplace_back(nesting.nodes.size() * 3 * 64);
+    set->node_strains(pointers(nesting), history.columns(0), 0, 64, strains.back().data(), 64);
   }
   constexpr double contraction = 1e-13;  // products fused or not, of stretches near one
   for (const auto& of : strains)
@@ -411,21 +411,21 @@ double error_of_waves(const Kernels& set, const Construction& construction, cons
   const auto plan = plan_slip(construction, slip, 2.0);
   const std::vector<double> clamp_strain(stride, 1e-3);
   const Bundle& bundle = construction.bundles()[12];
-  const auto chain_of = [&](int part) {
-    BundleChain chain = chain_to(construction, plan, part, 0.1, surface_fibres(fibres));
-    for (ChainStep& step : chain.steps) step.slide.clamp_strain = clamp_strain.data();
-    return chain;
+  const auto nesting_of = [&](int part) {
+    BundleNesting nesting = nesting_to(construction, plan, part, 0.1, surface_fibres(fibres));
+    for (NestingLevel& step : nesting.steps) step.slide.clamp_strain = clamp_strain.data();
+    return nesting;
   };
-  BundleChain chain = chain_of(bundle.part);
+  BundleNesting nesting = nesting_of(bundle.part);
   for (const int layer : bundle.wire_layers)
     for (int node = 0; node < waves_per_layer; ++node)
-      chain.nodes.push_back(
-          node_at(construction, plan, chain, layer, 1, bundle.part, 0.1, 2 * pi * node / waves_per_layer));
-  BundlePointers from = pointers(chain);
-  std::vector<double> strains(chain.nodes.size() * fibres * stride);
+      nesting.nodes.push_back(
+          node_at(construction, plan, nesting, layer, 1, bundle.part, 0.1, 2 * pi * node / waves_per_layer));
+  BundlePointers from = pointers(nesting);
+  std::vector<double> strains(nesting.nodes.size() * fibres * stride);
   kernels().node_strains(from, history.columns(0), 0, samples, strains.data(), stride);
-  BundleChain parent = chain_of(construction.parts()[bundle.part].parent);
-  parent.order = chain.order + 1;
+  BundleNesting parent = nesting_of(construction.parts()[bundle.part].parent);
+  parent.order = nesting.order + 1;
   std::vector<double> states(part_state_rows(parent.order) * stride);
   std::vector<float> rows(part_rows * stride), waves(strains.size());
   if (start == Start::parent) {
@@ -496,16 +496,16 @@ TEST_CASE("a cable's state and its slopes in single precision are those in doubl
       for (const Slip slip : {Slip::stick, Slip::free})
         for (const Kernels* set : kernels_of_this_machine()) {
           const Construction construction(laid_dresspack(lay_angle, rest_curvature), Kinematics::exact);
-          BundleChain chain = chain_to(construction, plan_slip(construction, {slip}, 2.0), second_cable, 0.1,
-                                       surface_fibres(1));
-          REQUIRE(chain.steps.size() == 1);
-          chain.order = 1;
-          chain.steps[0].slide.clamp_strain = clamp_strain.data();
+          BundleNesting nesting = nesting_to(construction, plan_slip(construction, {slip}, 2.0), second_cable,
+                                             0.1, surface_fibres(1));
+          REQUIRE(nesting.steps.size() == 1);
+          nesting.order = 1;
+          nesting.steps[0].slide.clamp_strain = clamp_strain.data();
           std::vector<double> states(part_state_rows(1) * stride);
           std::vector<float> of_double(part_rows * stride), rows(part_rows * stride);
-          set->part_states(pointers(chain), history.columns(0), 0, samples, states.data(), of_double.data(),
+          set->part_states(pointers(nesting), history.columns(0), 0, samples, states.data(), of_double.data(),
                            stride);
-          set->part_rows_of_dresspack(pointers(chain), history.columns(0), 0, samples, rows.data(), stride);
+          set->part_rows_of_dresspack(pointers(nesting), history.columns(0), 0, samples, rows.data(), stride);
           for (std::size_t row = 0; row < part_rows; ++row) {
             double largest = 0, worst = 0;
             for (std::size_t t = 0; t < samples; ++t) {

@@ -180,10 +180,10 @@ TEST_CASE("what friction holds of a part is the same after any other and lies wh
   REQUIRE(parts == 2 + 14);
 
   const auto rows_of = [&](HeldStrains& held, int part) {
-    BundleChain chain = chain_to(construction, means.plan(), part, arcs[1], surface_fibres(0));
-    means.attach(chain, part);
-    held.attach(chain, part);
-    return chain;
+    BundleNesting nesting = nesting_to(construction, means.plan(), part, arcs[1], surface_fibres(0));
+    means.attach(nesting, part);
+    held.attach(nesting, part);
+    return nesting;
   };
   HeldStrains one_after_other(construction, means);
   constexpr int cable_rows = 3, conductor_rows = 2,
@@ -197,7 +197,7 @@ TEST_CASE("what friction holds of a part is the same after any other and lies wh
     const int part = static_cast<int>(random() % parts);
     HeldStrains fresh(construction, means);
     fresh.begin(arcs[1], history.columns(1), samples);
-    const BundleChain a = rows_of(one_after_other, part), b = rows_of(fresh, part);
+    const BundleNesting a = rows_of(one_after_other, part), b = rows_of(fresh, part);
     for (std::size_t level = 0; level < a.steps.size(); ++level) {
       const double *one = a.steps[level].slide.held, *other = b.steps[level].slide.held;
       REQUIRE((one != nullptr && other != nullptr));

@@ -17,7 +17,7 @@ struct State {
   double elongation, curvature1, curvature2, twist;
 };
 
-/// The glued component at the end of the chain of levels, in the deformed and the undeformed construction.
+/// The glued component at the end of the nesting of levels, in the deformed and the undeformed construction.
 struct Nested {
   Rod<double> now, rest;
   double strain() const { return now.stretch.at[0] / rest.stretch.at[0] - 1; }

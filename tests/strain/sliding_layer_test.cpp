@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "strain/chain.h"
 #include "strain/history.h"
+#include "strain/nesting.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;
@@ -50,7 +50,7 @@ DeformationHistory anything(double curvature, double twist, double elongation) {
 }
 
 struct Wires {
-  BundleChain chain;
+  BundleNesting nesting;
   std::vector<double> clamp_strain = std::vector<double>(stride, 1e-3);
   std::size_t layers;
 
@@ -58,25 +58,26 @@ struct Wires {
     constexpr double arc = 0.1;
     const auto plan = plan_slip(construction, slip, 2.0);
     const Bundle& bundle = construction.bundles()[12];
-    chain = chain_to(construction, plan, bundle.part, arc, surface_fibres(1));
-    for (ChainStep& step : chain.steps) step.slide.clamp_strain = clamp_strain.data();
+    nesting = nesting_to(construction, plan, bundle.part, arc, surface_fibres(1));
+    for (NestingLevel& step : nesting.steps) step.slide.clamp_strain = clamp_strain.data();
     layers = bundle.wire_layers.size();
     for (const int layer : bundle.wire_layers)
-      add_wire_layer(construction, plan, chain, layer, bundle.part, arc);
+      add_wire_layer(construction, plan, nesting, layer, bundle.part, arc);
     for (const int layer : bundle.wire_layers)
       for (int k = 0; k < angles; ++k)
-        around.push_back(node_at(construction, plan, chain, layer, 1, bundle.part, arc, 2 * pi * k / angles));
+        around.push_back(
+            node_at(construction, plan, nesting, layer, 1, bundle.part, arc, 2 * pi * k / angles));
   }
 
   std::vector<float> waves(const Kernels& set, const DeformationHistory& history) const {
     std::vector<float> waves(layers * waves_per_layer * stride);
-    set.layer_waves(pointers(chain), history.columns(0), 0, samples, waves.data(), stride);
+    set.layer_waves(pointers(nesting), history.columns(0), 0, samples, waves.data(), stride);
     return waves;
   }
 
   /// (layer, angle, sample) exact, in double precision.
   std::vector<double> strains(const DeformationHistory& history) const {
-    BundleChain exact = chain;
+    BundleNesting exact = nesting;
     exact.nodes = around;
     std::vector<double> strains(layers * angles * stride);
     kernels().node_strains(pointers(exact), history.columns(0), 0, samples, strains.data(), stride);
@@ -106,7 +107,7 @@ double worst_error(const Wires& wires, const std::vector<float>& waves, const st
         sum += std::abs(waves[(layer * waves_per_layer + w) * stride + t] - exact[w]);
       difference = std::max(difference, sum);
     }
-    const WireNode& wire = wires.chain.nodes[layer * waves_per_layer];
+    const WireNode& wire = wires.nesting.nodes[layer * waves_per_layer];
     const double at_rest = wire.wire_radius * std::abs(wire.rest.bend2);
     worst = std::max(worst, difference / ((single + left_out) * largest + single_at_rest * at_rest));
   }
@@ -124,7 +125,7 @@ TEST_CASE("waves of sliding layers in closed form are the harmonics of their exa
       for (const double rest_curvature : {0.0, 2.0}) {
         const Construction construction(dresspack_of(lay_angle, size, rest_curvature), Kinematics::exact);
         const Wires wires(construction, {Slip::free});
-        for (const SlidingLayer& layer : wires.chain.sliding) CHECK(layer.closed);
+        for (const SlidingLayer& layer : wires.nesting.sliding) CHECK(layer.closed);
         for (const Most most : {Most{1, 1, 1e-4}, {10, 10, 1e-3}, {15, 5, 1e-3}}) {
           const DeformationHistory history = anything(most.curvature, most.twist, most.elongation);
           const std::vector<double> strains = wires.strains(history);
@@ -140,7 +141,7 @@ TEST_CASE("waves of sliding layers in closed form are the harmonics of their exa
 TEST_CASE("sliding layers beyond their closed forms have the waves of five nodes") {
   const auto agree = [](const Wires& wires, const DeformationHistory& history) {
     Wires by_nodes = wires;
-    by_nodes.chain.sliding.clear();
+    by_nodes.nesting.sliding.clear();
     return wires.waves(kernels(), history) == by_nodes.waves(kernels(), history);
   };
   const Construction construction(thesis_dresspack(), Kinematics::exact);

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "pipeline/document.h"
+#include "pipeline/job/document.h"
+#include "pipeline/job/job.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -146,7 +147,7 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
   const auto probe = file.read<std::uint32_t>("/probe/site");
   const auto history = file.read<double>("/probe/strain");
   REQUIRE(probe.size() > segments);  // one or two of each segment and one of the job's
-  constexpr double single = 1e-6;         // waves and turning points are single precision
+  constexpr double single = 1e-6;    // waves and turning points are single precision
   REQUIRE(probe.size() <= 2 * segments + 1);
   for (std::size_t p = 0; p < probe.size(); ++p)
     for (std::uint64_t k = offset[probe[p]]; k < offset[probe[p] + 1]; ++k)

@@ -1,4 +1,4 @@
-// The driven cable of tests/sim/rod_driven_cable.h in MuJoCo: rigid segments on ball joints whose springs are
+// The driven cable of tests/sim/rod/rod_driven_cable.h in MuJoCo: rigid segments on ball joints whose springs are
 // EI/l, half a cell at the clamps. Prints processor seconds per simulated second, and the error of the rms
 // bending curvature against the beam elements listed in that header.
 //

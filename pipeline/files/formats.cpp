@@ -1,0 +1,551 @@
+// The three file formats, dataset by dataset: the public contract between the stages.
+#include <algorithm>
+#include <stdexcept>
+
+#include "pipeline/files/files.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// A set of sites with their turning points; strain.h5 holds three: the job's own under "" and the two
+/// bounds.
+void add_site_set(std::vector<Dataset>& datasets, const std::string& group, const std::string& of) {
+  const std::string site = of + "site", reversal = of + "reversal";
+  datasets.push_back({group + "/site/segment",
+                      Type::i32,
+                      {site},
+                      "1",
+                      "segment of the site, counted from the base, 0 first"});
+  datasets.push_back(
+      {group + "/site/component",
+       Type::text,
+       {site},
+       "1",
+       "path of the wire, outermost part first; before it, among several, the dresspack's name"});
+  datasets.push_back({group + "/site/helix",
+                      Type::f64,
+                      {site, "level", "3"},
+                      "m, rad, rad",
+                      "helix radius, lay angle (negative: left hand), phase at the segment's centre; "
+                      "outermost level first"});
+  datasets.push_back(
+      {group + "/site/fibre",
+       Type::f64,
+       {site, "2"},
+       "m, rad",
+       "radius and angle of the fibre on the wire, from the inward normal; 0 0: the wire's axis"});
+  datasets.push_back({group + "/site/material", Type::text, {site}, "1", "material of the wire"});
+  for (auto table = datasets.end() - 5; table != datasets.end(); ++table) table->deflate = true;
+  datasets.push_back({group + "/reversal/offset",
+                      Type::u64,
+                      {site + "+1"},
+                      "1",
+                      "turning points of site k are [offset k, offset k+1)"});
+  datasets.push_back(
+      {group + "/reversal/strain", Type::f32, {reversal}, "1", "strain at the turning point, kept to 5e-8"});
+  datasets.back().decimals = 7;  // a five-thousandth of the default gate
+  datasets.push_back({group + "/reversal/sample", Type::u32, {reversal}, "1", "sample of the turning point"});
+  datasets.back().lists = true;
+}
+
+/// Which dresspack is where, as in the motion file. Absent in older files.
+void add_dresspacks(std::vector<Dataset>& datasets) {
+  datasets.push_back(
+      {"/segment/dresspack",
+       Type::i32,
+       {"segment"},
+       "1",
+       "dresspack that each segment belongs to, 0 first: one after the other, each from base to tool; "
+       "absent: one dresspack",
+       false,
+       true});
+  datasets.push_back({"/dresspack/name",
+                      Type::text,
+                      {"dresspack"},
+                      "1",
+                      "names of the dresspacks; empty: the only one of a job without a list",
+                      false,
+                      true});
+}
+
+/// What a cell designer asks of the motion: one table, and along the dresspack. Absent in older files.
+void add_checks(std::vector<Dataset>& datasets) {
+  const auto add = [&](const char* path, Type type, const char* axis, const char* unit, const char* meaning) {
+    datasets.push_back({path, type, {axis}, unit, meaning, true, true});
+  };
+  const char *line = "check", *link = "hose_link";
+  add("/check/name", Type::text, line, "1", "what is checked");
+  add("/check/value", Type::f64, line, "see /check/unit",
+      "its worst value; inf: a bend radius without any bend");
+  add("/check/unit", Type::text, line, "1", "unit of value and limit");
+  add("/check/limit", Type::f64, line, "see /check/unit", "what is warned of; inf: no limit");
+  add("/check/warning", Type::i32, line, "1", "1: the limit is broken");
+  add("/check/time", Type::f64, line, "s", "when the value stood");
+  add("/check/step", Type::i32, line, "1", "index of the program line being executed then");
+  add("/check/position", Type::f64, line, "m",
+      "where, from the base clamp along the dresspack; -1: of the whole");
+  add("/check/dresspack", Type::i32, line, "1", "of which dresspack; absent: there is only one");
+  add("/check/curvature", Type::f64, link, "1/m",
+      "largest bending curvature of each elastic link, every step counted: at the joints of the segments, "
+      "with one on either side of a clamp between two spans");
+  add("/check/curvature_time", Type::f64, link, "s", "when");
+  add("/check/twist", Type::f64, link, "rad/m", "largest twist by size, with its sign");
+  add("/check/twist_time", Type::f64, link, "s", "when");
+  add("/check/tension", Type::f64, link, "N", "largest pull");
+  add("/check/tension_time", Type::f64, link, "s", "when");
+  add("/check/net_twist", Type::f64, "sample", "rad",
+      "twist of the whole dresspack, whole turns counted; of several the sum");
+}
+
+Format make_motion_format() {
+  Format format{"dresslife-motion", 1, "dresslife-sim", "how the dresspack moves", {}, {}};
+  format.datasets = {
+      {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
+      {"/segment/position", Type::f64, {"sample", "segment", "3"}, "m", "segment centres in the world"},
+      {"/segment/orientation",
+       Type::f64,
+       {"sample", "segment", "4"},
+       "1",
+       "unit quaternion w x y z, body to world; body z is the tangent toward the tool"},
+      {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
+      {"/clamp/position",
+       Type::f64,
+       {"sample", "clamp", "3"},
+       "m",
+       "clamps in the world, dresspack by dresspack: base side first, tool side last"},
+      {"/clamp/orientation",
+       Type::f64,
+       {"sample", "clamp", "4"},
+       "1",
+       "unit quaternion w x y z of the clamps"},
+      {"/clamp/segment",
+       Type::i32,
+       {"clamp"},
+       "1",
+       "segments of the file before each clamp: 0 at the first, all at the last; where a further dresspack "
+       "begins, its base clamp repeats the number of the tool clamp before it; absent: two clamps, at the "
+       "ends",
+       false,
+       true},
+      {"/clamp/travel",
+       Type::f64,
+       {"sample", "dresspack"},
+       "m",
+       "how far a retraction unit has let each dresspack's base clamp out; absent without one",
+       false,
+       true},
+      {"/robot/joint_position", Type::f64, {"sample", "joint"}, "rad", "joint angles", false, true},
+      {"/robot/link_pose",
+       Type::f64,
+       {"sample", "link", "7"},
+       "m, 1",
+       "position and quaternion w x y z of each link; attribute `links` names them, comma-separated",
+       false,
+       true},
+      {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
+      {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
+      {"/contact/count",
+       Type::i32,
+       {"sample"},
+       "1",
+       "contacts of the dresspack, most at a time since the sample before"},
+      {"/contact/max_depth",
+       Type::f64,
+       {"sample"},
+       "m",
+       "deepest penetration since the sample before; 0 without contact"},
+      {"/contact/force",
+       Type::f32,
+       {"sample", "segment"},
+       "N",
+       "largest normal force on each segment since the sample before",
+       false,
+       true,
+       true},
+      {"/contact/obstacle",
+       Type::i32,
+       {"sample", "segment"},
+       "1",
+       "what pressed it then: index into the attribute `obstacles` of /contact/work; -1: nothing",
+       false,
+       true,
+       true},
+      {"/contact/rubbing",
+       Type::f32,
+       {"sample", "segment"},
+       "J",
+       "work of friction on each segment since the sample before",
+       false,
+       true,
+       true},
+      {"/contact/work",
+       Type::f64,
+       {"segment", "obstacle"},
+       "J",
+       "work of friction over the motion; attribute `obstacles` names the robot's links, floor, dresspack "
+       "(itself or another), cell, guide rings",
+       false,
+       true},
+      {"/contact/largest_force",
+       Type::f64,
+       {"segment", "obstacle"},
+       "N",
+       "largest normal force over the motion",
+       false,
+       true},
+      {"/energy", Type::f64, {"sample", "3"}, "J", "kinetic, elastic, gravitational"},
+      {"/tension", Type::f64, {"sample", "segment"}, "N", "axial force in each segment"},
+  };
+  add_dresspacks(format.datasets);
+  add_checks(format.datasets);
+  format.attributes = {
+      {"repeats", "repeats of the motion that were run; the last one is in the file", false, true},
+      {"repeat_distance",
+       "how far from where it began the dresspack ended it, m; absent where the motion does not return",
+       false, true},
+      {"time_step", "integration step of the last repeat, s", false, true},
+      {"curvature_error",
+       "estimated relative rms error that the step leaves in the curvature of the liveliest seconds", false,
+       true},
+  };
+  return format;
+}
+
+Format make_strain_format() {
+  Format format{"dresslife-strain", 1, "dresslife-strain", "what every wire feels", {}, {}};
+  format.datasets = {
+      {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
+      {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
+      {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
+      {"/robot/joint_position",
+       Type::f64,
+       {"sample", "joint"},
+       "rad",
+       "joint angles, as in the motion file",
+       false,
+       true},
+      {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
+      {"/deformation/curvature",
+       Type::f64,
+       {"sample", "segment", "2"},
+       "1/m",
+       "about d1 and d2 of the segment"},
+      {"/deformation/twist", Type::f64, {"sample", "segment"}, "rad/m", "about the tangent"},
+      {"/deformation/elongation", Type::f64, {"sample", "segment"}, "1", "relative change of length"},
+  };
+  add_dresspacks(format.datasets);
+  add_site_set(format.datasets, "", "");
+  add_site_set(format.datasets, "/bound_stick", "stick_");
+  add_site_set(format.datasets, "/bound_free", "free_");
+  format.datasets.push_back({"/probe/site", Type::u32, {"probe"}, "1", "site of each probe"});
+  format.datasets.push_back(
+      {"/probe/strain", Type::f64, {"probe", "sample"}, "1", "whole strain history of each probe"});
+  format.datasets.push_back({"/probe/shear",
+                             Type::f64,
+                             {"probe", "sample"},
+                             "1",
+                             "shear strain gamma of its surface, by the wire's torsion",
+                             false,
+                             true});
+  format.datasets.push_back(
+      {"/plane/site",
+       Type::u32,
+       {"plane"},
+       "1",
+       "likely worst wires of each segment and layer; with strain.equivalent critical_plane only",
+       false,
+       true});
+  format.datasets.push_back(
+      {"/plane/strain", Type::f32, {"plane", "sample"}, "1", "strain along their fibre", false, true});
+  format.datasets.push_back(
+      {"/plane/shear", Type::f32, {"plane", "sample"}, "1", "their shear strain gamma", false, true});
+  return format;
+}
+
+Format make_life_format() {
+  Format format{"dresslife-life", 1, "dresslife-fatigue", "how long every wire lives", {}, {}};
+  const std::string site = "site";
+  format.datasets = {
+      {"/site/segment", Type::i32, {site}, "1", "segment of the site, counted from the base, 0 first"},
+      {"/site/component", Type::text, {site}, "1", "path of the wire, outermost part first"},
+      {"/site/helix",
+       Type::f64,
+       {site, "level", "3"},
+       "m, rad, rad",
+       "helix radius, lay angle (negative: left hand), phase at the segment's centre; outermost level first"},
+      {"/site/fibre", Type::f64, {site, "2"}, "m, rad", "radius and angle of the fibre on the wire"},
+      {"/site/material", Type::text, {site}, "1", "material of the wire"},
+      {"/damage", Type::f64, {site}, "1", "damage per repeat of the motion"},
+      {"/life", Type::f64, {site}, "1", "repeats to failure; inf without damage", true},
+      {"/cycles/site", Type::u32, {"cycle"}, "1", "site of the cycle; the worst sites only, worst first"},
+      {"/cycles/range", Type::f64, {"cycle"}, "1", "strain range"},
+      {"/cycles/mean", Type::f64, {"cycle"}, "1", "mean strain"},
+      {"/cycles/count", Type::f64, {"cycle"}, "1", "1 or 0.5"},
+      {"/cycles/begin", Type::u32, {"cycle"}, "1", "sample at which the cycle opens"},
+      {"/cycles/end", Type::u32, {"cycle"}, "1", "sample at which its range is reached"},
+      {"/cycles/damage", Type::f64, {"cycle"}, "1", "its share of the damage per repeat"},
+      {"/damage_rate",
+       Type::f64,
+       {"segment", "sample"},
+       "1",
+       "damage of each segment's worst site, on the sample at which its cycles close"},
+      {"/damage_rate_opened",
+       Type::f64,
+       {"segment", "sample"},
+       "1",
+       "the same damage on the sample at which its cycles open",
+       false,
+       true},
+      {"/segment/length", Type::f64, {"segment"}, "m", "rest length"},
+      {"/segment/worst_site",
+       Type::u32,
+       {"segment"},
+       "1",
+       "site with the largest damage in each segment; 4294967295: none"},
+      {"/segment/damage", Type::f64, {"segment"}, "1", "its damage per repeat"},
+      {"/layer/component",
+       Type::text,
+       {"layer"},
+       "1",
+       "path of a layer of wires: /site/component without part numbers"},
+      {"/layer/worst_site", Type::u32, {"layer"}, "1", "site with the largest damage in the layer"},
+      {"/layer/damage", Type::f64, {"layer"}, "1", "its damage per repeat"},
+      {"/hose/worst_site",
+       Type::u32,
+       {"segment"},
+       "1",
+       "place of the hose's wall with the largest damage in each segment; only with dresspack.hose_material",
+       false,
+       true},
+      {"/hose/damage", Type::f64, {"segment"}, "1", "its damage per repeat", false, true},
+      {"/conductor/component",
+       Type::text,
+       {"conductor"},
+       "1",
+       "path of each part that holds wires",
+       false,
+       true},
+      {"/conductor/wires", Type::u32, {"conductor"}, "1", "its wires", false, true},
+      {"/conductor/worst_site",
+       Type::u32,
+       {"conductor"},
+       "1",
+       "its site with the largest damage",
+       false,
+       true},
+      {"/conductor/life",
+       Type::f64,
+       {"conductor", "3", "3"},
+       "1",
+       "repeats until its first wire, fatigue.failed_wires_percent of them, and all have broken (rows), in "
+       "10, 50 and 90 % of cases (columns)",
+       true,
+       true},
+      {"/worst/strain",
+       Type::f64,
+       {"sample"},
+       "1",
+       "strain history of the worst site: its probe, or straight between its turning points"},
+      {"/plane/site",
+       Type::u32,
+       {"plane"},
+       "1",
+       "wires whose planes were judged; with strain.equivalent critical_plane only",
+       false,
+       true},
+      {"/plane/angle",
+       Type::f64,
+       {"plane"},
+       "rad",
+       "of the normal of the plane that is damaged most to the wire's axis",
+       false,
+       true},
+      {"/plane/damage", Type::f64, {"plane"}, "1", "its damage per repeat", false, true},
+      {"/time", Type::f64, {"sample"}, "s", "time of each sample"},
+      {"/program/step", Type::i32, {"sample"}, "1", "index of the program line being executed"},
+      {"/program/text", Type::text, {"line"}, "1", "the lines of the program"},
+      {"/program/damage",
+       Type::f64,
+       {"line"},
+       "1",
+       "damage of the worst site by the program line that closes the cycles"},
+      {"/program/damage_opened",
+       Type::f64,
+       {"line"},
+       "1",
+       "the same damage by the program line that opens the cycles",
+       false,
+       true},
+      {"/joint/name",
+       Type::text,
+       {"cause"},
+       "1",
+       "the robot's joints, then `carrying`: what moves the dresspack as a whole, and the rest",
+       false,
+       true},
+      {"/joint/damage",
+       Type::f64,
+       {"cause"},
+       "1",
+       "damage of the worst site by what moved between opening and closing of its cycles; below 0: moved "
+       "against the others",
+       false,
+       true},
+      {"/program/joint_damage",
+       Type::f64,
+       {"line", "cause"},
+       "1",
+       "/program/damage by what moved",
+       false,
+       true},
+      {"/clamp/name",
+       Type::text,
+       {"clamp"},
+       "1",
+       "base clamp, those between the ends with their links, tool clamp",
+       false,
+       true},
+      {"/clamp/damage",
+       Type::f64,
+       {"clamp"},
+       "1",
+       "sum of /segment/damage over the segments to which this clamp of their dresspack is the nearest",
+       false,
+       true},
+  };
+  format.datasets[1].deflate = format.datasets[2].deflate = format.datasets[4].deflate = true;
+  add_dresspacks(format.datasets);
+  format.datasets.push_back({"/dresspack/worst_site",
+                             Type::u32,
+                             {"dresspack"},
+                             "1",
+                             "its wire's site with the largest damage; 4294967295: none",
+                             false,
+                             true});
+  format.datasets.push_back(
+      {"/dresspack/damage", Type::f64, {"dresspack"}, "1", "its damage per repeat", false, true});
+  format.attributes = {
+      {"life_repeats", "repeats of the motion until the worst wire breaks"},
+      {"life_hours", "the same in hours of motion"},
+      {"life_months", "the same at the job's operating hours per week"},
+      {"damage_per_repeat", "of the worst site"},
+      {"repeat_seconds", "duration of one repeat"},
+      {"life_repeats_all_stick", "bound: every part glued to its parent"},
+      {"life_repeats_all_free", "bound: every part slipping freely"},
+      {"life_hours_all_stick", "the bound in hours of motion"},
+      {"life_hours_all_free", "the bound in hours of motion"},
+      {"worst_site", "index of the worst site"},
+      {"worst_segment_from_tool", "its segment, counted from the tool, 1 first"},
+      {"worst_position_from_tool", "its distance from the tool clamp along the dresspack, m"},
+      {"worst_component", "path of its wire", true},
+      {"worst_time", "time at which its most damaging cycle closes, s"},
+      {"worst_step", "program line being executed then", true},
+      {"worst_dresspack", "the dresspack that it lies in, among several; the segment above is counted in it",
+       true, true},
+      {"life_hours_p10", "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)", false,
+       true},
+      {"life_hours_p50",
+       "the same of half of them: earlier than life_hours, since any of many wires may be the first", false,
+       true},
+      {"life_hours_p90", "the same of 90 %", false, true},
+      {"worst_shear_range",
+       "largest less smallest shear strain of the worst site's surface, by its wire's torsion", false, true},
+      {"worst_plane_angle", "/plane/angle of the worst site, rad; absent where it was not judged", false,
+       true},
+      {"joint_explained",
+       "share of the variance of the worst site's strain that follows from the joints between the clamps; "
+       "how "
+       "far to trust /joint/damage",
+       false, true},
+      {"worst_joint", "the cause in /joint/name that costs most", true, true},
+      {"worst_joint_share", "its share of the worst site's damage; above 1 where other joints relieve", false,
+       true},
+      {"hose_life_repeats",
+       "repeats until the hose's wall cracks, with dresspack.hose_material only; the attributes and tables "
+       "without `hose` are about wires",
+       false, true},
+      {"hose_life_hours", "the same in hours of motion", false, true},
+      {"hose_life_months", "the same at the job's operating hours per week", false, true},
+      {"hose_damage_per_repeat", "of the wall's worst place", false, true},
+      {"hose_component", "that place: hose 1 to hose 16 around the wall", true, true},
+      {"hose_segment_from_tool", "its segment, counted from the tool, 1 first", false, true},
+      {"hose_position_from_tool", "its distance from the tool clamp along the dresspack, m", false, true},
+      {"hose_time", "time at which its most damaging cycle closes, s", false, true},
+      {"hose_step", "program line being executed then", true, true},
+      {"conductor_life_hours_p10",
+       "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires "
+       "broken",
+       false, true},
+      {"conductor_life_hours_p50", "the same of half of them", false, true},
+      {"conductor_life_hours_p90", "the same of 90 %", false, true},
+  };
+  return format;
+}
+
+std::string shape_text(const Dataset& dataset) {
+  std::string text;
+  for (const std::string& axis : dataset.shape) text += (text.empty() ? "" : ", ") + axis;
+  return text;
+}
+
+const char* type_text(Type type) {
+  switch (type) {
+    case Type::f64:
+      return "float64";
+    case Type::f32:
+      return "float32";
+    case Type::i32:
+      return "int32";
+    case Type::u32:
+      return "uint32";
+    case Type::u64:
+      return "uint64";
+    case Type::text:
+      return "text";
+  }
+  return "";
+}
+
+}  // namespace
+
+const Dataset& Format::find(std::string_view path) const {
+  const auto found =
+      std::find_if(datasets.begin(), datasets.end(), [&](const Dataset& d) { return d.path == path; });
+  if (found == datasets.end()) throw std::logic_error(fmt::format("{} has no dataset {}", name, path));
+  return *found;
+}
+
+const Format& motion_format() {
+  static const Format format = make_motion_format();
+  return format;
+}
+const Format& strain_format() {
+  static const Format format = make_strain_format();
+  return format;
+}
+const Format& life_format() {
+  static const Format format = make_life_format();
+  return format;
+}
+
+std::string file_manual() {
+  std::string text;
+  for (const Format* format : {&motion_format(), &strain_format(), &life_format()}) {
+    text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version,
+                        format->purpose, format->made_by);
+    text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
+    for (const Dataset& dataset : format->datasets)
+      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", dataset.path, type_text(dataset.type),
+                          shape_text(dataset), dataset.unit, dataset.meaning,
+                          dataset.may_be_absent ? " (may be absent)" : "");
+    if (!format->attributes.empty()) {
+      text += "\n| root attribute | meaning |\n|---|---|\n";
+      for (const AttributeInfo& attribute : format->attributes)
+        text += fmt::format("| `{}` | {} |\n", attribute.name, attribute.meaning);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace dresslife::pipeline

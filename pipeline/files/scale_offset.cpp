@@ -1,0 +1,145 @@
+#include "pipeline/files/scale_offset.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace dresslife::pipeline {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "headers and numbers are written as they lie in memory");
+
+constexpr std::size_t header_bytes = 21;
+constexpr int whole = 32;             // bits of a number that is kept as it is
+constexpr std::size_t group = whole;  // numbers that fill words without a rest, whatever their bits
+
+std::size_t chunk_bytes(std::size_t numbers, int bits) { return header_bytes + numbers * bits / 8 + 1; }
+
+std::uint32_t swapped(std::uint32_t word) { return __builtin_bswap32(word); }
+
+/// 32 numbers into `bits` words, and back. All shifts are constants once the loop is unrolled.
+template <int bits>
+void pack_group(const std::uint32_t* in, char* out) {
+  std::uint64_t held = 0;
+  int count = 0;  // of bits held
+#pragma GCC unroll 32
+  for (std::size_t k = 0; k < group; ++k) {
+    held = held << bits | in[k];
+    count += bits;
+    if (count >= 32) {
+      count -= 32;
+      const std::uint32_t word = swapped(static_cast<std::uint32_t>(held >> count));
+      std::memcpy(out, &word, sizeof(word));
+      out += sizeof(word);
+    }
+  }
+}
+
+template <int bits>
+void unpack_group(const char* in, std::uint32_t* out) {
+  constexpr std::uint32_t mask = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
+  std::uint64_t held = 0;
+  int count = 0;
+#pragma GCC unroll 32
+  for (std::size_t k = 0; k < group; ++k) {
+    if (count < bits) {
+      std::uint32_t word;
+      std::memcpy(&word, in, sizeof(word));
+      in += sizeof(word);
+      held = held << 32 | swapped(word);
+      count += 32;
+    }
+    count -= bits;
+    out[k] = static_cast<std::uint32_t>(held >> count) & mask;
+  }
+}
+
+template <int... bits>
+constexpr auto packers(std::integer_sequence<int, bits...>) {
+  return std::array{pack_group<bits + 1>...};
+}
+template <int... bits>
+constexpr auto unpackers(std::integer_sequence<int, bits...>) {
+  return std::array{unpack_group<bits + 1>...};
+}
+constexpr auto pack_by_bits = packers(std::make_integer_sequence<int, whole - 1>{});
+constexpr auto unpack_by_bits = unpackers(std::make_integer_sequence<int, whole - 1>{});
+
+float power_of_ten(int decimals) { return static_cast<float>(std::pow(10.0, decimals)); }
+
+/// What is put into the bits for a number, and the number for that.
+std::uint32_t steps(float number, float smallest, float scale) {
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>((number - smallest) * scale + 0.5f));
+}
+float number_at(std::uint32_t steps, float smallest, float scale) {
+  return static_cast<float>(static_cast<std::int32_t>(steps)) / scale + smallest;
+}
+
+/// Bits for numbers up to `largest`; whole where steps would not fit a float's digits.
+int bits_for(float largest, float smallest, float scale) {
+  constexpr float most_steps = 1 << 23;
+  const float span = (largest - smallest) * scale;
+  return span < most_steps ? std::bit_width(steps(largest, smallest, scale)) : whole;
+}
+
+}  // namespace
+
+void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>& chunk) {
+  float smallest = numbers[0], largest = numbers[0];
+  for (const float number : numbers) {
+    smallest = number < smallest ? number : smallest;
+    largest = number > largest ? number : largest;
+  }
+  const float scale = power_of_ten(decimals);
+  const std::int32_t bits = bits_for(largest, smallest, scale);
+  chunk.assign(chunk_bytes(numbers.size(), bits) + group * sizeof(float),
+               0);  // the last group may be partly filled
+  std::memcpy(chunk.data(), &bits, sizeof(bits));
+  chunk[4] = 8;
+  std::memcpy(chunk.data() + 5, &smallest, sizeof(smallest));
+  char* out = chunk.data() + header_bytes;
+  if (bits == whole) {
+    std::memcpy(out, numbers.data(), numbers.size_bytes());
+  } else if (bits > 0) {
+    std::array<std::uint32_t, group> of_group{};
+    for (std::size_t first = 0; first < numbers.size(); first += group, out += 4 * bits) {
+      const std::size_t count = std::min(group, numbers.size() - first);
+      for (std::size_t k = 0; k < count; ++k) of_group[k] = steps(numbers[first + k], smallest, scale);
+      pack_by_bits[bits - 1](of_group.data(), out);
+    }
+  }
+  chunk.resize(chunk_bytes(numbers.size(), bits));
+}
+
+bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<float> numbers) {
+  std::int32_t bits = 0;
+  float smallest;
+  if (chunk.size() < header_bytes) return false;
+  std::memcpy(&bits, chunk.data(), sizeof(bits));
+  std::memcpy(&smallest, chunk.data() + 5, sizeof(smallest));
+  if (bits < 0 || bits > whole || chunk.size() + 1 < chunk_bytes(numbers.size(), bits)) return false;
+  const char* in = chunk.data() + header_bytes;
+  if (bits == whole) {
+    std::memcpy(numbers.data(), in, numbers.size_bytes());
+    return true;
+  }
+  const float scale = power_of_ten(decimals);
+  std::array<std::uint32_t, group> of_group{};
+  std::array<char, group * sizeof(float)> rest{};
+  for (std::size_t first = 0; first < numbers.size(); first += group, in += 4 * bits) {
+    const std::size_t count = std::min(group, numbers.size() - first);
+    if (count < group) {  // its last word may end beyond the chunk
+      std::memcpy(rest.data(), in, std::min<std::size_t>(rest.size(), chunk.data() + chunk.size() - in));
+      in = rest.data();
+    }
+    if (bits > 0) unpack_by_bits[bits - 1](in, of_group.data());
+    for (std::size_t k = 0; k < count; ++k) numbers[first + k] = number_at(of_group[k], smallest, scale);
+  }
+  return true;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,264 @@
+// Catalogue entries by name, `from: NAME`, and --set: everything that turns a written job into one whole
+// tree.
+#include <algorithm>
+#include <cstdlib>
+
+#include "pipeline/job/fields.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/urdf.h"
+
+namespace dresslife::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Shelf {
+  const char* key;     ///< of the job
+  const char* folder;  ///< of the catalogue
+};
+constexpr Shelf shelves[] = {{"robot", "robots"}, {"motion", "programs"}, {"dresspack", "dresspacks"}};
+
+fs::path shipped_catalogue() {
+  if (const char* folder = std::getenv("DRESSLIFE_CONFIG")) return folder;
+  return DRESSLIFE_CONFIG_DIR;
+}
+
+std::vector<fs::path> search_folders(const std::string& folder, const Where& named_at, const Where& job) {
+  std::vector<fs::path> folders;
+  std::error_code failure;
+  for (const Where& origin : {named_at, job}) {
+    fs::path here = fs::absolute(folder_of(origin) / "any", failure).lexically_normal().parent_path();
+    for (; !here.empty(); here = here.parent_path()) {
+      for (const fs::path& candidate : {here / folder, here / "config" / folder})
+        if (fs::is_directory(candidate, failure)) folders.push_back(candidate);
+      if (here == here.root_path()) break;
+    }
+  }
+  folders.push_back(shipped_catalogue() / folder);
+  return folders;
+}
+
+void merge(Node& base, const Node& over) {
+  if (!base.is_map() || !over.is_map()) {
+    base = over;
+    return;
+  }
+  base.where = over.where;
+  for (const Entry& entry : over.entries) {
+    if (Node* found = base.find(entry.key))
+      merge(*found, entry.value);
+    else
+      base.entries.push_back(entry);
+  }
+}
+
+/// Items of the same `name` are merged, others added.
+void merge_by_name(Node& base, const Node& over) {
+  if (!base.is_list() || !over.is_list()) return merge(base, over);
+  const auto name = [](const Node& item) {
+    const Node* found = item.find("name");
+    return found ? found->text : std::string();
+  };
+  for (const Node& item : over.items) {
+    const auto same = std::find_if(base.items.begin(), base.items.end(), [&](const Node& known) {
+      return !name(item).empty() && name(known) == name(item);
+    });
+    if (same != base.items.end())
+      merge(*same, item);
+    else
+      base.items.push_back(item);
+  }
+}
+
+/// `urdf: FILE` and what else says how to read it; all other keys of the entry go over the robot in it.
+void read_urdf(Node& entry) {
+  Node about = entry, over = entry;
+  const auto is_about = [](const Entry& e) {
+    for (const char* key : {"urdf", "tip", "package_folder", "collision", "accelerations_deg_per_s2"})
+      if (e.key == key) return true;
+    return false;
+  };
+  std::erase_if(about.entries, [&](const Entry& e) { return !is_about(e); });
+  std::erase_if(over.entries, is_about);
+  UrdfRequest request;
+  read_fields(about, request);
+  std::error_code failure;
+  if (const fs::path shown = fs::proximate(request.urdf, failure); !failure && !shown.empty())
+    request.urdf = shown;
+  Node robot = robot_from_urdf(request);
+  for (const Entry& e : over.entries) {
+    Node& known = robot[e.key];
+    if (e.key == "joints" || e.key == "links" || e.key == "external_axes")
+      merge_by_name(known, e.value);
+    else
+      known = e.value;
+  }
+  entry = std::move(robot);
+}
+
+void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0) {
+  if (depth > 16) throw InputError(entry.where, "'from' goes in a circle", "let one entry stand alone");
+  if (entry.is_scalar()) {
+    entry = catalogue_entry(folder, entry.text, entry.where, job);
+    resolve(entry, folder, job, depth + 1);
+    return;
+  }
+  const Node* from = entry.is_map() ? entry.find("from") : nullptr;
+  if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
+  if (!from) return;
+  Node base = catalogue_entry(folder, from->text, from->where, job);
+  resolve(base, folder, job, depth + 1);
+  Node over = entry;
+  std::erase_if(over.entries, [](const Entry& e) { return e.key == "from"; });
+  merge(base, over);
+  entry = std::move(base);
+}
+
+/// Of a key path: "dresspack", "dresspacks.2.dresspack"; null: no catalogue entry stands there.
+const char* shelf_of(std::string_view path) {
+  constexpr std::string_view list = "dresspacks.";
+  if (path.starts_with(list)) {
+    const std::size_t item = path.find('.', list.size());
+    if (item == std::string_view::npos) return nullptr;
+    path = path.substr(item + 1);
+    if (path != "dresspack") return nullptr;
+  }
+  for (const Shelf& shelf : shelves)
+    if (path == shelf.key) return shelf.folder;
+  return nullptr;
+}
+
+void collect_materials(const Node& components, std::vector<const Node*>& names) {
+  for (const Node& component : components.items) {
+    if (const Node* name = component.find("material")) names.push_back(name);
+    if (const Node* inner = component.find("components")) collect_materials(*inner, names);
+  }
+}
+
+void add_materials(Node* dresspack, const Node& job) {
+  if (!dresspack || !dresspack->is_map()) return;
+  std::vector<const Node*> names;
+  if (const Node* components = dresspack->find("components")) collect_materials(*components, names);
+  if (const Node* hose = dresspack->find("hose_material")) names.push_back(hose);
+  if (const Node* fatigue = job.find("fatigue"))
+    if (const Node* material = fatigue->find("material")) names.push_back(material);
+  std::vector<Node> wanted;
+  for (const Node* name : names) wanted.push_back(*name);  // the tree changes below
+
+  Node& materials = (*dresspack)["materials"];
+  if (materials.kind == Node::Kind::null) materials.kind = Node::Kind::list;
+  for (const Node& name : wanted) {
+    const bool there = std::any_of(materials.items.begin(), materials.items.end(), [&](const Node& material) {
+      const Node* known = material.find("name");
+      return known && known->text == name.text;
+    });
+    if (there || !name.is_scalar()) continue;
+    Node material = catalogue_entry("materials", name.text, name.where, job.where);
+    resolve(material, "materials", job.where);
+    const Node* own_name = material.find("name");
+    if (!own_name || own_name->text != name.text)
+      throw InputError(material.where,
+                       fmt::format("the material is not named '{}' as its file is", name.text),
+                       fmt::format("write 'name: {}'", name.text));
+    materials.items.push_back(std::move(material));
+  }
+  if (materials.items.empty())
+    std::erase_if(dresspack->entries, [](const Entry& e) { return e.key == "materials"; });
+}
+
+Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
+  if (node.is_list()) {
+    char* end = nullptr;
+    const long number = std::strtol(word.c_str(), &end, 10);
+    if (*end != '\0' || number < 1 || number > static_cast<long>(node.items.size()))
+      throw InputError(where, fmt::format("'{}' of {} is not an item of the list", word, path),
+                       fmt::format("items count from 1 to {}", node.items.size()));
+    return &node.items[number - 1];
+  }
+  if (node.is_scalar())
+    throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path),
+                     "shorten the path");
+  if (Node* found = node.find(word)) return found;
+  Node& added = node[word];
+  node.entries.back().where = added.where = where;
+  return &added;
+}
+
+/// A command line has no lines to point at.
+void place_at(Node& node, const Where& where) {
+  node.where = where;
+  for (Node& item : node.items) place_at(item, where);
+  for (Entry& entry : node.entries) {
+    entry.where = where;
+    place_at(entry.value, where);
+  }
+}
+
+}  // namespace
+
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
+                     const Where& job) {
+  if (name.ends_with(".urdf")) {  // alone: its entry is the file itself
+    Node entry;
+    entry["urdf"] = scalar(name);
+    place_at(entry, named_at);
+    return entry;
+  }
+  if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
+    return read_yaml((folder_of(named_at) / name).lexically_normal());
+  std::vector<std::string> names;
+  for (const fs::path& place : search_folders(folder, named_at, job)) {
+    std::error_code failure;
+    if (const fs::path file = place / (name + ".yaml"); fs::is_regular_file(file, failure))
+      return read_yaml(file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file));
+    for (const auto& item : fs::directory_iterator(place, failure))
+      if (item.path().extension() == ".yaml") names.push_back(item.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  throw InputError(named_at, fmt::format("'{}' is not in the catalogue (config/{})", name, folder),
+                   names.empty() ? "write the entry itself or a path to a .yaml file"
+                                 : fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
+void set_value(Node& job, const std::string& path, Node value, const Where& where) {
+  Node* node = &job;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', begin), path.size());
+    const std::string word = path.substr(begin, dot - begin);
+    if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
+    // A catalogue entry is looked up as soon as a path leads into it.
+    if (begin > 0 && word != "from")
+      if (const char* folder = shelf_of(path.substr(0, begin - 1))) resolve(*node, folder, job.where);
+    node = step_into(*node, word, where, path);
+    begin = dot + 1;
+  }
+  *node = std::move(value);
+}
+
+void apply_set(Node& job, const std::string& set) {
+  const Where where{"--set " + set};
+  const std::size_t equals = set.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(where, "is not key.path=value", "write for example --set simulation.segments=80");
+  Node value = parse_yaml(set.substr(equals + 1), where.file);
+  place_at(value, where);
+  set_value(job, set.substr(0, equals), std::move(value), where);
+}
+
+/// Looks up all that the job names; afterwards the tree stands for itself.
+void resolve_job(Node& job) {
+  for (const Shelf& shelf : shelves)
+    if (Node* entry = job.find(shelf.key)) resolve(*entry, shelf.folder, job.where);
+  add_materials(job.find("dresspack"), job);
+  Node* list = job.find("dresspacks");
+  if (!list) return;
+  for (Node& mounted : list->items) {
+    Node* entry = mounted.find("dresspack");
+    if (entry) resolve(*entry, shelf_of("dresspack"), job.where);
+    add_materials(entry, job);
+  }
+}
+
+}  // namespace dresslife::pipeline

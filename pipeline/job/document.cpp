@@ -1,0 +1,265 @@
+#include "pipeline/job/document.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr int most_nodes = 2'000'000;  // far above any job; stops aliases that multiply without end
+constexpr int deepest_level = 64;
+
+Where place(const YAML::Mark& mark, const std::string& file) {
+  // The library counts from 0, and a node without a place has -1.
+  return {file, mark.line + 1, mark.line >= 0 ? mark.column + 1 : 0};
+}
+
+class Converter {
+ public:
+  explicit Converter(const std::string& file) : file_(file) {}
+
+  Node convert(const YAML::Node& from, int depth = 0) {
+    Node node;
+    node.where = place(from.Mark(), file_);
+    if (++nodes_ > most_nodes || depth > deepest_level)
+      throw InputError(node.where, "document is too large or too deep (aliases of aliases?)",
+                       "write it out plainly");
+    if (from.IsScalar()) {
+      node.kind = Node::Kind::scalar;
+      node.text = from.Scalar();
+      node.quoted = from.Tag() == "!";
+    } else if (from.IsSequence()) {
+      node.kind = Node::Kind::list;
+      for (const auto& item : from) node.items.push_back(convert(item, depth + 1));
+    } else if (from.IsMap()) {
+      node.kind = Node::Kind::map;
+      for (const auto& pair : from) add_entry(node, pair.first, pair.second, depth);
+    }
+    return node;
+  }
+
+ private:
+  void add_entry(Node& map, const YAML::Node& key, const YAML::Node& value, int depth) {
+    const Where where = place(key.Mark(), file_);
+    if (!key.IsScalar()) throw InputError(where, "a key must be a word", "write 'key: value'");
+    if (key.Scalar() == "<<")
+      throw InputError(where, "merge keys (<<) are not supported",
+                       "write 'from: NAME' to start from a catalogue entry");
+    if (map.find(key.Scalar()))
+      throw InputError(where, fmt::format("duplicate key '{}'", key.Scalar()), "keep one of the two");
+    Node converted = convert(value, depth + 1);
+    // A value that is not there lies, for the library, where the next line begins.
+    if (converted.where.line <= 0 || converted.kind == Node::Kind::null) converted.where = where;
+    map.entries.push_back({key.Scalar(), where, std::move(converted)});
+  }
+
+  const std::string& file_;
+  int nodes_ = 0;
+};
+
+/// Walks a stream of documents and keeps only where it is.
+class Walker : public YAML::EventHandler {
+ public:
+  YAML::Mark begin;                           ///< of the document
+  YAML::Mark last = YAML::Mark::null_mark();  ///< of the latest key or value
+
+  void OnDocumentStart(const YAML::Mark& mark) override { begin = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { last = mark; }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { last = mark; }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
+    last = mark;
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    last = mark;
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    last = mark;
+  }
+  void OnMapEnd() override {}
+};
+
+/// Refuses what the library lets pass: further documents, a stray ',' (to it an endless stream of empty
+/// documents) and a quote that is never closed, which it only notices in text that does not end in a line
+/// feed.
+void check_stream(const std::string& text, const std::string& file) {
+  std::istringstream stream(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
+  YAML::Parser parser(stream);
+  Walker walker;
+  try {
+    if (!parser.HandleNextDocument(walker)) return;
+    const YAML::Mark first = walker.begin;
+    if (!parser.HandleNextDocument(walker)) return;
+    const Where where = place(walker.begin, file);
+    if (walker.begin.pos == first.pos)
+      throw InputError(where, "is not YAML (no value begins like this)", "mend the line");
+    throw InputError(where, "a second document begins here", "keep one document per file");
+  } catch (const YAML::Exception& problem) {
+    if (problem.msg != YAML::ErrorMsg::EOF_IN_SCALAR) throw;
+    throw InputError(walker.last.is_null() ? Where{file, 1, 1} : place(walker.last, file),
+                     "is not YAML (a quote that opens here or in the lines below is never closed)",
+                     "close it");
+  }
+}
+
+bool all_scalars(const Node& list) {
+  return std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is_scalar(); });
+}
+
+void emit(YAML::Emitter& out, const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::null:
+      out << YAML::Null;
+      break;
+    case Node::Kind::scalar:
+      if (node.quoted) out << YAML::DoubleQuoted;
+      out << node.text;
+      break;
+    case Node::Kind::list:
+      if (all_scalars(node)) out << YAML::Flow;
+      out << YAML::BeginSeq;
+      for (const Node& item : node.items) emit(out, item);
+      out << YAML::EndSeq;
+      break;
+    case Node::Kind::map:
+      out << YAML::BeginMap;
+      for (const Entry& entry : node.entries) {
+        out << YAML::Key << entry.key << YAML::Value;
+        emit(out, entry.value);
+      }
+      out << YAML::EndMap;
+      break;
+  }
+}
+
+void sync(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+bool same_bytes(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(other, failure)) return false;
+  if (std::filesystem::file_size(one, failure) != std::filesystem::file_size(other, failure)) return false;
+  std::ifstream a(one, std::ios::binary), b(other, std::ios::binary);
+  std::vector<char> block_a(1 << 20), block_b(1 << 20);
+  while (a && b) {
+    a.read(block_a.data(), block_a.size());
+    b.read(block_b.data(), block_b.size());
+    if (a.gcount() != b.gcount() || std::memcmp(block_a.data(), block_b.data(), a.gcount()) != 0)
+      return false;
+  }
+  return a.eof() && b.eof();
+}
+
+}  // namespace
+
+const Node* Node::find(std::string_view key) const {
+  for (const Entry& entry : entries)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
+
+Node& Node::operator[](std::string_view key) {
+  if (Node* found = find(key)) return *found;
+  kind = Kind::map;
+  entries.push_back({std::string(key), where, Node{}});
+  entries.back().value.where = where;
+  return entries.back().value;
+}
+
+Node scalar(std::string text) {
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.text = std::move(text);
+  return node;
+}
+
+Node list_of(std::vector<Node> items) {
+  Node node;
+  node.kind = Node::Kind::list;
+  node.items = std::move(items);
+  return node;
+}
+
+Node parse_yaml(const std::string& text, const std::string& file) {
+  YAML::Node document;
+  try {
+    check_stream(text, file);
+    document = YAML::Load(text);
+  } catch (const YAML::Exception& problem) {
+    throw InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg),
+                     "mend the line");
+  }
+  Node root = Converter(file).convert(document);
+  if (root.where.line <= 0) root.where = {file, 1, 1};
+  return root;
+}
+
+Node read_yaml(const std::filesystem::path& file) { return parse_yaml(read_text(file), file.string()); }
+
+std::string to_yaml(const Node& node) {
+  YAML::Emitter out;
+  emit(out, node);
+  return std::string(out.c_str()) + "\n";
+}
+
+std::filesystem::path folder_of(const Where& where) {
+  return where.file.starts_with("--set ") ? "" : std::filesystem::path(where.file).parent_path();
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw InputError({file.string()}, "is a folder, not a file", "name a file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError({file.string()}, fmt::format("cannot be read ({})", std::strerror(errno)),
+                     "check the path");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void keep_if_changed(const std::filesystem::path& part, const std::filesystem::path& final_name, Sync when) {
+  if (same_bytes(part, final_name)) {
+    std::filesystem::remove(part);
+    return;
+  }
+  if (when == Sync::now) sync(part);
+  std::filesystem::rename(part, final_name);
+  if (when == Sync::never) return;
+  const auto folder = final_name.parent_path();
+  sync(folder.empty() ? "." : folder);
+}
+
+void write_text_if_changed(const std::filesystem::path& file, const std::string& text, Sync when) {
+  if (!file.parent_path().empty()) std::filesystem::create_directories(file.parent_path());
+  auto part = file;
+  part += ".part";
+  {
+    std::ofstream out(part, std::ios::binary | std::ios::trunc);
+    out << text;
+    out.close();
+    if (!out)
+      throw InputError({file.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
+                       "free space on the disk or choose another place");
+  }
+  keep_if_changed(part, file, when);
+}
+
+}  // namespace dresslife::pipeline

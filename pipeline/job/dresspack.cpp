@@ -1,0 +1,156 @@
+#include "pipeline/job/dresspack.h"
+
+#include <algorithm>
+
+#include "pipeline/job/fields.h"
+
+namespace dresslife::pipeline {
+
+void describe(Fields& f, Component& component) {
+  f.place(component.where);
+  f.text("name", component.name, Need::required, "what the part is; equal parts are numbered from 1");
+  f.text("layer", component.layer, Need::optional,
+         "name of the layer, where layers of equal parts lie over each other");
+  f.integer("count", component.count, Need::optional, between(1, 1000), "equal parts in the layer (K)");
+  f.number("radius_mm", component.radius, Need::required, above(0), "of the part");
+  f.number("helix_radius_mm", component.helix_radius, Need::required, at_least(0),
+           "from the parent's axis to the part's (R)");
+  f.number("lay_angle_deg", component.lay_angle, Need::optional, between(0, 60),
+           "angle to the parent's axis (alpha)");
+  f.choice("hand", component.hand, {"right", "left"}, "of the helix: right (Z) or left (S)");
+  f.number("phase_deg", component.phase, Need::optional, between(-360, 360),
+           "angle of part 1 at the base clamp");
+  f.maybe_number("friction_coefficient", component.friction, between(0, 1e6),
+                 "Coulomb, of the part on what it lies against; needed where strain.slip is friction");
+  f.maybe_number(
+      "radial_line_load_N_per_m", component.radial_line_load, at_least(0),
+      "presses the part on what it lies against, by jacket and tape; needed where strain.slip is friction");
+  f.number("tension_N", component.tension, Need::optional, at_least(0),
+           "of the part in the dresspack at rest");
+  f.text("material", component.material, Need::optional,
+         "of a wire: a name of config/materials; a part with parts has none");
+  f.list("components", component.components, Need::optional, "the layers of parts inside");
+}
+
+void describe(Fields& f, Corrugation& corrugation) {
+  f.place(corrugation.where);
+  f.number("pitch_mm", corrugation.pitch, Need::required, above(0), "of one corrugation along the hose");
+  f.number("height_mm", corrugation.height, Need::required, above(0),
+           "half the difference of outer and inner diameter");
+  f.number("wall_mm", corrugation.wall, Need::required, above(0), "thickness of the material");
+}
+
+void describe(Fields& f, Dresspack& dresspack) {
+  f.text("name", dresspack.name, Need::required, "name of the dresspack");
+  f.text("source", dresspack.source, Need::required, "where the numbers come from");
+  f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
+  f.number("mass_kg_per_m", dresspack.mass_per_length, Need::required, above(0), "of the filled hose");
+  f.number("bending_stiffness_Nm2", dresspack.bending_stiffness, Need::required, above(0),
+           "EI of the filled hose");
+  f.number("torsional_stiffness_Nm2", dresspack.torsional_stiffness, Need::required, above(0),
+           "GJ of the filled hose");
+  f.number("axial_stiffness_N", dresspack.axial_stiffness, Need::required, above(0), "EA of the filled hose");
+  f.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(),
+           "of the delivered hose when nothing pulls on it, toward the x axis of its base clamp, which "
+           "base_clamp.roll_deg turns; its parts are free of strain in that shape");
+  f.number("damping_time_ms", dresspack.damping_time, Need::required, at_least(0),
+           "Kelvin-Voigt time of bending and twist, from a decay test");
+  f.text("damping_source", dresspack.damping_source, Need::required,
+         "where the damping comes from: life depends on it");
+  f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
+           "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts");
+  f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
+                 "that the maker allows in motion; tighter is warned of; without it ten diameters");
+  f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
+                 "that the maker allows in motion; more is warned of; without it 180");
+  f.text("hose_material", dresspack.hose_material, Need::optional,
+         "of the hose's wall, a name of config/materials; without it the hose's strain is not evaluated");
+  f.maybe_number(
+      "hose_strain_factor", dresspack.hose_strain_factor, between(1e-3, 100),
+      "strain of the wall over that of a smooth hose of the same diameter; without it 1, or that of "
+      "hose_corrugation");
+  f.maybe_group("hose_corrugation", dresspack.hose_corrugation,
+                "profile of the hose's wall, which gives the factor of its strain");
+  f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only");
+  f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
+}
+
+bool is_hose_wall(const Dresspack& dresspack, std::string_view component) {
+  return !dresspack.hose_material.empty() && component.starts_with(hose_wall_name) &&
+         component.find_first_not_of("0123456789", hose_wall_name.size() + 1) == std::string_view::npos &&
+         component.size() > hose_wall_name.size() + 1 && component[hose_wall_name.size()] == ' ';
+}
+
+namespace {
+
+int check_component(const Component& component, const Component* parent) {
+  const Where& where = component.where;
+  if (component.components.empty() == component.material.empty())
+    throw InputError(where,
+                     fmt::format("'{}' must have either a material (a wire) or components", component.name),
+                     "give one of the two");
+  if (component.count > 1 && component.helix_radius == 0)
+    throw InputError(
+        where,
+        fmt::format("{} parts '{}' lie on the axis (helix_radius_mm is 0)", component.count, component.name),
+        "give their distance from the axis");
+  if (component.helix_radius == 0 && component.lay_angle != 0)
+    throw InputError(where, fmt::format("'{}' on the axis has a lay angle", component.name),
+                     "set lay_angle_deg to 0");
+  if (component.name.find('/') != std::string::npos || component.layer.find('/') != std::string::npos)
+    throw InputError(where, fmt::format("name '{}' holds a '/'", component.name), "choose another name");
+  if (parent && component.helix_radius + component.radius > parent->radius * 1.02)
+    throw InputError(
+        where,
+        fmt::format("'{}' reaches {:.4g} mm from the axis of '{}', whose radius is {:.4g} mm", component.name,
+                    1e3 * (component.helix_radius + component.radius), parent->name, 1e3 * parent->radius),
+        "check helix_radius_mm and radius_mm");
+  int depth = 0;
+  for (const Component& inner : component.components)
+    depth = std::max(depth, check_component(inner, &component));
+  return depth + 1;
+}
+
+/// A thin wall with round crests and roots fits the profile (strain/corrugation.h).
+void check_hose(const Dresspack& dresspack) {
+  if (!dresspack.hose_corrugation) return;
+  const Corrugation& c = *dresspack.hose_corrugation;
+  if (dresspack.hose_strain_factor)
+    throw InputError(c.where, "both hose_strain_factor and hose_corrugation are given",
+                     "keep one of the two");
+  if (c.height - c.wall < c.pitch / 2 || c.wall > c.pitch / 4 || c.height > dresspack.diameter / 2)
+    throw InputError(
+        c.where,
+        fmt::format(
+            "a corrugation of pitch {:.4g}, height {:.4g} and wall {:.4g} mm is not evaluated (height "
+            "less wall must be at least half the pitch, the wall at most a quarter of it)",
+            1e3 * c.pitch, 1e3 * c.height, 1e3 * c.wall),
+        "check the three, or give hose_strain_factor");
+}
+
+/// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
+void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
+  if (slip[std::min(level, slip.size()) - 1] == Slip::friction &&
+      !(component.friction && component.radial_line_load))
+    throw InputError(component.where,
+                     fmt::format("'{}' has no {} (strain.slip of its level is friction)", component.name,
+                                 component.friction ? "radial_line_load_N_per_m" : "friction_coefficient"),
+                     "give both, or slip: free or stick");
+  for (const Component& inner : component.components) check_friction(inner, slip, level + 1);
+}
+
+}  // namespace
+
+int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
+  Component hose;
+  hose.name = "hose";
+  hose.radius = dresspack.diameter / 2;
+  int depth = 0;
+  for (const Component& component : dresspack.components)
+    depth = std::max(depth, check_component(component, &hose));
+  check_hose(dresspack);
+  for (const Component& component : dresspack.components) check_friction(component, slip, 1);
+  return depth;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,78 @@
+// The dresspack: the hose as a rod, and what lies in it down to the wires.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/job/document.h"
+#include "pipeline/job/material.h"
+#include "pipeline/job/strain.h"
+
+namespace dresslife::pipeline {
+
+class Fields;
+
+enum class Hand { right, left };
+
+/// K equal parts on one helix, each of which may hold further layers of parts (physics.md 1).
+struct Component {
+  std::string name;         ///< "signal cable"; parts are numbered "signal cable 1", ...
+  std::string layer;        ///< set where several layers of parts share a name: "layer 1"; else empty
+  int count = 1;            ///< K
+  double radius = 0;        ///< of the part [m]
+  double helix_radius = 0;  ///< R, from the parent's axis to the part's [m]
+  double lay_angle = 0;     ///< alpha >= 0 [rad]
+  Hand hand = Hand::right;
+  double phase = 0;                ///< theta_layer: angle of part 1 at the base clamp [rad]
+  std::optional<double> friction;  ///< Coulomb, on what it lies against; needed where slip is `friction`
+  std::optional<double> radial_line_load;  ///< that presses the part on what it lies against [N/m]; likewise
+  double tension = 0;                      ///< of the part in the dresspack at rest [N]
+  std::string material;  ///< of a wire; a key of Dresspack::materials; empty for a part with parts
+  std::vector<Component> components;
+  Where where;
+};
+
+/// The profile of a hose's wall, as a caliper finds it.
+struct Corrugation {
+  double pitch = 0;   ///< of one corrugation along the hose [m]
+  double height = 0;  ///< half the difference of outer and inner diameter [m]
+  double wall = 0;    ///< thickness of the material [m]
+  Where where;
+};
+
+struct Dresspack {
+  std::string name, source;
+  double diameter = 0;                          ///< outer, of the hose [m]
+  double mass_per_length = 0;                   ///< of the filled hose [kg/m]
+  double bending_stiffness = 0;                 ///< EI [N m2]
+  double torsional_stiffness = 0;               ///< GJ [N m2]
+  double axial_stiffness = 0;                   ///< EA [N]
+  double rest_curvature = 0;                    ///< of the unloaded hose, toward x of its base clamp [1/m]
+  double damping_time = 0;                      ///< Kelvin-Voigt tau of bending and twist [s]
+  std::string damping_source;                   ///< where the damping was measured or why it is guessed
+  double friction = 0;                          ///< Coulomb, hose against robot
+  std::optional<double> least_bend_radius;      ///< allowed in motion [m]; absent: ten diameters
+  std::optional<double> most_twist;             ///< allowed in motion [rad/m]; absent: 180 deg/m
+  std::string hose_material;                    ///< of the hose's wall; empty: its strain is not evaluated
+  std::optional<double> hose_strain_factor;     ///< strain of the wall over that of a smooth hose
+  std::optional<Corrugation> hose_corrugation;  ///< gives that factor instead; neither: a smooth hose
+  std::vector<Component> components;
+  std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
+};
+
+/// The hose's wall as a part of the dresspack: "hose 1" to "hose 16" are places around it.
+constexpr std::string_view hose_wall_name = "hose";
+/// Whether a part's path in this dresspack names a place of the hose's wall, not a wire.
+bool is_hose_wall(const Dresspack& dresspack, std::string_view component);
+
+void describe(Fields& f, Component& component);
+void describe(Fields& f, Corrugation& corrugation);
+void describe(Fields& f, Dresspack& dresspack);
+
+/// Levels of parts in it. slip: of the job, which says where friction must be known. Errors: InputError at
+/// the part that does not fit into its parent, or lacks what its slip needs.
+int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,32 @@
+#include "pipeline/job/fatigue.h"
+
+#include "pipeline/job/fields.h"
+
+namespace dresslife::pipeline {
+
+void describe(Fields& f, Fatigue& fatigue) {
+  f.choice("stress", fatigue.stress, {"cyclic", "elastic"},
+           "Ramberg-Osgood with Masing memory, or E times strain");
+  f.choice("mean_stress", fatigue.mean_stress, {"none", "morrow", "swt", "walker"},
+           "correction of the strain-life curve");
+  f.choice("counting", fatigue.counting, {"repeating", "half_cycles"},
+           "rainflow of an endlessly repeated motion, or of one run");
+  f.number("endurance_strain", fatigue.endurance_strain, Need::optional, between(0, 0.1),
+           "amplitudes up to this do no damage");
+  f.text("material", fatigue.material, Need::optional,
+         "of every wire, instead of its own; the hose keeps hose_material");
+  f.integer("listed_sites", fatigue.listed_sites, Need::optional, between(1, 10000),
+            "worst sites whose cycles are written");
+  f.number("operating_hours_per_week", fatigue.operating_hours_per_week, Need::optional, between(0.1, 168),
+           "turns hours of motion into months");
+  f.number(
+      "scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
+      "standard deviation of log10 of a wire's life; ESTIMATE: lives of 20 equal wires spread over 0.75 of a "
+      "decade");
+  f.number("failed_wires_percent", fatigue.failed_wires_percent, Need::optional, between(0, 100),
+           "a conductor fails when so many of its wires are broken; 0: with the first");
+  f.boolean("load_sharing", fatigue.load_sharing, Need::optional,
+            "whether the rest of a conductor takes over the load of its broken wires");
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,317 @@
+#include "pipeline/job/job.h"
+
+#include <algorithm>
+
+#include "pipeline/job/fields.h"
+#include "pipeline/job/urdf.h"
+
+namespace dresslife::pipeline {
+
+void resolve_job(Node& job);  // catalogue.cpp
+
+void describe(Fields& f, MountedDresspack& mounted) {
+  f.place(mounted.where);
+  f.text("name", mounted.name, Need::required, "a name that tells it from the others, without '/'");
+  f.group("dresspack", mounted.dresspack, Need::required,
+          "a name of config/dresspacks, a file, or the entry itself");
+  f.group("routing", mounted.routing, Need::required, "clamps and free length");
+}
+
+namespace {
+
+/// How a job gives its dresspacks: one by two keys of its own, or a list. The manual tells of both.
+struct Forms {
+  bool one = true, list = false;
+};
+/// Precondition of reading: the job's list is empty when the document has one.
+Forms forms_of(const Job& job) {
+  const bool one = job.dresspacks.size() == 1 && job.dresspacks.front().name.empty();
+  return {one, !one};
+}
+
+void describe_keys(Fields& f, Job& job, const Forms& forms) {
+  // The motion first: whether it brings its own clamp poses decides whether a robot is needed.
+  f.group("motion", job.motion, Need::required, "a name of config/programs, a file, or the entry itself");
+  f.group("robot", job.robot, job.motion.clamp_poses.empty() ? Need::required : Need::optional,
+          "a name of config/robots, a file, or the entry itself", !job.robot.joints.empty());
+  if (forms.one) {
+    MountedDresspack& only = job.dresspacks.front();
+    f.group("dresspack", only.dresspack, Need::required,
+            "a name of config/dresspacks, a file, or the entry itself");
+    f.group("routing", only.routing, Need::required, "clamps and free length");
+  }
+  if (forms.list)
+    f.list("dresspacks", job.dresspacks, forms.one ? Need::optional : Need::required,
+           "several on one robot, instead of dresspack and routing");
+  f.group("cell", job.cell, Need::optional, "what stands still around the robot: obstacles of the dresspack");
+  f.group("simulation", job.simulation, Need::optional, "settings of dresslife-sim");
+  f.group("strain", job.strain, Need::optional, "settings of dresslife-strain");
+  f.group("fatigue", job.fatigue, Need::optional, "settings of dresslife-fatigue");
+}
+
+}  // namespace
+
+void describe(Fields& f, Job& job) { describe_keys(f, job, forms_of(job)); }
+
+namespace {
+
+void check_names(const std::vector<MountedDresspack>& dresspacks) {
+  for (std::size_t d = 0; d < dresspacks.size(); ++d) {
+    const MountedDresspack& mounted = dresspacks[d];
+    if (mounted.name.find('/') != std::string::npos)
+      throw InputError(mounted.where, fmt::format("name '{}' holds a '/'", mounted.name),
+                       "choose another: it begins the paths of the dresspack's wires");
+    for (std::size_t other = 0; other < d; ++other)
+      if (dresspacks[other].name == mounted.name)
+        throw InputError(mounted.where, fmt::format("two dresspacks are named '{}'", mounted.name),
+                         "give each another name");
+  }
+}
+
+/// What all dresspacks of a robot share: one pose in which they are clamped, one material of each name.
+void check_shared(const std::vector<MountedDresspack>& dresspacks) {
+  const MountedDresspack* posed = nullptr;
+  std::vector<const Material*> known;
+  for (const MountedDresspack& mounted : dresspacks) {
+    if (!mounted.routing.mounting_pose.empty()) {
+      if (posed && posed->routing.mounting_pose != mounted.routing.mounting_pose)
+        throw InputError(mounted.routing.where,
+                         fmt::format("mounting_pose_deg differs from that of dresspack '{}' (all are clamped "
+                                     "in one pose)",
+                                     posed->name),
+                         "give the same, or give it once");
+      posed = &mounted;
+    }
+    for (const Material& material : mounted.dresspack.materials) {
+      const auto same = std::find_if(known.begin(), known.end(),
+                                     [&](const Material* other) { return other->name == material.name; });
+      if (same == known.end())
+        known.push_back(&material);
+      else if (to_yaml(echo_fields(**same)) != to_yaml(echo_fields(material)))
+        throw InputError(
+            material.where,
+            fmt::format("material '{}' is another than that of the dresspack before", material.name),
+            "give one of the two another name");
+    }
+  }
+}
+
+void check_dresspacks(const Job& job, const Where& strain) {
+  if (!forms_of(job).one) check_names(job.dresspacks);
+  if (job.dresspacks.size() > 1 && !job.motion.clamp_poses.empty())
+    throw InputError(job.motion.where,
+                     fmt::format("motion.clamp_poses brings the clamps of one dresspack (there are {})",
+                                 job.dresspacks.size()),
+                     "describe the motion by a robot, or keep one dresspack");
+  int depth = 0;
+  for (const MountedDresspack& mounted : job.dresspacks) {
+    check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
+    depth = std::max(depth, check_dresspack(mounted.dresspack, job.strain.slip));
+    check_materials(mounted.dresspack.materials);
+  }
+  check_shared(job.dresspacks);
+  if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
+    throw InputError(
+        strain,
+        fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
+        "give one word, or one per level, outermost first");
+}
+
+void check(const Job& job, const Node& document) {
+  auto where = [&](const char* key) {
+    return document.find(key) ? document.find(key)->where : document.where;
+  };
+  if (job.motion.clamp_poses.empty()) check_robot(job.robot, where("robot"));
+  for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
+  check_boxes(job.cell.boxes, where("cell"));
+  check_motion(job.motion, job.robot);
+  check_dresspacks(job, where("strain"));
+  check_simulation(job.simulation, where("simulation"));
+}
+
+/// Exactly one of the two forms in which a job gives its dresspacks.
+void check_forms(const Node& document) {
+  const Node* list = document.find("dresspacks");
+  for (const char* key : {"dresspack", "routing"}) {
+    const Node* alone = document.find(key);
+    if (list && alone)
+      throw InputError(
+          alone->where,
+          fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
+          "keep one of the two");
+    if (!list && !alone)
+      throw InputError(document.where, fmt::format("{} is missing (and there is no list dresspacks)", key),
+                       "give dresspack and routing, or a list dresspacks of name, dresspack, routing");
+  }
+  if (list && (!list->is_list() || list->items.empty()))
+    throw InputError(list->where, "dresspacks holds no dresspack",
+                     "write a list of name, dresspack and routing");
+}
+
+}  // namespace
+
+// ---- reading and writing jobs -----------------------------------------------------------------------------
+
+Job job_from(Node document, const std::vector<std::string>& sets) {
+  if (!document.is_map())
+    throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
+  for (const std::string& set : sets) apply_set(document, set);
+  check_forms(document);
+  resolve_job(document);
+  Job job;
+  if (document.find("dresspacks")) job.dresspacks.clear();
+  read_fields(document, job);
+  for (MountedDresspack& mounted : job.dresspacks) place_clamps(mounted.routing, job.robot);
+  check(job, document);
+  return job;
+}
+
+Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return job_from(read_yaml(file), sets);
+}
+
+std::string job_text(const Job& job) { return to_yaml(echo_fields(job)); }
+
+namespace {
+
+/// What of a dresspack decides the strain of its parts.
+struct StrainKeys {
+  MountedDresspack mounted;
+  bool friction = false;
+};
+
+void describe(Fields& echo, StrainKeys& keys) {
+  Dresspack& dresspack = keys.mounted.dresspack;
+  if (!keys.mounted.name.empty()) echo.text("name", keys.mounted.name, Need::required, "");
+  echo.list("components", dresspack.components, Need::optional, "");
+  if (keys.friction)  // stiffness of the wires
+    echo.list("materials", dresspack.materials, Need::optional, "");
+  if (dresspack.rest_curvature != 0)
+    echo.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(), "");
+  if (dresspack.hose_material.empty()) return;
+  echo.text("hose_material", dresspack.hose_material, Need::optional, "");
+  echo.maybe_number("hose_strain_factor", dresspack.hose_strain_factor, any_number(), "");
+  echo.maybe_group("hose_corrugation", dresspack.hose_corrugation, "");
+  echo.number("diameter_mm", dresspack.diameter, Need::optional, any_number(), "");
+}
+
+/// What of a dresspack decides its lives.
+struct FatigueKeys {
+  MountedDresspack mounted;
+};
+
+void describe(Fields& echo, FatigueKeys& keys) {
+  if (!keys.mounted.name.empty()) echo.text("name", keys.mounted.name, Need::required, "");
+  echo.list("materials", keys.mounted.dresspack.materials, Need::optional, "");
+}
+
+/// As in the job: the only one's keys stand alone, those of several in a list.
+template <class Keys>
+void describe_each(Fields& echo, const Forms& forms, std::vector<Keys> keys) {
+  if (forms.one)
+    describe(echo, keys.front());
+  else
+    echo.list("dresspacks", keys, Need::required, "");
+}
+
+void describe_sim(Fields& echo, Job copy) {
+  const Forms forms = forms_of(copy);
+  for (MountedDresspack& mounted : copy.dresspacks) {
+    Dresspack& dresspack = mounted.dresspack;
+    dresspack.components.clear();
+    dresspack.materials.clear();
+    dresspack.hose_material.clear();
+    dresspack.hose_strain_factor.reset();
+    dresspack.hose_corrugation.reset();
+  }
+  echo.group("motion", copy.motion, Need::required, "");
+  echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
+  if (forms.one) {
+    echo.group("dresspack", copy.dresspacks.front().dresspack, Need::required, "");
+    echo.group("routing", copy.dresspacks.front().routing, Need::required, "");
+  } else {
+    echo.list("dresspacks", copy.dresspacks, Need::required, "");
+  }
+  echo.group("cell", copy.cell, Need::optional, "");
+  echo.group("simulation", copy.simulation, Need::optional, "");
+}
+
+void describe_strain(Fields& echo, Job copy) {
+  const bool friction = std::count(copy.strain.slip.begin(), copy.strain.slip.end(), Slip::friction) > 0;
+  std::vector<StrainKeys> keys;
+  for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted, friction});
+  describe_each(echo, forms_of(copy), keys);
+  echo.group("strain", copy.strain, Need::optional, "");
+}
+
+void describe_fatigue(Fields& echo, Job copy) {
+  std::vector<FatigueKeys> keys;
+  for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted});
+  describe_each(echo, forms_of(copy), keys);
+  echo.group("fatigue", copy.fatigue, Need::optional, "");
+}
+
+}  // namespace
+
+std::string part_text(const Job& job, Part part) {
+  const auto described = part == Part::sim      ? describe_sim
+                         : part == Part::strain ? describe_strain
+                                                : describe_fatigue;
+  return to_yaml(echo_fields(Describe([&](Fields& f) { described(f, job); })));
+}
+
+std::vector<std::filesystem::path> files_beside(const Job& job) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : {job.motion.clamp_poses, job.motion.program})
+    if (!file.empty()) files.push_back(file);
+  for (const ProgramFile& module : job.motion.modules) files.push_back(module.file);
+  const std::filesystem::path& program = job.motion.program;
+  if (program.extension() == ".src" || program.extension() == ".SRC")
+    for (const char* end : {".dat", ".DAT"}) {  // KRL reads a program's data list by itself
+      const std::filesystem::path data = std::filesystem::path(program).replace_extension(end);
+      std::error_code failure;
+      if (std::filesystem::is_regular_file(data, failure)) files.push_back(data);
+    }
+  for (const Link& link : job.robot.links)
+    for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);
+  for (const MeshFile& mesh : job.cell.meshes) files.push_back(mesh.file);
+  return files;
+}
+
+std::string job_manual() {
+  const Describe both_forms = [](Fields& f) {
+    Job job;
+    describe_keys(f, job, {true, true});
+  };
+  return field_manual("job", both_forms) + field_manual<UrdfRequest>("job.robot from a URDF");
+}
+
+namespace {
+
+const Material& resolved_material(const Job& job, const std::string& wanted) {
+  for (const MountedDresspack& mounted : job.dresspacks)
+    for (const Material& material : mounted.dresspack.materials)
+      if (material.name == wanted) return material;
+  throw std::logic_error("material '" + wanted + "' was not resolved");
+}
+
+}  // namespace
+
+const Material& material_of(const Job& job, const std::string& name) {
+  return resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material);
+}
+
+const Material& hose_material_of(const Job& job, const Dresspack& dresspack) {
+  return resolved_material(job, dresspack.hose_material);
+}
+
+std::string name_among(const Job& job, std::size_t dresspack) {
+  return job.dresspacks.size() > 1 ? job.dresspacks[dresspack].name : "";
+}
+
+std::string dresspack_words(const Job& job, std::size_t dresspack) {
+  const std::string name = name_among(job, dresspack);
+  return name.empty() ? "dresspack" : fmt::format("dresspack '{}'", name);
+}
+
+}  // namespace dresslife::pipeline

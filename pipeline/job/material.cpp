@@ -1,0 +1,55 @@
+#include "pipeline/job/material.h"
+
+#include "pipeline/job/fields.h"
+
+namespace dresslife::pipeline {
+
+void describe(Fields& f, StrainLifePoint& point) {
+  f.number("strain_amplitude", point.strain_amplitude, Need::required, between(1e-9, 10),
+           "half the strain range of the test");
+  f.number("cycles", point.cycles, Need::required, between(0.5, 1e15), "to failure, median");
+}
+
+void describe(Fields& f, Material& material) {
+  f.place(material.where);
+  f.text("name", material.name, Need::required, "name, as the wires call it");
+  f.text("source", material.source, Need::required, "where the constants come from");
+  f.number("youngs_modulus_GPa", material.youngs_modulus, Need::required, above(0), "E");
+  f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "nu");
+  f.list(
+      "strain_life_table", material.strain_life_table, Need::optional,
+      "measured points, larger strains first, instead of the keys below: for polymers; log-log between them");
+  const bool measured = !material.strain_life_table.empty() && material.strain_life_table.front().cycles > 0;
+  if (measured) return;  // the manual's one point is without cycles: there the other keys follow
+  f.number("fatigue_strength_MPa", material.fatigue_strength, Need::required, above(0), "sigma_f' of (8)");
+  f.number("fatigue_strength_exponent", material.fatigue_strength_exponent, Need::required,
+           between(-1, -1e-3), "b of (8)");
+  f.number("fatigue_ductility", material.fatigue_ductility, Need::required, above(0), "epsilon_f' of (8)");
+  f.number("fatigue_ductility_exponent", material.fatigue_ductility_exponent, Need::required,
+           between(-2, -1e-2), "c of (8)");
+  f.maybe_number("cyclic_strength_MPa", material.cyclic_strength, above(0),
+                 "K'; without it sigma_f'/epsilon_f'^n'");
+  f.maybe_number("cyclic_hardening_exponent", material.cyclic_hardening_exponent, between(0.01, 1),
+                 "n'; without it b/c");
+  f.maybe_number("walker_exponent", material.walker_exponent, between(0, 1),
+                 "gamma of mean_stress walker; without it 0.5");
+}
+
+void check_materials(const std::vector<Material>& materials) {
+  for (const Material& material : materials) {
+    const auto& table = material.strain_life_table;
+    if (table.size() == 1)
+      throw InputError(material.where, fmt::format("strain_life_table of '{}' has one point", material.name),
+                       "give at least two");
+    for (std::size_t i = 1; i < table.size(); ++i)
+      if (!(table[i].strain_amplitude < table[i - 1].strain_amplitude &&
+            table[i].cycles > table[i - 1].cycles))
+        throw InputError(
+            material.where,
+            fmt::format("point {} of strain_life_table of '{}' is no smaller strain with a longer life",
+                        i + 1, material.name),
+            "order the points by falling strain amplitude and rising cycles");
+  }
+}
+
+}  // namespace dresslife::pipeline

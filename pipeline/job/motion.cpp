@@ -1,0 +1,174 @@
+#include "pipeline/job/motion.h"
+
+#include <cmath>
+
+#include "pipeline/job/fields.h"
+
+namespace dresslife::pipeline {
+
+void describe(Fields& f, MotionStep& step) {
+  f.place(step.where);
+  f.text("text", step.text, Need::optional, "what the step is, for reports");
+  f.choice("path", step.path, {"joint", "linear", "circular"}, "how a move gets to its target");
+  f.numbers("joints_deg", step.joints, Need::optional, "target of a joint move, one angle per axis");
+  f.numbers("position_mm", step.position, Need::optional,
+            "target of the tool in the work object: x, y, z, instead of joints_deg");
+  f.numbers("quaternion", step.quaternion, Need::optional, "orientation of the tool there: w, x, y, z");
+  f.numbers("via_position_mm", step.via_position, Need::optional, "of a circular move: a point on the way");
+  f.text(
+      "configuration", step.configuration, Need::optional,
+      "which arm reaches the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0; without it the nearest");
+  f.numbers("external_axes", step.external_axes, Need::optional,
+            "targets of external axes, mm or deg; without them they stay");
+  f.text("tool", step.tool, Need::optional, "a name of tools; without it the flange");
+  f.text("work_object", step.work_object, Need::optional,
+         "a name of work_objects; without it the robot's base frame");
+  f.maybe_number("speed_percent", step.speed_percent, between(0.1, 100),
+                 "speed of the move, of each axis' highest");
+  f.maybe_number("speed_deg_per_s", step.speed, above(0),
+                 "speed of the axis that moves farthest, instead of a percentage");
+  f.maybe_number("speed_mm_per_s", step.tool_speed, above(0), "highest speed of the tool");
+  f.maybe_number("turn_deg_per_s", step.turn_speed, above(0),
+                 "highest speed of the tool's rotation on a path");
+  f.maybe_number("duration_s", step.duration, above(0), "of the whole move, instead of a speed");
+  f.maybe_number("acceleration_percent", step.acceleration_percent, between(1, 150),
+                 "of this move, besides the program's");
+  f.maybe_number("zone_mm", step.tool_zone, at_least(0),
+                 "the tool leaves its path this near to the target; 0: stop");
+  f.maybe_number("zone_percent", step.stop_zone, between(0, 100),
+                 "the next move begins at this share of the way in which the robot would stop");
+  f.maybe_number("zone_deg", step.zone, at_least(0),
+                 "the next move begins when every axis is this near; 0: stop");
+  f.number("dwell_s", step.dwell, Need::optional, at_least(0), "standstill instead of a move");
+  f.integer("repeat", step.repeat, Need::optional, at_least(0),
+            "how often the block of `steps` runs; 0: not a block");
+  f.list("steps", step.steps, Need::optional, "the block");
+}
+
+void describe(Fields& f, MotionFrame& frame) {
+  f.text("name", frame.name, Need::required, "name of the tool or work object");
+  f.vector("position_mm", frame.position, Need::optional, "of its origin");
+  f.numbers("quaternion", frame.quaternion, Need::optional, "its orientation: w, x, y, z");
+  f.boolean("stationary", frame.stationary, Need::optional,
+            "the tool stands still and the robot carries the work object");
+}
+
+void describe(Fields& f, BranchAssumption& assumption) {
+  f.text("line", assumption.line, Need::required, "of the branch: FILE:LINE, or LINE alone");
+  f.choice("take", assumption.take, {"then", "else"}, "what the branch does");
+}
+
+void describe(Fields& f, ProgramFile& file) {
+  f.path("file", file.file, Need::required, "a module or data file");
+}
+
+void describe(Fields& f, Motion& motion) {
+  f.place(motion.where);
+  f.text("name", motion.name, Need::optional, "name of the program");
+  f.text("source", motion.source, Need::optional, "who wrote it");
+  f.number("speed_percent", motion.speed_percent, Need::optional, between(0.1, 100),
+           "speed of moves that name none");
+  f.number("acceleration_percent", motion.acceleration_percent, Need::optional, between(1, 100),
+           "of each axis' highest acceleration, for all moves");
+  f.number("zone_deg", motion.zone, Need::optional, at_least(0),
+           "zone of moves that name none; 0: stop at each target");
+  f.list("steps", motion.steps, Need::optional,
+         "the program; it starts at rest at the target of the first step");
+  f.list("tools", motion.tools, Need::optional,
+         "tools, in the flange's frame; also those that a program names but does not hold");
+  f.list("work_objects", motion.work_objects, Need::optional,
+         "work objects, in the robot's base frame; likewise");
+  f.path("program", motion.program, Need::optional,
+         "a robot program instead of steps: RAPID (.mod, .prg, .sys), KRL (.src), Fanuc (.ls), joints "
+         "(.csv), ROS (.yaml, .json)");
+  f.list("modules", motion.modules, Need::optional,
+         "further files of the program: modules, .dat files, called programs");
+  f.text("routine", motion.routine, Need::optional, "of the program to run; without it main, or the first");
+  f.list("assume", motion.assume, Need::optional, "how branches of the program go that hang on inputs");
+  f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0),
+           "dwell of a spot weld of the program");
+  f.path("clamp_poses", motion.clamp_poses, Need::optional,
+         "CSV with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and tool "
+         "clamp (s, m)");
+}
+
+namespace {
+
+void check_pose(const std::vector<double>& position, const std::vector<double>& quaternion,
+                const Where& where) {
+  if (position.size() != 3)
+    throw InputError(where, fmt::format("position_mm has {} numbers", position.size()), "give x, y, z");
+  double squares = 0;
+  for (double part : quaternion) squares += part * part;
+  constexpr double rounding = 1e-3;  // of quaternions written with four decimals
+  if (quaternion.size() != 4 || std::abs(std::sqrt(squares) - 1) > rounding)
+    throw InputError(where, "quaternion is not four numbers w, x, y, z of length 1",
+                     "give the orientation of the pose");
+}
+
+void check_move(const MotionStep& step, const Robot& robot) {
+  const Where& where = step.where;
+  if (!step.joints.empty() && step.joints.size() != robot.axes())
+    throw InputError(
+        where,
+        fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(), robot.axes()),
+        "give one angle per axis");
+  if (!step.joints.empty() && !step.position.empty())
+    throw InputError(where, "both joints_deg and position_mm are given", "keep one of the two");
+  if (!step.position.empty()) check_pose(step.position, step.quaternion, where);
+  if ((step.path == PathKind::circular) != !step.via_position.empty() ||
+      (!step.via_position.empty() && step.via_position.size() != 3))
+    throw InputError(where, "via_position_mm belongs to a circular move, which must have it",
+                     "give x, y, z, or change the path");
+  if (step.speed.has_value() + step.speed_percent.has_value() + step.duration.has_value() > 1)
+    throw InputError(where,
+                     step.duration ? "duration_s is given beside a speed"
+                                   : "both speed_percent and speed_deg_per_s are given",
+                     "keep one of the two");
+  if (step.zone.has_value() + step.tool_zone.has_value() + step.stop_zone.has_value() > 1)
+    throw InputError(where, "more than one of zone_deg, zone_mm, zone_percent is given", "keep one of them");
+}
+
+void check_step(const MotionStep& step, const Robot& robot) {
+  const bool move = step.is_move(), dwell = step.dwell > 0, block = step.repeat > 0 || !step.steps.empty();
+  if (move + dwell + block != 1)
+    throw InputError(step.where,
+                     "a step must be one of: joints_deg or position_mm (a move), dwell_s, repeat with steps",
+                     "split it into steps");
+  if (block && (step.repeat < 1 || step.steps.empty()))
+    throw InputError(step.where, "a block needs both repeat (at least 1) and steps", "give both");
+  if (move) check_move(step, robot);
+  if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone ||
+                step.stop_zone || step.duration))
+    throw InputError(step.where, "speed and zone belong to a move", "take them out of this step");
+  for (const MotionStep& inner : step.steps) check_step(inner, robot);
+}
+
+void check_frames(const Motion& motion) {
+  for (const std::vector<MotionFrame>* frames : {&motion.tools, &motion.work_objects})
+    for (const MotionFrame& frame : *frames) check_pose({0, 0, 0}, frame.quaternion, motion.where);
+}
+
+}  // namespace
+
+void check_motion(const Motion& motion, const Robot& robot) {
+  if (!motion.clamp_poses.empty() + !motion.steps.empty() + !motion.program.empty() != 1)
+    throw InputError(motion.where, "motion must have one of steps, program or clamp_poses",
+                     "give one of the three");
+  check_frames(motion);
+  for (const MotionStep& step : motion.steps) check_step(step, robot);
+  if (!motion.steps.empty() && !motion.steps.front().is_move())
+    throw InputError(motion.steps.front().where,
+                     "the program must begin with a move (where the robot starts)", "begin with joints_deg");
+}
+
+std::string motion_text(const Motion& motion) { return to_yaml(echo_fields(motion)); }
+
+Motion motion_from(const Node& document) {
+  Motion motion;
+  read_fields(document, motion);
+  check_frames(motion);
+  return motion;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,97 @@
+// The motion: a program's moves and dwells, a robot program as it lies on a controller, or recorded clamp
+// poses.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/job/document.h"
+#include "pipeline/job/robot.h"
+
+namespace dresslife::pipeline {
+
+class Fields;
+
+enum class PathKind { joint, linear, circular };
+
+/// One line of a robot program: a move, a dwell, or a block repeated `repeat` times. A move leads to joint
+/// angles or to a pose of the tool in the work object.
+struct MotionStep {
+  PathKind path = PathKind::joint;    ///< how a move gets there; linear and circular: by a pose
+  std::vector<double> joints;         ///< target of a joint move [rad]; empty: a pose, or not a move
+  std::vector<double> position;       ///< target of the tool: x, y, z [m]; empty: none
+  std::vector<double> quaternion;     ///< of the tool: w, x, y, z
+  std::vector<double> via_position;   ///< of a circular move: a point on the way [m]
+  std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty: the nearest
+  std::vector<double> external_axes;  ///< as programmed: mm or deg, in the order of the robot's
+  std::string tool, work_object;      ///< names in Motion; empty: flange, robot base
+  std::optional<double> speed_percent;         ///< of each axis' largest speed [%]
+  std::optional<double> speed;                 ///< of the fastest axis [rad/s]
+  std::optional<double> tool_speed;            ///< largest of the tool's origin [m/s]
+  std::optional<double> turn_speed;            ///< largest of the tool's rotation [rad/s]
+  std::optional<double> duration;              ///< of the whole move [s]
+  std::optional<double> acceleration_percent;  ///< of each axis' largest acceleration, besides Motion's [%]
+  std::optional<double> zone;  ///< blending begins this far from the target, largest axis [rad]; 0 = stop
+  std::optional<double> tool_zone;  ///< blending begins this far from the target, tool [m]; 0 = stop
+  std::optional<double>
+      stop_zone;     ///< blending begins at this share of the way in which the robot would stop [%]
+  double dwell = 0;  ///< [s]
+  int repeat = 0;    ///< 0: not a block
+  std::vector<MotionStep> steps;  ///< of a block
+  std::string text;               ///< what the step is, for reports
+  Where where;
+
+  bool is_move() const { return !joints.empty() || !position.empty(); }
+};
+
+/// A tool in the flange's frame, or a work object in the frame of the robot's base.
+struct MotionFrame {
+  std::string name;
+  Vector3d position = Vector3d::Zero();  ///< [m]
+  std::vector<double> quaternion{1, 0, 0, 0};
+  bool stationary = false;  ///< a tool that stands in the base frame while the flange carries the work object
+};
+
+/// A line of a program on which a branch hangs on what is known only while the robot runs.
+struct BranchAssumption {
+  std::string line;  ///< "file.mod:12" or "12"
+  enum class Take { then_branch, else_branch } take = Take::then_branch;
+};
+
+struct ProgramFile {
+  std::filesystem::path file;
+};
+
+struct Motion {
+  std::string name, source;
+  double speed_percent = 100;  ///< default of the moves [%]
+  double acceleration_percent = 100;
+  double zone = 0;  ///< default of the moves [rad]
+  std::vector<MotionFrame> tools, work_objects;
+  std::vector<MotionStep> steps;     ///< the first is a move: the robot starts there, at rest
+  std::filesystem::path program;     ///< a robot program instead of steps (sim/program); empty: none
+  std::vector<ProgramFile> modules;  ///< more files of the program
+  std::string routine;               ///< of the program; empty: its start
+  std::vector<BranchAssumption> assume;
+  double spot_time = 1;               ///< dwell of a spot weld in a program [s]
+  std::filesystem::path clamp_poses;  ///< CSV with both clamps' poses instead of steps; empty: none
+  Where where;
+};
+
+void describe(Fields& f, MotionStep& step);
+void describe(Fields& f, MotionFrame& frame);
+void describe(Fields& f, BranchAssumption& assumption);
+void describe(Fields& f, ProgramFile& file);
+void describe(Fields& f, Motion& motion);
+
+/// Errors: InputError at the step that is no whole move, dwell or block, or that the robot's axes do not fit.
+void check_motion(const Motion& motion, const Robot& robot);
+
+/// One motion as YAML, and from a document that holds nothing else (checked key by key, not against a robot).
+std::string motion_text(const Motion& motion);
+Motion motion_from(const Node& document);
+
+}  // namespace dresslife::pipeline

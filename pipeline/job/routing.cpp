@@ -1,0 +1,219 @@
+#include "pipeline/job/routing.h"
+
+#include <algorithm>
+
+#include "pipeline/job/fields.h"
+
+namespace dresslife::pipeline {
+
+void describe(Fields& f, Clamp& clamp) {
+  f.place(clamp.where);
+  f.text("mounting_point", clamp.mounting_point, Need::optional,
+         "name of one of the robot's, instead of link, position_m and direction");
+  const Need need = clamp.mounting_point.empty() ? Need::required : Need::optional;
+  f.text("link", clamp.link, need, "link of the robot that carries the clamp");
+  f.vector("position_m", clamp.position, need, "of the clamp in the link's frame");
+  f.vector("direction", clamp.direction, need,
+           "of the dresspack there, from base to tool, in the link's frame");
+  f.maybe_number("roll_deg", clamp.roll, between(-360, 360),
+                 "about the direction; without it 0 at the base clamp and free of twist at the others");
+}
+
+void describe(Fields& f, IntermediateClamp& between) {
+  describe(f, between.clamp);
+  f.number("at_length_m", between.at_length, Need::required, above(0),
+           "of the dresspack from the base clamp to this one, unstretched");
+}
+
+void describe(Fields& f, GuideRing& ring) {
+  f.place(ring.where);
+  f.text("link", ring.link, Need::required, "link of the robot that carries the ring");
+  f.vector("position_m", ring.position, Need::required, "of the ring's centre in the link's frame");
+  f.vector("direction", ring.direction, Need::required,
+           "of the ring's axis, from base to tool, in the link's frame");
+  f.number("radius_mm", ring.radius, Need::required, above(0), "clear inner radius");
+  f.number("friction_coefficient", ring.friction, Need::optional, between(0, 2),
+           "Coulomb, dresspack against ring");
+  f.number("width_mm", ring.width, Need::optional, at_least(0),
+           "of the ring along its axis: it guides at both edges");
+  f.maybe_number(
+      "at_length_m", ring.at_length, above(0),
+      "of dresspack from the base clamp to the ring when mounted; without it so that all pieces have slack "
+      "alike");
+}
+
+void describe(Fields& f, Retraction& retraction) {
+  f.place(retraction.where);
+  f.number("force_N", retraction.force, Need::required, at_least(0),
+           "pulls the base clamp back against its direction, where it is not pulled out");
+  f.number("spring_N_per_m", retraction.spring, Need::optional, at_least(0), "more force per way pulled out");
+  f.number("stroke_m", retraction.stroke, Need::required, above(0), "largest way along its direction");
+  f.number("damping_Ns_per_m", retraction.damping, Need::optional, at_least(0), "of the sliding clamp");
+  f.number("friction_N", retraction.friction, Need::optional, at_least(0), "Coulomb, of the sliding clamp");
+  f.number("mass_kg", retraction.mass, Need::optional, above(0),
+           "of what slides with the clamp, without the dresspack between the clamps");
+}
+
+void describe(Fields& f, Routing& routing) {
+  f.place(routing.where);
+  f.number("free_length_m", routing.free_length, Need::required, above(0),
+           "free length of dresspack between the clamps");
+  f.maybe_group("base_clamp", routing.base_clamp, "the clamp nearer to the robot's base");
+  f.maybe_group("tool_clamp", routing.tool_clamp, "the clamp nearer to the tool");
+  f.list("clamps", routing.clamps, Need::optional,
+         "further clamps between the two, in their order along the dresspack, which grip it in place, "
+         "direction and "
+         "twist");
+  f.list("rings", routing.rings, Need::optional,
+         "guide rings in which the dresspack slides and turns, in their order along it");
+  f.maybe_group("retraction", routing.retraction,
+                "spring-returned slack: the base clamp slides along its direction and is pulled back");
+  f.number("pre_twist_deg", routing.pre_twist, Need::optional, between(-36000, 36000),
+           "by which the tool clamp is turned when it is mounted, on top of what its roll_deg says");
+  f.choice("tool_end", routing.tool_end, {"clamped", "free"},
+           "free: the dresspack hangs from its last clamp, without a tool_clamp");
+  f.number("tool_mass_kg", routing.tool_mass, Need::optional, at_least(0),
+           "hung at the end of a dresspack whose tool_end is free");
+  f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
+            "joint angles at which the dresspack was clamped free of twist; without it the first target; of "
+            "several dresspacks all that give one give the same, and all are clamped in it");
+}
+
+namespace {
+
+/// A clamp at a mounting point becomes one with link, position and direction.
+void place_clamp(Clamp& clamp, const Robot& robot) {
+  if (clamp.mounting_point.empty()) return;
+  if (!clamp.link.empty())
+    throw InputError(clamp.where, "a clamp has both a mounting_point and a link", "keep one of the two");
+  std::vector<std::string> names;
+  for (const MountingPoint& point : robot.mounting_points) {
+    names.push_back(point.name);
+    if (point.name != clamp.mounting_point) continue;
+    clamp.link = point.link;
+    clamp.position = point.position;
+    clamp.direction = point.direction;
+    clamp.mounting_point.clear();
+    return;
+  }
+  throw InputError(clamp.where, fmt::format("the robot has no mounting point '{}'", clamp.mounting_point),
+                   names.empty() ? "give link, position_m and direction of the clamp"
+                                 : fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
+void check_place(const std::string& link, const Vector3d& direction, const std::string& name,
+                 const Where& where, const Robot& robot) {
+  if (!(direction.norm() > 1e-9))
+    throw InputError(where, fmt::format("routing.{}.direction is zero", name),
+                     "give where the dresspack points");
+  std::vector<std::string> names;
+  for (const Link& of_robot : robot.links) names.push_back(of_robot.name);
+  if (std::find(names.begin(), names.end(), link) == names.end())
+    throw InputError(where, fmt::format("routing.{}.link '{}' is not a link of the robot", name, link),
+                     fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
+void check_clamp(const std::optional<Clamp>& clamp, const std::string& name, const Routing& routing,
+                 const Robot& robot) {
+  if (!clamp)
+    throw InputError(routing.where, fmt::format("routing.{} is missing", name),
+                     "give link, position_m and direction of the clamp");
+  check_place(clamp->link, clamp->direction, name, clamp->where, robot);
+}
+
+/// What the robot's links carry cannot go with recorded poses.
+void check_robot_only(const Routing& routing) {
+  const auto refuse = [&](bool given, const char* key, const Where& where) {
+    if (given)
+      throw InputError(
+          where, fmt::format("routing.{} needs a robot (motion.clamp_poses brings two poses only)", key),
+          "describe the motion by a robot, or leave it out");
+  };
+  if (!routing.clamps.empty()) refuse(true, "clamps", routing.clamps.front().clamp.where);
+  if (!routing.rings.empty()) refuse(true, "rings", routing.rings.front().where);
+  if (routing.retraction) refuse(true, "retraction", routing.retraction->where);
+  refuse(routing.tool_end == ToolEnd::free, "tool_end: free", routing.where);
+  refuse(routing.pre_twist != 0, "pre_twist_deg", routing.where);
+}
+
+void check_rings(const Routing& routing, double diameter, const Robot& robot) {
+  double before = 0;
+  for (std::size_t k = 0; k < routing.rings.size(); ++k) {
+    const GuideRing& ring = routing.rings[k];
+    const std::string name = fmt::format("rings[{}]", k + 1);
+    check_place(ring.link, ring.direction, name, ring.where, robot);
+    if (2 * ring.radius <= diameter)
+      throw InputError(ring.where,
+                       fmt::format("routing.{}.radius_mm is {} (the dresspack's own radius is {} mm)", name,
+                                   1e3 * ring.radius, 1e3 * diameter / 2),
+                       "give a ring that lets it through");
+    if (!ring.at_length) continue;
+    if (!(*ring.at_length > before && *ring.at_length < routing.free_length))
+      throw InputError(
+          ring.where,
+          fmt::format("routing.{}.at_length_m is {} (must lie between {} and {}, the ring or clamp before "
+                      "it and the dresspack's end)",
+                      name, *ring.at_length, before, routing.free_length),
+          "list the rings in their order along the dresspack");
+    before = *ring.at_length;
+  }
+  if (!routing.rings.empty() && !routing.clamps.empty())
+    for (const GuideRing& ring : routing.rings)
+      if (!ring.at_length)
+        throw InputError(ring.where,
+                         "a ring beside routing.clamps has no at_length_m (it tells between which clamps)",
+                         "give the length of dresspack from the base clamp to the ring");
+}
+
+void check_intermediate_clamps(const Routing& routing, const Robot& robot) {
+  double before = 0;
+  for (std::size_t k = 0; k < routing.clamps.size(); ++k) {
+    const auto& [clamp, at_length] = routing.clamps[k];
+    check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot);
+    if (!(at_length > before && at_length < routing.free_length))
+      throw InputError(
+          clamp.where,
+          fmt::format("routing.clamps[{}].at_length_m is {} (must lie between {} and {}, the clamps "
+                      "before and after it)",
+                      k + 1, at_length, before, routing.free_length),
+          "list the clamps in their order along the dresspack");
+    before = at_length;
+  }
+}
+
+}  // namespace
+
+void place_clamps(Routing& routing, const Robot& robot) {
+  for (std::optional<Clamp>* clamp : {&routing.base_clamp, &routing.tool_clamp})
+    if (*clamp) place_clamp(**clamp, robot);
+  for (IntermediateClamp& between : routing.clamps) place_clamp(between.clamp, robot);
+}
+
+void check_routing(const Routing& routing, double diameter, const Robot& robot, bool recorded) {
+  if (!recorded) {
+    check_clamp(routing.base_clamp, "base_clamp", routing, robot);
+    if (routing.tool_end == ToolEnd::clamped) check_clamp(routing.tool_clamp, "tool_clamp", routing, robot);
+  } else if (routing.base_clamp || routing.tool_clamp) {
+    throw InputError(routing.where, "clamps are given although motion.clamp_poses brings their poses",
+                     "keep one of the two");
+  }
+  if (recorded) check_robot_only(routing);
+  check_intermediate_clamps(routing, robot);
+  check_rings(routing, diameter, robot);
+  if (routing.tool_end == ToolEnd::free && routing.tool_clamp)
+    throw InputError(routing.tool_clamp->where,
+                     "routing.tool_clamp is given although routing.tool_end is free", "keep one of the two");
+  if (routing.tool_end == ToolEnd::free && routing.pre_twist != 0)
+    throw InputError(routing.where, "routing.pre_twist_deg is given although routing.tool_end is free",
+                     "keep one of the two");
+  if (routing.tool_mass > 0 && routing.tool_end == ToolEnd::clamped)
+    throw InputError(routing.where, "routing.tool_mass_kg is given although the tool end is clamped",
+                     "add tool_end: free, or leave the mass out");
+  if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != robot.axes())
+    throw InputError(routing.where,
+                     fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)",
+                                 routing.mounting_pose.size(), robot.axes()),
+                     "give one angle per axis");
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,49 @@
+// Shapes that a dresspack can touch: of robot links, and of the cell around the robot.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <vector>
+
+#include "pipeline/job/document.h"
+
+namespace dresslife::pipeline {
+
+class Fields;
+
+using Eigen::Vector3d;
+
+struct Capsule {
+  Vector3d from = Vector3d::Zero(), to = Vector3d::Zero();  ///< ends of its axis, in the link's frame [m]
+  double radius = 0;                                        ///< [m]
+};
+
+struct Box {
+  Vector3d position = Vector3d::Zero();     ///< of its centre, in the link's frame [m]
+  Vector3d orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
+  Vector3d sides = Vector3d::Zero();        ///< full lengths along its own axes [m]
+};
+
+struct MeshFile {
+  std::filesystem::path file;               ///< STL or OBJ
+  double scale = 1;                         ///< metres per unit of the file
+  Vector3d position = Vector3d::Zero();     ///< of the file's origin, in the link's frame [m]
+  Vector3d orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
+};
+
+/// What stands still around the robot, in the world's frame.
+struct Cell {
+  std::vector<Capsule> capsules;
+  std::vector<Box> boxes;
+  std::vector<MeshFile> meshes;
+};
+
+void describe(Fields& f, Capsule& capsule);
+void describe(Fields& f, Box& box);
+void describe(Fields& f, MeshFile& mesh);
+void describe(Fields& f, Cell& cell);
+
+/// Errors: InputError at `where` for a box without volume.
+void check_boxes(const std::vector<Box>& boxes, const Where& where);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,32 @@
+#include "pipeline/job/strain.h"
+
+#include "pipeline/job/fields.h"
+
+namespace dresslife::pipeline {
+
+void describe(Fields& f, Probe& probe) {
+  f.integer("segment_from_tool", probe.segment_from_tool, Need::required, at_least(1),
+            "segment, counted from the tool");
+  f.text("component", probe.component, Need::required, "path of a wire, as in /site/component");
+}
+
+void describe(Fields& f, Strain& strain) {
+  f.choice("deformation", strain.deformation, {"rotation_vector", "thesis"},
+           "how curvature and twist are measured");
+  f.choice("kinematics", strain.kinematics, {"exact", "thesis"},
+           "nested helices: the geometry itself, or (12)..(23)");
+  f.choices("slip", strain.slip, {"free", "stick", "friction"},
+            "between a part and its parent; one word, or one per level, outermost first");
+  f.choice(
+      "equivalent", strain.equivalent, {"axial", "shear_included", "critical_plane"},
+      "strain that is counted: along the fibre; with the shear of the wire's torsion, signed "
+      "sqrt(eps^2 + gamma^2/3); or the latter and, for the likely worst wires, that across the plane that it "
+      "damages most");
+  f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
+            "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
+  f.number("gate", strain.gate, Need::optional, between(0, 0.1),
+           "turning points of smaller strain ranges are dropped");
+  f.list("probes", strain.probes, Need::optional, "wires whose whole strain history is kept");
+}
+
+}  // namespace dresslife::pipeline

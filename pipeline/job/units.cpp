@@ -1,0 +1,70 @@
+#include "pipeline/job/units.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr Unit dimensionless{"", "", 1};
+constexpr std::array units{
+    Unit{"m", "m", 1},
+    Unit{"mm", "mm", 1e-3},
+    Unit{"deg", "deg", degree},
+    Unit{"deg_per_s", "deg/s", degree},
+    Unit{"deg_per_s2", "deg/s2", degree},
+    Unit{"mm_per_s", "mm/s", 1e-3},
+    Unit{"mm_per_s2", "mm/s2", 1e-3},
+    Unit{"s", "s", 1},
+    Unit{"ms", "ms", 1e-3},
+    Unit{"Hz", "Hz", 1},
+    Unit{"m_per_s2", "m/s2", 1},
+    Unit{"1_per_m", "1/m", 1},
+    Unit{"deg_per_m", "deg/m", degree},
+    Unit{"kg", "kg", 1},
+    Unit{"kg_per_m", "kg/m", 1},
+    Unit{"N", "N", 1},
+    Unit{"N_per_m", "N/m", 1},
+    Unit{"Ns_per_m", "N s/m", 1},
+    Unit{"Nm2", "N m2", 1},
+    Unit{"MPa", "MPa", 1e6},
+    Unit{"GPa", "GPa", 1e9},
+    Unit{"percent", "%", 1},
+    Unit{"hours_per_week", "h/week", 1},
+};
+
+}  // namespace
+
+const Unit& unit_of_key(std::string_view key) {
+  const Unit* longest = &dimensionless;
+  for (const Unit& unit : units)
+    if (key.size() > unit.suffix.size() + 1 && key.ends_with(unit.suffix) &&
+        key[key.size() - unit.suffix.size() - 1] == '_' && unit.suffix.size() > longest->suffix.size())
+      longest = &unit;
+  return *longest;
+}
+
+std::string_view stem_of_key(std::string_view key) {
+  const Unit& unit = unit_of_key(key);
+  return unit.suffix.empty() ? key : key.substr(0, key.size() - unit.suffix.size() - 1);
+}
+
+std::string shortest_text(double value) { return fmt::format("{}", value); }
+
+std::string text_in_unit(double si, const Unit& unit) {
+  // A value that came from text is x * to_si for some short x; si / to_si is within an ulp of that x, so one
+  // of the roundings of its neighbours reads back exactly.
+  const double near = si / unit.to_si;
+  for (int digits = 1; digits <= 17; ++digits)
+    for (const double x : {near, std::nextafter(near, INFINITY), std::nextafter(near, -INFINITY)}) {
+      const double rounded = std::stod(fmt::format("{:.{}g}", x, digits));
+      if (rounded * unit.to_si == si) return shortest_text(rounded);
+    }
+  return shortest_text(near);
+}
+
+}  // namespace dresslife::pipeline

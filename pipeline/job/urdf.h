@@ -1,0 +1,42 @@
+// A robot that its maker or ROS describes as URDF, as the tree of a catalogue entry: the same keys as a robot
+// in YAML, each with its place in the URDF. So one description of keys checks, echoes and documents both, and
+// a resolved job holds the robot written out.
+//
+// From the tree of links the chain from its root to `tip` is taken: 4 to 7 axes that turn (revolute,
+// continuous), before them at most sliding ones that carry the whole robot (prismatic: external axes). Links
+// on fixed joints belong to the link that carries them, their shapes too; a joint that mimics another follows
+// it, and its limits become the other's. What hangs on joints beside the chain is left out. Collision shapes:
+// box and mesh as they are (package:// and relative names), sphere a capsule without length, cylinder a
+// capsule as long as it, with four boxes crossing in its axis for the ends: an octagon inside, within 8 % of
+// the radius.
+// A continuous joint gets +-100 turns. Accelerations and the pose in the world are not in a URDF.
+// Source: http://wiki.ros.org/urdf/XML; read by urdfdom, which only urdf.cpp includes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/job/document.h"
+
+namespace dresslife::pipeline {
+
+/// Keys of a robot entry that say which URDF it is made from.
+struct UrdfRequest {
+  std::filesystem::path urdf;
+  std::string tip;                       ///< link at the flange; empty: tool0, else flange, else the only end
+  std::filesystem::path package_folder;  ///< holds the packages of package://; empty: found above the URDF
+  enum class Collision { keep, drop } collision = Collision::keep;
+  std::vector<double> accelerations;  ///< of the axes, in their order [rad/s2]
+};
+
+class Fields;
+void describe(Fields& f, UrdfRequest& request);
+
+/// Errors: InputError at the line of the joint or link in the URDF, as far as it is known.
+Node robot_from_urdf(const UrdfRequest& request);
+
+/// The same for a URDF's text; request.urdf names it.
+Node robot_from_urdf(const UrdfRequest& request, const std::string& text);
+
+}  // namespace dresslife::pipeline

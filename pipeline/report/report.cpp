@@ -1,0 +1,518 @@
+#include "pipeline/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pipeline/errors.h"
+#include "pipeline/job/document.h"
+#include "pipeline/readable.h"
+#include "pipeline/report/life_charts.h"
+#include "pipeline/report/motion_checks.h"
+#include "pipeline/report/plot.h"
+#include "pipeline/report/scene.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// A job's charts take about 60 kB: of a larger study only the best and the worst have them.
+constexpr std::size_t most_detailed = 40;
+constexpr std::size_t most_compared = 40;
+constexpr std::size_t listed_lines = 10, listed_layers = 12;
+
+constexpr const char* style = R"(
+:root { color-scheme: light dark; --page: #ffffff; --ink: #1b1f24; --soft: #5b6570; --rule: #d5dae0; --grid: #e6e9ed;
+  --blue: #0072b2; --hot: #c94f00; --band: #eef1f5; --band-2: #d9dfe7; --arm: #c3ccd6; --arm-2: #b3bdc9; }
+@media (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e8eaed; --soft: #a0a9b4; --rule: #3a424c;
+  --grid: #2a3037; --blue: #56b4e9; --hot: #f08c3a; --band: #242a31; --band-2: #37404a; --arm: #4a5562; --arm-2: #57636f; } }
+body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
+  font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
+h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem; border-top: 2px solid var(--rule); }
+h3 { font-size: 1rem; margin: 1.6rem 0 .2rem; } p { margin: .3rem 0 .6rem; max-width: 46rem; } .soft { color: var(--soft); font-size: .9rem; }
+a { color: var(--blue); } .wide { overflow-x: auto; }
+table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
+th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { text-align: right; white-space: nowrap; } th.number { white-space: normal; } .failed { color: var(--hot); font-weight: 600; }
+.meter { display: inline-block; width: 8rem; height: .7rem; background: var(--band); margin-right: .5rem; }
+.meter > span { display: block; height: 100%; background: var(--hot); }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: .5rem 0; } dt { color: var(--soft); } dd { margin: 0; }
+details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
+pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8rem; line-height: 1.35; }
+svg { display: block; width: 100%; height: auto; font: 12px system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
+svg text { fill: var(--ink); } svg .tick, svg .axis-title { fill: var(--soft); } svg .cell { fill: var(--soft); font-size: 11px; }
+svg .note { paint-order: stroke; stroke: var(--page); stroke-width: 4px; stroke-linejoin: round; }
+svg path { fill: none; } svg .grid { stroke: var(--grid); } svg .mark { stroke: var(--soft); } svg .leader { stroke: var(--hot); stroke-dasharray: 3 3; }
+svg .curve { stroke: var(--blue); stroke-width: 1.2; stroke-linejoin: round; } svg .curve-hot { stroke: var(--hot); stroke-width: 1.6; }
+svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg .light { fill: var(--band); } svg .dark { fill: var(--band-2); }
+svg line { stroke-linecap: round; } svg .arm { stroke: var(--arm); } svg .arm-2 { stroke: var(--arm-2); } svg .halo { stroke: var(--page); stroke-linecap: butt; }
+svg .hose { stroke: var(--blue); } svg .hose-hot { stroke: var(--hot); }
+svg .costly { fill: var(--hot); fill-opacity: .55; }
+svg .scatter { stroke: var(--hot); stroke-width: 5; }
+svg .whisker { stroke: var(--blue); stroke-width: 5; stroke-opacity: .35; stroke-linecap: round; }
+@media print { details { display: none; } h2 { break-before: page; } }
+)";
+
+std::string life_cell(double life) { return std::isinf(life) ? "no damage" : printed(life); }
+std::string hours_words(double hours) { return std::isinf(hours) ? "no damage" : printed(hours) + " h"; }
+
+std::string calendar_cell(double months) { return std::isinf(months) ? "no damage" : calendar_words(months); }
+
+/// When the first wire of such dresspacks breaks, in 10 to 90 % of them.
+std::string first_break_cell(const RankingRow& row) {
+  if (std::isnan(row.first_wire_hours[0])) return "";
+  return std::isinf(row.first_wire_hours[0])
+             ? "no damage"
+             : fmt::format("{} .. {}", printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
+}
+
+std::string place_words(const RankingRow& row) {
+  return fmt::format("segment {} from the tool ({:.2f} m){}", row.worst_segment_from_tool,
+                     row.worst_position_from_tool,
+                     row.worst_dresspack.empty() ? "" : " of the " + escaped(row.worst_dresspack));
+}
+
+bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
+
+// ---- ranking ----------------------------------------------------------------------------------------------
+
+std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
+  std::string text;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const RankingRow& row = rows[i];
+    const std::string name =
+        detailed[i] ? fmt::format("<a href=\"#job-{}\">{}</a>", i + 1, escaped(row.job)) : escaped(row.job);
+    if (!row.done()) {
+      text += fmt::format(
+          "<tr><td class=\"number\">-</td><td>{}</td><td colspan=\"6\"><span class=\"failed\">failed</span> "
+          "{}</td></tr>\n",
+          name, escaped(row.failure));
+      continue;
+    }
+    const std::string where = !damaged(row)
+                                  ? "no wire is damaged"
+                                  : fmt::format("{}<br>{}", escaped(row.worst_component), place_words(row));
+    const std::string moved =
+        !damaged(row)
+            ? ""
+            : fmt::format("{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
+                          escaped(row.worst_step), row.worst_time, row.repeat_seconds) +
+                  (row.worst_joint.empty()
+                       ? ""
+                       : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
+    text += fmt::format(
+        "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\"><b>{}</b></td><td "
+        "class=\"number\">{} .. {}</td>"
+        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
+        i + 1, name, life_cell(row.life_hours), life_cell(row.hours_of(row.life_repeats_all_stick)),
+        life_cell(row.hours_of(row.life_repeats_all_free)), first_break_cell(row),
+        calendar_cell(row.life_months), where, moved);
+  }
+  return text;
+}
+
+/// Lives beside each other on one axis of decades: a dot, the bounds as a bar behind it, and when first wires
+/// break in 10 to 90 % of such dresspacks.
+std::string comparison_chart(const std::vector<RankingRow>& rows) {
+  std::vector<const RankingRow*> shown;
+  double low = INFINITY, high = 0;
+  for (const RankingRow& row : rows) {
+    if (!row.done() || !damaged(row) || shown.size() == most_compared) continue;
+    shown.push_back(&row);
+    for (const double hours : {row.life_hours, row.hours_of(row.life_repeats_all_stick),
+                               row.hours_of(row.life_repeats_all_free), row.first_wire_hours[0]}) {
+      if (!(hours > 0) || std::isinf(hours)) continue;
+      low = std::min(low, hours);
+      high = std::max(high, hours);
+    }
+  }
+  if (shown.size() < 2 || !(high > 0)) return "";
+  constexpr double row_height = 24, names = 230, width = 960, half_a_label = 36;
+  Panel panel{names,
+              8,
+              width - names - half_a_label,
+              row_height * static_cast<double>(shown.size()),
+              decades_axis("life [h of motion]", low, high),
+              {"", 0, 1}};
+  Picture picture(
+      width, panel.bottom() + 44, "Lives compared",
+      "Life in hours with the bounds all stick and all free, and the first break in 10 to 90 percent.");
+  for (const Tick& tick : panel.x.ticks(8)) {
+    picture.line(panel.across(tick.value), panel.top, panel.across(tick.value), panel.bottom(), "grid");
+    picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
+  }
+  picture.text(panel.left + panel.width / 2, panel.bottom() + 36, panel.x.title, "axis-title",
+               Picture::Anchor::middle);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const RankingRow& row = *shown[i];
+    const double y = panel.top + row_height * (static_cast<double>(i) + 0.5);
+    picture.text(names - 10, y + 4, shortened(row.job, 32), "name", Picture::Anchor::end);
+    const auto x = [&](double repeats) { return panel.across(row.hours_of(repeats)); };
+    picture.line(x(row.life_repeats_all_stick), y, x(row.life_repeats_all_free), y, "whisker");
+    if (row.first_wire_hours[0] > 0 && std::isfinite(row.first_wire_hours[2]))
+      picture.line(panel.across(row.first_wire_hours[0]), y, panel.across(row.first_wire_hours[2]), y,
+                   "scatter");
+    picture.dot(x(row.life_repeats), y, 5, "dot",
+                fmt::format("{}: {} h", row.job, life_cell(row.life_hours)));
+  }
+  return picture.svg();
+}
+
+std::string ranking_section(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
+  const std::string chart = comparison_chart(rows);
+  return fmt::format(
+      "<div class=\"wide\"><table>\n<thead><tr><th></th><th>job</th><th class=\"number\">life [h]</th>"
+      "<th class=\"number\">all stick .. all free [h]</th><th class=\"number\">first break in 10 .. 90 % "
+      "[h]</th><th "
+      "class=\"number\">calendar</th>"
+      "<th>breaks first</th><th>what moved then</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}"
+      "<p class=\"soft\">Life is that of the wire that is worst off, in hours of motion, by material "
+      "constants that are "
+      "medians; the calendar counts the job's operating hours per week. "
+      "Parts inside the dresspack rub on each other: glued together (all stick) they live shorter, slipping "
+      "freely (all free) longer, and the truth lies between. Wires scatter, and a dresspack has thousands: "
+      "its first break "
+      "comes earlier than the worst wire's own life, in 10 to 90 % of such dresspacks between the hours "
+      "given (for "
+      "parts that slip as in the job). Plan by those, and by the bounds.</p>\n",
+      ranking_rows(rows, detailed),
+      chart.empty() ? ""
+                    : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the worst wire's life. Blue bar: all "
+                      "stick to all free. Orange: first break in 10 to 90 % of such dresspacks.</p>\n" +
+                          chart);
+}
+
+// ---- one job ----------------------------------------------------------------------------------------------
+
+/// A share with a bar beside it, whose full length is the largest share of the table.
+std::string meter(double share, double largest) {
+  return fmt::format("<span class=\"meter\"><span style=\"width:{:.1f}%\"></span></span>{:.1f} %",
+                     100 * share / largest, 100 * share);
+}
+
+std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] > values[b]; });
+  std::erase_if(order, [&](std::size_t i) { return !(values[i] > 0); });
+  if (order.size() > most) order.resize(most);
+  return order;
+}
+
+/// The joints that cost most of a line's damage, "joint 5 60 %, joint 6 31 %".
+std::string main_causes(const LifeSummary& life, std::size_t line) {
+  constexpr std::size_t most_named = 2;
+  constexpr double least_named = 0.1;
+  const std::size_t causes = life.cause.size();
+  if (causes == 0 || !(life.step_damage[line] > 0)) return "";
+  const auto first = life.line_cause_damage.begin() + static_cast<std::ptrdiff_t>(line * causes);
+  const std::vector<double> of_line(first, first + static_cast<std::ptrdiff_t>(causes));
+  std::string text;
+  for (const std::size_t cause : largest_first(of_line, most_named)) {
+    const double share = of_line[cause] / life.step_damage[line];
+    if (share < least_named && !text.empty()) break;
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", escaped(life.cause[cause]), 100 * share);
+  }
+  return text;
+}
+
+/// What moved between opening and closing of the worst wire's cycles.
+std::string cause_table(const LifeSummary& life) {
+  const double total = std::accumulate(life.cause_damage.begin(), life.cause_damage.end(), 0.0);
+  if (!(total > 0)) return "";
+  const double largest = *std::max_element(life.cause_damage.begin(), life.cause_damage.end());
+  std::string rows;
+  for (std::size_t cause = 0; cause < life.cause.size(); ++cause) {
+    const double damage = life.cause_damage[cause];
+    const bool last = cause + 1 == life.cause.size();
+    if (damage == 0 && !last) continue;
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td></tr>\n",
+        last ? "carrying: gravity, swinging, and what the joints do not explain" : escaped(life.cause[cause]),
+        damage < 0 ? fmt::format("{:.1f} %{}", 100 * damage / total,
+                                 last ? "" : ": moves against the others, relieves")
+                   : meter(damage / total, largest / total));
+  }
+  return fmt::format(
+      "<h3>What moved when the damage was done</h3>\n<p class=\"soft\">Damage of the worst wire by the "
+      "joints "
+      "that move the two clamps against each other, by how much each changed the wire's strain while a cycle "
+      "ran. {} % of the strain's variance follows from these joints{}.</p>\n<div "
+      "class=\"wide\"><table>\n<thead><tr><th>moved</th><th>share of the "
+      "damage</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+      printed(100 * life.explained), life.explained < 0.8 ? ": the shares are rough" : "", rows);
+}
+
+/// (line) half of the damage of the cycles that a line opens and half of those that it completes.
+std::vector<double> damage_of_lines(const LifeSummary& life) {
+  std::vector<double> damage = life.step_damage;
+  for (std::size_t line = 0; line < life.step_opened.size(); ++line)
+    damage[line] = (damage[line] + life.step_opened[line]) / 2;
+  return damage;
+}
+
+/// When a line runs, and its run in which most damage is completed.
+struct LineRuns {
+  std::size_t times = 0;
+  const ProgramRun* costliest = nullptr;
+};
+
+LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs) {
+  LineRuns of;
+  for (const ProgramRun& run : runs) {
+    if (run.step != static_cast<std::int32_t>(line)) continue;
+    ++of.times;
+    if (!of.costliest || run.damage > of.costliest->damage) of.costliest = &run;
+  }
+  return of;
+}
+
+std::string program_table(const LifeSummary& life) {
+  constexpr double least_listed = 5e-4;  // of the damage: 0.1 % when rounded
+  const std::vector<double> damage = damage_of_lines(life);
+  const double total = std::accumulate(damage.begin(), damage.end(), 0.0);
+  const std::vector<ProgramRun> runs = program_runs(life);
+  const auto share = [&](const std::vector<double>& of, std::size_t line) {
+    return of.empty() ? "" : fmt::format("{:.1f} %", 100 * of[line] / total);
+  };
+  std::string rows;
+  double largest = 0;
+  for (const std::size_t line : largest_first(damage, listed_lines)) {
+    largest = std::max(largest, damage[line]);
+    if (damage[line] < least_listed * total) break;
+    const LineRuns of = runs_of(line, runs);
+    rows += fmt::format(
+        "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td "
+        "class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
+        line + 1, escaped(life.step_text[line]), of.times,
+        of.costliest ? fmt::format("{:.1f} .. {:.1f} s", of.costliest->begin, of.costliest->end) : "",
+        meter(damage[line] / total, largest / total), share(life.step_opened, line),
+        share(life.step_damage, line), main_causes(life, line), printed(damage[line]));
+  }
+  if (rows.empty()) return "";
+  return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">It takes two lines to make a cycle of "
+         "strain: "
+         "one in which it opens and one in which its range is reached. Each is blamed for half of its "
+         "damage.</p>\n<div "
+         "class=\"wide\"><table>\n<thead><tr><th "
+         "class=\"number\">line</th><th>program</th>"
+         "<th class=\"number\">runs</th><th>costliest at</th><th>share of the damage</th><th "
+         "class=\"number\">opened here</th><th class=\"number\">reached here</th><th>reached mostly "
+         "by</th><th "
+         "class=\"number\">damage per repeat</th></tr>"
+         "</thead>\n<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string layer_table(const LifeSummary& life, const RankingRow& row) {
+  std::string rows;
+  for (const std::size_t i : largest_first(life.layer_damage, listed_layers)) {
+    const double repeats = 1 / life.layer_damage[i];
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+        "class=\"number\">{}</td></tr>\n",
+        escaped(life.layer[i]), printed(row.hours_of(repeats)), printed(repeats),
+        printed(life.layer_damage[i]));
+  }
+  if (rows.empty()) return "";
+  return "<h3>Life by layer of wires</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>layer</th><th "
+         "class=\"number\">life [h]</th>"
+         "<th class=\"number\">repeats</th><th class=\"number\">damage per "
+         "repeat</th></tr></thead>\n<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+/// The shortest life of each, where there are several.
+std::string dresspack_table(const LifeSummary& life, const RankingRow& row) {
+  if (life.dresspack.size() < 2 || life.dresspack_damage.size() != life.dresspack.size()) return "";
+  std::string rows;
+  for (std::size_t d = 0; d < life.dresspack.size(); ++d) {
+    const double damage = life.dresspack_damage[d];
+    rows += damage > 0
+                ? fmt::format(
+                      "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+                      "class=\"number\">{}</td></tr>\n",
+                      escaped(life.dresspack[d]), printed(row.hours_of(1 / damage)), printed(1 / damage),
+                      printed(damage))
+                : fmt::format("<tr><td>{}</td><td class=\"number\" colspan=\"3\">no damage</td></tr>\n",
+                              escaped(life.dresspack[d]));
+  }
+  return "<h3>Life by dresspack</h3>\n<p class=\"soft\">Of the worst wire in each; the charts below are "
+         "about the "
+         "worst of them.</p>\n<div class=\"wide\"><table>\n<thead><tr><th>dresspack</th><th "
+         "class=\"number\">life [h]</th><th class=\"number\">repeats</th><th class=\"number\">damage per "
+         "repeat</th></tr></thead>\n<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string facts(const RankingRow& row) {
+  std::string list;
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
+  };
+  fact("life",
+       std::isinf(row.life_hours)
+           ? "no damage"
+           : fmt::format("<b>{} h</b> of motion = {} repeats of {:.1f} s = {} by the calendar, median of the "
+                         "worst wire",
+                         printed(row.life_hours), printed(row.life_repeats), row.repeat_seconds,
+                         calendar_words(row.life_months)));
+  fact("bounds",
+       fmt::format("{} (all stick) .. {} (all free)", hours_words(row.hours_of(row.life_repeats_all_stick)),
+                   hours_words(row.hours_of(row.life_repeats_all_free))));
+  const double stuck = row.life_repeats_all_stick / row.life_repeats;
+  const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
+    if (std::isnan(lives[0])) return;
+    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks{}",
+                           hours_words(lives[0]), hours_words(lives[1]), hours_words(lives[2]),
+                           std::isfinite(lives[0]) && stuck < 1
+                               ? fmt::format("; if every part stuck, roughly from {} on",
+                                             hours_words(lives[0] * stuck))
+                               : ""));
+  };
+  scatter("first broken wire", row.first_wire_hours);
+  scatter("first failed conductor", row.conductor_hours);
+  if (row.hose) {
+    const HoseLife& hose = *row.hose;
+    fact("hose's wall",
+         std::isinf(hose.hours)
+             ? "not damaged"
+             : fmt::format("{} of motion until it cracks, {}, segment {} from the tool ({:.2f} m){}",
+                           hose_life_words(hose.hours), escaped(hose.component), hose.segment_from_tool,
+                           hose.position_from_tool,
+                           hose.step.empty() ? "" : ", worst during '" + escaped(hose.step) + "'"));
+  }
+  if (damaged(row)) {
+    fact("breaks first",
+         escaped(row.worst_component) + (row.worst_shear_range > 0
+                                             ? fmt::format(" (its surface is sheared by {:.2f} % to and fro)",
+                                                           100 * row.worst_shear_range)
+                                             : ""));
+    fact("where", place_words(row));
+    fact("when", fmt::format("at {:.1f} s, {}", row.worst_time,
+                             row.worst_step.empty() ? "outside any program line"
+                                                    : "during '" + escaped(row.worst_step) + "'"));
+  }
+  return "<dl>\n" + list + "</dl>\n";
+}
+
+std::string under(const std::string& heading, const std::string& remark, const std::string& chart) {
+  if (chart.empty()) return "";
+  return fmt::format("<h3>{}</h3>\n<p class=\"soft\">{}</p>\n{}", heading, remark, chart);
+}
+
+std::string place_remark(const LifeSummary& life) {
+  std::string text = "Of the worst wire in each segment; 1 means broken after one repeat.";
+  const double share = nearly_worst_share(life);
+  if (share > 0.5)
+    text += fmt::format(
+        " On {:.0f} % of the length it is within a fifth of the worst, as when cables slip freely from clamp "
+        "to clamp: "
+        "do not expect the break in one place.",
+        100 * share);
+  const double total = std::accumulate(life.clamp_damage.begin(), life.clamp_damage.end(), 0.0);
+  std::string shares;
+  for (std::size_t k = 0; total > 0 && k < life.clamps.size(); ++k)
+    shares += fmt::format("{}{} {:.0f} %", shares.empty() ? " By the nearest clamp: " : "; ",
+                          escaped(life.clamps[k]), 100 * life.clamp_damage[k] / total);
+  return shares.empty() ? text : text + shares + ".";
+}
+
+std::string charts(const RankingRow& row) {
+  const LifeSummary life = read_life(row.life_file);
+  const std::string along =
+      row.worst_dresspack.empty() ? "the dresspack" : "the " + escaped(row.worst_dresspack);
+  return dresspack_table(life, row) +
+         under("Strain of the worst wire over time",
+               "Below the strain, the lines of the program (rest the pointer on one for its text); those "
+               "that cost most are "
+               "marked and named.",
+               strain_chart(life)) +
+         under("Damage along " + along, place_remark(life),
+               segment_chart(life, row.worst_segment_from_tool)) +
+         under("Cycles of the worst wire",
+               "How often each strain range occurs in a repeat, and its share of the damage.",
+               cycle_chart(life)) +
+         program_table(life) + cause_table(life) + layer_table(life, row) +
+         fmt::format(
+             "<details><summary>Settings</summary>\n<pre>{}</pre></details>\n<details><summary>History</"
+             "summary>\n<pre>{}</pre></details>\n",
+             escaped(life.job), escaped(life.history));
+}
+
+/// The worst moment as a picture; none when the motion file has been cleared away.
+std::string scene(const RankingRow& row) {
+  const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
+  std::error_code ignored;
+  if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
+  return under("The moment",
+               "Robot and dresspack when the most damaging cycle closes; the worst segment is marked.",
+               scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack));
+}
+
+/// What a cell designer asks; none when the motion file has been cleared away.
+std::string checks(const RankingRow& row) {
+  const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(motion, ignored)) return "";
+  const std::string table = check_table(motion);
+  return table.empty() ? "" : "<h3>Checks of the motion</h3>\n" + table;
+}
+
+std::string job_section(const RankingRow& row, std::size_t rank) {
+  std::string body;
+  try {
+    body = facts(row) + scene(row) + checks(row) + charts(row);
+  } catch (const InputError& problem) {
+    body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
+  }
+  return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}</section>\n", rank, rank, escaped(row.job),
+                     body);
+}
+
+/// Which jobs have a section of their own: all that are done, or in large studies the best and the worst of
+/// them.
+std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
+  const auto done = static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
+  std::vector<bool> detailed(rows.size(), false);
+  for (std::size_t i = 0; i < done; ++i)
+    detailed[i] = done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2;
+  return detailed;
+}
+
+std::string summary(const std::vector<RankingRow>& rows) {
+  const auto done = static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
+  std::string text = fmt::format("{} of {} jobs done", done, rows.size());
+  if (done < rows.size())
+    text += fmt::format(", <span class=\"failed\">{} failed</span>", rows.size() - done);
+  if (done > most_detailed)
+    text += fmt::format("; charts for the {} best and the {} worst of them", most_detailed / 2,
+                        most_detailed / 2);
+  return "<p>" + text + ".</p>\n";
+}
+
+}  // namespace
+
+std::string report_page(const std::string& study, const std::vector<RankingRow>& rows) {
+  const std::vector<bool> detailed = detailed_jobs(rows);
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: dresspack "
+      "life</title>\n"
+      "<style>{}</style>\n</head>\n<body>\n<h1>{}: dresspack life by motion</h1>\n",
+      escaped(study), style, escaped(study));
+  page += summary(rows) + ranking_section(rows, detailed);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (detailed[i]) page += job_section(rows[i], i + 1);
+  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n</body>\n</html>\n", DRESSLIFE_VERSION);
+}
+
+void write_report(const std::filesystem::path& file, const std::string& study,
+                  const std::vector<RankingRow>& rows) {
+  write_text_if_changed(file, report_page(study, rows));
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,22 @@
+// report.html: what a study found, for who programs the robots or plans their maintenance. One page that
+// needs nothing else: no scripts, no requests; light or dark as the reader's machine is. Reads the life
+// files, and for the picture of the worst moment the motion file beside each, where there is one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/study/ranking.h"
+
+namespace dresslife::pipeline {
+
+/// The page as text. rows: of read_ranking(), best life first. A life file that cannot be read any more says
+/// so in its place. The same files give the same bytes.
+std::string report_page(const std::string& study, const std::vector<RankingRow>& rows);
+
+/// Writes the page, whole or not at all; leaves it untouched when nothing changed.
+void write_report(const std::filesystem::path& file, const std::string& study,
+                  const std::vector<RankingRow>& rows);
+
+}  // namespace dresslife::pipeline

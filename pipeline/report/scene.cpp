@@ -1,0 +1,209 @@
+#include "pipeline/report/scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "pipeline/files/files.h"
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double picture_width = 860, margin = 24;  // [px]
+constexpr double most_height = 620;                 // [px]
+constexpr double azimuth = -62, elevation = 16;     // of the viewer, from +x and above the floor [deg]
+constexpr double piece = 0.06;  // thick parts are cut into pieces to sort them by depth [m]
+
+/// A stroke with round ends from one point to another.
+struct Stroke {
+  Vector3d from, to;  ///< [m]
+  double radius;      ///< [m]
+  std::string style;
+  double nearness(const Vector3d& toward_viewer) const { return ((from + to) / 2).dot(toward_viewer); }
+};
+
+struct View {
+  Vector3d right, up, toward_viewer;
+  double scale = 1, left = 0, top = 0;  ///< [px/m], [m], [m]
+
+  View() {
+    constexpr double degree = std::numbers::pi / 180;
+    const double a = azimuth * degree, e = elevation * degree;
+    toward_viewer = {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
+    right = Vector3d(-std::sin(a), std::cos(a), 0);
+    up = toward_viewer.cross(right);
+  }
+  double x(const Vector3d& p) const { return margin + scale * (p.dot(right) - left); }
+  double y(const Vector3d& p) const { return margin + scale * (top - p.dot(up)); }
+};
+
+void add_in_pieces(std::vector<Stroke>& strokes, const Stroke& whole) {
+  const int pieces = std::max(1, static_cast<int>(std::ceil((whole.to - whole.from).norm() / piece)));
+  for (int i = 0; i < pieces; ++i) {
+    Stroke part = whole;
+    part.from = whole.from + (whole.to - whole.from) * i / pieces;
+    part.to = whole.from + (whole.to - whole.from) * (i + 1) / pieces;
+    strokes.push_back(part);
+  }
+}
+
+void add_robot(std::vector<Stroke>& strokes, const FileReader& file, const Robot& robot, std::size_t sample) {
+  if (!file.has("/robot/link_pose")) return;
+  std::vector<double> pose;
+  file.read_rows("/robot/link_pose", sample, 1, pose);
+  for (std::size_t link = 0; link < robot.links.size() && 7 * link + 6 < pose.size(); ++link) {
+    const double* p = &pose[7 * link];
+    const Vector3d origin(p[0], p[1], p[2]);
+    const Eigen::Quaterniond turn(p[3], p[4], p[5], p[6]);
+    for (const Capsule& capsule : robot.links[link].capsules)
+      add_in_pieces(strokes, {origin + turn * capsule.from, origin + turn * capsule.to, capsule.radius,
+                              link % 2 ? "arm" : "arm-2"});
+  }
+}
+
+/// Guide rings and the clamps between the ends, as circles of short strokes about the hose.
+void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Job& job, std::size_t sample) {
+  if (!file.has("/robot/link_pose")) return;
+  constexpr int corners = 20;
+  constexpr double thick = 0.006;  // [m]
+  std::vector<double> pose;
+  file.read_rows("/robot/link_pose", sample, 1, pose);
+  const auto circle = [&](const std::string& name, const Vector3d& centre, const Vector3d& axis,
+                          double radius) {
+    std::size_t link = 0;
+    while (link < job.robot.links.size() && job.robot.links[link].name != name) ++link;
+    if (7 * link + 6 >= pose.size()) return;
+    const double* p = &pose[7 * link];
+    const Eigen::Quaterniond turn(p[3], p[4], p[5], p[6]);
+    const Vector3d middle = Vector3d(p[0], p[1], p[2]) + turn * centre, z = turn * axis.normalized();
+    const Vector3d x = z.unitOrthogonal(), y = z.cross(x);
+    const auto corner = [&](int k) {
+      const double angle = 2 * std::numbers::pi * k / corners;
+      return Vector3d(middle + radius * (std::cos(angle) * x + std::sin(angle) * y));
+    };
+    for (int k = 0; k < corners; ++k) strokes.push_back({corner(k), corner(k + 1), thick, "arm-2"});
+  };
+  for (const MountedDresspack& mounted : job.dresspacks) {
+    for (const GuideRing& ring : mounted.routing.rings)
+      circle(ring.link, ring.position, ring.direction, ring.radius + thick);
+    for (const IntermediateClamp& between : mounted.routing.clamps)
+      circle(between.clamp.link, between.clamp.position, between.clamp.direction,
+             mounted.dresspack.diameter / 2 + thick);
+  }
+}
+
+/// Base clamp, segment centres, tool clamp of each dresspack.
+std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size_t sample) {
+  std::vector<double> clamps, centres;
+  file.read_rows("/clamp/position", sample, 1, clamps);
+  file.read_rows("/segment/position", sample, 1, centres);
+  const auto at = [](const std::vector<double>& of, std::size_t i) {
+    return Vector3d(of[3 * i], of[3 * i + 1], of[3 * i + 2]);
+  };
+  const std::vector<MotionSpan> spans = motion_spans(file);
+  std::vector<std::vector<Vector3d>> points(spans.back().dresspack + 1);
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    const MotionSpan& span = spans[k];
+    std::vector<Vector3d>& of = points[span.dresspack];
+    if (of.empty()) of.push_back(at(clamps, span.base_clamp));
+    for (std::size_t i = 0; i < span.segments; ++i) of.push_back(at(centres, span.first_segment + i));
+    if (k + 1 == spans.size() || spans[k + 1].dresspack != span.dresspack)
+      of.push_back(at(clamps, span.tool_clamp));
+  }
+  return points;
+}
+
+/// Segment i reaches half way to its neighbours.
+void add_hose(std::vector<Stroke>& strokes, const std::vector<Vector3d>& points, double radius,
+              int worst_from_tool) {
+  const int segments = static_cast<int>(points.size()) - 2;
+  for (int i = 1; i <= segments; ++i) {
+    const Vector3d begin = i == 1 ? points[0] : Vector3d((points[i - 1] + points[i]) / 2);
+    const Vector3d end = i == segments ? points[i + 1] : Vector3d((points[i] + points[i + 1]) / 2);
+    const char* style = i == segments + 1 - worst_from_tool ? "hose-hot" : "hose";
+    strokes.push_back({begin, points[i], radius, style});
+    strokes.push_back({points[i], end, radius, style});
+  }
+}
+
+std::string stroke_line(const View& view, const Stroke& stroke, const char* style, double wider) {
+  return fmt::format(
+      "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
+      "stroke-width=\"{:.1f}\"/>\n",
+      style, view.x(stroke.from), view.y(stroke.from), view.x(stroke.to), view.y(stroke.to),
+      2 * stroke.radius * view.scale + wider);
+}
+
+View fit(const std::vector<Stroke>& strokes, double& height) {
+  View view;
+  double left = 1e9, right = -1e9, bottom = 1e9, top = -1e9;
+  for (const Stroke& stroke : strokes)
+    for (const Vector3d& p : {stroke.from, stroke.to}) {
+      left = std::min(left, p.dot(view.right) - stroke.radius);
+      right = std::max(right, p.dot(view.right) + stroke.radius);
+      bottom = std::min(bottom, p.dot(view.up) - stroke.radius);
+      top = std::max(top, p.dot(view.up) + stroke.radius);
+    }
+  view.scale = std::min((picture_width - 2 * margin) / std::max(right - left, 0.1),
+                        (most_height - 2 * margin) / std::max(top - bottom, 0.1));
+  view.left = left - ((picture_width - 2 * margin) / view.scale - (right - left)) / 2;
+  view.top = top;
+  height = view.scale * (top - bottom) + 2 * margin;
+  return view;
+}
+
+std::size_t sample_at(const FileReader& file, double time) {
+  const std::vector<double> times = file.read<double>("/time");
+  const auto later = std::lower_bound(times.begin(), times.end(), time);
+  if (later == times.begin()) return 0;
+  if (later == times.end()) return times.size() - 1;
+  return static_cast<std::size_t>(later - times.begin()) - (time - *(later - 1) < *later - time);
+}
+
+/// A bar of one metre (or a tenth for small scenes) in the lower left corner.
+std::string scale_bar(const View& view, double height) {
+  const double length = view.scale > 600 ? 0.1 : 1;
+  const double y = height - 10;
+  return fmt::format(
+      "<line class=\"mark\" x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\" "
+      "stroke-width=\"2\"/>\n"
+      "<text class=\"tick\" x=\"{3:.1f}\" y=\"{4:.1f}\">{5}</text>\n",
+      margin, y, margin + length * view.scale, margin + 4, y - 5, length < 1 ? "100 mm" : "1 m");
+}
+
+}  // namespace
+
+std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
+                          const std::string& worst_dresspack) {
+  const FileReader file(motion_file, motion_format());
+  const Job job = job_from(parse_yaml(file.text_attribute("job"), motion_file.string() + " (attribute job)"));
+  const std::size_t sample = sample_at(file, time);
+  std::vector<Stroke> strokes;
+  add_robot(strokes, file, job.robot, sample);
+  add_rings(strokes, file, job, sample);
+  const std::vector<std::vector<Vector3d>> hoses = hose_points(file, sample);
+  for (std::size_t d = 0; d < std::min(hoses.size(), job.dresspacks.size()); ++d)
+    add_hose(strokes, hoses[d], job.dresspacks[d].dresspack.diameter / 2,
+             name_among(job, d) == worst_dresspack ? worst_from_tool : 0);
+
+  double height = 0;
+  const View view = fit(strokes, height);
+  std::stable_sort(strokes.begin(), strokes.end(), [&](const Stroke& a, const Stroke& b) {
+    return a.nearness(view.toward_viewer) < b.nearness(view.toward_viewer);
+  });
+  std::string body;
+  for (const Stroke& stroke : strokes) {
+    if (stroke.style.starts_with("hose")) body += stroke_line(view, stroke, "halo", 3);
+    body += stroke_line(view, stroke, stroke.style.c_str(), 0);
+  }
+  return fmt::format(
+      "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\"><title>Robot and dresspack at {:.2f} "
+      "s</title>\n{}{}</svg>\n",
+      picture_width, height, time, body, scale_bar(view, height));
+}
+
+}  // namespace dresslife::pipeline

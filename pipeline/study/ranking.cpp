@@ -1,0 +1,253 @@
+#include "pipeline/study/ranking.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/files/files.h"
+#include "pipeline/job/units.h"
+#include "pipeline/readable.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+void read_scatter(const FileReader& file, RankingRow& row) {
+  const std::array<const char*, 3> ends{"p10", "p50", "p90"};
+  const auto read = [&](const std::string& name, double& value) {
+    if (file.has_attribute(name)) value = file.number_attribute(name);
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    read(fmt::format("life_hours_{}", ends[i]), row.first_wire_hours[i]);
+    read(fmt::format("conductor_life_hours_{}", ends[i]), row.conductor_hours[i]);
+  }
+}
+
+void read_hose(const FileReader& file, RankingRow& row) {
+  if (!file.has_attribute("hose_life_hours")) return;
+  HoseLife hose;
+  hose.hours = file.number_attribute("hose_life_hours");
+  hose.months = file.number_attribute("hose_life_months");
+  hose.segment_from_tool = static_cast<int>(file.number_attribute("hose_segment_from_tool"));
+  hose.position_from_tool = file.number_attribute("hose_position_from_tool");
+  hose.component = file.text_attribute("hose_component");
+  hose.step = file.text_attribute("hose_step");
+  row.hose = hose;
+}
+
+RankingRow read_row(const JobResult& result) {
+  RankingRow row;
+  row.job = result.name;
+  row.life_file = result.life_file;
+  row.failure = result.failure;
+  if (!row.done()) return row;
+  try {
+    const FileReader file(result.life_file, life_format(), FileReader::Scope::attributes);
+    row.life_repeats = file.number_attribute("life_repeats");
+    row.life_hours = file.number_attribute("life_hours");
+    row.life_months = file.number_attribute("life_months");
+    row.life_repeats_all_stick = file.number_attribute("life_repeats_all_stick");
+    row.life_repeats_all_free = file.number_attribute("life_repeats_all_free");
+    row.repeat_seconds = file.number_attribute("repeat_seconds");
+    row.damage_per_repeat = file.number_attribute("damage_per_repeat");
+    read_scatter(file, row);
+    read_hose(file, row);
+    if (file.number_attribute("worst_site") < 0) return row;
+    row.worst_segment_from_tool = static_cast<int>(file.number_attribute("worst_segment_from_tool"));
+    row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
+    row.worst_time = file.number_attribute("worst_time");
+    if (file.has_attribute("worst_component")) row.worst_component = file.text_attribute("worst_component");
+    if (file.has_attribute("worst_dresspack")) row.worst_dresspack = file.text_attribute("worst_dresspack");
+    if (file.has_attribute("worst_step")) row.worst_step = file.text_attribute("worst_step");
+    if (file.has_attribute("worst_shear_range"))
+      row.worst_shear_range = file.number_attribute("worst_shear_range");
+    if (file.has_attribute("worst_joint")) row.worst_joint = file.text_attribute("worst_joint");
+    if (!row.worst_joint.empty()) row.worst_joint_share = file.number_attribute("worst_joint_share");
+  } catch (const InputError& problem) {
+    row.failure = problem.what();
+  }
+  return row;
+}
+
+bool better(const RankingRow& one, const RankingRow& other) {
+  if (one.done() != other.done()) return one.done();
+  if (one.done() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
+  return one.job < other.job;
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"') quoted += '"';
+    quoted += letter;
+  }
+  return quoted + '"';
+}
+
+/// One column of the terminal's table, as wide as its widest cell.
+struct Column {
+  std::string title;
+  bool to_the_right;
+  std::vector<std::string> cells;
+  std::size_t width() const {
+    std::size_t widest = columns_of(title);
+    for (const std::string& cell : cells) widest = std::max(widest, columns_of(cell));
+    return widest;
+  }
+  std::string padded(const std::string& cell) const {
+    const std::string space(width() - columns_of(cell), ' ');
+    return to_the_right ? space + cell : cell + space;
+  }
+};
+
+std::string life_text(double life) { return std::isinf(life) ? "no damage" : readable(life); }
+
+std::string calendar_text(double months) { return std::isinf(months) ? "no damage" : calendar_words(months); }
+
+std::string bounds_text(const RankingRow& row) {
+  return fmt::format("{} .. {}", life_text(row.hours_of(row.life_repeats_all_stick)),
+                     life_text(row.hours_of(row.life_repeats_all_free)));
+}
+
+std::string segment_text(const RankingRow& row) {
+  if (row.worst_segment_from_tool == 0 || !(row.damage_per_repeat > 0)) return "-";
+  return fmt::format("{} ({:.2f} m)", row.worst_segment_from_tool, row.worst_position_from_tool);
+}
+
+/// What breaks and what moved then; the second line of a job.
+std::string story(const RankingRow& row) {
+  if (row.worst_component.empty()) return "no wire was evaluated";
+  if (!(row.damage_per_repeat > 0)) return "no damage";
+  const std::string during = row.worst_step.empty() ? "" : " during '" + row.worst_step + "'";
+  return fmt::format("{} breaks first, worst at {:.1f} s{}", row.worst_component, row.worst_time, during);
+}
+
+/// When first wires break in a fleet, which joint does it, and the hose; the third line, empty where nothing
+/// is known.
+std::string more_story(const RankingRow& row) {
+  std::vector<std::string> parts;
+  const bool damaged = !row.worst_component.empty() && row.damage_per_repeat > 0;
+  if (damaged && !std::isnan(row.first_wire_hours[0]))
+    parts.push_back(fmt::format("first break after {} .. {} h in 10 .. 90 %",
+                                life_text(row.first_wire_hours[0]), life_text(row.first_wire_hours[2])));
+  if (damaged && !row.worst_joint.empty()) parts.push_back(joint_words(row));
+  if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char letter) { return letter == '\n' || letter == '\r' || letter == '\t'; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+std::string hose_life_words(double hours) {
+  constexpr double beyond_all_plans = 1e6;
+  if (std::isinf(hours)) return "not damaged";
+  return hours > beyond_all_plans ? "more than " + readable(beyond_all_plans, 1) + " h"
+                                  : readable(hours) + " h";
+}
+
+std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
+  std::vector<RankingRow> rows;
+  rows.reserve(results.size());
+  for (const JobResult& result : results) rows.push_back(read_row(result));
+  std::stable_sort(rows.begin(), rows.end(), better);
+  return rows;
+}
+
+std::string joint_words(const RankingRow& row) {
+  if (row.worst_joint_share > 1) return fmt::format("all by {}, which others relieve", row.worst_joint);
+  return fmt::format("{:.0f} % by {}", 100 * row.worst_joint_share, row.worst_joint);
+}
+
+std::string ranking_csv(const std::vector<RankingRow>& rows) {
+  std::string text =
+      "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,life_months,"
+      "life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,worst_time_s,worst_step,"
+      "status,message,life_hours_p10,life_hours_p50,life_hours_p90,conductor_life_hours_p10,"
+      "conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,hose_segment_from_tool,"
+      "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack\n";
+  for (const RankingRow& row : rows) {
+    if (!row.done()) {
+      text += fmt::format("{},,,,,,,,,,,,failed,{},,,,,,,,,,,,\n", csv_cell(row.job), csv_cell(row.failure));
+      continue;
+    }
+    const bool evaluated = row.worst_segment_from_tool > 0;
+    std::vector<std::string> cells{row.job,
+                                   shortest_text(row.life_repeats),
+                                   shortest_text(row.life_hours),
+                                   evaluated ? std::to_string(row.worst_segment_from_tool) : "",
+                                   row.worst_component,
+                                   shortest_text(row.damage_per_repeat),
+                                   shortest_text(row.life_months),
+                                   shortest_text(row.life_repeats_all_stick),
+                                   shortest_text(row.life_repeats_all_free),
+                                   evaluated ? shortest_text(row.worst_position_from_tool) : "",
+                                   evaluated ? shortest_text(row.worst_time) : "",
+                                   row.worst_step,
+                                   "done",
+                                   ""};
+    for (const auto* lives : {&row.first_wire_hours, &row.conductor_hours})
+      for (const double life : *lives) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
+    cells.push_back(row.hose ? shortest_text(row.hose->hours) : "");
+    cells.push_back(row.hose ? std::to_string(row.hose->segment_from_tool) : "");
+    cells.push_back(row.hose ? shortest_text(row.hose->position_from_tool) : "");
+    cells.push_back(row.worst_joint);
+    cells.push_back(row.worst_joint.empty() ? "" : shortest_text(row.worst_joint_share));
+    cells.push_back(row.worst_dresspack);
+    for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width) {
+  constexpr std::size_t longest_name = 32;
+  std::array<Column, 7> columns{{{"", true, {}},
+                                 {"job", false, {}},
+                                 {"life [h]", true, {}},
+                                 {"all stick .. all free [h]", true, {}},
+                                 {"calendar", true, {}},
+                                 {"repeats", true, {}},
+                                 {"segment from tool", true, {}}}};
+  std::size_t rank = 0;
+  for (const RankingRow& row : rows) {
+    ++rank;
+    const std::array<std::string, 7> cells =
+        row.done() ? std::array<std::string, 7>{std::to_string(rank),
+                                                "",
+                                                life_text(row.life_hours),
+                                                bounds_text(row),
+                                                calendar_text(row.life_months),
+                                                life_text(row.life_repeats),
+                                                segment_text(row)}
+                   : std::array<std::string, 7>{"-", "", "failed", "", "", "", ""};
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i].cells.push_back(i == 1 ? shortened(one_line(row.job), longest_name) : cells[i]);
+  }
+  const auto line = [&](auto cell_of) {
+    std::string text;
+    for (const Column& column : columns) text += column.padded(cell_of(column)) + "  ";
+    return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
+  };
+  std::string text = line([](const Column& column) { return column.title; });
+  const std::string indent(columns[0].width() + 2, ' ');
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    text += line([i](const Column& column) { return column.cells[i]; });
+    const std::string second = one_line(rows[i].done() ? story(rows[i]) : rows[i].failure);
+    // A reason for failure is kept whole: its end is the remedy.
+    text += indent + (rows[i].done() ? shortened(second, width - indent.size()) : second) + '\n';
+    const std::string third = rows[i].done() ? one_line(more_story(rows[i])) : "";
+    if (!third.empty()) text += indent + shortened(third, width - indent.size()) + '\n';
+  }
+  return text;
+}
+
+}  // namespace dresslife::pipeline

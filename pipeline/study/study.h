@@ -1,0 +1,36 @@
+// A study: one base job and what is varied in it. It expands into named jobs, each of which stands alone.
+//
+//   base: irb6640_spot_welding          a job of config/jobs, a file, or the job itself
+//   vary:                               every combination of these values ...
+//     motion: [easy, hard]
+//     fatigue.stress: [cyclic, elastic]
+//   jobs:                               ... for each of these named changes of the base
+//     stiff: {dresspack.bending_stiffness_Nm2: 8}
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/job/job.h"
+
+namespace dresslife::pipeline {
+
+struct StudyJob {
+  std::string name;     ///< unique in the study, fit for a folder
+  Job job;              ///< when it can be run
+  std::string failure;  ///< else: the one line that says why not
+};
+
+struct Study {
+  std::string name;
+  std::vector<StudyJob> jobs;  ///< in the order of the file
+};
+
+/// Reads and expands a study. sets: `--set` for every job, after the study's own changes.
+/// Errors: InputError for the study itself; a job that cannot be run is told in its `failure`.
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
+
+/// The keys of a study file, as Markdown.
+std::string study_manual();
+
+}  // namespace dresslife::pipeline

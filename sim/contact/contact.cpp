@@ -1,0 +1,211 @@
+#include "sim/contact/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace dresslife::sim {
+namespace {
+
+// Overlap is pushed out by this share per step, and no faster than push_speed, so that a start inside an
+// obstacle does not fling the hose away.
+constexpr double overlap_share = 0.2, push_speed = 1.0;  // [1], [m/s]
+// Softness of the normal direction [m/(N s) s]: 1e-7 m/N lets two contacts at one point share their load.
+constexpr double softness = 1e-7;
+constexpr int sweeps = 100;
+constexpr double smallest_change =
+    1e-9;  // of an impulse [N s]; a 2.5 kg/m hose of 0.1 m loads 5 ms with 1e-2 N s
+
+double dot(const Twist6& a, const Twist6& b) {
+  double sum = 0;
+  for (int k = 0; k < 6; ++k) sum += a.value[k] * b.value[k];
+  return sum;
+}
+
+void add(Twist6& sum, double factor, const Twist6& x) {
+  for (int k = 0; k < 6; ++k) sum.value[k] += factor * x.value[k];
+}
+
+// Row of J: velocity of a segment's matter at the contact along an axis, its linear part weighed.
+Twist6 direction_at(const Vector3& arm, const Vector3& axis, double weight = 1) {
+  const Vector3 turn = arm.cross(axis);
+  return {{weight * axis.x(), weight * axis.y(), weight * axis.z(), turn.x(), turn.y(), turn.z()}};
+}
+
+// Unit tangents that make a right-handed triad with the normal.
+std::pair<Vector3, Vector3> tangents(const Vector3& normal) {
+  const Vector3 first = normal.unitOrthogonal();
+  return {first, normal.cross(first)};
+}
+
+auto place_of(const Contact& contact) { return std::tuple(contact.segment, contact.other, contact.obstacle); }
+
+}  // namespace
+
+Vector3 relative_velocity(const RodState& state, std::span<const Twist6> change, const Contact& contact) {
+  const auto matter = [&](int i) {
+    const Vector3 spin = state.angular_velocity[i] + change[i].angular();
+    return Vector3(state.velocity[i] + change[i].linear() + spin.cross(contact.point - state.position[i]));
+  };
+  if (contact.share > 0) {
+    const int i = contact.segment, j = contact.other;
+    return (1 - contact.share) * (state.velocity[i] + change[i].linear()) +
+           (state.angular_velocity[i] + change[i].angular()).cross(contact.arm) +
+           contact.share * (state.velocity[j] + change[j].linear()) +
+           (state.angular_velocity[j] + change[j].angular()).cross(contact.other_arm) -
+           contact.obstacle_velocity;
+  }
+  const Vector3 velocity = matter(contact.segment) - contact.obstacle_velocity;
+  return contact.other < 0 ? velocity : Vector3(velocity - matter(contact.other));
+}
+
+void ContactSolver::set_up(const RodState& state, std::span<const Twist6> change,
+                           const std::vector<Contact>& contacts, double h) {
+  const size_t rows = 3 * contacts.size();
+  direction_.resize(rows), opposite_.assign(rows, Twist6{}), velocity_.resize(rows),
+      answer_.assign(rows, 0.0);
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    const auto [first, second] = tangents(c.normal);
+    const Vector3 velocity = relative_velocity(state, change, c);
+    const Vector3 axes[3] = {c.normal, first, second};
+    for (int q = 0; q < 3; ++q) {
+      velocity_[3 * k + q] = velocity.dot(axes[q]);
+      if (c.share > 0) {
+        direction_[3 * k + q] = direction_at(c.arm, axes[q], 1 - c.share);
+        opposite_[3 * k + q] = direction_at(c.other_arm, axes[q], c.share);
+        continue;
+      }
+      direction_[3 * k + q] = direction_at(c.point - state.position[c.segment], axes[q]);
+      if (c.other >= 0) opposite_[3 * k + q] = direction_at(c.point - state.position[c.other], -axes[q]);
+    }
+    velocity_[3 * k] -= c.depth > 0 ? std::min(overlap_share * c.depth / h, push_speed) : c.depth / h;
+  }
+}
+
+// (J A^-1 J^T), row by row.
+void ContactSolver::condense(const RodSolver& solver, const std::vector<Contact>& contacts) {
+  const int rows = static_cast<int>(direction_.size());
+  effective_.resize(static_cast<size_t>(rows) * rows);
+  response_.resize(solver.velocity_change().size());
+  int first = contacts.front().segment;
+  for (const Contact& c : contacts) {
+    first = std::min(first, c.segment);
+    if (c.other >= 0) first = std::min(first, c.other);
+  }
+  for (int row = 0; row < rows; ++row) {
+    const Contact& c = contacts[row / 3];
+    solver.unit_response(c.segment, direction_[row], c.other, opposite_[row], first, response_);
+    for (int k = 0; k < rows; ++k) {
+      const Contact& at = contacts[k / 3];
+      double change = dot(direction_[k], response_[at.segment]);
+      if (at.other >= 0) change += dot(opposite_[k], response_[at.other]);
+      effective_[static_cast<size_t>(k) * rows + row] = change;
+    }
+  }
+}
+
+// velocity_ holds w for the present answer; a changed impulse changes it by a column of the (symmetric)
+// condensed matrix, and idle contacts cost nothing.
+void ContactSolver::change_answer(int row, double change) {
+  const int rows = static_cast<int>(direction_.size());
+  const double* column = &effective_[static_cast<size_t>(row) * rows];
+  answer_[row] += change;
+  for (int k = 0; k < rows; ++k) velocity_[k] += change * column[k];
+}
+
+double ContactSolver::press(int row, double h) {
+  const double soft = softness / h,
+               mass = effective_[static_cast<size_t>(row) * direction_.size() + row] + soft;
+  const double next = std::max(0.0, answer_[row] - (velocity_[row] + soft * answer_[row]) / mass);
+  const double change = next - answer_[row];
+  if (change != 0) change_answer(row, change);
+  return std::abs(change);
+}
+
+// Both tangents at `row` and row + 1. What would stop the sliding, p - B^-1 w, if friction can give it; else
+// p - w/b, b the largest eigenvalue of the 2x2 matrix B, drawn back to the circle: that stands still only
+// where p and w point oppositely.
+double ContactSolver::rub(int row, double limit) {
+  const size_t rows = direction_.size();
+  double* p = &answer_[row];
+  const double* w = &velocity_[row];
+  if (limit == 0 && p[0] == 0 && p[1] == 0) return 0;
+  const double a = effective_[row * rows + row], b = effective_[row * rows + row + 1],
+               d = effective_[(row + 1) * rows + row + 1], determinant = a * d - b * b;
+  double next[2] = {p[0] - (d * w[0] - b * w[1]) / determinant, p[1] - (a * w[1] - b * w[0]) / determinant};
+  if (!(std::hypot(next[0], next[1]) <= limit)) {
+    const double largest = (a + d) / 2 + std::hypot((a - d) / 2, b);
+    for (int k = 0; k < 2; ++k) next[k] = p[k] - w[k] / largest;
+    const double length = std::hypot(next[0], next[1]), share = length > limit ? limit / length : 1;
+    for (double& part : next) part *= share;
+  }
+  const double change[2] = {next[0] - p[0], next[1] - p[1]};
+  for (int k = 0; k < 2; ++k)
+    if (change[k] != 0) change_answer(row + k, change[k]);
+  return std::hypot(change[0], change[1]);
+}
+
+void ContactSolver::iterate(const std::vector<Contact>& contacts, double h) {
+  const int rows = static_cast<int>(direction_.size());
+  for (int row = 0; row < rows; ++row) {
+    const double start = answer_[row];
+    if (start != 0) answer_[row] = 0, change_answer(row, start);
+  }
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    double largest = 0;
+    for (int row = 0; row < rows; row += 3) {
+      largest = std::max(largest, press(row, h));
+      largest = std::max(largest, rub(row + 1, contacts[row / 3].friction * answer_[row]));
+    }
+    if (largest < smallest_change) break;
+  }
+}
+
+// The impulses of the step before, where the same segment touched the same obstacle, are a good first answer.
+// Both lists are in order of place_of().
+void ContactSolver::start_from_last_step(const std::vector<Contact>& contacts, double h) {
+  size_t k = 0;
+  for (size_t c = 0; c < contacts.size(); ++c) {
+    while (k < last_.size() && place_of(last_[k]) < place_of(contacts[c])) ++k;
+    if (k == last_.size() || place_of(last_[k]) != place_of(contacts[c])) continue;
+    const auto [first, second] = tangents(contacts[c].normal);
+    answer_[3 * c] = h * last_[k].normal_force;
+    answer_[3 * c + 1] = h * last_[k].friction_force.dot(first);
+    answer_[3 * c + 2] = h * last_[k].friction_force.dot(second);
+    ++k;
+  }
+}
+
+void ContactSolver::solve(const RodState& state, double h, RodSolver& solver,
+                          std::vector<Contact>& contacts) {
+  if (contacts.empty()) {
+    last_.clear();
+    return;
+  }
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Contact& a, const Contact& b) { return place_of(a) < place_of(b); });
+  const std::span<const Twist6> change = solver.velocity_change();
+  set_up(state, change, contacts, h);
+  start_from_last_step(contacts, h);
+  condense(solver, contacts);
+  iterate(contacts, h);
+  impulse_.assign(change.size(), Twist6{});
+  for (size_t row = 0; row < direction_.size(); ++row) {
+    const Contact& c = contacts[row / 3];
+    add(impulse_[c.segment], answer_[row], direction_[row]);
+    if (c.other >= 0) add(impulse_[c.other], answer_[row], opposite_[row]);
+  }
+  solver.apply_impulses(impulse_);
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    Contact& c = contacts[k];
+    const auto [first, second] = tangents(c.normal);
+    c.normal_force = answer_[3 * k] / h;
+    c.friction_force = (answer_[3 * k + 1] * first + answer_[3 * k + 2] * second) / h;
+    const Vector3 velocity = relative_velocity(state, change, c);
+    c.sliding_speed = (velocity - velocity.dot(c.normal) * c.normal).norm();
+  }
+  last_ = contacts;
+}
+
+}  // namespace dresslife::sim

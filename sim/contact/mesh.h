@@ -1,0 +1,73 @@
+// Triangle meshes as obstacles: reading them, and where a piece of hose is near them.
+//
+// A piece of hose is the axis of a capsule. Contacts are the local minima of the distance between the axis
+// and the surface: per triangle the nearest pair of points q (axis) and m (mesh), kept if no triangle at m is
+// nearer to q. Edges inside a flat face and the far sides of corners therefore push nowhere. Distances are
+// unsigned, so neither the triangles' sense nor a closed surface matters, as long as the axis itself stays
+// outside: an overlap of a radius. An axis that crosses the surface is reported as deep as a diameter.
+//
+// The two formats are read here: STL (binary, ASCII) and OBJ (v, f) are a list of triangles each. Assimp
+// would read both, and forty more, for a dependency larger than the whole project.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "sim/rod/rotation.h"
+
+namespace dresslife::sim {
+
+using Triangle = std::array<Vector3, 3>;
+
+/// Triangles of an .stl or .obj file, in its units. Faces of more corners are cut into fans. Errors:
+/// InputError that names the file, for OBJ and ASCII STL also the line.
+std::vector<Triangle> read_triangles(const std::filesystem::path& file);
+
+/// Nearest points of an axis and a triangle.
+struct NearestToTriangle {
+  Vector3 on_axis, on_triangle;
+  double distance = 0;  ///< 0: they cross
+};
+Vector3 nearest_point(const Triangle& triangle, const Vector3& point);
+NearestToTriangle nearest_points(const Triangle& triangle, const Vector3& from, const Vector3& to);
+
+class Mesh {
+ public:
+  /// Precondition: at least one triangle. Triangles without area are dropped where others remain.
+  explicit Mesh(std::vector<Triangle> triangles);
+
+  struct Touching {
+    Vector3 on_axis, on_mesh;
+    Vector3 normal;       ///< unit, from the mesh to the axis
+    double distance = 0;  ///< 0: the axis crosses the surface
+  };
+  /// Local minima of the distance between the piece from..to and the mesh, up to `reach`, nearest first, in
+  /// the mesh's own frame. O(log triangles) where few are near.
+  std::vector<Touching> near(const Vector3& from, const Vector3& to, double reach) const;
+
+  double radius() const { return radius_; }  ///< of the ball about the origin that holds it [m]
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+ private:
+  using Box = Eigen::AlignedBox3d;
+  struct Node {
+    Box box;
+    int first = 0, last = 0;  ///< triangles of a leaf
+    int second_child = 0;     ///< 0: a leaf; the first child follows its parent
+  };
+  void build(int first, int last);
+  void gather(const Box& box, std::vector<int>& hits) const;
+  void add_candidates(const Vector3& from, const Vector3& to, double reach, const std::vector<int>& hits,
+                      std::vector<Touching>& found) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+  double radius_ = 0;
+};
+
+/// The twelve triangles of a box centred on `frame`.
+std::vector<Triangle> box_triangles(const Frame& frame, const Vector3& sides);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,303 @@
+#include "sim/robot/inverse_kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dresslife::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double pi = std::numbers::pi;
+constexpr double alignment =
+    1e-6;  // of axes that a closed form takes as parallel, perpendicular or meeting [1, m]
+constexpr double singular_wrist = 1e-9;  // sine between axes 4 and 6 below which q4 is free
+constexpr double out_of_reach = 1e-9;    // of a cosine: rounding at a stretched arm
+constexpr double limit_rounding = 1e-9;  // [rad]
+
+Frame inverse(const Frame& frame) {
+  const Quaternion back = frame.orientation.conjugate();
+  return {back * Vector3(-frame.position), back};
+}
+
+Quaternion turn(const Vector3& axis, double angle) { return Quaternion(Eigen::AngleAxisd(angle, axis)); }
+
+/// Angle of a turn about `axis` that takes `from` to `to`, both seen along the axis.
+double turned(const Vector3& axis, const Vector3& from, const Vector3& to) {
+  const Vector3 a = from - axis.dot(from) * axis, b = to - axis.dot(to) * axis;
+  return std::atan2(axis.dot(a.cross(b)), a.dot(b));
+}
+
+/// q with a cos q + b sin q = c: none, or two (equal ones at the edge of reach).
+std::vector<double> angles(double a, double b, double c) {
+  const double radius = std::hypot(a, b);
+  if (radius < 1e-12) return {};
+  const double cosine = c / radius;
+  if (std::abs(cosine) > 1 + out_of_reach) return {};
+  const double middle = std::atan2(b, a), half = std::acos(std::clamp(cosine, -1.0, 1.0));
+  return {middle + half, middle - half};
+}
+
+double wrapped(double angle) {
+  angle = std::remainder(angle, 2 * pi);
+  return angle <= -pi ? angle + 2 * pi : angle;
+}
+
+}  // namespace
+
+InverseKinematics::InverseKinematics(const pipeline::Robot& robot)
+    : robot_(robot),
+      externals_(static_cast<long>(robot.external_axes.size())),
+      kinematics_(robot),
+      flange_in_link_{robot.flange_position, from_roll_pitch_yaw(robot.flange_orientation)} {
+  const VectorXd zero = VectorXd::Zero(kinematics_.axes());
+  std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
+  kinematics_.link_frames({zero.data(), static_cast<std::size_t>(zero.size())}, frames);
+  base_ = frames[0];
+  to_program_ = inverse(base_ * Frame{robot.program_base, Quaternion::Identity()});
+  zero_ = flange(zero);
+  check_geometry();
+}
+
+Frame InverseKinematics::flange(const VectorXd& axes) const {
+  std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
+  kinematics_.link_frames({axes.data(), static_cast<std::size_t>(axes.size())}, frames);
+  return to_program_ * frames.back() * flange_in_link_;
+}
+
+/// Where the flange would be if the robot stood where its external axes are 0.
+Frame InverseKinematics::on_tracks(const Frame& flange, const VectorXd& near) const {
+  if (externals_ == 0 || near.size() != kinematics_.axes()) return flange;
+  std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
+  kinematics_.link_frames({near.data(), static_cast<std::size_t>(near.size())}, frames);
+  return to_program_ * base_ * inverse(frames[0]) * inverse(to_program_) * flange;
+}
+
+void InverseKinematics::check_geometry() {
+  if (robot_.joints.size() != 6 || robot_.axes() != 6) {
+    unsupported_ = robot_.axes() == 6 ? "a rod moves some of its joints"
+                                      : fmt::format("it has {} axes, not six", robot_.axes());
+    return;
+  }
+  const VectorXd zero = VectorXd::Zero(kinematics_.axes());
+  std::vector<Frame> frames(7);
+  kinematics_.link_frames({zero.data(), static_cast<std::size_t>(zero.size())}, frames);
+  for (int i = 0; i < 6; ++i) {
+    const Frame joint = to_program_ * frames[i + 1];
+    point_[i] = joint.position;
+    axis_[i] = joint.orientation * robot_.joints[i].axis.normalized();
+  }
+  // The wrist centre: on axis 5 where axis 4 comes nearest; axis 6 must pass through it, too.
+  const Vector3 across = axis_[3].cross(axis_[4]);
+  if (across.norm() > alignment)
+    wrist_ = point_[4] + axis_[4] * (point_[3] - point_[4]).cross(axis_[3]).dot(axis_[4].cross(axis_[3])) /
+                             across.squaredNorm();
+  const auto off = [&](int i) { return (wrist_ - point_[i]).cross(axis_[i]).norm(); };
+  if (std::abs(axis_[0].dot(axis_[1])) > alignment)
+    unsupported_ = "axis 2 is not perpendicular to axis 1";
+  else if (axis_[1].cross(axis_[2]).norm() > alignment)
+    unsupported_ = "axis 3 is not parallel to axis 2";
+  else if (across.norm() <= alignment || off(3) > alignment || off(4) > alignment || off(5) > alignment)
+    unsupported_ = "axes 4, 5 and 6 do not meet in one point";
+}
+
+std::vector<VectorXd> InverseKinematics::arms(const Frame& flange, const VectorXd& near) const {
+  std::vector<VectorXd> found;
+  if (!unsupported_.empty()) return found;
+  // The flange's frame carries the wrist centre with it.
+  const Vector3 wrist = flange.point(inverse(zero_).point(wrist_));
+  const Vector3 w1 = axis_[0], w2 = axis_[1], w3 = axis_[2];
+  const Vector3 from = wrist - point_[0];
+  // (K1): w2.R1(-q) v = w2.(v cos q + (v x w1) sin q) for the part of v across w1; along w1 w2 has nothing.
+  const double beside = w2.dot(wrist_ - point_[0]);
+  for (double q1 : angles(w2.dot(from), w2.dot(from.cross(w1)), beside)) {
+    const Vector3 in_plane = point_[0] + turn(w1, -q1) * from;  // W' of (K2)
+    const auto flat = [&](const Vector3& v) { return Vector3(v - w2.dot(v) * w2); };
+    const Vector3 lower = flat(point_[2] - point_[1]), upper = flat(wrist_ - point_[2]),
+                  reach = flat(in_plane - point_[1]);
+    const double c = (reach.squaredNorm() - lower.squaredNorm() - upper.squaredNorm()) / 2;
+    for (double q3 : angles(lower.dot(upper), lower.dot(w3.cross(upper)), c)) {
+      const double q2 = turned(w2, lower + turn(w3, q3) * upper, reach);
+      add_wrists(flange, q1, q2, q3, near, found);
+    }
+  }
+  return found;
+}
+
+void InverseKinematics::add_wrists(const Frame& flange, double q1, double q2, double q3, const VectorXd& near,
+                                   std::vector<VectorXd>& found) const {
+  const Vector3 w4 = axis_[3], w5 = axis_[4], w6 = axis_[5];
+  const Quaternion arm = turn(axis_[0], q1) * turn(axis_[1], q2) * turn(axis_[2], q3);
+  const Quaternion m = arm.conjugate() * flange.orientation * zero_.orientation.conjugate();  // M of (K3)
+  const Vector3 along = w5.dot(w6) * w5, across = w6 - along;  // R5 w6 = along + across cos + (w5 x w6) sin
+  for (double q5 : angles(w4.dot(across), w4.dot(w5.cross(w6)), w4.dot(m * w6) - w4.dot(along))) {
+    VectorXd joints(6);
+    const Vector3 end = turn(w5, q5) * w6;
+    double q4, q6;
+    if (w4.cross(end).norm() < singular_wrist) {
+      q4 = near.size() >= 6 ? near[3] : 0;
+      const Quaternion rest = (turn(w4, q4) * turn(w5, q5)).conjugate() * m;
+      const Vector3 probe = std::abs(w6.x()) < 0.5 ? Vector3::UnitX() : Vector3::UnitY();
+      q6 = turned(w6, probe, rest * probe);
+    } else {
+      q4 = turned(w4, end, m * w6);
+      q6 = -turned(w6, turn(w5, -q5) * w4, m.conjugate() * w4);
+    }
+    joints << wrapped(q1), wrapped(q2), wrapped(q3), wrapped(q4), wrapped(q5), wrapped(q6);
+    found.push_back(joints);
+  }
+}
+
+InverseKinematics::Sides InverseKinematics::sides(const VectorXd& joints) const {
+  const Quaternion first = turn(axis_[0], joints[0]);
+  const Vector3 front = first * Vector3::UnitX();
+  const Vector3 left = axis_[0].z() < 0 ? Vector3(front.cross(axis_[0])) : Vector3(axis_[0].cross(front));
+  const Quaternion second = first * turn(axis_[1], joints[1]);
+  const Vector3 elbow = point_[0] + first * (point_[1] - point_[0]) + second * (point_[2] - point_[1]);
+  const Vector3 shoulder = point_[0] + first * (point_[1] - point_[0]);
+  const Vector3 wrist = elbow + second * turn(axis_[2], joints[2]) * (wrist_ - point_[2]);
+  const Vector3 lower = elbow - shoulder;
+  return {(wrist - point_[0]).dot(front) >= 0, lower.cross(wrist - elbow).dot(left) >= 0, joints[4] >= 0};
+}
+
+ArmConfiguration InverseKinematics::configuration(const VectorXd& joints, ArmConfiguration::Kind kind) const {
+  const Sides side = sides(joints);
+  ArmConfiguration made{kind, {}};
+  const auto quadrant = [&](int axis) { return static_cast<int>(std::floor(joints[axis] / (pi / 2))); };
+  const auto turns = [&](int axis) { return static_cast<int>(std::lround(joints[axis] / (2 * pi))); };
+  switch (kind) {
+    case ArmConfiguration::Kind::any:
+      break;
+    case ArmConfiguration::Kind::abb:
+      made.numbers = {quadrant(0), quadrant(3), quadrant(5),
+                      4 * !side.front_of_axis + 2 * !side.front_of_arm + !side.wrist_positive};
+      break;
+    case ArmConfiguration::Kind::kuka: {
+      int turn_bits = 0;
+      for (int axis = 0; axis < 6; ++axis) turn_bits |= (joints[axis] < 0) << axis;
+      made.numbers = {!side.front_of_axis + 2 * side.front_of_arm + 4 * !side.wrist_positive, turn_bits};
+      break;
+    }
+    case ArmConfiguration::Kind::fanuc:
+      made.numbers = {joints[4] > 0, side.front_of_arm, side.front_of_axis, turns(0), turns(3), turns(5)};
+  }
+  return made;
+}
+
+std::vector<VectorXd> InverseKinematics::with_turns(const VectorXd& arm) const {
+  std::vector<VectorXd> list{arm};
+  for (long axis = 0; axis < 6; ++axis) {
+    const pipeline::Joint& joint = robot_.joints[axis];
+    std::vector<VectorXd> more;
+    for (const VectorXd& joints : list)
+      for (int k = -3; k <= 3; ++k) {
+        const double angle = joints[axis] + 2 * pi * k;
+        if (angle < joint.lower - limit_rounding || angle > joint.upper + limit_rounding) continue;
+        more.push_back(joints);
+        more.back()[axis] = angle;
+      }
+    list = std::move(more);
+  }
+  return list;
+}
+
+/// Angles near a boundary of a quadrant or a sign may be meant on either side of it: written with few digits.
+bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& wanted,
+                                bool with_sides) const {
+  constexpr double blur = 1e-3;  // [rad]
+  const Sides side = sides(joints);
+  const auto& n = wanted.numbers;
+  const auto in_quadrant = [&](int axis, int quadrant) {
+    return joints[axis] >= quadrant * pi / 2 - blur && joints[axis] <= (quadrant + 1) * pi / 2 + blur;
+  };
+  const auto negative = [&](int axis, bool wish) {
+    return wish ? joints[axis] < blur : joints[axis] > -blur;
+  };
+  switch (wanted.kind) {
+    case ArmConfiguration::Kind::any:
+      return true;
+    case ArmConfiguration::Kind::abb:
+      if (!in_quadrant(0, n[0]) || !in_quadrant(3, n[1]) || !in_quadrant(5, n[2])) return false;
+      return !with_sides ||
+             (side.front_of_axis == !(n[3] & 4) && side.front_of_arm == !(n[3] & 2) && negative(4, n[3] & 1));
+    case ArmConfiguration::Kind::kuka:
+      for (int axis = 0; axis < 6; ++axis)
+        if (!negative(axis, n[1] >> axis & 1)) return false;
+      return side.front_of_axis == !(n[0] & 1) && side.front_of_arm == bool(n[0] & 2) &&
+             negative(4, n[0] & 4);
+    case ArmConfiguration::Kind::fanuc:
+      break;
+  }
+  const auto turns = [&](int axis, int number) {
+    return std::abs(joints[axis] - 2 * pi * number) < pi + blur;
+  };
+  return negative(4, !n[0]) && side.front_of_arm == bool(n[1]) && side.front_of_axis == bool(n[2]) &&
+         turns(0, n[3]) && turns(3, n[4]) && turns(5, n[5]);
+}
+
+bool InverseKinematics::may_end(const VectorXd& joints, const ArmConfiguration& programmed) const {
+  if (programmed.kind == ArmConfiguration::Kind::fanuc) return matches(joints, programmed, true);
+  if (programmed.kind != ArmConfiguration::Kind::abb) return true;
+  const ArmConfiguration reached = configuration(joints, programmed.kind);
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(reached.numbers[axis] - programmed.numbers[axis]) > 1) return false;
+  return true;
+}
+
+std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmConfiguration& configuration,
+                                                 const VectorXd& near, std::string& reason) const {
+  if (!unsupported_.empty()) {
+    reason = fmt::format("the arm cannot be solved for ({})", unsupported_);
+    return {};
+  }
+  const std::vector<VectorXd> reaching = arms(on_tracks(flange, near), near);
+  std::optional<VectorXd> best;
+  double least = INFINITY;
+  std::vector<std::string> others;
+  bool within_limits = false;
+  for (bool with_sides : {true, false}) {
+    if (best || (!with_sides && configuration.kind != ArmConfiguration::Kind::abb))
+      break;  // old ABB programs leave cfx 0
+    for (const VectorXd& arm : reaching)
+      for (const VectorXd& joints : with_turns(arm)) {
+        within_limits = true;
+        if (!matches(joints, configuration, with_sides)) {
+          if (with_sides) others.push_back(this->configuration(joints, configuration.kind).text());
+          continue;
+        }
+        // The slowest axis' time, and a little of every axis' so that none turns round for nothing.
+        constexpr double share_of_others = 1e-3;
+        double time = 0, sum = 0;
+        for (long axis = 0; axis < 6; ++axis) {
+          const double way = std::abs(joints[axis] - (near.size() >= 6 ? near[axis] : 0.0));
+          time = std::max(time, way / robot_.joints[axis].speed);
+          sum += way / robot_.joints[axis].speed;
+        }
+        time += share_of_others * sum;
+        if (time < least) {
+          least = time;
+          best = joints;
+        }
+      }
+  }
+  if (best) {
+    VectorXd whole = VectorXd::Zero(6 + externals_);
+    if (near.size() == whole.size()) whole = near;
+    whole.head(6) = *best;
+    return whole;
+  }
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  if (others.size() > 8) others.resize(8);
+  if (reaching.empty())
+    reason = "is out of reach";
+  else if (!within_limits)
+    reason = "is reached only outside the joint limits";
+  else
+    reason = fmt::format("is not reached in configuration {} (but in {})", configuration.text(),
+                         fmt::join(others, "; "));
+  return {};
+}
+
+}  // namespace dresslife::sim

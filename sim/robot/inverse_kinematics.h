@@ -1,0 +1,90 @@
+// Joint angles at which a robot's flange is where a program wants it, and which of the arms that reach it is
+// meant.
+//
+// Six axes with a spherical wrist: axis 2 is perpendicular to axis 1, axis 3 parallel to axis 2, axes 4, 5, 6
+// meet in one point, the wrist centre W. With axes (p_i, w_i) at zero angles, all in closed form: (K1)
+// w2.R1(-q1)(W - p1) = w2.(W0 - p1): turning about axes 2 and 3 keeps W at its distance beside axis 1; two
+//      q1, in front of and behind the axis.
+// (K2) |W' - p2|^2 = |p3 - p2|^2 + |W0 - p3|^2 + 2 (p3 - p2).R3(q3)(W0 - p3), in the plane across w2: two q3,
+// the
+//      elbow on either side; then q2 by the angle between what it turns.
+// (K3) w4.M w6 = w4.R5(q5) w6, M = (R1 R2 R3)^-1 R R0^-1: two q5; then q4 and q6 by what they turn. Where w6
+// comes
+//      to lie on w4, q4 is free: it stays where the robot was.
+// Each is a cos q + b sin q = c. Eight arms at most, and each axis may be whole turns away, within its
+// limits.
+//
+// Which arm: front(1) = (W - p1).R1 x > 0; front(2): W in front of the line from p2 to p3, seen with the
+// arm's front to the right; q5 >= 0. At zero angles of axis 1 the arm's front is x.
+//   ABB confdata: floor(q/90 deg) of axes 1, 4, 6; cfx = 4 behind(1) + 2 behind(2) + (q5 < 0).
+//   KUKA: S = behind(1) + 2 front(2) + 4 (q5 < 0); bit i of T is q_i < 0.
+//   Fanuc: N where q5 <= 0, U where front(2), T where front(1); turns of axes 1, 4, 6 counted from 0 at +-180
+//   deg.
+// Source of the words: RAPID data types (confdata); KUKA System Software (status and turn); FANUC operator's
+// manual.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/job/robot.h"
+#include "sim/program/program.h"
+#include "sim/robot/robot.h"
+
+namespace dresslife::sim {
+
+class InverseKinematics {
+ public:
+  explicit InverseKinematics(const pipeline::Robot& robot);
+
+  /// Empty, or why no closed form fits this robot.
+  const std::string& unsupported() const { return unsupported_; }
+
+  /// The flange in the frame that programs are written in, at these values of all axes (robot.h). Any serial
+  /// robot. The frame stands still: a robot on a track moves in it.
+  Frame flange(const Eigen::VectorXd& axes) const;
+
+  /// Every arm (six angles) that reaches the flange's frame while external axes are at 0, angles within
+  /// (-pi, pi]; at singular wrists axis 4 as in `near`.
+  std::vector<Eigen::VectorXd> arms(const Frame& flange, const Eigen::VectorXd& near) const;
+
+  /// The arm of this configuration within the limits, else (any) the one nearest to `near` by the time to get
+  /// there; all axes, the external ones as in `near`. Absent: none; `reason` says why.
+  std::optional<Eigen::VectorXd> solve(const Frame& flange, const ArmConfiguration& configuration,
+                                       const Eigen::VectorXd& near, std::string& reason) const;
+
+  /// Whether a path may end with these angles where its program says `programmed`. ABB watches axes 1, 4 and
+  /// 6, which may be a quadrant off (ConfL); Fanuc wants its letters and turns; others do not look.
+  bool may_end(const Eigen::VectorXd& joints, const ArmConfiguration& programmed) const;
+
+  /// The configuration at these angles, in the words of a controller.
+  ArmConfiguration configuration(const Eigen::VectorXd& joints, ArmConfiguration::Kind kind) const;
+
+ private:
+  struct Sides {
+    bool front_of_axis, front_of_arm, wrist_positive;
+  };
+  void check_geometry();
+  Sides sides(const Eigen::VectorXd& joints) const;
+  void add_wrists(const Frame& flange, double q1, double q2, double q3, const Eigen::VectorXd& near,
+                  std::vector<Eigen::VectorXd>& found) const;
+  std::vector<Eigen::VectorXd> with_turns(const Eigen::VectorXd& arm) const;
+  bool matches(const Eigen::VectorXd& joints, const ArmConfiguration& wanted, bool with_sides) const;
+
+  const pipeline::Robot robot_;
+  Frame on_tracks(const Frame& flange, const Eigen::VectorXd& near) const;
+
+  const long externals_;
+  RobotKinematics kinematics_;
+  Frame base_, to_program_;  // of link 0 while external axes are at 0; the programs' frame, inverted
+  Frame flange_in_link_;
+  std::array<Vector3, 6> point_{};   // p_i at zero, in the programs' frame
+  std::array<Vector3, 6> axis_{};    // w_i
+  Vector3 wrist_ = Vector3::Zero();  // W0
+  Frame zero_;                       // flange at zero
+  std::string unsupported_;
+};
+
+}  // namespace dresslife::sim

@@ -1,0 +1,544 @@
+#include "sim/robot/legs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "sim/robot/inverse_kinematics.h"
+#include "sim/robot/tool_path.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Eigen::VectorXd;
+using pipeline::MotionStep;
+using pipeline::PathKind;
+
+constexpr double degree = std::numbers::pi / 180, millimetre = 1e-3;
+constexpr double limit_rounding = 1e-9;  // of written angles and positions [rad, m]
+constexpr double point_distance = 0.01;  // largest between points of a path [m]
+constexpr double point_turn = 0.035;     // [rad]
+constexpr double point_change = 0.1;     // of any joint [rad]
+constexpr double shortest = 1e-4;        // share of a path below which it is not cut further
+constexpr double jump = 0.5;             // of a joint between such points: no continuous path [rad]
+constexpr int samples = 24;              // of a joint move, for the tool's speed on it
+
+/// A line of the program on its way to legs.
+struct Move {
+  const MotionStep* step = nullptr;
+  int line = 0;
+  double dwell = 0;  // [s]; above 0: no move
+  VectorXd from, to;
+  Tooling tooling;
+  std::optional<ToolPath> path;           // of a linear or circular move
+  double cut_before = 0, cut_behind = 0;  // shares of the path that the corners' curves replace
+  int chain = 0;                          // Leg::path
+
+  bool is_path() const { return path.has_value(); }
+};
+
+class Layout {
+ public:
+  Layout(const pipeline::Motion& motion, const pipeline::Robot& robot, const VectorXd& accelerations)
+      : motion_(motion), robot_(robot), axes_(axes_of(robot)), accelerations_(accelerations), arm_(robot) {
+    for (const pipeline::MotionFrame& frame : motion.tools) tools_[frame.name] = &frame;
+    for (const pipeline::MotionFrame& frame : motion.work_objects) objects_[frame.name] = &frame;
+  }
+
+  Legs run() {
+    if (motion_.steps.empty() || !motion_.steps.front().is_move())
+      throw pipeline::InputError(motion_.steps.empty() ? motion_.where : motion_.steps.front().where,
+                                 fmt::format("motion '{}' does not begin with a move", motion_.name),
+                                 "begin with the joints_deg at which the robot starts");
+    number(motion_.steps, "");
+    problems_.throw_if_any();
+    int first = 0;
+    expand(motion_.steps, first);
+    problems_.throw_if_any();
+    find_paths();
+    for (std::size_t k = 0; k + 1 < moves_.size(); ++k) round_corner(k);
+    for (std::size_t k = 0; k < moves_.size(); ++k) lay(k);
+    problems_.throw_if_any();
+    if (!made_.legs.empty()) made_.legs.back().zone = 0;
+    made_.place = place_;
+    return std::move(made_);
+  }
+
+ private:
+  // ---- lines
+  // ------------------------------------------------------------------------------------------------
+
+  /// Names every line once, depth first, and checks its waypoint.
+  void number(const std::vector<MotionStep>& steps, const std::string& block) {
+    for (const MotionStep& step : steps) {
+      if (step.repeat > 0) {
+        number(step.steps, step.text.empty() ? block : block + step.text + ": ");
+        continue;
+      }
+      const char* kind = step.is_move() ? "move" : "dwell";
+      const int line = static_cast<int>(made_.texts.size());
+      const std::string text = block + (step.text.empty() ? fmt::format("{} {}", kind, line + 1) : step.text);
+      if (!step.joints.empty()) collect_limits(step, text);
+      // A program's loop runs the same line again.
+      const auto [known, added] = line_of_.try_emplace(
+          step.where.line > 0 && step.where.column > 0
+              ? fmt::format("{}:{}:{}:{}", step.where.file, step.where.line, step.where.column, text)
+              : fmt::format("{}", line),
+          line);
+      numbers_.push_back(known->second);
+      if (added) made_.texts.push_back(text);
+    }
+  }
+
+  void collect_limits(const MotionStep& step, const std::string& text) {
+    if (const auto fault = limit_fault(robot_, step.joints, fmt::format("waypoint '{}'", text)))
+      problems_.add(step.where, fault->what, fault->remedy);
+  }
+
+  void expand(const std::vector<MotionStep>& steps, int& line) {
+    for (const MotionStep& step : steps) {
+      if (step.repeat > 0) {
+        const int first = line;
+        for (int k = 0; k < step.repeat; ++k) expand(step.steps, line = first);
+        continue;
+      }
+      const int shown = numbers_[line++];
+      if (step.is_move()) add_move(step, shown);
+      if (step.dwell > 0) {
+        Move dwell;
+        dwell.step = &step;
+        dwell.line = shown;
+        dwell.dwell = step.dwell;
+        dwell.from = dwell.to = place_;
+        moves_.push_back(dwell);
+      }
+    }
+  }
+
+  const pipeline::MotionFrame* find(const std::map<std::string, const pipeline::MotionFrame*>& frames,
+                                    const std::string& name, const char* what, const MotionStep& step) {
+    if (name.empty()) return nullptr;
+    const auto found = frames.find(name);
+    if (found != frames.end()) return found->second;
+    problems_.add(step.where, fmt::format("uses {} '{}', which the motion does not describe", what, name),
+                  fmt::format("describe it under {}s", what));
+    return nullptr;
+  }
+
+  Tooling tooling(const MotionStep& step) {
+    Tooling made;
+    const auto frame = [](const pipeline::MotionFrame& f) {
+      return Frame{
+          f.position,
+          Quaternion(f.quaternion[0], f.quaternion[1], f.quaternion[2], f.quaternion[3]).normalized()};
+    };
+    if (const auto* tool = find(tools_, step.tool, "tool", step)) {
+      made.tool = frame(*tool);
+      made.stationary = tool->stationary;
+    }
+    if (const auto* object = find(objects_, step.work_object, "work_object", step))
+      made.object = frame(*object);
+    return made;
+  }
+
+  bool refuse(const MotionStep& step, int line, const std::string& reason) {
+    problems_.add(step.where, fmt::format("target of '{}' {}", made_.texts[line], reason),
+                  "check target, tool, work object, configuration and where the robot stands");
+    return false;
+  }
+
+  /// All axes near `joints`, with the external axes at the share u of a move's way.
+  VectorXd at_share(const Move& move, double u, VectorXd joints) const {
+    const long external = static_cast<long>(axes_.size() - robot_.axes());
+    joints.tail(external) = (1 - u) * move.from.tail(external) + u * move.to.tail(external);
+    return joints;
+  }
+
+  /// Where the external axes are at the end of a step; those that it does not name stay.
+  VectorXd externals(const MotionStep& step, int line) {
+    const long robot_axes = static_cast<long>(robot_.axes());
+    const long count = static_cast<long>(axes_.size()) - robot_axes;
+    VectorXd values = place_.size() > 0 ? VectorXd(place_.tail(count)) : VectorXd::Zero(count);
+    for (long i = 0; i < count; ++i) {
+      const Axis& axis = axes_[robot_axes + i];
+      const double unit = axis.turns ? degree : millimetre;
+      if (i < static_cast<long>(step.external_axes.size())) values[i] = unit * step.external_axes[i];
+      if (values[i] < axis.lower - limit_rounding || values[i] > axis.upper + limit_rounding)
+        refuse(
+            step, line,
+            fmt::format("moves {} to {:.6g} {} (must be within {:.6g} .. {:.6g})", axis.name,
+                        values[i] / unit, axis.turns ? "deg" : "mm", axis.lower / unit, axis.upper / unit));
+    }
+    return values;
+  }
+
+  /// All axes: the robot's given ones, the external ones.
+  static VectorXd joined(const VectorXd& joints, const VectorXd& external) {
+    VectorXd whole(joints.size() + external.size());
+    whole << joints, external;
+    return whole;
+  }
+
+  void add_move(const MotionStep& step, int line) {
+    Move move;
+    move.step = &step;
+    move.line = line;
+    move.from = place_;
+    const Tooling tooling = move.tooling = this->tooling(step);
+    const VectorXd external = externals(step, line);
+    if (!step.joints.empty()) {
+      move.to = joined(Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size())),
+                       external);
+      if (step.path != PathKind::joint && place_.size() > 0)
+        move.path = ToolPath(tooling, tooling.pose(arm_.flange(place_)), tooling.pose(arm_.flange(move.to)));
+    } else if (!reach(step, line, external, move)) {
+      return;
+    }
+    if (place_.size() == 0) {  // the robot starts here
+      place_ = move.to;
+      return;
+    }
+    if ((move.to - move.from).lpNorm<Eigen::Infinity>() == 0) {  // to where the robot is: at most a stop
+      if (zone_is_stop(step) && !moves_.empty()) stops_.push_back(moves_.size() - 1);
+      return;
+    }
+    place_ = move.to;
+    moves_.push_back(std::move(move));
+  }
+
+  /// The end of a move to a pose; false: not reached.
+  bool reach(const MotionStep& step, int line, const VectorXd& external, Move& move) {
+    const auto& p = step.position;
+    const auto& q = step.quaternion;
+    const Frame target{Vector3(p[0], p[1], p[2]), Quaternion(q[0], q[1], q[2], q[3]).normalized()};
+    const bool path = step.path != PathKind::joint && place_.size() > 0;
+    std::string reason;
+    const auto configuration = arm_configuration(step.configuration);
+    if (!configuration)
+      return refuse(step, line,
+                    fmt::format("has a configuration like none that is read: '{}'", step.configuration));
+    VectorXd near = joined(VectorXd::Zero(static_cast<long>(robot_.axes())), external);
+    if (place_.size() > 0)
+      near.head(place_.size() - external.size()) = place_.head(place_.size() - external.size());
+    // On a path the arm cannot change; its own continuation counts (lay_path).
+    const auto joints =
+        arm_.solve(move.tooling.flange(target), path ? ArmConfiguration{} : *configuration, near, reason);
+    if (!joints) return refuse(step, line, reason);
+    move.to = *joints;
+    if (!path) return true;
+    move.path = ToolPath(move.tooling, move.tooling.pose(arm_.flange(place_)), target);
+    if (step.path == PathKind::circular)
+      move.path->bend({step.via_position[0], step.via_position[1], step.via_position[2]});
+    follow(move);
+    if (arm_.unsupported().empty() && !arm_.may_end(move.to, *configuration))
+      return refuse(
+          step, line,
+          fmt::format("is reached along its path in configuration {}, not in {}",
+                      arm_.configuration(move.to, configuration->kind).text(), configuration->text()));
+    return true;
+  }
+
+  /// The joints at the end of a path, by going along it.
+  void follow(Move& move) {
+    VectorXd joints = move.from;
+    double u = 0;
+    while (u < 1) {
+      const auto next = advance(move, u, 1, joints);
+      if (!next) return;
+      u = next->first;
+      joints = next->second;
+    }
+    move.to = joints;
+  }
+
+  /// The next point of a path behind u, near enough for a straight leg; absent: no arm goes on.
+  std::optional<std::pair<double, VectorXd>> advance(const Move& move, double u, double end,
+                                                     const VectorXd& joints) {
+    const ToolPath& path = *move.path;
+    double step = std::min(end - u, 1 / std::max({1.0, std::ceil(path.length() / point_distance),
+                                                  std::ceil(path.turn() / point_turn)}));
+    while (true) {
+      std::string reason;
+      const auto next = arm_.solve(path.flange(u + step), {}, at_share(move, u + step, joints), reason);
+      const double change = next ? (*next - joints).lpNorm<Eigen::Infinity>() : INFINITY;
+      if (change <= point_change || (step <= shortest && change <= jump)) {
+        const double at = end - u - step < 1e-12 ? end : u + step;
+        return std::pair{at, *next};
+      }
+      if (step <= shortest) {
+        refuse(
+            *move.step, move.line,
+            next ? fmt::format("is not reached along its path (at {:.0f} % of it the wrist would turn over)",
+                               100 * u)
+                 : fmt::format("is not reached along its path (at {:.0f} % of it it {})", 100 * u, reason));
+        return {};
+      }
+      step /= 2;
+    }
+  }
+
+  // ---- corners
+  // ----------------------------------------------------------------------------------------------
+
+  bool zone_is_stop(const MotionStep& step) const {
+    if (step.tool_zone) return *step.tool_zone == 0;
+    if (step.stop_zone) return *step.stop_zone == 0;
+    return step.zone.value_or(motion_.zone) == 0;
+  }
+
+  bool stops(std::size_t k) const {
+    return k + 1 >= moves_.size() || moves_[k].dwell > 0 || moves_[k + 1].dwell > 0 ||
+           zone_is_stop(*moves_[k].step) || std::find(stops_.begin(), stops_.end(), k) != stops_.end();
+  }
+
+  /// The tool's zone at the end of move k [m].
+  double tool_zone(std::size_t k) const {
+    const MotionStep& step = *moves_[k].step;
+    if (step.tool_zone) return *step.tool_zone;
+    if (!step.stop_zone) return 0;
+    // The way to a stop from the move's speed with what its axes can brake, v^2/(2 a).
+    const Move& move = moves_[k];
+    const double way = tool_way(move);
+    const double brake = axis_limit(move.to - move.from, accelerations_) * way;
+    const double speed =
+        std::min(step.tool_speed.value_or(INFINITY), axis_limit(move.to - move.from, speeds(step)) * way);
+    return *step.stop_zone / 100 * speed * speed / (2 * brake);
+  }
+
+  double tool_way(const Move& move) const {
+    if (move.is_path()) return std::max(move.path->length(), 1e-6);
+    const Tooling& t = move.tooling;
+    return std::max((t.pose(arm_.flange(move.to)).position - t.pose(arm_.flange(move.from)).position).norm(),
+                    1e-6);
+  }
+
+  /// Largest rate of a share of `way` that no axis' limit exceeds.
+  static double axis_limit(const VectorXd& way, const VectorXd& limits) {
+    double rate = INFINITY;
+    for (long i = 0; i < way.size(); ++i)
+      if (way[i] != 0) rate = std::min(rate, limits[i] / std::abs(way[i]));
+    return rate;
+  }
+
+  VectorXd speeds(const MotionStep& step) const {
+    VectorXd limits(static_cast<long>(axes_.size()));
+    for (long i = 0; i < limits.size(); ++i) limits[i] = axes_[i].speed;
+    if (step.speed) return limits;
+    if (step.tool_speed || step.turn_speed || step.duration)
+      return limits * step.speed_percent.value_or(100) / 100;
+    return limits * step.speed_percent.value_or(motion_.speed_percent) / 100;
+  }
+
+  /// Numbers the chains of moves from stop to stop that hold a path.
+  void find_paths() {
+    int paths = 0;
+    for (std::size_t begin = 0, end; begin < moves_.size(); begin = end) {
+      bool path = moves_[begin].is_path();
+      for (end = begin + 1; end < moves_.size() && !stops(end - 1); ++end) path |= moves_[end].is_path();
+      if (!path) continue;
+      ++paths;
+      for (std::size_t k = begin; k < end; ++k) moves_[k].chain = paths;
+    }
+  }
+
+  void round_corner(std::size_t k) {
+    Move &move = moves_[k], &next = moves_[k + 1];
+    if (stops(k) || move.chain == 0) return;
+    const MotionStep& step = *move.step;
+    const bool angle = !move.is_path() && !next.is_path() && !step.tool_zone && !step.stop_zone;
+    const double zone = angle ? step.zone.value_or(motion_.zone) : tool_zone(k);
+    const auto way = [&](const Move& m) {
+      return angle ? (m.to - m.from).lpNorm<Eigen::Infinity>() : tool_way(m);
+    };
+    move.cut_behind = std::min(0.5, zone / way(move));
+    next.cut_before = std::min(0.5, zone / way(next));
+  }
+
+  // ---- legs
+  // -------------------------------------------------------------------------------------------------
+
+  /// How a leg is driven: limits of its move.
+  struct Limits {
+    const MotionStep* step;
+    int line;
+  };
+
+  void add_leg(const VectorXd& from, const VectorXd& to, double distance, double turn, const Limits& limits,
+               double duration) {
+    const VectorXd way = to - from;
+    const double length = way.lpNorm<Eigen::Infinity>();
+    if (length == 0) return;
+    const MotionStep& step = *limits.step;
+    Leg leg;
+    leg.from = from;
+    leg.direction = way / length;
+    leg.length = length;
+    leg.step = limits.line;
+    leg.zone = leg.zone_behind = INFINITY;
+    leg.path = chain_;
+    leg.cruise = axis_limit(leg.direction, speeds(step));
+    leg.acceleration = axis_limit(leg.direction, accelerations_) *
+                       std::min(1.0, step.acceleration_percent.value_or(100) / 100);
+    if (step.speed) leg.cruise = std::min(leg.cruise, *step.speed);
+    if (step.tool_speed && distance > 0)
+      leg.cruise = std::min(leg.cruise, length * *step.tool_speed / distance);
+    if (step.turn_speed && turn > 0) leg.cruise = std::min(leg.cruise, length * *step.turn_speed / turn);
+    if (duration > 0) leg.cruise = std::min(leg.cruise, length / duration);
+    made_.legs.push_back(std::move(leg));
+  }
+
+  void lay(std::size_t k) {
+    const Move& move = moves_[k];
+    if (move.dwell > 0) {
+      if (!made_.legs.empty()) made_.legs.back().zone = 0;
+      Leg leg;
+      leg.from = move.from;
+      leg.direction = VectorXd::Zero(move.from.size());
+      leg.dwell = move.dwell;
+      leg.step = move.line;
+      made_.legs.push_back(leg);
+      return;
+    }
+    chain_ = move.chain;
+    const VectorXd begun = k > 0 && moves_[k].cut_before > 0 ? last_ : move.from;
+    last_ = begun;
+    if (move.is_path())
+      lay_path(move);
+    else
+      lay_joint(move, k);
+    if (made_.legs.empty()) return;
+    if (stops(k))
+      made_.legs.back().zone = 0;
+    else if (move.cut_behind > 0)
+      lay_corner(k);
+  }
+
+  void lay_path(const Move& move) {
+    const double end = 1 - move.cut_behind, span = std::max(end - move.cut_before, 1e-12);
+    double u = move.cut_before;
+    const double duration = move.step->duration.value_or(0);
+    while (u < end) {
+      const auto next = advance(move, u, end, last_);
+      if (!next) return;
+      const double share = next->first - u;
+      add_leg(last_, next->second, share * move.path->length(), share * move.path->turn(),
+              {move.step, move.line}, duration * share / span);
+      u = next->first;
+      last_ = next->second;
+    }
+  }
+
+  /// The tool's way and turn along a joint move are those of its fastest part, so that no part is too fast.
+  void lay_joint(const Move& move, std::size_t k) {
+    const VectorXd begin = move.from + move.cut_before * (move.to - move.from),
+                   end = move.to - move.cut_behind * (move.to - move.from);
+    const MotionStep& step = *move.step;
+    double distance = 0, turn = 0;
+    if (step.tool_speed || step.turn_speed) {
+      const Tooling& t = move.tooling;
+      Frame before = t.pose(arm_.flange(begin));
+      for (int i = 1; i <= samples; ++i) {
+        const Frame now = t.pose(arm_.flange(begin + (end - begin) * (double(i) / samples)));
+        distance = std::max(distance, (now.position - before.position).norm() * samples);
+        turn = std::max(turn,
+                        rotation_vector(before.orientation.conjugate() * now.orientation).norm() * samples);
+        before = now;
+      }
+    }
+    double duration = step.duration.value_or(0);
+    if (duration > 0 && stops(k) && (k == 0 || stops(k - 1))) duration = cruise_time(end - begin, duration);
+    last_ = end;
+    const std::size_t before = made_.legs.size();
+    add_leg(begin, end, distance, turn, {&step, move.line}, duration);
+    if (made_.legs.size() == before) return;
+    Leg& leg = made_.legs.back();
+    leg.straight = true;
+    if (move.cut_behind > 0 || stops(k)) return;
+    if (step.zone || (!step.tool_zone && !step.stop_zone)) {
+      leg.zone = leg.zone_behind = step.zone.value_or(motion_.zone);
+    } else {  // a zone of the tool between two joint moves
+      const double zone = tool_zone(k);
+      leg.zone = leg.length * std::min(0.5, zone / tool_way(move));
+      const VectorXd way = moves_[k + 1].to - moves_[k + 1].from;
+      leg.zone_behind = way.lpNorm<Eigen::Infinity>() * std::min(0.5, zone / tool_way(moves_[k + 1]));
+    }
+  }
+
+  /// From rest to rest in the time T: L/v + v/A = T; the time at the speed v that this takes.
+  double cruise_time(const VectorXd& way, double time) const {
+    const double length = way.lpNorm<Eigen::Infinity>();
+    const double acceleration = axis_limit(way, accelerations_) * length;
+    const double root = time * time - 4 * length / acceleration;
+    if (root < 0) return 0;  // as fast as the axes can
+    return length / ((time - std::sqrt(root)) * acceleration / 2);
+  }
+
+  /// (M6): from where the path of move k was cut to where that of the next one goes on.
+  void lay_corner(std::size_t k) {
+    const Move &move = moves_[k], &next = moves_[k + 1];
+    const VectorXd begin = last_, corner = move.to;
+    const bool straight = move.is_path() && next.is_path() && move.path->same_tooling(*next.path);
+    VectorXd end = next.from + next.cut_before * (next.to - next.from);
+    if (next.is_path()) {
+      std::string reason;
+      const auto reached =
+          arm_.solve(next.path->flange(next.cut_before), {}, at_share(next, next.cut_before, corner), reason);
+      if (!reached) return static_cast<void>(refuse(*next.step, next.line, reason));
+      end = *reached;
+    }
+    const double before = move.cut_behind * tool_way(move), behind = next.cut_before * tool_way(next);
+    const int points = std::max(8, static_cast<int>(std::ceil((before + behind) / point_distance)));
+    const Tooling& tooling = next.tooling;
+    VectorXd joints = begin;
+    Frame seen = tooling.pose(arm_.flange(joints));
+    for (int i = 1; i <= points; ++i) {
+      const double u = double(i) / points;
+      VectorXd target = (1 - u) * (1 - u) * begin + 2 * u * (1 - u) * corner + u * u * end;
+      if (straight && i < points) {
+        std::string reason;
+        const Frame pose = bezier(move.path->pose(1 - move.cut_behind), next.path->pose(0),
+                                  next.path->pose(next.cut_before), u);
+        VectorXd near = joints;  // external axes go over likewise
+        const long external = near.size() - static_cast<long>(robot_.axes());
+        near.tail(external) = target.tail(external);
+        const auto reached = arm_.solve(next.path->tooling().flange(pose), {}, near, reason);
+        if (!reached) return static_cast<void>(refuse(*next.step, next.line, reason));
+        target = *reached;
+      }
+      if (i == points) target = end;
+      const Frame now = tooling.pose(arm_.flange(target));
+      const Move& driven = u <= 0.5 ? move : next;
+      add_leg(joints, target, (now.position - seen.position).norm(),
+              rotation_vector(seen.orientation.conjugate() * now.orientation).norm(),
+              {driven.step, driven.line}, 0);
+      joints = target;
+      seen = now;
+    }
+    last_ = joints;
+  }
+
+  const pipeline::Motion& motion_;
+  const pipeline::Robot& robot_;
+  const std::vector<Axis> axes_;
+  const VectorXd& accelerations_;  // A_i
+  InverseKinematics arm_;
+  std::map<std::string, const pipeline::MotionFrame*> tools_, objects_;
+  std::map<std::string, int> line_of_;
+  std::vector<int> numbers_;  // of the lines, depth first
+  std::vector<Move> moves_;
+  std::vector<std::size_t> stops_;  // moves behind which the robot stops although their zone would not
+  Problems problems_;
+  VectorXd place_, last_;
+  int chain_ = 0;  // of the move being laid
+  Legs made_;
+};
+
+}  // namespace
+
+Legs legs_of(const pipeline::Motion& motion, const pipeline::Robot& robot, const VectorXd& accelerations) {
+  return Layout(motion, robot, accelerations).run();
+}
+
+}  // namespace dresslife::sim

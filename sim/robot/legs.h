@@ -1,0 +1,51 @@
+// A motion's lines as a chain of straight legs in joint space: what the time law (motion.h) lays out in time.
+//
+// A joint move is one leg. A linear or circular move is cut into legs so short that the tool stays on its
+// path: between two points h apart, on a path that bends in joint space with radius r, a leg runs h^2/(8 r)
+// beside it; joint angles change by at most 0.1 rad and the tool moves at most 10 mm and turns at most 2 deg
+// from point to point.
+//   linear    x(u) = x0 + u (x1 - x0);   circular    on the circle through start, via and target;
+//   both      orientation slerp(q0, q1; u), tool in work object.
+// (M6) Zones of tool paths: within the zone d of a corner (at most half of either move) the path is the
+// quadratic Bezier curve of A, the corner and B, A and B being d before and behind it: it leaves and joins
+// both paths tangentially and stays in their triangle, so the tool deviates by less than d. Orientations
+// likewise, by three slerps. Where a joint move takes part, the curve is one in joint space. (M7) A leg's
+// speed is the least that the axes, the tool's speed ds/dt and its turning dtheta/dt allow.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "pipeline/job/motion.h"
+#include "pipeline/job/robot.h"
+
+namespace dresslife::sim {
+
+/// A straight leg in joint space, or (length 0) a dwell.
+struct Leg {
+  Eigen::VectorXd from, direction;  ///< D: largest component +-1
+  double length = 0;                ///< of the largest axis [rad]
+  double cruise = 0;                ///< c [rad/s]
+  double acceleration = 0;          ///< A along the leg [rad/s2]
+  double zone = 0;                  ///< at its end: blending begins at most this far before it [rad]
+  double zone_behind = 0;           ///< and ends at most this far behind it [rad]
+  double dwell = 0;                 ///< [s]
+  int path = 0;           ///< which chain from stop to stop that holds a tool path it belongs to; 0: none
+  bool straight = false;  ///< the whole of a joint move
+  int step = 0;
+};
+
+struct Legs {
+  std::vector<Leg> legs;
+  std::vector<std::string> texts;  ///< of the program's lines, which Leg::step counts
+  Eigen::VectorXd place;           ///< where the robot ends
+};
+
+/// accelerations: A_i of (M2) [rad/s2]. Errors: InputError at the lines of the program, all of them at once:
+/// no move at the beginning, a target outside the limits, out of reach, not reached in its configuration or
+/// along its path.
+Legs legs_of(const pipeline::Motion& motion, const pipeline::Robot& robot,
+             const Eigen::VectorXd& accelerations);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,278 @@
+#include "sim/robot/motion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "sim/robot/legs.h"
+#include "sim/robot/path_motion.h"
+#include "sim/robot/robot.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double ramp = 0.25;            // r: share of a velocity change in which acceleration builds up
+constexpr double peak = 1 / (1 - ramp);  // largest sigma'
+
+double slope(double u) { return peak * std::min({u / ramp, 1.0, (1 - u) / ramp}); }
+
+double rise(double u) {
+  if (u < ramp) return peak * u * u / (2 * ramp);
+  if (u > 1 - ramp) return 1 - rise(1 - u);
+  return peak * (u - ramp / 2);
+}
+
+/// S(u), the integral of sigma from 0. Above the middle by the symmetry sigma(u) = 1 - sigma(1 - u).
+double integrated_rise(double u) {
+  if (u < ramp) return peak * u * u * u / (6 * ramp);
+  if (u > 1 - ramp) return u - 0.5 + integrated_rise(1 - u);
+  return peak * ((u - ramp) * u / 2 + ramp * ramp / 6);
+}
+
+/// A_i (M2) of every axis [rad/s2].
+VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  const std::vector<Axis> axes = axes_of(robot);
+  VectorXd accelerations(static_cast<long>(axes.size()));
+  for (long i = 0; i < accelerations.size(); ++i)
+    accelerations[i] = (1 - ramp) * axes[i].acceleration * motion.acceleration_percent / 100;
+  return accelerations;
+}
+
+/// How leg k goes over into leg k + 1.
+struct Corner {
+  double limit = 0;                                    // w [rad/s]
+  double in = 0, out = 0;                              // speeds v, v' [rad/s]
+  double duration = 0;                                 // tau [s]
+  double before() const { return in * duration / 2; }  // where the blend begins and ends, from the waypoint
+  double after() const { return out * duration / 2; }
+};
+
+// ---- speeds at the corners (M4), (M5) --------------------------------------------------------------------
+
+class CornerSpeeds {
+ public:
+  CornerSpeeds(const std::vector<Leg>& legs, const VectorXd& accelerations)
+      : legs_(legs), accelerations_(accelerations), corners_(legs.size()) {
+    for (size_t k = 0; k + 1 < legs.size(); ++k) {
+      if (legs[k].dwell > 0 || legs[k + 1].dwell > 0 || legs[k].zone == 0) continue;
+      const double top = std::max(legs[k].cruise, legs[k + 1].cruise);
+      corners_[k] = slowed(k, top, [&](const Corner& corner) { return fits(k, corner); });
+    }
+    while (sweep()) {
+    }
+  }
+
+  /// Corner at the end of leg k; standing still before the first leg (k = -1) and after the last.
+  const Corner& at_end(int k) const { return k < 0 ? still_ : corners_[k]; }
+
+ private:
+  Corner corner(size_t k, double limit) const {
+    Corner c{limit, std::min(limit, legs_[k].cruise), std::min(limit, legs_[k + 1].cruise), 0};
+    const VectorXd change = c.out * legs_[k + 1].direction - c.in * legs_[k].direction;
+    c.duration = change.cwiseAbs().cwiseQuotient(accelerations_).maxCoeff();
+    return c;
+  }
+
+  bool fits(size_t k, const Corner& c) const {  // (M4)
+    const double zone = legs_[k].zone;
+    return c.before() <= std::min(zone, legs_[k].length / 2) &&
+           c.after() <= std::min(legs_[k].zone_behind, legs_[k + 1].length / 2);
+  }
+
+  /// The fastest corner up to `limit` that is good, by bisection; a stop when none is found.
+  template <class Good>
+  Corner slowed(size_t k, double limit, const Good& good) const {
+    if (const Corner fastest = corner(k, limit); good(fastest)) return fastest;
+    Corner best;
+    double low = 0, high = limit;
+    for (int i = 0; i < 50; ++i) {  // 2^-50 of the speed
+      const Corner middle = corner(k, (low + high) / 2);
+      (good(middle) ? low : high) = middle.limit;
+      if (good(middle)) best = middle;
+    }
+    return best;
+  }
+
+  bool long_enough(size_t k, double v0, double before, double v1, double after) const {
+    const Leg& leg = legs_[k];
+    return std::abs(v1 * v1 - v0 * v0) <= 2 * leg.acceleration * (leg.length - before - after);
+  }
+
+  /// Slows the faster end of every leg that is too short to change speed. False when all are long enough.
+  bool sweep() {
+    bool changed = false;
+    const int count = static_cast<int>(legs_.size());
+    for (int pass = 0; pass < 2; ++pass)  // forward: leaving too fast; backward: entering too fast
+      for (int i = 0; i < count; ++i) changed |= mend(pass == 0 ? i : count - 1 - i);
+    return changed;
+  }
+
+  bool mend(int k) {
+    if (legs_[k].dwell > 0) return false;
+    const Corner entry = at_end(k - 1), exit = at_end(k);
+    if (long_enough(k, entry.out, entry.after(), exit.in, exit.before())) return false;
+    // Slower by a thousandth at least, so that the sweeps end.
+    if (exit.in > entry.out) {
+      corners_[k] = slowed(k, 0.999 * exit.limit, [&](const Corner& c) {
+        return fits(k, c) &&
+               (c.in <= entry.out || long_enough(k, entry.out, entry.after(), c.in, c.before()));
+      });
+    } else {
+      corners_[k - 1] = slowed(k - 1, 0.999 * entry.limit, [&](const Corner& c) {
+        return fits(k - 1, c) &&
+               (c.out <= exit.in || long_enough(k, c.out, c.after(), exit.in, exit.before()));
+      });
+    }
+    return true;
+  }
+
+  const std::vector<Leg>& legs_;
+  const VectorXd& accelerations_;  // A_i
+  std::vector<Corner> corners_;
+  Corner still_;
+};
+
+// ---- legs into pieces ------------------------------------------------------------------------------------
+
+class Pieces {
+ public:
+  std::vector<MotionPiece> pieces;
+  double time = 0;
+
+  void add(const VectorXd& position, const VectorXd& before, const VectorXd& after, double duration, int step,
+           int step_after) {
+    if (duration <= 0) return;
+    pieces.push_back({time, duration, position, before, after - before, step, step_after});
+    time += duration;
+  }
+
+  void append(std::vector<MotionPiece> more) {
+    if (more.empty()) return;
+    time = more.back().start + more.back().duration;
+    std::move(more.begin(), more.end(), std::back_inserter(pieces));
+  }
+
+  /// The part of a leg between its blends: up to the top speed, along, and down (M3).
+  void add_leg(const Leg& leg, const Corner& entry, const Corner& exit) {
+    const double v0 = entry.out, v1 = exit.in, twice = 2 * leg.acceleration;
+    const double length = leg.length - entry.after() - exit.before();
+    const double reached = std::sqrt((twice * length + v0 * v0 + v1 * v1) / 2);
+    const double top = std::max({std::min(leg.cruise, reached), v0, v1});
+    const double up = (top * top - v0 * v0) / twice, down = (top * top - v1 * v1) / twice;
+    const double along = std::max(0.0, length - up - down);
+    const auto at = [&](double s) { return VectorXd(leg.from + (entry.after() + s) * leg.direction); };
+    const auto speed = [&](double v) { return VectorXd(v * leg.direction); };
+    add(at(0), speed(v0), speed(top), (top - v0) / leg.acceleration, leg.step, leg.step);
+    add(at(up), speed(top), speed(top), along / top, leg.step, leg.step);
+    add(at(up + along), speed(top), speed(v1), (top - v1) / leg.acceleration, leg.step, leg.step);
+  }
+
+  void add_blend(const Leg& leg, const Leg& next, const Corner& corner) {
+    add(next.from - corner.before() * leg.direction, corner.in * leg.direction, corner.out * next.direction,
+        corner.duration, leg.step, next.step);
+  }
+};
+
+}  // namespace
+
+namespace {
+
+/// Legs none of which is part of a path, one by one.
+void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, Pieces& laid) {
+  const CornerSpeeds corners(legs, accelerations);
+  for (int k = 0; k < static_cast<int>(legs.size()); ++k) {
+    const Leg& leg = legs[k];
+    if (leg.dwell > 0) {
+      const VectorXd rest = VectorXd::Zero(leg.from.size());
+      laid.add(leg.from, rest, rest, leg.dwell, leg.step, leg.step);
+      continue;
+    }
+    laid.add_leg(leg, corners.at_end(k - 1), corners.at_end(k));
+    if (corners.at_end(k).limit > 0) laid.add_blend(leg, legs[k + 1], corners.at_end(k));
+  }
+}
+
+AxisLimits limits_of(const pipeline::Robot& robot) {
+  const std::vector<Axis> axes = axes_of(robot);
+  AxisLimits limits{VectorXd(static_cast<long>(axes.size())), VectorXd(static_cast<long>(axes.size()))};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    limits.speed[static_cast<long>(i)] = axes[i].speed;
+    limits.acceleration[static_cast<long>(i)] = axes[i].acceleration;
+  }
+  return limits;
+}
+
+}  // namespace
+
+JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  const VectorXd accelerations = mean_accelerations(motion, robot);
+  Legs program = legs_of(motion, robot, accelerations);
+  const AxisLimits limits = limits_of(robot);
+  Pieces laid;
+  for (auto begin = program.legs.begin(); begin != program.legs.end();) {
+    const auto end =
+        std::find_if(begin, program.legs.end(), [&](const Leg& leg) { return leg.path != begin->path; });
+    const std::vector<Leg> legs(begin, end);
+    if (begin->path == 0)
+      add_legs(legs, accelerations, laid);
+    else
+      laid.append(path_pieces(legs, accelerations, limits, laid.time));
+    begin = end;
+  }
+  duration_ = laid.time;
+  // The stand at the end (its duration does not matter); also the whole of a program that goes nowhere.
+  const int last = static_cast<int>(program.texts.size()) - 1;
+  const VectorXd rest = VectorXd::Zero(program.place.size());
+  laid.pieces.push_back({duration_, 1, program.place, rest, rest, last, last});
+  pieces_ = std::move(laid.pieces);
+  step_texts_ = std::move(program.texts);
+}
+
+const MotionPiece& JointMotion::piece_at(double time) const {
+  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), time,
+                                      [](double t, const MotionPiece& piece) { return t < piece.start; });
+  return after == pieces_.begin() ? *after : *(after - 1);
+}
+
+namespace {
+
+/// u of (M1).
+double fraction(const MotionPiece& piece, double time) {
+  return std::clamp((time - piece.start) / piece.duration, 0.0, 1.0);
+}
+
+}  // namespace
+
+VectorXd JointMotion::position(double time) const {
+  const MotionPiece& piece = piece_at(time);
+  const double u = fraction(piece, time), t = u * piece.duration;
+  if (piece.jerk.size() > 0)
+    return piece.position + t * (piece.velocity_before + t / 2 * (piece.acceleration + t / 3 * piece.jerk));
+  return piece.position +
+         piece.duration * (u * piece.velocity_before + integrated_rise(u) * piece.velocity_change);
+}
+
+VectorXd JointMotion::velocity(double time) const {
+  const MotionPiece& piece = piece_at(time);
+  const double u = fraction(piece, time), t = u * piece.duration;
+  if (piece.jerk.size() > 0) return piece.velocity_before + t * (piece.acceleration + t / 2 * piece.jerk);
+  return piece.velocity_before + rise(u) * piece.velocity_change;
+}
+
+VectorXd JointMotion::acceleration(double time) const {
+  const MotionPiece& piece = piece_at(time);
+  const double u = fraction(piece, time);
+  if (piece.jerk.size() > 0) return piece.acceleration + u * piece.duration * piece.jerk;
+  return slope(u) / piece.duration * piece.velocity_change;
+}
+
+int JointMotion::step(double time) const {
+  const MotionPiece& piece = piece_at(time);
+  return fraction(piece, time) < 0.5 ? piece.step : piece.step_after;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,90 @@
+// The path of a tool: a straight line or an arc in the frame of a work object, with the orientation turning
+// evenly.
+#pragma once
+
+#include <cmath>
+
+#include "sim/rod/rotation.h"
+
+namespace dresslife::sim {
+
+inline Frame inverse_of(const Frame& frame) {
+  const Quaternion back = frame.orientation.conjugate();
+  return {back * Vector3(-frame.position), back};
+}
+
+/// Which tool moves in which work object: tool in the flange and object in the world, or, stationary, the
+/// tool in the world and the object in the flange.
+struct Tooling {
+  Frame tool, object;
+  bool stationary = false;
+
+  /// The flange in the world when the tool is at `pose` in the object, and back.
+  Frame flange(const Frame& pose) const {
+    return stationary ? tool * inverse_of(object * pose) : object * pose * inverse_of(tool);
+  }
+  Frame pose(const Frame& flange) const {
+    return stationary ? inverse_of(flange * object) * tool : inverse_of(object) * flange * tool;
+  }
+};
+
+class ToolPath {
+ public:
+  ToolPath(const Tooling& tooling, const Frame& from, const Frame& to)
+      : tooling_(tooling), from_(from), to_(to), length_((to.position - from.position).norm()) {
+    turn_ = rotation_vector(from.orientation.conjugate() * to.orientation).norm();
+  }
+
+  /// Makes it the arc through `via`; a point on the line leaves it straight.
+  void bend(const Vector3& via) {
+    // The centre m of the circle through 0, a, b: 2 a.m = |a|^2, 2 b.m = |b|^2 and (a x b).m = 0, hence
+    // m = (|a|^2 b - |b|^2 a) x (a x b) / (2 |a x b|^2).
+    const Vector3 a = via - from_.position, b = to_.position - from_.position, n = a.cross(b);
+    constexpr double straight = 1e-9;  // sine of the angle between a and b
+    if (n.norm() <= straight * a.norm() * b.norm() || a.norm() == 0) return;
+    centre_ = from_.position + (a.squaredNorm() * b - b.squaredNorm() * a).cross(n) / (2 * n.squaredNorm());
+    axis_ = n.normalized();
+    const Vector3 first = from_.position - centre_, last = to_.position - centre_;
+    angle_ = std::atan2(axis_.dot(first.cross(last)), first.dot(last));
+    if (angle_ <= 0)
+      angle_ += 2 * std::acos(-1.0);  // via lies on the way that turns about n by less than a full turn
+    length_ = angle_ * first.norm();
+  }
+
+  double length() const { return length_; }  ///< of the tool's way [m]
+  double turn() const { return turn_; }      ///< of its orientation [rad]
+  const Tooling& tooling() const { return tooling_; }
+
+  /// Pose of the tool in the object at the share u of the way.
+  Frame pose(double u) const {
+    const Quaternion turned = from_.orientation.slerp(u, to_.orientation);
+    if (angle_ == 0) return {from_.position + u * (to_.position - from_.position), turned};
+    return {centre_ + Quaternion(Eigen::AngleAxisd(u * angle_, axis_)) * Vector3(from_.position - centre_),
+            turned};
+  }
+  Frame flange(double u) const { return tooling_.flange(pose(u)); }
+
+  bool same_tooling(const ToolPath& other) const {
+    const auto same = [](const Frame& a, const Frame& b) {
+      return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+    };
+    return same(tooling_.tool, other.tooling_.tool) && same(tooling_.object, other.tooling_.object) &&
+           tooling_.stationary == other.tooling_.stationary;
+  }
+
+ private:
+  Tooling tooling_;
+  Frame from_, to_;
+  double length_, turn_ = 0, angle_ = 0;
+  Vector3 centre_ = Vector3::Zero(), axis_ = Vector3::UnitZ();
+};
+
+/// (M6): from a towards b, then to c.
+inline Frame bezier(const Frame& a, const Frame& b, const Frame& c, double u) {
+  const Vector3 position = (1 - u) * (1 - u) * a.position + 2 * u * (1 - u) * b.position + u * u * c.position;
+  const Quaternion first = a.orientation.slerp(u, b.orientation),
+                   second = b.orientation.slerp(u, c.orientation);
+  return {position, first.slerp(u, second)};
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,18 @@
+// A smooth curve of the right length between two clamps: where the search for the equilibrium begins.
+#pragma once
+
+#include "sim/rod/rod.h"
+
+namespace dresslife::sim {
+
+struct StartCurve {
+  RodState state;  ///< segments along the curve, at rest, frames parallel-transported, then evenly twisted
+  double roll_to_tool = 0;  ///< that twist: from the transported frame to the tool frame, in (-pi, pi] [rad]
+};
+
+/// A cubic between the clamps along their directions, with as much speed there as its length allows; length
+/// still missing goes into a sag (with gravity, where it has a part across the chord). When even the straight
+/// line is longer than the hose, the segments are spaced evenly along it.
+StartCurve start_curve(const Rod& rod, const ClampFrames& clamps);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,149 @@
+// Waves of layers that slide over their pitch without nodes (W27), for one instruction set: part of
+// kernels_body.h, which declares the state of a part before. Names as in sliding_layer.h.
+#pragma once
+
+#include "strain/sliding_layer.h"
+
+namespace dresslife::strain {
+namespace DRESSLIFE_MACHINE_KERNELS {
+namespace {
+
+/// What all layers of a part share: its bending, turned, and products of it; the change of its stretch's
+/// square.
+struct alignas(64) BendShape {
+  enum Row { sine, cosine, sine2, cosine2, sine3, cosine3, bend_squared, square_stretch, rows_in_all };
+  float rows[rows_in_all][chunk];
+  float most_bend_squared, most_square_stretch, most_twist;  ///< of their sizes
+
+  /// of: any layer of the part that has closed forms.
+  void fill(const SlidingLayer& of, const PartState& part, std::size_t count) {
+    FloatPack most_bend{}, most_square{}, most_twisted{};
+    for (std::size_t t = 0; t < count; t += float_pack_size) {
+      const FloatPack bend1 = part(part_bend1, t), bend2 = part(part_bend2, t);
+      const FloatPack P = of.turn_cosine * bend1 + of.turn_sine * bend2;
+      const FloatPack Q = of.turn_sine * bend1 - of.turn_cosine * bend2;
+      const FloatPack P2 = P * P, Q2 = Q * Q,
+                      square = part(stretch_change, t) * (part(part_stretch, t) + of.stretch0);
+      const FloatPack values[rows_in_all] = {
+          P, Q, 2.0f * P * Q, Q2 - P2, P * (3.0f * Q2 - P2), Q * (Q2 - 3.0f * P2), P2 + Q2, square};
+      for (int row = 0; row < rows_in_all; ++row) store(values[row], rows[row] + t);
+      most_bend = larger(most_bend, values[bend_squared]);
+      most_square = larger(most_square, larger(square, -square));
+      most_twisted = larger(most_twisted, larger(part(twist_change, t), -part(twist_change, t)));
+    }
+    most_bend_squared = largest_lane(most_bend);
+    most_square_stretch = largest_lane(most_square);
+    most_twist = largest_lane(most_twisted);
+  }
+
+  inline FloatPack operator()(Row row, std::size_t t) const { return load<FloatPack>(rows[row] + t); }
+
+  /// Whether the closed forms are good for a layer at all of these samples.
+  bool suits(const SlidingLayer& layer) const {
+    const float turning = most_twist * (most_twist + std::fabs(layer.two_sigma0)) * layer.R2_over_D0;
+    const float square = most_square_stretch * layer.inverse_D0 + turning;
+    return layer.closed && square < strain::most_square_stretch &&
+           most_bend_squared * layer.R2_over_D0 < strain::most_bend_squared * (1 - square);
+  }
+};
+
+/// Of sqrt(1 + q) - 1; what is left out is below 7/128 q^4 of it.
+inline FloatPack root_less_one(const FloatPack& q) {
+  return q * (0.5f + q * (-0.125f + q * (0.0625f - 0.0390625f * q)));
+}
+
+/// What of a layer's strain does not depend on the angle: the mean strain over the pitch, and the factors of
+/// the harmonics of f (1 + strain), the mean's less that at rest. A loop of its own: with the one that uses
+/// it, a sample's numbers would wait for each other too long.
+struct alignas(64) SlidingState {
+  enum Row { axial, mean, first, second, third, rows_in_all };
+  float rows[rows_in_all][chunk];
+
+  inline FloatPack operator()(Row row, std::size_t t) const { return load<FloatPack>(rows[row] + t); }
+
+  void fill(const SlidingLayer& of, const PartState& part, const BendShape& shape, std::size_t count) {
+    for (std::size_t t = 0; t < count; t += float_pack_size) {
+      const FloatPack twist_by = part(twist_change, t);
+      const FloatPack turning = of.R2_over_D0 * (twist_by * (twist_by + of.two_sigma0));
+      const FloatPack q = shape(BendShape::square_stretch, t) * of.inverse_D0 + turning;  // D / D0 - 1
+      const FloatPack over_D = inverse(1.0f + q);                                         // D0 / D
+      const FloatPack tau = (of.tau0 + turning) * over_D;
+      const FloatPack k = shape(BendShape::bend_squared, t) * of.R2_over_D0 * over_D;
+      // (W10) of a helix in a straight part, and what bending adds: as mean_over_pitch()
+      const FloatPack straight = root_less_one(q);
+      const FloatPack bent = k * tau * (1.0f + of.second_slope * k) * of.second_scale - of.second0;
+      const FloatPack strain = straight + bent + bent * straight;
+
+      const FloatPack E1 = 1.0f + tau * (4.0f * tau - 5.0f), E2 = of.E2_constant + of.E2_slope * tau;
+      const FloatPack C4 = 0.75f + tau * (6.0f * tau - 6.0f);   // times 3/4
+      const FloatPack C6 = of.C6_constant + of.C6_slope * tau;  // times 5/8
+      const FloatPack f0 = tau - 0.5f * k * (E1 + k * (0.75f * E2 + of.E3_mean * k));
+      const FloatPack f1 = 1.0f - 2.0f * tau + k * (C4 + k * (C6 + of.C8 * k));
+      const FloatPack f2 = E1 + k * (E2 + of.E3_second * k);
+      const FloatPack by = over_D + strain * over_D, by_s = part(part_stretch, t) * by;
+      store(strain, rows[axial] + t);
+      store(FloatPack(f0 + strain * f0 - of.mean0), rows[mean] + t);
+      store(FloatPack(f1 * by_s), rows[first] + t);
+      store(FloatPack(f2 * by), rows[second] + t);
+      store(FloatPack(by_s * over_D * C4), rows[third] + t);
+    }
+  }
+};
+
+/// From what fibre `fibre` feels around the layer to waves that count angles from wire 1.
+struct FibreTurn {
+  float mean, sine1, cosine1, sine2, cosine2;
+
+  FibreTurn() = default;
+  FibreTurn(const SlidingLayer& of, const Fibre& fibre, double wire_radius)
+      : mean(static_cast<float>(fibre.on_axis ? 0 : -wire_radius * fibre.phi_cosine)),
+        sine1(mean * of.sine1),
+        cosine1(mean * of.cosine1),
+        sine2(mean * of.sine2),
+        cosine2(mean * of.cosine2) {}
+};
+
+/// Waves of the strain of the layer's fibres, like strains_of_layer().
+void closed_strains_of_layer(const SlidingLayer& layer, const BundlePointers& nesting, double wire_radius,
+                             const PartState& part, const BendShape& shape, std::size_t count, float* out,
+                             std::size_t stride) {
+  const SlidingLayer of = layer;  // a copy: the compiler sees that `out` is not in it
+  const int fibre_count = nesting.fibre_count;
+  FibreTurn fibres[most_fibres];
+  for (int f = 0; f < fibre_count; ++f) fibres[f] = {of, nesting.fibres[f], wire_radius};
+  SlidingState state;
+  state.fill(of, part, shape, count);
+  for (std::size_t t = 0; t < count; t += float_pack_size) {
+    // harmonics of f (1 + strain) - f0, and those of their product with g
+    const FloatPack axial = state(SlidingState::axial, t), mean = state(SlidingState::mean, t);
+    const FloatPack first = state(SlidingState::first, t), second = state(SlidingState::second, t);
+    const FloatPack third = of.second_of_third * state(SlidingState::third, t);
+    const FloatPack sine = first * shape(BendShape::sine, t);
+    const FloatPack cosine = first * shape(BendShape::cosine, t) - of.first0;
+    const FloatPack sine2 = second * shape(BendShape::sine2, t);
+    const FloatPack cosine2 = second * shape(BendShape::cosine2, t) - of.second_wave0;
+    const FloatPack sine3 = third * shape(BendShape::sine3, t);
+    const FloatPack cosine3 = third * shape(BendShape::cosine3, t) - of.third0;
+    const FloatPack felt_mean =
+        of.mean_of_mean * mean + of.mean_of_first * cosine + of.mean_of_second * cosine2;
+    const FloatPack felt_sine = of.sine_of_sine * sine + of.first_of_second * sine2;
+    const FloatPack felt_cosine =
+        of.cosine_of_cosine * cosine + of.first_of_second * cosine2 + of.cosine_of_mean * mean;
+    const FloatPack felt_sine2 = of.second_of_second * sine2 + (of.sine2_of_sine * sine + sine3);
+    const FloatPack felt_cosine2 =
+        of.second_of_second * cosine2 + of.cosine2_of_cosine * cosine + (of.cosine2_of_mean * mean + cosine3);
+    for (int f = 0; f < fibre_count; ++f) {
+      const FibreTurn& by = fibres[f];
+      float* const to = out + f * waves_per_layer * stride + t;
+      store(FloatPack(axial + by.mean * felt_mean), to);
+      store(FloatPack(by.cosine1 * felt_sine - by.sine1 * felt_cosine), to + stride);
+      store(FloatPack(by.sine1 * felt_sine + by.cosine1 * felt_cosine), to + 2 * stride);
+      store(FloatPack(by.cosine2 * felt_sine2 - by.sine2 * felt_cosine2), to + 3 * stride);
+      store(FloatPack(by.sine2 * felt_sine2 + by.cosine2 * felt_cosine2), to + 4 * stride);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace DRESSLIFE_MACHINE_KERNELS
+}  // namespace dresslife::strain

@@ -1,0 +1,41 @@
+#include "pipeline/files/digest.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+// FIPS 180-4's examples.
+constexpr const char* digest_of_nothing = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
+constexpr const char* digest_of_abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+constexpr const char* digest_of_million_a =
+    "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
+
+TEST_CASE("digest: the published examples of SHA-256") {
+  CHECK(sha256("") == digest_of_nothing);
+  CHECK(sha256("abc") == digest_of_abc);
+  CHECK(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq") ==
+        "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  CHECK(sha256(std::string(1000000, 'a')) == digest_of_million_a);
+}
+
+TEST_CASE("digest: a file's is that of its bytes, also beyond one block") {
+  const Scratch scratch;
+  CHECK(sha256_of_file(scratch.write("empty", "")) == digest_of_nothing);
+  CHECK(sha256_of_file(scratch.write("abc", "abc")) == digest_of_abc);
+  const std::string large(3'000'001, 'z');
+  CHECK(sha256_of_file(scratch.write("large", large)) == sha256(large));
+}
+
+TEST_CASE("digest: what cannot be read has none") {
+  const Scratch scratch;
+  CHECK(message_of([&] { sha256_of_file(scratch / "absent"); }) ==
+        (scratch / "absent").string() + ": error: cannot be read; check the path");
+  CHECK(message_of([&] { sha256_of_file(scratch / "."); }) ==
+        (scratch / ".").string() + ": error: cannot be read; check the path");
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline

@@ -1,0 +1,82 @@
+// Which segments and clamps of a motion file belong to which span and dresspack.
+#include "pipeline/files/motion_layout.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// A file of so many segments without samples; empty lists: the datasets are absent.
+void write_motion(const std::filesystem::path& name, std::size_t segments, std::size_t clamps,
+                  const std::vector<std::int32_t>& clamp_segment, const std::vector<std::int32_t>& dresspack,
+                  const std::vector<std::string>& names) {
+  FileWriter file(name, motion_format());
+  file.set_axis("segment", segments);
+  file.set_axis("clamp", clamps);
+  for (const char* dataset : {"/time", "/segment/position", "/segment/orientation", "/clamp/position",
+                              "/clamp/orientation", "/contact/max_depth", "/energy", "/tension"})
+    file.append(dataset, std::span<const double>());
+  for (const char* dataset : {"/program/step", "/contact/count"})
+    file.append(dataset, std::span<const std::int32_t>());
+  file.append("/program/text", std::vector<std::string>{"home"});
+  file.append("/segment/length", std::vector<double>(segments, 0.1));
+  if (!clamp_segment.empty()) file.append("/clamp/segment", clamp_segment);
+  if (!names.empty()) {
+    file.set_axis("dresspack", names.size());
+    file.append("/segment/dresspack", dresspack);
+    file.append("/dresspack/name", names);
+  }
+  for (const char* attribute : {"job", "history", "input_sha256"}) file.attribute(attribute, "");
+  file.commit();
+}
+
+std::string layout(const std::filesystem::path& name) {
+  const FileReader file(name, motion_format());
+  std::string text;
+  for (const MotionSpan& span : motion_spans(file))
+    text += fmt::format("{}: {}+{} {}-{}; ", span.dresspack, span.first_segment, span.segments,
+                        span.base_clamp, span.tool_clamp);
+  return text;
+}
+
+TEST_CASE("motion layout: files of one dresspack and of several are told apart into spans") {
+  const Scratch scratch;
+  write_motion(scratch / "old.h5", 6, 3, {}, {}, {});
+  CHECK(layout(scratch / "old.h5") == "0: 0+6 0-2; ");  // which says nothing of the clamp between
+  write_motion(scratch / "one.h5", 6, 3, {0, 4, 6}, {0, 0, 0, 0, 0, 0}, {""});
+  CHECK(layout(scratch / "one.h5") == "0: 0+4 0-1; 0: 4+2 1-2; ");
+  write_motion(scratch / "two.h5", 6, 5, {0, 2, 2, 5, 6}, {0, 0, 1, 1, 1, 1}, {"a", "b"});
+  CHECK(layout(scratch / "two.h5") == "0: 0+2 0-1; 1: 2+3 2-3; 1: 5+1 3-4; ");
+  CHECK(dresspack_names(FileReader(scratch / "two.h5", motion_format())) ==
+        std::vector<std::string>{"a", "b"});
+  CHECK(dresspack_names(FileReader(scratch / "one.h5", motion_format())) == std::vector<std::string>{""});
+  CHECK(dresspack_names(FileReader(scratch / "old.h5", motion_format())) == std::vector<std::string>{""});
+}
+
+TEST_CASE("motion layout: what contradicts itself is refused") {
+  const Scratch scratch;
+  const auto refused = [&](std::vector<std::int32_t> clamps, std::vector<std::int32_t> dresspack,
+                           const std::string& words) {
+    const std::size_t count = clamps.size();
+    write_motion(scratch / "bad.h5", 6, count, clamps, dresspack, {"a", "b"});
+    INFO(words);
+    CHECK(message_of([&] { layout(scratch / "bad.h5"); }).find(words) != std::string::npos);
+  };
+  const std::string rises = "/clamp/segment does not rise from 0 to the number of segments, span by span";
+  const std::vector<std::int32_t> halves{0, 0, 0, 1, 1, 1};
+  refused({0, 3, 6}, halves, rises);  // the second has no base clamp
+  refused({0, 3, 3, 5}, halves, rises);
+  refused({1, 3, 3, 6}, halves, rises);
+  refused({0, 4, 4, 6}, halves, rises);
+  refused({0, 2, 2, 3, 3, 6}, halves, rises);
+  refused({0, 4, 3, 6}, halves, rises);
+  const std::string counts = "/segment/dresspack does not count the dresspacks up one by one";
+  refused({0, 3, 3, 6}, {0, 0, 0, 0, 0, 0}, counts);
+  refused({0, 3, 3, 6}, {0, 0, 1, 0, 1, 1}, counts);
+  refused({0, 3, 3, 6}, {1, 1, 1, 1, 1, 1}, counts);
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline

@@ -1,0 +1,77 @@
+#include "pipeline/files/scale_offset.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace dresslife::pipeline {
+namespace {
+
+std::vector<float> through(const std::vector<float>& numbers, int decimals, std::size_t* bytes = nullptr) {
+  std::vector<char> chunk;
+  pack_chunk(numbers, decimals, chunk);
+  if (bytes) *bytes = chunk.size();
+  std::vector<float> back(numbers.size());
+  REQUIRE(unpack_chunk(chunk, decimals, std::span(back)));
+  return back;
+}
+
+}  // namespace
+
+TEST_CASE("scale-offset: the bytes are those of the filter's layout") {
+  std::vector<char> chunk;
+  pack_chunk(std::vector<float>{7, 12, 5, 9}, 0, chunk);  // above 5: 2 7 0 4, three bits each
+  std::vector<char> expected(21, 0);
+  expected[0] = 3;
+  expected[4] = 8;
+  expected[7] = static_cast<char>(0xA0);  // 5 as a float: 40 A0 00 00
+  expected[8] = 0x40;
+  expected.push_back(static_cast<char>(0b01011100));
+  expected.push_back(static_cast<char>(0b01000000));
+  CHECK(chunk == expected);
+}
+
+TEST_CASE("scale-offset: whole numbers of any span come back, in as many bits as it takes") {
+  std::mt19937 random(1);
+  for (int bits = 0; bits < 23; ++bits)  // a float's digits
+    for (const std::size_t count : {1, 31, 32, 1000}) {
+      std::vector<float> numbers(count);
+      for (float& number : numbers) number = 12345 + static_cast<float>(random() % (1u << bits));
+      std::size_t bytes = 0;
+      CHECK(through(numbers, 0, &bytes) == numbers);
+      CHECK(bytes <= 21 + count * bits / 8 + 1);
+    }
+}
+
+TEST_CASE("scale-offset: floats are kept to half a unit of the last decimal") {
+  std::mt19937 random(2);
+  for (const int decimals : {0, 3, 7})
+    for (const float span : {0.0f, 1e-3f, 0.1f, 0.7f}) {
+      std::uniform_real_distribution<float> anywhere(-0.3f * span, 0.7f * span);
+      std::vector<float> numbers(777);
+      for (float& number : numbers) number = anywhere(random);
+      const std::vector<float> back = through(numbers, decimals);
+      // half a step, and the roundings of the difference, the product and the sum
+      const double kept = 0.5 * std::pow(10.0, -decimals) + 4 * std::numeric_limits<float>::epsilon() * span;
+      for (std::size_t k = 0; k < numbers.size(); ++k) REQUIRE(std::abs(back[k] - numbers[k]) <= kept);
+    }
+}
+
+TEST_CASE("scale-offset: floats too far apart for their decimals are kept as they are") {
+  const std::vector<float> numbers{-1e30f, 3.25f, 1e-12f, 2e30f, 0};
+  CHECK(through(numbers, 7) == numbers);
+}
+
+TEST_CASE("scale-offset: a chunk that is cut off or claims impossible bits is refused") {
+  std::vector<char> chunk;
+  pack_chunk(std::vector<float>(64, 5), 0, chunk);
+  std::vector<float> back(64);
+  for (const int bits : {1, 33, -1}) {
+    chunk[0] = static_cast<char>(bits);
+    CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
+  }
+  CHECK_FALSE(unpack_chunk(std::span(chunk).first(20), 0, std::span(back)));
+}
+
+}  // namespace dresslife::pipeline

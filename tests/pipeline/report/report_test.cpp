@@ -1,0 +1,303 @@
+#include "pipeline/report/report.h"
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/report/life_charts.h"
+#include "pipeline/report/plot.h"
+#include "tests/pipeline/sample_life.h"
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// A job's section without its settings: the charts of a history of any length.
+constexpr std::size_t largest_section = 150'000;
+
+JobResult job_with(const Scratch& scratch, const std::string& file, const SampleLife& life,
+                   const std::string& name = "") {
+  write_sample_life(scratch / (file + ".h5"), life);
+  return {name.empty() ? file : name, scratch / (file + ".h5"), ""};
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
+    ++count;
+  return count;
+}
+
+/// Every tag is closed in the order of opening, every attribute quoted: what a browser does not have to
+/// guess.
+std::string first_fault(const std::string& page) {
+  std::vector<std::string> open;
+  for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at + 1)) {
+    const std::size_t end = page.find('>', at);
+    if (end == std::string::npos) return "unclosed tag";
+    const std::string tag = page.substr(at + 1, end - at - 1);
+    const std::string name =
+        tag.substr(tag.starts_with('/'), tag.find_first_of(" >/", 1) - tag.starts_with('/'));
+    if (tag.starts_with('!') || tag.ends_with('/') || name == "meta" || name == "br") continue;
+    if (count_of(tag, "\"") % 2) return "odd quotes in <" + tag + ">";
+    if (!tag.starts_with('/')) {
+      open.push_back(name);
+    } else {
+      if (open.empty() || open.back() != name)
+        return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
+      open.pop_back();
+    }
+    if (name == "style" && !tag.starts_with('/')) at = page.find("</style>", at) - 1;
+  }
+  return open.empty() ? "" : open.back() + " stays open";
+}
+
+void check_page(const std::string& page) {
+  CHECK(first_fault(page) == "");
+  for (const char* word : {"http", "<script", "src=", "url(", "@import", "<link", "nan", "\"inf", "-inf"}) {
+    INFO(word);
+    CHECK(page.find(word) == std::string::npos);
+  }
+}
+
+TEST_CASE("report: which joint and which clamp cost the life, and the hose beside the wires") {
+  const Scratch scratch;
+  SampleLife life;
+  life.causes = true;
+  life.hose_hours = 3400;
+  write_sample_life(scratch / "one.h5", life);
+  const auto rows = read_ranking({{"one", scratch / "one.h5", ""}});
+  const std::string page = report_page("causes", rows);
+  CHECK(page.find("What moved when the damage was done") != std::string::npos);
+  CHECK(page.find("75.0 % of the strain's variance follows from these joints: the shares are rough") !=
+        std::string::npos);
+  CHECK(page.find("80.0 %") != std::string::npos);
+  CHECK(page.find("-10.0 %: moves against the others, relieves") != std::string::npos);
+  CHECK(page.find("<td>joint_5 80 %, carrying 30 %</td>") != std::string::npos);
+  CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") != std::string::npos);
+  CHECK(page.find("<dt>hose's wall</dt><dd>3,400 h of motion") != std::string::npos);
+  CHECK(page.find("<td>weld spot") != std::string::npos);
+  CHECK(page.find("80 % by joint_5</span>") != std::string::npos);
+  CHECK(page.find("hose 5, segment 2 from the tool (0.07 m)") != std::string::npos);
+  CHECK(ranking_table(rows).find("80 % by joint_5; hose's wall 3,400 h") != std::string::npos);
+  CHECK(ranking_csv(rows).find(",joint_5,0.8,\n") != std::string::npos);
+  life.causes = false;
+  life.hose_hours = 0;
+  write_sample_life(scratch / "old.h5", life);
+  const std::string old = report_page("old", read_ranking({{"old", scratch / "old.h5", ""}}));
+  CHECK(old.find("What moved") == std::string::npos);
+  CHECK(old.find("hose's wall") == std::string::npos);
+}
+
+TEST_CASE("report: of several dresspacks each has its shortest life and the worst one is named") {
+  const Scratch scratch;
+  SampleLife life;
+  life.causes = true;
+  life.dresspacks = {"main hose", "sensor <cable>"};
+  write_sample_life(scratch / "two.h5", life);
+  const auto rows = read_ranking({{"two", scratch / "two.h5", ""}});
+  CHECK(rows[0].worst_dresspack == "sensor <cable>");
+  const std::string csv = ranking_csv(rows);
+  CHECK(csv.substr(0, csv.find('\n')).ends_with(",worst_joint_share,worst_dresspack"));
+  CHECK(csv.find(",joint_5,0.8,sensor <cable>\n") != std::string::npos);
+  const std::string page = report_page("two", rows);
+  check_page(page);
+  CHECK(page.find("Life by dresspack</h3>") != std::string::npos);
+  const auto cells = [&](const std::string& name, double repeats) {
+    return "<tr><td>" + name + "</td><td class=\"number\">" + printed(rows[0].hours_of(repeats)) +
+           "</td><td class=\"number\">" + printed(repeats) + "</td>";
+  };
+  CHECK(page.find(cells("main hose", 8 * life.repeats)) != std::string::npos);
+  CHECK(page.find(cells("sensor &lt;cable&gt;", life.repeats)) != std::string::npos);
+  CHECK(page.find("segment 3 from the tool (0.12 m) of the sensor &lt;cable&gt;") != std::string::npos);
+  CHECK(page.find("Damage along the sensor &lt;cable&gt;</h3>") != std::string::npos);
+  // Along the worst one only, with its own clamps and the damage of its own worst segment over time.
+  const LifeSummary told = read_life(scratch / "two.h5");
+  CHECK(told.segment_length.size() == 25);
+  CHECK(*std::max_element(told.segment_damage.begin(), told.segment_damage.end()) == 1 / life.repeats);
+  CHECK(*std::max_element(told.damage_rate.begin(), told.damage_rate.end()) > 0);
+  CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") != std::string::npos);
+  // The only dresspack of a job needs no table.
+  life.dresspacks.clear();
+  write_sample_life(scratch / "one.h5", life);
+  const std::string one = report_page("one", read_ranking({{"one", scratch / "one.h5", ""}}));
+  CHECK(one.find("Life by dresspack") == std::string::npos);
+  CHECK(one.find("Damage along the dresspack</h3>") != std::string::npos);
+}
+
+TEST_CASE("report: a page for a study stands alone and is whole") {
+  const Scratch scratch;
+  SampleLife calm;
+  calm.repeats = 4e6;
+  SampleLife easy;
+  easy.repeats = infinity;
+  const auto rows = read_ranking({job_with(scratch, "robot_1", {}),
+                                  job_with(scratch, "robot_2", calm),
+                                  job_with(scratch, "easy", easy),
+                                  {"too_short", "", "job.yaml:12:3: error: 0.213 m too short; lengthen it"}});
+  const std::string page = report_page("two_robots", rows);
+  check_page(page);
+  CHECK(page.find("3 of 4 jobs done") != std::string::npos);
+  CHECK(page.find("job.yaml:12:3: error: 0.213 m too short; lengthen it") != std::string::npos);
+  CHECK(count_of(page, "<section") == 3);
+  CHECK(count_of(page, "Strain of the worst wire over time</h3>") == 3);
+  CHECK(count_of(page, "Damage along the dresspack</h3>") == 2);  // not where there is none
+  CHECK(count_of(page, "Program lines that cost most</h3>") == 2);
+  CHECK(page.find("prefers-color-scheme: dark") != std::string::npos);
+  CHECK(page.find("Lives compared") != std::string::npos);
+  for (std::size_t i = 1; i <= 3; ++i)
+    CHECK(count_of(page, "job-" + std::to_string(i) + "\"") == 2);  // link and target
+  CHECK(report_page("two_robots", rows) == page);
+}
+
+TEST_CASE("report: words of jobs, wires, programs and settings are harmless") {
+  const Scratch scratch;
+  SampleLife hostile;
+  hostile.worst_component = "<script>alert(1)</script>/\"wire\" 1";
+  hostile.line_name = "R&D's <b>spot</b>";
+  hostile.job = "name: </pre><script>\n";
+  const auto rows = read_ranking(
+      {job_with(scratch, "a", hostile, "<i>job</i>"), {"<u>bad</u>", "", "<script>why</script>"}});
+  const std::string page = report_page("<study> & \"more\"", rows);
+  check_page(page);
+  CHECK(page.find("<i>") == std::string::npos);
+  CHECK(page.find("<u>") == std::string::npos);
+  CHECK(page.find("&lt;study&gt; &amp; &quot;more&quot;") != std::string::npos);
+  CHECK(page.find("R&amp;D&#39;s &lt;b&gt;spot&lt;/b&gt;") != std::string::npos);
+}
+
+TEST_CASE("report: nothing to show is said, not drawn") {
+  const Scratch scratch;
+  check_page(report_page("empty", {}));
+  CHECK(report_page("empty", {}).find("0 of 0 jobs done") != std::string::npos);
+  SampleLife no_wires;
+  no_wires.wires = false;
+  const std::string page = report_page("hose", read_ranking({job_with(scratch, "hose", no_wires)}));
+  check_page(page);
+  CHECK(page.find("no wire is damaged") != std::string::npos);
+  CHECK(page.find("Cycles of the worst wire") == std::string::npos);
+}
+
+TEST_CASE("report: extreme lives and tiny files keep the page whole") {
+  const Scratch scratch;
+  std::vector<JobResult> jobs;
+  for (const double repeats : {1e-6, 0.5, 1e15, 1e300}) {
+    SampleLife life;
+    life.repeats = repeats;
+    life.segments = 4;
+    life.lines = 1;
+    life.samples = 3;
+    jobs.push_back(job_with(scratch, fmt::format("job {}", jobs.size()), life));
+  }
+  check_page(report_page("extremes", read_ranking(jobs)));
+}
+
+TEST_CASE("report: a life file that went away since the ranking says so in its place") {
+  const Scratch scratch;
+  const auto rows = read_ranking({job_with(scratch, "gone", {}), job_with(scratch, "here", {})});
+  std::filesystem::remove(scratch / "gone.h5");
+  const std::string page = report_page("study", rows);
+  check_page(page);
+  CHECK(page.find((scratch / "gone.h5").string() + ": error: is not there") != std::string::npos);
+  CHECK(count_of(page, "Cycles of the worst wire</h3>") == 1);
+}
+
+TEST_CASE("report: the page stays small for long motions and large studies") {
+  const Scratch scratch;
+  SampleLife lengthy;
+  lengthy.samples = 400'000;
+  lengthy.lines = 3000;
+  lengthy.segments = 10;
+  const std::string page = report_page("long", read_ranking({job_with(scratch, "long", lengthy)}));
+  check_page(page);
+  CHECK(page.size() < largest_section);
+
+  const JobResult one = job_with(scratch, "one", {});
+  std::vector<JobResult> jobs;
+  for (int k = 0; k < 200; ++k) jobs.push_back({fmt::format("job {:03}", k), one.life_file, ""});
+  const std::string large = report_page("large", read_ranking(jobs));
+  check_page(large);
+  CHECK(count_of(large, "<section") == 40);
+  CHECK(large.find("charts for the 20 best and the 20 worst of them") != std::string::npos);
+  CHECK(large.find("job 100") != std::string::npos);  // still ranked
+}
+
+TEST_CASE("report: the file is left untouched when nothing changed") {
+  const Scratch scratch;
+  const auto rows = read_ranking({job_with(scratch, "one", {})});
+  write_report(scratch / "report.html", "study", rows);
+  CHECK(bytes_of(scratch / "report.html") == report_page("study", rows));
+  const auto long_ago = std::filesystem::last_write_time(scratch / "report.html") - std::chrono::hours(1);
+  std::filesystem::last_write_time(scratch / "report.html", long_ago);
+  write_report(scratch / "report.html", "study", rows);
+  CHECK(std::filesystem::last_write_time(scratch / "report.html") == long_ago);
+}
+
+TEST_CASE("report: the summary of a life file holds the worst wire's cycles and its segment's damage") {
+  const Scratch scratch;
+  const SampleLife sample;
+  write_sample_life(scratch / "a.h5", sample);
+  const LifeSummary life = read_life(scratch / "a.h5");
+  CHECK(life.cycles.size() == 240);
+  double cycles = 0, rate = 0, runs = 0;
+  for (const WorstCycle& cycle : life.cycles) cycles += cycle.damage;
+  for (const double damage : life.damage_rate) rate += damage;
+  for (const ProgramRun& run : program_runs(life)) runs += run.damage;
+  constexpr double rounding = 1e-13;  // sums of some thousand doubles
+  CHECK(cycles == Approx(1 / sample.repeats).epsilon(rounding));
+  CHECK(rate == Approx(1 / sample.repeats).epsilon(rounding));
+  CHECK(runs == Approx(1 / sample.repeats).epsilon(rounding));
+}
+
+TEST_CASE("report: stretches of a program follow each other without a gap") {
+  LifeSummary life;
+  life.time = {0, 1, 2, 3, 4, 5};
+  life.step = {0, 0, 1, -1, -1, 0};
+  life.damage_rate = {0, 1, 2, 4, 8, 16};
+  const std::vector<ProgramRun> runs = program_runs(life);
+  REQUIRE(runs.size() == 4);
+  CHECK(runs[0].begin == 0);
+  CHECK(runs[0].end == 2);
+  CHECK(runs[0].damage == 1);
+  CHECK(runs[2].step == -1);
+  CHECK(runs[2].damage == 12);
+  CHECK(runs[3].end == 5);
+  CHECK(program_runs({}).empty());
+}
+
+TEST_CASE("report: the highest bar is the worst segment and stands where it lies") {
+  LifeSummary life;
+  life.segment_length = {0.5, 0.5, 0.5, 0.5};
+  life.segment_damage = {1e-6, 2e-6, 8e-6, 4e-6};
+  const std::string chart = segment_chart(life, 2);
+  CHECK(count_of(chart, "class=\"bar\"") == 3);
+  CHECK(count_of(chart, "class=\"bar-hot\"") == 1);
+  CHECK(chart.find("segment 2 from the tool: damage 8.00·10⁻⁶ per repeat, life 125,000 repeats") !=
+        std::string::npos);
+  CHECK(chart.find("worst: segment 2 from the tool") != std::string::npos);
+  life.segment_damage = {0, 0, 0, 0};
+  CHECK(segment_chart(life, 0).empty());
+}
+
+TEST_CASE("report: damage that is much the same all along is said to be") {
+  LifeSummary life;
+  life.segment_length = {0.5, 0.5, 0.5, 0.5};
+  life.segment_damage = {9e-6, 1e-5, 1e-6, 8.5e-6};
+  CHECK(nearly_worst_share(life) == 0.75);
+  life.segment_damage = {0, 0, 0, 0};
+  CHECK(nearly_worst_share(life) == 0);
+}
+
+TEST_CASE("report: cycles of one range share one bar") {
+  LifeSummary life;
+  life.cycles = {{0.01, 1, 1e-5}, {0.01, 0.5, 1e-5}, {0.001, 1, 0}};
+  const std::string chart = cycle_chart(life);
+  CHECK(chart.find("1.50 cycles, 100 % of the damage") != std::string::npos);
+  CHECK(chart.find("1.00 cycles, 0 % of the damage") != std::string::npos);
+  CHECK(cycle_chart({}).empty());
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline

@@ -1,0 +1,200 @@
+#include "pipeline/study/ranking.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "pipeline/readable.h"
+#include "tests/pipeline/sample_life.h"
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+JobResult job_with(const Scratch& scratch, const std::string& name, const SampleLife& life) {
+  write_sample_life(scratch / (name + ".h5"), life);
+  return {name, scratch / (name + ".h5"), ""};
+}
+
+SampleLife living(double repeats) {
+  SampleLife life;
+  life.repeats = repeats;
+  life.samples = 200;
+  return life;
+}
+
+std::vector<std::string> names(const std::vector<RankingRow>& rows) {
+  std::vector<std::string> list;
+  for (const RankingRow& row : rows) list.push_back(row.job);
+  return list;
+}
+
+TEST_CASE("ranking: best life first, equal lives by name, failed jobs last") {
+  const Scratch scratch;
+  const auto rows = read_ranking({job_with(scratch, "short", living(10)),
+                                  {"broken", "", "why"},
+                                  job_with(scratch, "endless", living(infinity)),
+                                  job_with(scratch, "twin b", living(500)),
+                                  {"aborted", "", "why"},
+                                  job_with(scratch, "twin a", living(500))});
+  CHECK(names(rows) == std::vector<std::string>{"endless", "twin a", "twin b", "short", "aborted", "broken"});
+}
+
+TEST_CASE("ranking: a row holds what the life file says") {
+  const Scratch scratch;
+  const RankingRow row = read_ranking({job_with(scratch, "one", living(12000))})[0];
+  CHECK(row.done());
+  CHECK(row.life_repeats == 12000);
+  CHECK(row.repeat_seconds == 199 / 25.0);
+  CHECK(row.life_hours == Approx(12000 * row.repeat_seconds / 3600).epsilon(1e-15));
+  CHECK(row.life_repeats_all_stick == 30);
+  CHECK(row.life_repeats_all_free == 18000);
+  CHECK(row.damage_per_repeat == 1.0 / 12000);
+  CHECK(row.worst_segment_from_tool == 3);
+  CHECK(row.worst_position_from_tool == Approx(2.5 * 2.4 / 50));
+  CHECK(row.worst_component == "signal cable 3/conductor 2/layer 1/wire 17");
+  CHECK_FALSE(row.worst_step.empty());
+}
+
+TEST_CASE("ranking: a missing or damaged life file is a failed job with its reason") {
+  const Scratch scratch;
+  const auto rows =
+      read_ranking({{"lost", scratch / "lost.h5", ""}, {"cut", scratch.write("cut.h5", "no file"), ""}});
+  CHECK(rows[0].failure ==
+        (scratch / "cut.h5").string() +
+            ": error: is not an HDF5 file, or is cut off; make the file anew with dresslife-fatigue");
+  CHECK(rows[1].failure == (scratch / "lost.h5").string() +
+                               ": error: is not there; check the path, or make it with dresslife-fatigue");
+  CHECK(read_ranking({}).empty());
+}
+
+TEST_CASE("ranking: a dresspack without wires has no worst place") {
+  const Scratch scratch;
+  SampleLife life = living(10);
+  life.wires = false;
+  const auto rows = read_ranking({job_with(scratch, "empty hose", life)});
+  CHECK(rows[0].done());
+  CHECK(std::isinf(rows[0].life_hours));
+  CHECK(rows[0].worst_segment_from_tool == 0);
+  CHECK(ranking_csv(rows).find("\nempty hose,inf,inf,,,0,inf,inf,inf,,,,done,,,,,,,,,,,,,\n") !=
+        std::string::npos);
+  CHECK(ranking_table(rows).find("no wire was evaluated") != std::string::npos);
+}
+
+/// RFC 4180 read back: the independent half of the round trip.
+std::vector<std::vector<std::string>> read_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> table{{""}};
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::string& cell = table.back().back();
+    if (quoted && text[i] == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+      cell += '"';
+      ++i;
+    } else if (text[i] == '"') {
+      quoted = !quoted;
+    } else if (!quoted && text[i] == ',') {
+      table.back().emplace_back();
+    } else if (!quoted && text[i] == '\n') {
+      table.push_back({""});
+    } else {
+      cell += text[i];
+    }
+  }
+  table.pop_back();
+  return table;
+}
+
+TEST_CASE("ranking: the CSV has the contract's columns first and reads back exactly") {
+  const Scratch scratch;
+  SampleLife awkward = living(1.0 / 3);
+  awkward.worst_component = "cable \"A\", red 1/wire 2";
+  awkward.line_name = "weld, \"spot\"";
+  const auto rows = read_ranking({job_with(scratch, "a,b", awkward), {"bad\njob", "", "line 1\nline \"2\""}});
+  const auto table = read_csv(ranking_csv(rows));
+  REQUIRE(table.size() == 3);
+  CHECK(ranking_csv(rows).starts_with(
+      "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,"));
+  for (const auto& line : table) CHECK(line.size() == table[0].size());
+  CHECK(table[1][0] == "a,b");
+  CHECK(std::stod(table[1][1]) == rows[0].life_repeats);
+  CHECK(std::stod(table[1][2]) == rows[0].life_hours);
+  CHECK(table[1][3] == "3");
+  CHECK(table[1][4] == "cable \"A\", red 1/wire 2");
+  CHECK(std::stod(table[1][5]) == rows[0].damage_per_repeat);
+  CHECK(table[1][11] == rows[0].worst_step);
+  CHECK(table[1][12] == "done");
+  CHECK(table[2][0] == "bad\njob");
+  CHECK(table[2][1].empty());
+  CHECK(table[2][12] == "failed");
+  CHECK(table[2][13] == "line 1\nline \"2\"");
+  CHECK(table[0][20] == "hose_life_hours");
+  CHECK(table[1][20].empty());
+  CHECK(ranking_csv({}) == ranking_csv(rows).substr(0, ranking_csv(rows).find('\n') + 1));
+}
+
+TEST_CASE("ranking: the hose's wall has columns and a line of its own and does not rank its job") {
+  const Scratch scratch;
+  SampleLife with_hose = living(12000);
+  with_hose.hose_hours = 2.5;
+  SampleLife sound = living(11000);
+  sound.hose_hours = infinity;
+  const auto rows =
+      read_ranking({job_with(scratch, "short hose", with_hose), job_with(scratch, "sound", sound),
+                    job_with(scratch, "unknown", living(10000))});
+  CHECK(names(rows) == std::vector<std::string>{"short hose", "sound", "unknown"});
+  REQUIRE(rows[0].hose);
+  CHECK_FALSE(rows[2].hose);
+  const auto table = read_csv(ranking_csv(rows));
+  CHECK(table[1][20] == "2.5");
+  CHECK(table[1][21] == "2");
+  CHECK(std::stod(table[1][22]) == rows[0].hose->position_from_tool);
+  CHECK(table[2][20] == "inf");
+  const std::string text = ranking_table(rows);
+  CHECK(text.find("\n   hose's wall 2.50 h\n") != std::string::npos);
+  CHECK(text.find("\n   hose's wall not damaged\n") != std::string::npos);
+  CHECK(hose_life_words(5.7e10) == "more than 1,000,000 h");
+}
+
+TEST_CASE("ranking: the terminal's table is aligned, within its width, and says what breaks") {
+  const Scratch scratch;
+  SampleLife wordy = living(4.2e9);
+  wordy.worst_component =
+      "a cable with a very long name indeed 3/a conductor with a long name 2/the outermost layer 1/wire 17";
+  const auto rows = read_ranking({job_with(scratch, "robot 1", living(12000)),
+                                  job_with(scratch, "Käfig mit sehr langem Namen und noch mehr", wordy),
+                                  job_with(scratch, "easy", living(infinity)),
+                                  {"short", "", "job.yaml:3:1: error: too short; make it longer"}});
+  const std::string table = ranking_table(rows);
+  std::istringstream lines(table);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(lines, line);) all.push_back(line);
+  REQUIRE(all.size() == 9);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    INFO(all[i]);
+    CHECK(columns_of(all[i]) <= 120);
+    CHECK(!all[i].ends_with(' '));
+  }
+  // The numbers of a column end below its title.
+  const std::size_t life_end = all[0].find("life [h]") + 8;
+  CHECK(all[1].substr(0, life_end).ends_with("no damage"));
+  CHECK(all[5].substr(0, life_end).ends_with(" " + readable(rows[2].life_hours)));
+  CHECK(all[2] == "   no damage");
+  CHECK(all[3].find("Käfig mit sehr langem Namen u...") != std::string::npos);
+  CHECK(all[6].find("signal cable 3/conductor 2/layer 1/wire 17 breaks first, worst at ") == 3);
+  CHECK(all[7].find("failed") != std::string::npos);
+  CHECK(all[8] == "   job.yaml:3:1: error: too short; make it longer");
+}
+
+TEST_CASE("ranking: a joint that costs more than the whole is told in words") {
+  RankingRow row;
+  row.worst_joint = "joint_4";
+  row.worst_joint_share = 0.413;
+  CHECK(joint_words(row) == "41 % by joint_4");
+  row.worst_joint_share = 1.29;
+  CHECK(joint_words(row) == "all by joint_4, which others relieve");
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline

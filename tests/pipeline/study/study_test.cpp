@@ -1,0 +1,123 @@
+#include "pipeline/study/study.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+Study study_of(const Scratch& scratch, const std::string& text, const std::vector<std::string>& sets = {}) {
+  scratch.write("job.yaml", sample_job);
+  return read_study(scratch.write("my study.yaml", text), sets);
+}
+
+std::vector<std::string> names(const Study& study) {
+  std::vector<std::string> list;
+  for (const StudyJob& job : study.jobs) list.push_back(job.name);
+  return list;
+}
+using Names = std::vector<std::string>;
+
+std::string refusal(const std::string& text) {
+  const Scratch scratch;
+  const std::string message = message_of([&] { study_of(scratch, text); });
+  const std::string file = (scratch / "my study.yaml").string();
+  return message.starts_with(file) ? "study" + message.substr(file.size()) : message;
+}
+
+TEST_CASE("study: every combination of the varied values becomes a job, the last key fastest") {
+  const Scratch scratch;
+  const Study study = study_of(
+      scratch,
+      "base: job.yaml\nvary:\n  fatigue.stress: [cyclic, elastic]\n  simulation.segments: [20, 40]\n");
+  CHECK(study.name == "my_study");
+  CHECK(names(study) ==
+        Names{"cyclic-segments=20", "cyclic-segments=40", "elastic-segments=20", "elastic-segments=40"});
+  CHECK(study.jobs[2].job.fatigue.stress == Stress::elastic);
+  CHECK(study.jobs[2].job.simulation.segments == 20);
+  for (const StudyJob& job : study.jobs) CHECK(job.failure.empty());
+}
+
+TEST_CASE("study: named changes are varied, too") {
+  const Scratch scratch;
+  const Study study =
+      study_of(scratch,
+               "name: other\nbase: job.yaml\njobs:\n  stiff: {dresspack.bending_stiffness_Nm2: 8}\n  plain:\n"
+               "vary: {strain.slip: [free, stick]}\n");
+  CHECK(study.name == "other");
+  CHECK(names(study) == Names{"stiff-free", "stiff-stick", "plain-free", "plain-stick"});
+  CHECK(study.jobs[1].job.dresspacks[0].dresspack.bending_stiffness == 8);
+  CHECK(study.jobs[2].job.dresspacks[0].dresspack.bending_stiffness == 5);
+}
+
+TEST_CASE("study: a base alone is one job with the study's name") {
+  const Scratch scratch;
+  const Study study = study_of(scratch, "base: job.yaml\n");
+  CHECK(names(study) == Names{"my_study"});
+  CHECK(job_text(study.jobs[0].job) == job_text(read_job(scratch / "job.yaml")));
+}
+
+TEST_CASE("study: jobs are named by their values, fit for a folder") {
+  const Scratch scratch;
+  CHECK(names(study_of(scratch, "base: job.yaml\nvary: {simulation.contact: [true, false]}\n")) ==
+        Names{"contact=true", "contact=false"});
+  CHECK(names(study_of(scratch,
+                       "base: job.yaml\nvary: {routing.tool_clamp.direction: [[1, 0, 0], [0, 0, 1]]}\n")) ==
+        Names{"direction=1", "direction=2"});
+  CHECK(names(study_of(scratch, "base: job.yaml\nvary: {routing.free_length_m: [1.2, 1.5e0]}\n")) ==
+        Names{"free_length_m=1.2", "free_length_m=1.5e0"});
+  CHECK(names(study_of(scratch, "base: job.yaml\njobs: {'a b/c': {}, ..: {}, .hidden: {}}\n")) ==
+        Names{"a_b_c", "_.", "_hidden"});
+  CHECK(names(study_of(scratch, "base: job.yaml\nname: ..\n")) == Names{"_."});
+  CHECK(study_of(scratch, "base: job.yaml\nname: ''\n").name == "my_study");
+}
+
+TEST_CASE("study: a job that cannot be run is told with its place, the others stand") {
+  const Scratch scratch;
+  const std::string text = "base: job.yaml\nvary:\n  simulation.segments: [20, 3, 40]\n";
+  const Study study = study_of(scratch, text);
+  REQUIRE(study.jobs.size() == 3);
+  CHECK(study.jobs[0].failure.empty());
+  CHECK(study.jobs[2].failure.empty());
+  CHECK(study.jobs[1].failure == place_of(text, "3, 40", (scratch / "my study.yaml").string()) +
+                                     ": error: simulation.segments is 3 (must be 4 .. 2000); give rigid "
+                                     "segments of each dresspack's chain");
+}
+
+TEST_CASE("study: --set comes after the study's own changes") {
+  const Scratch scratch;
+  const Study study = study_of(scratch, "base: job.yaml\nvary: {simulation.segments: [20, 40]}\n",
+                               {"simulation.segments=60", "fatigue.stress=elastic"});
+  CHECK(study.jobs[0].job.simulation.segments == 60);
+  CHECK(study.jobs[1].job.fatigue.stress == Stress::elastic);
+}
+
+TEST_CASE("study: what is no study is refused where it stands") {
+  CHECK(refusal("") == "study:1:1: error: holds no study; write base: and vary: or jobs:");
+  CHECK(
+      refusal("vary: {a: [1]}\n") ==
+      "study:1:1: error: base is missing; add 'base: ...': a job of config/jobs, a file, or the job itself");
+  CHECK(refusal("base: job.yaml\nvery: {}\n") ==
+        "study:2:1: error: unknown key 'very' of a study; did you mean 'vary'?");
+  CHECK(refusal("base: job.yaml\nvary: [a]\n") ==
+        "study:2:7: error: vary must be a map of keys to lists of values; write 'vary: {KEY.PATH: [A, B]}'");
+  CHECK(refusal("base: job.yaml\nvary: {a.b: 3}\n") ==
+        "study:2:13: error: vary.a.b must be a list of values; write [A, B, ...]");
+  CHECK(refusal("base: job.yaml\nvary: {a.b: []}\n") ==
+        "study:2:13: error: vary.a.b must be a list of values; write [A, B, ...]");
+  CHECK(refusal("base: job.yaml\njobs: {a: 3}\n") ==
+        "study:2:11: error: job 'a' must be a map of keys to values; write {KEY.PATH: VALUE}");
+  CHECK(refusal("base: job.yaml\nvary: {fatigue.stress: [cyclic, cyclic]}\n") ==
+        "study:1:1: error: two jobs are named 'cyclic'; give each combination another name");
+  CHECK(refusal("base: nowhere\n")
+            .find("study:1:7: error: 'nowhere' is not in the catalogue (config/jobs); one of: ") == 0);
+  std::string many = "base: job.yaml\nvary:\n";
+  for (const char* key : {"a", "b", "c", "d", "e", "f"})
+    many += std::string("  ") + key + ": [0,1,2,3,4,5,6,7,8,9]\n";
+  CHECK(refusal(many) == "study:8:3: error: the study has more than 100000 jobs; split it");
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline

@@ -1,0 +1,221 @@
+// Meshes: nearest points against brute force, files, and hoses that lie on them as on the shapes they stand
+// for.
+#include "sim/contact/mesh.h"
+
+#include <cstring>
+#include <fstream>
+#include <random>
+
+#include "pipeline/errors.h"
+#include "sim/contact/world.h"
+#include "tests/pipeline/scratch.h"
+#include "tests/sim/rod/rod_problems.h"
+
+using namespace dresslife;
+using namespace dresslife::sim;
+using namespace dresslife::sim::test;
+
+namespace {
+
+constexpr double deepest = 1e-3;  // [m] chain.md's figure at 5 ms
+
+// A cylinder along y, of n faces whose planes are at `radius` in the mean.
+std::vector<Triangle> cylinder(double radius, double half, int n) {
+  std::vector<Triangle> triangles;
+  const double corner = radius / std::sqrt(std::cos(pi / n));
+  const auto at = [&](int k, double y) {
+    const double angle = 2 * pi * k / n;
+    return Vector3(corner * std::cos(angle), y, corner * std::sin(angle));
+  };
+  for (int k = 0; k < n; ++k) {
+    triangles.push_back({at(k, -half), at(k, half), at(k + 1, half)});
+    triangles.push_back({at(k, -half), at(k + 1, half), at(k + 1, -half)});
+  }
+  return triangles;
+}
+
+// A hose held straight out falls onto the shape that `add` gives, whose top it all but touches, and comes to
+// rest.
+struct Rest {
+  RodState state;
+  double depth = 0, sliding = 0, carried = 0;
+};
+
+template <class Add>
+Rest draped(const Add& add) {
+  RodProperties p = hose(40);
+  p.tool_end = End::free;
+  const Rod rod(p);
+  const Frame place{{0.6, 0, 0.96}, Quaternion::Identity()};
+  World world(rod, {}, rod.straight(planar_frame(0, 1, 0)), std::span(&place, 1));
+  add(world);
+  REQUIRE(settle(world, std::span(&place, 1), 20000, 1e-6).status == EquilibriumStatus::converged);
+  Rest rest;
+  for (int k = 0; k < 100; ++k)
+    rest.depth = std::max(rest.depth, world.advance(world.state().clamps, std::span(&place, 1)).max_depth);
+  for (const Contact& c : world.contacts()) {
+    rest.carried += c.normal_force * c.normal.z() + c.friction_force.z();
+    if (c.normal_force > 1e-6) rest.sliding = std::max(rest.sliding, c.sliding_speed);
+  }
+  rest.state = world.state();
+  return rest;
+}
+
+double furthest(const RodState& a, const RodState& b) {
+  double distance = 0;
+  for (size_t i = 0; i < a.position.size(); ++i)
+    distance = std::max(distance, (a.position[i] - b.position[i]).norm());
+  return distance;
+}
+
+}  // namespace
+
+TEST_CASE("nearest points of an axis and a triangle are those of a search over both") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto point = [&] { return Vector3(number(random), number(random), number(random)); };
+  constexpr int grid = 40;
+  int crossing = 0;
+  for (int k = 0; k < 150; ++k) {
+    const Triangle t{point(), point(), point()};
+    const Vector3 from = point(), to = point();
+    const NearestToTriangle found = nearest_points(t, from, to);
+    double best = 1e9;
+    for (int i = 0; i <= grid; ++i)
+      for (int j = 0; i + j <= grid; ++j)
+        for (int m = 0; m <= grid; ++m) {
+          const double u = double(i) / grid, v = double(j) / grid, w = double(m) / grid;
+          best =
+              std::min(best, (t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) - from - w * (to - from)).norm());
+        }
+    crossing += found.distance == 0;
+    CHECK(found.distance <= best + 1e-12);
+    // A grid point lies within a mesh of the best on the triangle, within half a mesh on the axis.
+    CHECK(found.distance >=
+          best - ((t[1] - t[0]).norm() + (t[2] - t[0]).norm() + (to - from).norm() / 2) / grid);
+    CHECK((found.on_axis - found.on_triangle).norm() == Approx(found.distance).margin(1e-12));
+  }
+  CHECK(crossing > 5);
+}
+
+TEST_CASE("an axis above a plate of many triangles meets it straight below and nowhere else") {
+  std::vector<Triangle> plate;
+  for (int i = -10; i < 10; ++i)
+    for (int j = -10; j < 10; ++j) {
+      const Vector3 a(0.01 * i, 0.01 * j, 0), b = a + Vector3(0.01, 0, 0), c = a + Vector3(0.01, 0.01, 0),
+                                              d = a + Vector3(0, 0.01, 0);
+      plate.push_back({a, b, c});
+      plate.push_back({a, c, d});
+    }
+  const Mesh mesh(plate);
+  const auto touching = mesh.near({-0.0213, 0.003, 0.03}, {0.0277, 0.011, 0.03}, 0.06);
+  CHECK(touching.size() >= 2);  // both ends, at least
+  for (const Mesh::Touching& at : touching) {
+    CHECK((at.normal - Vector3::UnitZ()).norm() < 1e-9);
+    CHECK(at.distance == Approx(0.03));
+  }
+  // In a groove of two plates both sides hold it.
+  std::vector<Triangle> groove = box_triangles({{0.2, 0, 0}, Quaternion::Identity()}, {0.2, 1, 1});
+  for (const Triangle& t : box_triangles({{0, 0, -0.2}, Quaternion::Identity()}, {1, 1, 0.2}))
+    groove.push_back(t);
+  int down = 0, side = 0;
+  for (const Mesh::Touching& at : Mesh(groove).near({0.07, -0.02, -0.071}, {0.07, 0.02, -0.071}, 0.04)) {
+    down += at.normal.z() > 0.999;
+    side += at.normal.x() < -0.999;
+  }
+  CHECK(down == 2);
+  CHECK(side == 2);
+}
+
+TEST_CASE("the tree of boxes finds what all triangles together give") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<Triangle> triangles;
+  for (int k = 0; k < 300; ++k) {
+    const Vector3 at(number(random), number(random), number(random));
+    Triangle t;
+    for (Vector3& corner : t) corner = at + 0.1 * Vector3(number(random), number(random), number(random));
+    triangles.push_back(t);
+  }
+  const Mesh mesh(triangles);
+  for (int k = 0; k < 100; ++k) {
+    const Vector3 from(number(random), number(random), number(random)), to = from + Vector3(0.05, 0.02, 0.01);
+    double least = 1e9;
+    for (const Triangle& t : triangles) least = std::min(least, nearest_points(t, from, to).distance);
+    const auto touching = mesh.near(from, to, 0.2);
+    REQUIRE(touching.empty() == (least > 0.2));
+    if (!touching.empty()) CHECK(touching.front().distance == Approx(least).margin(1e-12));
+  }
+}
+
+TEST_CASE("STL of both kinds and OBJ give the same triangles") {
+  const pipeline::Scratch scratch;
+  const std::vector<Triangle> box = box_triangles({}, {0.5, 0.25, 1});
+  std::ofstream ascii(scratch / "box.stl"), obj(scratch / "box.OBJ"),
+      binary(scratch / "binary.stl", std::ios::binary);
+  std::string bytes(80, ' ');
+  bytes.replace(0, 5, "solid");  // as some programs begin binary files too
+  const auto put = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  put(static_cast<std::uint32_t>(box.size()));
+  ascii << "solid box\n";
+  for (const Triangle& t : box) {
+    ascii << " facet normal 0 0 0\n  outer loop\n";
+    for (int k = 0; k < 3; ++k) put(0.0f);
+    for (const Vector3& c : t) {
+      ascii << "   vertex " << c.x() << " " << c.y() << " " << c.z() << "\n";
+      obj << "v " << c.x() << " " << c.y() << " " << c.z() << "\n";
+      for (int k = 0; k < 3; ++k) put(static_cast<float>(c[k]));
+    }
+    obj << "f -3/1 -2//2 -1/1/1\n";
+    ascii << "  endloop\n endfacet\n";
+    put(std::uint16_t{0});
+  }
+  binary << bytes;
+  for (std::ofstream* file : {&ascii, &obj, &binary}) file->close();
+  for (const char* name : {"box.stl", "box.OBJ", "binary.stl"}) {
+    const std::vector<Triangle> read = read_triangles(scratch / name);
+    REQUIRE(read.size() == box.size());
+    for (size_t k = 0; k < box.size(); ++k)
+      for (int c = 0; c < 3; ++c) CHECK(read[k][c] == box[k][c]);
+  }
+  std::ofstream(scratch / "quad.obj") << "# four corners\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  CHECK(read_triangles(scratch / "quad.obj").size() == 2);
+  std::ofstream(scratch / "wrong.obj") << "v 0 0 0\nv 1 0 0\nf 1 2 3\n";
+  CHECK_THROWS_WITH(read_triangles(scratch / "wrong.obj"),
+                    Catch::Contains("wrong.obj:3") && Catch::Contains("vertex 3 of 2"));
+  CHECK_THROWS_WITH(read_triangles(scratch / "none.stl"), Catch::Contains("cannot be read"));
+  CHECK_THROWS_WITH(read_triangles(scratch / "box.step"), Catch::Contains("must be .stl or .obj"));
+  std::ofstream(scratch / "empty.obj") << "v 0 0 0\n";
+  CHECK_THROWS_WITH(read_triangles(scratch / "empty.obj"), Catch::Contains("no triangles"));
+}
+
+TEST_CASE("a hose lies on a meshed cylinder as on the capsule") {
+  const Rest round = draped([](World& world) {
+    world.add(0, CapsuleShape{{0, -0.5, -0.05}, {0, 0.5, -0.05}, 0.05});
+  });
+  const Rest meshed = draped([](World& world) {
+    world.add(0, std::make_shared<const Mesh>(cylinder(0.05, 0.5, 64)),
+              {{0, 0, -0.05}, Quaternion::Identity()});
+  });
+  CHECK(meshed.depth < deepest);
+  CHECK(round.carried > 10);
+  // 64 faces leave the circle by 0.05 (pi/64)^2/2 = 6e-5 m; friction holds each where it first stood still.
+  CHECK(furthest(round.state, meshed.state) < 2e-3);
+  CHECK(meshed.carried == Approx(round.carried).epsilon(5e-3));
+}
+
+TEST_CASE("a hose drapes over the edges of a box, by itself and as twelve triangles") {
+  const Vector3 sides(0.3, 0.5, 0.2);
+  const Frame top{{0, 0, -0.1}, Quaternion::Identity()};
+  const Rest box = draped([&](World& world) { world.add(0, BoxShape{top, sides}); });
+  const Rest meshed =
+      draped([&](World& world) { world.add(0, std::make_shared<const Mesh>(box_triangles(top, sides))); });
+  for (const Rest& rest : {box, meshed}) {
+    CHECK(rest.depth < deepest);
+    CHECK(rest.sliding < 1e-4);
+    CHECK(rest.carried > 10);
+  }
+  CHECK(furthest(box.state, meshed.state) < 5e-3);
+}

@@ -1,0 +1,123 @@
+// The hose on itself: nearest points against brute force, a hose that piles up, and Newton's third law.
+#include "sim/contact/self_contact.h"
+
+#include <random>
+
+#include "sim/contact/world.h"
+#include "tests/sim/rod/rod_problems.h"
+
+using namespace dresslife::sim;
+using namespace dresslife::sim::test;
+
+namespace {
+
+constexpr double deepest = 1e-3;  // [m] chain.md's figure at 5 ms
+
+RodProperties soft_hose(int segments) {
+  RodProperties p;
+  p.segments = segments;
+  p.length = 1.6;
+  p.mass_per_length = 1;
+  p.diameter = 0.03;
+  p.bending_stiffness = 0.05;
+  p.torsional_stiffness = 0.04;
+  p.axial_stiffness = 1e4;
+  p.damping_time = 0.02;
+  p.tool_end = End::free;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("nearest points of two segments are those of a search over both") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto point = [&] { return Vector3(number(random), number(random), number(random)); };
+  constexpr int grid = 60;
+  for (int k = 0; k < 200; ++k) {
+    const Vector3 a0 = point(), a1 = point(), b0 = point();
+    // Every fourth pair is parallel.
+    const Vector3 b1 = k % 4 == 0 ? Vector3(b0 + 0.7 * (a1 - a0)) : point();
+    const NearestPoints found = nearest_points(a0, a1, b0, b1);
+    const auto distance = [&](double a, double b) {
+      return (a0 + a * (a1 - a0) - b0 - b * (b1 - b0)).norm();
+    };
+    double best = 1e9;
+    for (int i = 0; i <= grid; ++i)
+      for (int j = 0; j <= grid; ++j) best = std::min(best, distance(double(i) / grid, double(j) / grid));
+    CHECK(distance(found.a, found.b) <= best + 1e-12);
+    // A grid point lies within half a mesh of the best on each segment.
+    CHECK(distance(found.a, found.b) >= best - ((a1 - a0).norm() + (b1 - b0).norm()) / (2 * grid));
+  }
+}
+
+TEST_CASE("a slack hose that is wound up coils onto itself and stays outside itself") {
+  RodProperties p = soft_hose(64);
+  p.gravity.setZero();
+  p.tool_end = End::clamped;
+  const Rod rod(p);
+  const Frame base = planar_frame(0, 0, 0);
+  WorldSettings settings;
+  settings.self_contact = true;
+  World world(rod, settings, rod.straight(base));
+  const Frame tool = world.state().clamps.tool;
+  double depth = 0, hardest = 0;
+  int most = 0;
+  // Six turns, then, with the twist in it, the clamps approach by 0.6 m: the hose throws a loop that winds
+  // up.
+  for (int k = 1; k <= 1600; ++k) {
+    const double t = k * settings.time_step;
+    ClampFrames clamps{base, rolled(tool, 12 * pi * smooth(t / 6))};
+    clamps.tool.position.x() -= 0.6 * smooth((t - 1) / 6);
+    const StepReport report = world.advance(clamps);
+    REQUIRE(report.finite);
+    depth = std::max(depth, report.max_depth);
+    int touching = 0;
+    for (const Contact& contact : world.contacts()) {
+      touching += contact.normal_force > 0;
+      hardest = std::max(hardest, contact.normal_force);
+    }
+    most = std::max(most, touching);
+  }
+  INFO("deepest " << depth << " m, most contacts " << most << ", hardest " << hardest << " N");
+  CHECK(depth < deepest);
+  CHECK(most >= 5);
+  CHECK(hardest > 1);
+}
+
+TEST_CASE("what one piece of the hose gains by touching another the other loses") {
+  // A loop drawn together in weightlessness: all momentum comes through the clamps.
+  RodProperties p = soft_hose(40);
+  p.gravity.setZero();
+  p.tool_end = End::clamped;
+  const Rod rod(p);
+  const ClampFrames clamps{planar_frame(0, 0, 0), planar_frame(1.2, 0.0, 0)};
+  const Equilibrium start = find_equilibrium(rod, clamps);
+  REQUIRE(start.status == EquilibriumStatus::converged);
+  WorldSettings settings;
+  settings.self_contact = true;
+  World world(rod, settings, start.state);
+  double worst = 0, hardest = 0, depth = 0;
+  for (int k = 1; k <= 500; ++k) {
+    // The tool clamp passes the base clamp and pulls the loop tight round itself; three diameters away, or
+    // the clamps would crush the hose between them.
+    const double u = smooth(k * settings.time_step / 2.5);
+    ClampFrames now = clamps;
+    now.tool.position = {1.2 - 2.4 * u, 3 * p.diameter * smooth(4 * u), 0};
+    Vector3 before = Vector3::Zero(), after = Vector3::Zero();
+    for (const Vector3& v : world.state().velocity) before += rod.segment_mass() * v;
+    const StepReport report = world.advance(now);
+    REQUIRE(report.finite);
+    depth = std::max(depth, report.max_depth);
+    for (const Vector3& v : world.state().velocity) after += rod.segment_mass() * v;
+    const Vector3 pull = world.state().link_force.back() - world.state().link_force.front();
+    worst = std::max(worst, (after - before - settings.time_step * pull).norm());
+    for (const Contact& contact : world.contacts()) hardest = std::max(hardest, contact.normal_force);
+  }
+  INFO("unexplained momentum " << worst << " N s, hardest contact " << hardest << " N, deepest " << depth);
+  CHECK(hardest > 0.1);
+  const double rounding =
+      1e-11;  // [N s] of a step's momentum, 1e-16 of hardest contacts of kN over many links
+  CHECK(worst < rounding);
+  CHECK(depth < deepest);
+}

@@ -1,0 +1,90 @@
+// The world: ODE moves the bodies as our own step would, and nothing but its input decides what happens in
+// it.
+#include "sim/contact/world.h"
+
+#include <cstring>
+#include <thread>
+
+#include "tests/sim/rod/rod_driven_cable.h"
+#include "tests/sim/rod/rod_problems.h"
+
+using namespace dresslife::sim;
+using namespace dresslife::sim::test;
+
+namespace {
+
+// The driven cable for one second of motion with a capsule in its way.
+RodState run_with_obstacle(double until) {
+  const Rod rod(DrivenCable::properties(30));
+  const Frame still{{1, 0, -0.3}, Quaternion::Identity()};
+  World world(rod, {}, rod.straight(DrivenCable::base()), std::span(&still, 1));
+  world.add(0, CapsuleShape{{0, -0.5, 0}, {0, 0.5, 0}, 0.05});
+  std::vector<Load> loads;
+  for (int k = 0; k * 0.005 < until; ++k) {
+    DrivenCable::weigh(rod, k * 0.005, loads);
+    world.advance(DrivenCable::clamps((k + 1) * 0.005), std::span(&still, 1), loads);
+  }
+  return world.state();
+}
+
+bool same_bytes(const RodState& a, const RodState& b) {
+  const auto same = [](const auto& x, const auto& y) {
+    return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
+  };
+  return same(a.position, b.position) && same(a.orientation, b.orientation) && same(a.velocity, b.velocity) &&
+         same(a.angular_velocity, b.angular_velocity) && same(a.link_force, b.link_force);
+}
+
+}  // namespace
+
+TEST_CASE("ODE advances the bodies as the chain's own integrator") {
+  const Rod rod(DrivenCable::properties(30));
+  RodState own = rod.straight(DrivenCable::base());
+  World world(rod, {}, own);
+  RodSolver solver(rod);
+  std::vector<Load> loads;
+  double difference = 0;
+  for (int k = 0; k < 1000; ++k) {
+    DrivenCable::weigh(rod, k * 0.005, loads);
+    const ClampFrames clamps = DrivenCable::clamps((k + 1) * 0.005);
+    REQUIRE(advance_rod(rod, solver, own, clamps, 0.005, loads));
+    REQUIRE(world.advance(clamps, {}, loads).finite);
+    for (int i = 0; i < 30; ++i)
+      difference = std::max(difference, (own.position[i] - world.state().position[i]).norm());
+  }
+  const double rounding = 1e-9;  // [m] 1000 steps of 1e-16, amplified by the stiffest mode, k h^2/m = 4e3
+  CHECK(difference < rounding);
+  CHECK(difference > 0);  // they are two integrators
+}
+
+TEST_CASE("two worlds in two threads give the bytes of one alone") {
+  const RodState alone = run_with_obstacle(3);
+  RodState first, second;
+  std::thread one([&] { first = run_with_obstacle(3); });
+  std::thread two([&] { second = run_with_obstacle(3); });
+  one.join();
+  two.join();
+  CHECK(same_bytes(alone, first));
+  CHECK(same_bytes(alone, second));
+}
+
+TEST_CASE("a world restarted from its state goes on as if it had not stopped") {
+  const Rod rod(DrivenCable::properties(20));
+  World world(rod, {}, rod.straight(DrivenCable::base()));
+  for (int k = 1; k <= 400; ++k) world.advance(DrivenCable::clamps(k * 0.005));
+  World restarted(rod, {}, world.state());
+  for (int k = 401; k <= 800; ++k) {
+    world.advance(DrivenCable::clamps(k * 0.005));
+    restarted.advance(DrivenCable::clamps(k * 0.005));
+  }
+  CHECK((world.state().position[10] - restarted.state().position[10]).norm() <
+        1e-9);  // ODE normalises quaternions
+}
+
+TEST_CASE("a state that is not finite is reported") {
+  const Rod rod(DrivenCable::properties(20));
+  RodState state = rod.straight(DrivenCable::base());
+  state.velocity[7].x() = std::nan("");
+  World world(rod, {}, state);
+  CHECK_FALSE(world.advance(DrivenCable::clamps(0.005)).finite);
+}

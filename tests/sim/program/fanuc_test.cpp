@@ -1,0 +1,107 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "tests/sim/program/reading.h"
+
+using namespace dresslife;
+using namespace dresslife::sim;
+using dresslife::tests::Reader;
+using dresslife::tests::Reading;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+
+const std::string positions = R"(/POS
+P[1]{
+   GP1:
+	UF : 0, UT : 0,
+	J1=    10.000 deg,	J2=    20.000 deg,	J3=   -30.000 deg,
+	J4=     0.000 deg,	J5=    50.000 deg,	J6=     0.000 deg
+};
+P[2:"weld"]{
+   GP1:
+	UF : 0, UT : 1,		CONFIG : 'F U T, 0, -1, 1',
+	X =  1000.000  mm,	Y =   -20.500  mm,	Z =      .500  mm,
+	W =   180.000 deg,	P =     0.000 deg,	R =    90.000 deg
+   GP2:
+	UF : 1, UT : 2,
+	J1 = 45.0 deg
+};
+/END
+)";
+
+Reading run(const std::string& lines, const ImportOptions& options = {}, const std::string& more = "") {
+  const std::vector<NamedFrame> tools{{"UTOOL[1]", {Vector3(0, 0, 0.4), Quaternion::Identity()}, false}};
+  std::vector<std::pair<std::string, std::string>> files{
+      {"cell.ls", "/PROG CELL\n/ATTR\nCOMMENT = \"\";\n/MN\n" + lines + positions}};
+  if (!more.empty()) files.push_back({"more.ls", "/PROG MORE\n/MN\n" + more + positions});
+  return Reader{Language::fanuc, options, tools}(files);
+}
+
+}  // namespace
+
+TEST_CASE("fanuc: moves, speeds, terminations; the third axis is given against the horizontal") {
+  const Reading r =
+      run("   1:J P[1] 50% CNT100 ACC80   ;\n   2:  !comment; with a semicolon ;\n   3:L P[2:weld] 500mm/sec "
+          "FINE SPOT[SD=1]   ;\n"
+          "   4:L P[2] 30cm/min CNT50    ;\n   5:C P[2]    \n    :  P[2] 100mm/sec CNT0    ;\n   6:J P[1] "
+          "2.5sec FINE ;\n   7:  WAIT    .50(sec) ;\n");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 7);
+  const std::vector<double> expected{10, 20, -10, 0, 50, 0};  // q3 = J3 + J2
+  for (int i = 0; i < 6; ++i)
+    CHECK(r.move(0).target.joints[i] == Approx(expected[i] * degree).margin(rounding));
+  CHECK(r.move(0).speed.axis_percent.value() == 50);
+  CHECK(r.move(0).zone.percent == 100);
+  CHECK(r.move(0).acceleration_percent == 80);
+  CHECK((r.move(1).target.pose.position - Vector3(1, -0.0205, 0.0005)).norm() < rounding);
+  CHECK(r.move(1).target.pose.orientation.isApprox(
+      rotation({0, 0, 90 * degree}) * rotation({180 * degree, 0, 0}), rounding));
+  CHECK(r.move(1).target.configuration.text() == "fanuc FUT 0 -1 1");
+  CHECK(r.program.tools.at(r.move(1).tool).name == "UTOOL[1]");
+  CHECK(r.move(2).dwell == 1);
+  CHECK(r.move(3).speed.tool.value() == Approx(0.005).epsilon(rounding));
+  CHECK(r.move(3).zone.percent == 50);
+  CHECK(r.move(4).kind == Instruction::Kind::circular);
+  CHECK(r.move(5).speed.duration.value() == 2.5);
+  CHECK(r.move(6).dwell == 0.5);
+  CHECK(r.move(1).where.line == 7);
+}
+
+TEST_CASE("fanuc: registers, loops, labels, calls") {
+  const Reading r =
+      run(" 1: R[1]=0 ;\n 2: LBL[1] ;\n 3: R[1]=R[1]+1 ;\n 4: CALL MORE ;\n 5: IF R[1]<3,JMP LBL[1] ;\n 6: "
+          "FOR R[2]=1 TO 2 ;\n 7:J P[1] 10% FINE ;\n 8: ENDFOR ;\n"
+          " 9: SELECT R[1]=1,JMP LBL[9] ;\n10:        =3,CALL MORE ;\n11:        ELSE,JMP LBL[9] ;\n12: IF "
+          "(R[1]>1 AND R[2]>=3) THEN ;\n13:J P[1] 20% FINE ;\n14: ELSE ;\n"
+          "15:J P[1] 30% FINE ;\n16: ENDIF ;\n17: LBL[9] ;\n18: LBL[5] ;\n19:J P[1] 40% FINE ;\n20: JMP "
+          "LBL[5] ;\n",
+          {}, " 1:J P[1] R[1]% FINE ;\n");
+  REQUIRE(r.problem() == "no such problem");
+  std::vector<double> percents;
+  for (const Instruction& i : r.program.instructions) percents.push_back(i.speed.axis_percent.value());
+  CHECK(percents == std::vector<double>{1, 2, 3, 10, 10, 3, 20, 40});
+  CHECK(r.move(0).routine == "more");
+}
+
+TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
+  const Reading r =
+      run(" 1: IF DI[3]=ON,JMP LBL[1] ;\n 2:J P[1] R[9]% FINE ;\n 3: LBL[1] ;\n 4: UTOOL_NUM=2 ;\n 5: CALL "
+          "OTHER ;\n 6: DO[1]=ON ;\n 7:J P[7] 5% FINE ;\n");
+  REQUIRE(r.problems.size() == 3);
+  CHECK(r.problem(0) ==
+        "cell.ls:5:4: error: branches on what is known only while the robot runs; choose with --assume "
+        "cell.ls:5=then or "
+        "=else (motion.assume in a job)");
+  CHECK(r.problems[1].what == "has a speed that is known only while the robot runs");
+  CHECK(r.problems[2].what == "moves to a position that is not listed");
+  REQUIRE(r.program.skipped.size() == 2);
+  CHECK(r.program.skipped[0].may_move);
+  CHECK_FALSE(r.program.skipped[1].may_move);
+  ImportOptions options;
+  options.assume["5"] = Assumption::then_branch;
+  CHECK(run(" 1: IF DI[3]=ON,JMP LBL[1] ;\n 2:J P[7] 5% FINE ;\n 3: LBL[1] ;\n 4:J P[1] 5% FINE ;\n", options)
+            .program.instructions.size() == 1);
+}

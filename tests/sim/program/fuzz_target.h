@@ -1,0 +1,73 @@
+// Any bytes as a program of any language: the reader must come back, with problems that have a place.
+#pragma once
+
+#include <cstdlib>
+#include <string>
+
+#include "pipeline/job/fields.h"
+#include "pipeline/job/robot.h"
+#include "pipeline/job/urdf.h"
+#include "sim/program/import.h"
+
+namespace dresslife::pipeline {
+void describe(Fields& f, Robot& robot);
+}
+
+namespace dresslife::tests {
+
+inline const char* name_of(sim::Language language) {
+  switch (language) {
+    case sim::Language::rapid:
+      return "p.mod";
+    case sim::Language::krl:
+      return "p.src";
+    case sim::Language::fanuc:
+      return "p.ls";
+    case sim::Language::joint_columns:
+      return "p.csv";
+    case sim::Language::ros_trajectory:
+      break;
+  }
+  return "p.json";
+}
+
+/// Empty, or what the reader did wrong.
+inline std::string fault_of_reading(sim::Language language, const std::string& text) {
+  std::deque<sim::SourceFile> files;
+  files.emplace_back(name_of(language), text);
+  sim::ImportOptions options;
+  options.assume["3"] = sim::Assumption::then_branch;
+  sim::Problems problems;
+  const sim::Program program = sim::read_program(language, std::move(files), options, {}, {}, problems);
+  for (const sim::Problem& problem : problems.list())
+    if (problem.where.file.empty() || problem.what.empty()) return "a problem without a file or words";
+  for (const sim::Instruction& instruction : program.instructions) {
+    if (instruction.where.line < 1) return "a move without a line";
+    for (double angle : instruction.target.joints)
+      if (!std::isfinite(angle)) return "a target that is not finite";
+    if (!instruction.target.pose.position.allFinite()) return "a pose that is not finite";
+    if (instruction.target.configuration.kind != sim::ArmConfiguration::Kind::any &&
+        sim::arm_configuration(instruction.target.configuration.text()) != instruction.target.configuration)
+      return "a configuration that does not read back";
+  }
+  if (problems.empty()) sim::motion_of(program, {});
+  return "";
+}
+
+/// The same for a URDF: a robot, or a message with the file's name.
+inline std::string fault_of_urdf(const std::string& text) {
+  pipeline::UrdfRequest request;
+  request.urdf = "p.urdf";
+  request.accelerations.assign(7, 1);
+  try {
+    pipeline::Robot robot;
+    pipeline::read_fields(pipeline::robot_from_urdf(request, text), robot);
+    if (robot.links.size() != robot.joints.size() + 1) return "another number of links than joints and one";
+    if (robot.axes() < 4 || robot.axes() > 7) return "a number of axes that is refused";
+  } catch (const pipeline::InputError& error) {
+    if (!std::string(error.what()).starts_with("p.urdf")) return "a message without its file";
+  }
+  return "";
+}
+
+}  // namespace dresslife::tests

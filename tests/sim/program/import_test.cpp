@@ -1,0 +1,143 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <random>
+
+#include "pipeline/job/motion.h"
+#include "tests/sim/program/fuzz_target.h"
+#include "tests/sim/program/reading.h"
+#include "tests/sim/program/samples.h"
+
+using namespace dresslife;
+using namespace dresslife::sim;
+using dresslife::tests::Reader;
+using dresslife::tests::Reading;
+using dresslife::tests::samples;
+
+namespace {
+
+constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+
+std::string mutated(const std::string& seed, std::mt19937& random) {
+  std::string text = seed;
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::size_t>(random() % std::max<std::size_t>(n, 1));
+  };
+  for (int k = static_cast<int>(below(6)) + 1; k-- > 0 && !text.empty();) {
+    const std::size_t at = below(text.size()),
+                      length = below(std::min<std::size_t>(40, text.size() - at)) + 1;
+    switch (below(6)) {
+      case 0:
+        text[at] = static_cast<char>(random());
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.insert(at, text.substr(below(text.size()), length));
+        break;
+      case 3:
+        text.insert(at, std::string(below(200), "([{,-+1 \n"[below(9)]));
+        break;
+      case 4:
+        text.insert(at, "99999999999");
+        break;
+      default:
+        std::swap(text[at], text[below(text.size())]);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("import: joint columns and ROS trajectories") {
+  const Reading columns = Reader{Language::joint_columns}({{"j.csv", samples()[3].second}});
+  REQUIRE(columns.problems.empty());
+  REQUIRE(columns.program.instructions.size() == 3);
+  CHECK(columns.move(1).target.joints[0] == Approx(1.5 * std::numbers::pi / 180).epsilon(rounding));
+  CHECK(columns.move(1).speed.duration.value() == 0.5);
+  CHECK(columns.move(2).where.line == 5);
+  const Reading ros = Reader{Language::ros_trajectory}({{"j.json", samples()[4].second}});
+  REQUIRE(ros.problems.empty());
+  REQUIRE(ros.program.instructions.size() == 2);
+  CHECK(ros.move(1).target.joints[0] == 0.5);
+  CHECK(ros.move(1).speed.duration.value() == 1.5);
+  const Reading bad = Reader{Language::joint_columns}({{"j.csv", "t, a\n0, 1\n0, 2\n1, x\n1, 2, 3\n"}});
+  REQUIRE(bad.problems.size() == 3);
+  CHECK(bad.problem(0) ==
+        "j.csv:3:1: error: has the time 0 s, not after the one before; order the rows by increasing times");
+}
+
+TEST_CASE("import: a program becomes a motion that reads back as it was written") {
+  ImportOptions options;
+  options.assume["10"] = Assumption::then_branch;
+  const Reading reading = Reader{Language::rapid, options}({{"m.mod", samples()[0].second}});
+  REQUIRE(reading.problem() == "no such problem");
+  const pipeline::Motion motion = motion_of(reading.program, {});
+  REQUIRE(motion.steps.size() == reading.program.instructions.size());
+  CHECK(motion.steps[0].text == "m.mod:8 main: MoveL Offs(p,a{i},0,-i)\\T:=2,v100,z10,t\\WObj:=wobj0;");
+  CHECK(motion.steps[0].duration.value() == 2);
+  CHECK(motion.steps[0].tool == "t");
+  const std::string text = pipeline::motion_text(motion);
+  const pipeline::Motion again = pipeline::motion_from(pipeline::parse_yaml(text, "again.yaml"));
+  CHECK(pipeline::motion_text(again) == text);
+}
+
+TEST_CASE("import: all problems come in one message, in the order of the lines") {
+  Problems problems;
+  problems.add({"a.mod", 9, 1}, "second", "mend");
+  problems.add({"a.mod", 2, 1}, "first", "mend");
+  problems.add({"a.mod", 9, 1}, "second", "mend");
+  CHECK_THROWS_WITH(problems.throw_if_any(), "a.mod:2:1: error: first; mend\na.mod:9:1: error: second; mend");
+}
+
+TEST_CASE("import: configurations are written and read back") {
+  for (const char* text : {"abb 0 -1 2 1", "kuka 2 35", "fanuc NUT 0 0 0", "fanuc FDB -1 0 2"}) {
+    const auto read = arm_configuration(text);
+    REQUIRE(read.has_value());
+    CHECK(read->text() == text);
+  }
+  for (const char* text : {"abb 0 0 0", "kuka 2", "fanuc NUX 0 0 0", "staubli 1", "abb 0 0 0 x"})
+    CHECK_FALSE(arm_configuration(text).has_value());
+}
+
+TEST_CASE("import: mutated programs never break a reader") {
+  std::mt19937 random(7);  // the same programs each time
+  int refused = 0, runs = 0;
+  for (int round = 0; round < 400; ++round)
+    for (const auto& [language, seed] : samples()) {
+      const std::string text = mutated(seed, random);
+      const std::string fault = tests::fault_of_reading(language, text);
+      INFO(text);
+      REQUIRE(fault == "");
+      Reader reader{language};
+      refused += !reader({{"p", text}}).problems.empty();
+      ++runs;
+    }
+  CHECK(refused > runs / 4);  // the mutations do hurt
+  CHECK(refused < runs);
+}
+
+TEST_CASE("import: a damaged URDF becomes a robot or a message") {
+  REQUIRE(tests::fault_of_urdf(tests::palletizer) == "");
+  std::mt19937 random(13);
+  for (int k = 0; k < 300; ++k) {
+    const std::string text = mutated(tests::palletizer, random);
+    const std::string fault = tests::fault_of_urdf(text);
+    INFO(text);
+    REQUIRE(fault == "");
+  }
+}
+
+TEST_CASE("import: the example programs read without a problem") {
+  const std::string folder = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/";
+  // Home twice, two approaches, sixteen spots with their welds, two ways out; start, four times eight, end;
+  // start, twice four, a wait, end.
+  const std::pair<const char*, std::size_t> examples[] = {
+      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}};
+  for (const auto& [name, count] : examples) {
+    pipeline::Motion motion;
+    motion.program = folder + name;
+    CHECK(read_program(motion).instructions.size() == count);
+  }
+}

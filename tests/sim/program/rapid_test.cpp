@@ -1,0 +1,224 @@
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "tests/sim/program/reading.h"
+
+using namespace dresslife;
+using namespace dresslife::sim;
+using dresslife::tests::Reader;
+using dresslife::tests::Reading;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+
+const std::string data = R"(MODULE Data
+  PERS tooldata gun:=[TRUE,[[100,0,250],[1,0,0,0]],[40,[0,0,100],[1,0,0,0],0,0,0]];
+  PERS wobjdata jig:=[FALSE,TRUE,"",[[1000,0,500],[0.70710678,0,0,0.70710678]],[[10,0,0],[1,0,0,0]]];
+  CONST robtarget p1:=[[100,200,300],[0,1,0,0],[0,-1,2,1],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST jointtarget home:=[[0,-10,10,0,40,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+ENDMODULE
+)";
+
+Reading run(const std::string& body, const ImportOptions& options = {}, const std::string& more = "") {
+  return Reader{Language::rapid, options}(
+      {{"main.mod", "MODULE Main\n PROC main()\n" + body + "\n ENDPROC\n" + more + "ENDMODULE\n"},
+       {"data.mod", data}});
+}
+
+ImportOptions assuming(const std::string& line, Assumption what) {
+  ImportOptions options;
+  options.assume[line] = what;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("rapid: a linear move with everything, in SI units") {
+  const Reading r = run("MoveL p1\\V:=250, v1000, z10\\Z:=15, gun\\WObj:=jig;");
+  REQUIRE(r.problems.empty());
+  REQUIRE(r.program.instructions.size() == 1);
+  const Instruction& move = r.move(0);
+  CHECK(move.kind == Instruction::Kind::linear);
+  CHECK((move.target.pose.position - Vector3(0.1, 0.2, 0.3)).norm() < rounding);
+  CHECK(move.target.pose.orientation.isApprox(Quaternion(0, 1, 0, 0), rounding));
+  CHECK(move.target.configuration.text() == "abb 0 -1 2 1");
+  CHECK(move.target.external_axes.empty());
+  CHECK(move.speed.tool.value() == Approx(0.25).epsilon(rounding));
+  CHECK(move.speed.orientation.value() == Approx(500 * degree).epsilon(rounding));
+  CHECK(move.zone.distance == Approx(0.015).epsilon(rounding));
+  const NamedFrame& tool = r.program.tools.at(move.tool);
+  CHECK(tool.name == "gun");
+  CHECK((tool.frame.position - Vector3(0.1, 0, 0.25)).norm() < rounding);
+  // uframe turns by 90 deg about z: the object frame's 10 mm in x lie in y.
+  const Frame& jig = r.program.work_objects.at(move.work_object).frame;
+  constexpr double written = 1e-8;  // 0.70710678 has eight digits
+  CHECK((jig.position - Vector3(1, 0.01, 0.5)).norm() < written);
+  CHECK(move.where.file == "main.mod");
+  CHECK(move.where.line == 3);
+  CHECK(move.routine == "main");
+  CHECK(move.text == "MoveL p1\\V:=250, v1000, z10\\Z:=15, gun\\WObj:=jig;");
+}
+
+TEST_CASE("rapid: every kind of move") {
+  const Reading r = run(
+      "MoveAbsJ home\\NoEOffs,v500,fine,tool0;\nMoveJ p1,v100\\T:=2,z50,tool0;\nMoveC "
+      "Offs(p1,50,50,0),Offs(p1,100,0,0),v200,z1,tool0;\n"
+      "TriggL Offs(p1,1,0,0),v300,trig1,fine,gun;\nSearchL\\Stop,di1,found,Offs(p1,0,0,9),v20,gun;\nMoveL "
+      "found,v5,z0,gun;\n"
+      "SpotL Offs(p1,2,0,0),v1000,gun1,spot7,gun;\nWaitTime\\InPos,0.25;\nMoveLDO "
+      "p1,v80,z20,gun,do1,1;\nMoveL p1,vmax,z200,tool0;",
+      {}, "VAR robtarget found; VAR triggdata trig1;\n");
+  CHECK(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 11);
+  CHECK(r.move(0).target.joints.size() == 6);
+  CHECK(r.move(0).target.joints[1] == Approx(-10 * degree).epsilon(rounding));
+  CHECK(r.move(0).zone.distance == 0);
+  CHECK(r.move(1).kind == Instruction::Kind::joint);
+  CHECK(r.move(1).speed.duration.value() == 2);
+  CHECK(r.move(2).kind == Instruction::Kind::circular);
+  CHECK((r.move(2).via.position - Vector3(0.15, 0.25, 0.3)).norm() < rounding);
+  CHECK(r.move(3).zone.distance == 0);
+  CHECK(r.move(4).target.pose.position.z() == Approx(0.309).epsilon(rounding));
+  CHECK(r.move(5).target.pose.position.z() == Approx(0.309).epsilon(rounding));  // where the search ended
+  CHECK(r.move(5).zone.distance == Approx(0.0003).epsilon(rounding));
+  CHECK(r.move(7).kind == Instruction::Kind::dwell);
+  CHECK(r.move(7).dwell == 1);
+  CHECK(r.move(8).dwell == 0.25);
+  CHECK(r.move(9).speed.tool.value() == Approx(0.08).epsilon(rounding));
+  CHECK_FALSE(r.move(10).speed.tool.has_value());
+  REQUIRE(r.program.skipped.size() == 1);
+  CHECK(r.program.skipped[0].what == "SearchL: the search goes to its end point");
+}
+
+TEST_CASE("rapid: Offs shifts in the work object, RelTool in the tool") {
+  const Reading r =
+      run("MoveL RelTool(p1,0,0,10\\Rz:=90),v100,fine,tool0;\nMoveL Offs(p1,0,0,10),v100,fine,tool0;");
+  REQUIRE(r.program.instructions.size() == 2);
+  // The tool of p1 is turned half about x: its z points down, and a turn about it is one backward about the
+  // world's.
+  CHECK((r.move(0).target.pose.position - Vector3(0.1, 0.2, 0.29)).norm() < rounding);
+  CHECK(r.move(0).target.pose.orientation.isApprox(Quaternion(0, 1, 0, 0) * rotation({0, 0, 90 * degree}),
+                                                   rounding));
+  CHECK((r.move(1).target.pose.position - Vector3(0.1, 0.2, 0.31)).norm() < rounding);
+}
+
+TEST_CASE("rapid: loops, procedures with arguments, functions, arrays and records") {
+  const Reading r = run(
+      "VAR num x{2}:=[5,7];\nFOR i FROM 1 TO 3 DO\n  row i,x{2}\\deep:=2;\nENDFOR\nFOR k FROM 2 TO 1 DO "
+      "MoveL there(k),v5,fine,tool0; ENDFOR\n"
+      "row 0,s.side;",
+      {},
+      "RECORD shape num side; num top; ENDRECORD\nVAR shape s:=[40,1];\n"
+      "PROC row(num i,num y\\num deep)\n IF Present(deep) MoveL p1,v5,fine,tool0;\n MoveL "
+      "Offs(p1,10*i,y,0),v5,fine,tool0;\nENDPROC\n"
+      "FUNC robtarget there(num k)\n VAR robtarget q;\n q:=p1;\n q.trans.x:=k*100;\n RETURN q;\nENDFUNC\n");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() >= 6);
+  std::vector<double> xs;
+  for (const Instruction& i : r.program.instructions) xs.push_back(1000 * i.target.pose.position.x());
+  const std::vector<double> expected{100, 110, 100, 120, 100, 130, 200, 100, 100};
+  REQUIRE(xs.size() == expected.size());
+  for (std::size_t i = 0; i < xs.size(); ++i) CHECK(xs[i] == Approx(expected[i]).epsilon(rounding));
+  CHECK(r.move(8).target.pose.position.y() == Approx(0.24).epsilon(rounding));
+  CHECK(r.move(0).where.line == r.move(2).where.line);
+  CHECK(r.move(0).routine == "row");
+}
+
+TEST_CASE("rapid: a branch on an input is asked for, with its line, and all of them at once") {
+  const std::string body =
+      "IF di1=1 THEN\n MoveJ p1,v5,fine,tool0;\nELSE\n MoveAbsJ home,v5,fine,tool0;\nENDIF\nWHILE di2=0 DO\n "
+      "MoveJ p1,v5,fine,tool0;\nENDWHILE\n"
+      "IF di3=1 THEN\n SetDO do1,1;\nENDIF\n";
+  const Reading r = run(body);
+  REQUIRE(r.problems.size() == 2);
+  CHECK(r.problem(0) ==
+        "main.mod:3:1: error: branches on what is known only while the robot runs; choose with --assume "
+        "main.mod:3=then or =else "
+        "(motion.assume in a job)");
+  CHECK(r.problems[1].where.line == 8);
+  REQUIRE(r.program.skipped.size() == 1);  // the branch without moves needs no answer
+  CHECK(r.program.skipped[0].where.line == 11);
+
+  ImportOptions options = assuming("main.mod:3", Assumption::else_branch);
+  options.assume["8"] = Assumption::then_branch;
+  const Reading answered = run(body, options);
+  CHECK(answered.problems.empty());
+  REQUIRE(answered.program.instructions.size() == 2);
+  CHECK(answered.move(0).target.joints.size() == 6);
+  CHECK(answered.move(1).target.joints.empty());
+}
+
+TEST_CASE("rapid: an endless main loop is one pass; a known condition ends a loop") {
+  const Reading r =
+      run("VAR num n:=0;\nWHILE n<3 DO\n MoveJ p1,v5,fine,tool0;\n n:=n+1;\nENDWHILE\nWHILE TRUE DO\n "
+          "MoveAbsJ home,v5,fine,tool0;\nENDWHILE\n"
+          "MoveJ p1,v5,fine,tool0;");
+  CHECK(r.problems.empty());
+  CHECK(r.program.instructions.size() == 4);
+  REQUIRE(r.program.skipped.size() == 1);
+  CHECK(r.program.skipped[0].what == "repeats for ever: the motion is one pass");
+}
+
+TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
+  const Reading r =
+      run("MoveL p9,v100,fine,tool0;\nMoveL p1,v100,z77,tool0;\nMoveL p1,v100,fine,torch;\nMoveL "
+          "CRobT(),v1,fine,tool0;\nMoveL p1;");
+  REQUIRE(r.problems.size() == 5);
+  CHECK(r.problem(0) ==
+        "main.mod:3:7: error: names a target 'p9' that no module read declares; give the module that "
+        "declares it too "
+        "(or, for a tool or work object, motion.tools or motion.work_objects)");
+  CHECK(r.problems[1].what == "names a zone 'z77' that no module read declares");
+  CHECK(r.problems[2].what == "names a tool 'torch' that no module read declares");
+  CHECK(r.problems[3].what == "names a speed 'v1' that no module read declares");
+  CHECK(r.problems[4].what == "MoveL has 1 arguments, too few");
+  const Reading broken = run("MoveL p1,,v100 v5;\nIF TRUE THEN\n MoveL (p1,v5,fine,tool0;\n");
+  CHECK(broken.problems.size() >= 2);
+}
+
+TEST_CASE("rapid: GOTO jumps to labels of its routine") {
+  const Reading r =
+      run("VAR num i:=0;\nMoveJ p1,v100,fine,tool0;\nagain:\ni:=i+1;\nIF i>2 THEN\n GOTO done;\nENDIF\nMoveL "
+          "Offs(p1,i,0,0),v100,fine,tool0;\nGOTO again;\ndone:\nWaitTime 1;");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 4);
+  CHECK((r.move(2).target.pose.position - r.move(1).target.pose.position).x() == Approx(0.001).epsilon(1e-9));
+  CHECK(r.move(3).dwell == 1);
+  CHECK(run("GOTO far;").problems.at(0).what == "jumps to 'far', which is no label in a block around it");
+}
+
+TEST_CASE("rapid: loops and recursion without end are stopped") {
+  const Reading loop = run("VAR num n:=0;\nWHILE n<1 DO\n n:=n*1;\nENDWHILE");
+  REQUIRE(loop.problems.size() == 1);
+  CHECK(loop.problems[0].what == "has run 3000000 statements without an end (a loop that input would end?)");
+  const Reading deep = run("again;", {}, "PROC again()\n again;\nENDPROC\n");
+  REQUIRE(deep.problems.size() == 1);
+  CHECK(deep.problems[0].what == "calls again 60 routines deep (without end?)");
+  CHECK(run("x:=" + std::string(5000, '(') + "1;").problems.size() >= 1);
+  CHECK(run("x:=1" +
+            [] {
+              std::string s;
+              for (int i = 0; i < 5000; ++i) s += "+1";
+              return s;
+            }() +
+            ";")
+            .problems.size() >= 1);
+}
+
+TEST_CASE("rapid: settings, displacement, unknown instructions") {
+  const Reading r =
+      run("AccSet 40,100;\nVelSet 50,600;\nPDispSet [[0,0,100],[1,0,0,0]];\nMoveL "
+          "p1,v2000,fine,tool0;\nPDispOff;\nConfL\\Off;\nMoveL p1,v100,fine,tool0;\n"
+          "SetDO do1,1;\nGripperClose 3;");
+  REQUIRE(r.program.instructions.size() == 2);
+  CHECK(r.move(0).acceleration_percent == 40);
+  CHECK(r.move(0).speed.tool.value() == Approx(0.6).epsilon(rounding));
+  CHECK(r.move(0).target.pose.position.z() == Approx(0.4).epsilon(rounding));
+  CHECK(r.move(1).speed.tool.value() == Approx(0.05).epsilon(rounding));
+  CHECK(r.move(1).target.configuration.kind == ArmConfiguration::Kind::any);
+  REQUIRE(r.program.skipped.size() == 2);
+  CHECK_FALSE(r.program.skipped[0].may_move);
+  CHECK(r.program.skipped[1].may_move);
+}

@@ -1,0 +1,179 @@
+#include "sim/robot/inverse_kinematics.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <random>
+
+#include "pipeline/job/robot.h"
+
+namespace dresslife::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double pi = std::numbers::pi;
+constexpr double pose_rounding = 1e-11;  // metres and quaternion parts after a dozen turns of 3 m
+constexpr double joint_rounding = 1e-7;  // [rad]: acos near its ends halves the digits
+
+struct Axis {
+  Vector3 origin, axis;
+  double lower, upper;  // [deg]
+};
+
+/// Facts of the types' data sheets, as in ROS-Industrial's support packages.
+pipeline::Robot robot_of(const std::vector<Axis>& axes, const Vector3& flange_rpy) {
+  pipeline::Robot robot;
+  robot.name = "robot";
+  robot.links.resize(axes.size() + 1);
+  for (const Axis& a : axes) {
+    pipeline::Joint joint;
+    joint.name = "joint_" + std::to_string(robot.joints.size() + 1);
+    joint.origin = a.origin;
+    joint.axis = a.axis;
+    joint.lower = a.lower * pi / 180;
+    joint.upper = a.upper * pi / 180;
+    joint.speed = 2;
+    joint.acceleration = 5;
+    robot.joints.push_back(joint);
+  }
+  robot.flange_orientation = flange_rpy;
+  return robot;
+}
+
+const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
+
+pipeline::Robot irb6640() {
+  return robot_of({{{0, 0, .780}, z, -170, 170},
+                   {{.320, 0, 0}, y, -65, 85},
+                   {{0, 0, 1.075}, y, -180, 70},
+                   {{0, 0, .200}, x, -300, 300},
+                   {{1.392, 0, 0}, y, -120, 120},
+                   {{.200, 0, 0}, x, -360, 360}},
+                  {0, pi / 2, 0});
+}
+pipeline::Robot kr16() {
+  return robot_of({{{0, 0, .675}, -z, -185, 185},
+                   {{.26, 0, 0}, y, -155, 35},
+                   {{.68, 0, 0}, y, -130, 154},
+                   {{.67, 0, -.035}, -x, -350, 350},
+                   {{0, 0, 0}, y, -130, 130},
+                   {{0, 0, 0}, -x, -350, 350}},
+                  {0, pi / 2, 0});
+}
+pipeline::Robot m20ia() {
+  return robot_of({{{0, 0, .525}, z, -170, 170},
+                   {{.15, 0, 0}, y, -100, 160},
+                   {{0, 0, .79}, -y, -185, 273},
+                   {{0, 0, .25}, -x, -200, 200},
+                   {{.835, 0, 0}, -y, -140, 140},
+                   {{.1, 0, 0}, -x, -270, 270}},
+                  {pi, -pi / 2, 0});
+}
+
+VectorXd random_joints(const pipeline::Robot& robot, std::mt19937& random) {
+  VectorXd joints(6);
+  for (int i = 0; i < 6; ++i)
+    joints[i] = std::uniform_real_distribution<double>(robot.joints[i].lower, robot.joints[i].upper)(random);
+  return joints;
+}
+
+double distance(const Frame& a, const Frame& b) {
+  return (a.position - b.position).norm() + rotation_vector(a.orientation.conjugate() * b.orientation).norm();
+}
+
+}  // namespace
+
+TEST_CASE("inverse kinematics: every arm found reaches the flange, and the arm it came from is among them") {
+  std::mt19937 random(3);
+  for (const pipeline::Robot& robot : {irb6640(), kr16(), m20ia()}) {
+    const InverseKinematics arm(robot);
+    REQUIRE(arm.unsupported() == "");
+    for (int round = 0; round < 300; ++round) {
+      const VectorXd joints = random_joints(robot, random);
+      const Frame flange = arm.flange(joints);
+      const std::vector<VectorXd> arms = arm.arms(flange, joints);
+      double nearest = 10;
+      for (const VectorXd& found : arms) {
+        CHECK(distance(arm.flange(found), flange) < pose_rounding * 100);
+        double off = 0;
+        for (int i = 0; i < 6; ++i)
+          off = std::max(off, std::abs(std::remainder(found[i] - joints[i], 2 * pi)));
+        nearest = std::min(nearest, off);
+      }
+      CHECK(nearest < joint_rounding);
+      CHECK(arms.size() >= 2);
+    }
+  }
+}
+
+TEST_CASE("inverse kinematics: a configuration brings back the very angles, turns included") {
+  std::mt19937 random(5);
+  using Kind = ArmConfiguration::Kind;
+  const std::pair<pipeline::Robot, Kind> cases[] = {
+      {irb6640(), Kind::abb}, {kr16(), Kind::kuka}, {m20ia(), Kind::fanuc}};
+  for (const auto& [robot, kind] : cases) {
+    const InverseKinematics arm(robot);
+    const VectorXd elsewhere = VectorXd::Zero(6);
+    for (int round = 0; round < 300; ++round) {
+      const VectorXd joints = random_joints(robot, random);
+      // KUKA's turn bits tell signs only: an axis that may turn more than once round is told apart no
+      // further.
+      if (kind == Kind::kuka && joints.cwiseAbs().maxCoeff() > pi) continue;
+      // Of axes 2 and 3 no controller tells turns.
+      if (std::abs(joints[2]) > pi) continue;
+      if (std::abs(joints[4]) < 0.05) continue;  // near the singular wrist q4 and q6 blur
+      std::string reason;
+      const auto found = arm.solve(arm.flange(joints), arm.configuration(joints, kind), elsewhere, reason);
+      INFO(joints.transpose() << " " << arm.configuration(joints, kind).text() << " " << reason);
+      REQUIRE(found.has_value());
+      if (kind == Kind::kuka)
+        CHECK(distance(arm.flange(*found), arm.flange(joints)) < pose_rounding * 100);
+      else
+        CHECK((*found - joints).cwiseAbs().maxCoeff() < 1e-5);
+    }
+  }
+}
+
+TEST_CASE("inverse kinematics: the words of the controllers at poses that can be told by eye") {
+  const InverseKinematics abb(irb6640()), kuka(kr16()), fanuc(m20ia());
+  const auto at = [](std::vector<double> degrees) {
+    VectorXd joints(6);
+    for (int i = 0; i < 6; ++i) joints[i] = degrees[i] * pi / 180;
+    return joints;
+  };
+  CHECK(abb.configuration(at({10, 0, 0, -20, 40, 100}), ArmConfiguration::Kind::abb).text() ==
+        "abb 0 -1 1 0");
+  CHECK(abb.configuration(at({-100, 0, 0, 200, -40, -100}), ArmConfiguration::Kind::abb).text() ==
+        "abb -2 2 -2 1");
+  CHECK(abb.configuration(at({0, -60, -150, 0, 30, 0}), ArmConfiguration::Kind::abb).numbers[3] >=
+        4);  // leaning over backward
+  // The home position of every KUKA: arm up, forearm forward.
+  CHECK(kuka.configuration(at({0, -90, 90, 0, 0, 0}), ArmConfiguration::Kind::kuka).text() == "kuka 2 2");
+  CHECK(kuka.configuration(at({-10, -90, 90, 0, -10, -5}), ArmConfiguration::Kind::kuka).text() ==
+        "kuka 6 51");
+  // Fanuc's: the tool points down.
+  CHECK(fanuc.configuration(at({0, 0, 0, 0, -90, 0}), ArmConfiguration::Kind::fanuc).text() ==
+        "fanuc NUT 0 0 0");
+  CHECK(fanuc.configuration(at({0, 0, 0, 190, 90, -200}), ArmConfiguration::Kind::fanuc).text() ==
+        "fanuc FUT 0 1 -1");
+  const Frame down = fanuc.flange(at({0, 0, 0, 0, -90, 0}));
+  CHECK((down.orientation * z + z).norm() < pose_rounding);
+}
+
+TEST_CASE("inverse kinematics: out of reach, out of limits and wrong geometry are told") {
+  const InverseKinematics arm(irb6640());
+  std::string reason;
+  Frame far = arm.flange(VectorXd::Zero(6));
+  far.position.x() += 3;
+  CHECK_FALSE(arm.solve(far, {}, VectorXd::Zero(6), reason).has_value());
+  CHECK(reason == "is out of reach");
+  VectorXd joints = VectorXd::Zero(6);
+  joints[4] = 0.5;
+  CHECK_FALSE(arm.solve(arm.flange(joints), *arm_configuration("abb 1 0 0 0"), joints, reason).has_value());
+  CHECK(reason.starts_with("is not reached in configuration abb 1 0 0 0 (but in abb "));
+  pipeline::Robot bent = irb6640();
+  bent.joints[5].origin.z() = 0.05;
+  CHECK(InverseKinematics(bent).unsupported() == "axes 4, 5 and 6 do not meet in one point");
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,303 @@
+#include "sim/robot/motion.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+namespace dresslife::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+/// What the issue asks: no limit exceeded by more than this [rad/s, rad/s2].
+constexpr double limit_margin = 1e-9;
+/// Times of up to 100 s and angles of up to 10 rad, some tens of roundings.
+constexpr double rounding = 1e-12;
+/// Share of the largest acceleration that is left for the mean one when both ramps take a quarter of the
+/// time.
+constexpr double mean_share = 0.75;
+
+pipeline::Robot robot_with(std::vector<double> speeds, std::vector<double> accelerations) {
+  pipeline::Robot robot;
+  robot.name = "test robot";
+  robot.links.resize(speeds.size() + 1);
+  for (size_t k = 0; k < speeds.size(); ++k) {
+    pipeline::Joint joint;
+    joint.name = "joint_" + std::to_string(k + 1);
+    joint.lower = -10;
+    joint.upper = 10;
+    joint.speed = speeds[k];
+    joint.acceleration = accelerations[k];
+    robot.joints.push_back(joint);
+  }
+  return robot;
+}
+
+pipeline::MotionStep move_to(std::vector<double> joints, std::optional<double> zone = {}) {
+  pipeline::MotionStep step;
+  step.joints = std::move(joints);
+  step.zone = zone;
+  return step;
+}
+
+pipeline::MotionStep dwell(double seconds) {
+  pipeline::MotionStep step;
+  step.dwell = seconds;
+  return step;
+}
+
+pipeline::Motion motion_of(std::vector<pipeline::MotionStep> steps) {
+  pipeline::Motion motion;
+  motion.name = "test";
+  motion.steps = std::move(steps);
+  return motion;
+}
+
+pipeline::Motion random_program(unsigned seed, int joints, int moves, double zone) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  pipeline::Motion motion = motion_of({});
+  std::vector<double> place(joints, 0.0);
+  motion.steps.push_back(move_to(place));
+  for (int m = 0; m < moves; ++m) {
+    const double reach = std::pow(10, -3 * uniform(random));  // legs of 1 mrad to 1 rad
+    for (double& q : place)
+      if (uniform(random) < 0.6) q = std::clamp(q + reach * (2 * uniform(random) - 1), -5.0, 5.0);
+    motion.steps.push_back(move_to(place, uniform(random) < 0.2 ? 0 : zone * uniform(random)));
+    if (uniform(random) < 0.3) motion.steps.back().speed_percent = 10 + 90 * uniform(random);
+    if (uniform(random) < 0.1) motion.steps.push_back(dwell(0.2));
+  }
+  return motion;
+}
+
+TEST_CASE("motion: one long move takes the time of the trapezoidal law") {
+  // L/c + c/A with A = 3/4 a: 3 rad at 2 rad/s, a = 4.
+  const JointMotion motion(motion_of({move_to({0}), move_to({3})}), robot_with({2}, {4}));
+  CHECK(motion.duration() == Approx(3 / 2.0 + 2 / (mean_share * 4)).epsilon(rounding));
+  CHECK(motion.position(motion.duration() / 2)[0] == Approx(1.5).epsilon(rounding));
+  CHECK(motion.velocity(motion.duration() / 2)[0] == Approx(2).epsilon(rounding));
+  CHECK(motion.position(1e9)[0] == 3);
+  CHECK(motion.position(-1)[0] == 0);
+}
+
+TEST_CASE("motion: one short move is a triangle of speed") {
+  // Top speed sqrt(A L), time 2 sqrt(L/A).
+  const JointMotion motion(motion_of({move_to({0}), move_to({-0.3})}), robot_with({2}, {4}));
+  CHECK(motion.duration() == Approx(2 * std::sqrt(0.3 / 3)).epsilon(rounding));
+  CHECK(motion.velocity(motion.duration() / 2)[0] == Approx(-std::sqrt(3 * 0.3)).epsilon(rounding));
+  double largest = 0;
+  for (double t = 0; t < motion.duration(); t += 1e-4)
+    largest = std::max(largest, std::abs(motion.acceleration(t)[0]));
+  CHECK(largest == Approx(4).epsilon(rounding));  // the limit is used in full
+}
+
+TEST_CASE("motion: acceleration rises and falls in a quarter of each speed change") {
+  const JointMotion motion(motion_of({move_to({0}), move_to({3})}), robot_with({2}, {4}));
+  const double rise = 2 / (mean_share * 4);
+  CHECK(motion.acceleration(rise / 8)[0] == Approx(2).epsilon(rounding));
+  CHECK(motion.acceleration(rise / 4)[0] == Approx(4).epsilon(rounding));
+  CHECK(motion.acceleration(rise * 7 / 8)[0] == Approx(2).epsilon(rounding));
+  CHECK(motion.acceleration(rise)[0] == Approx(0).margin(rounding));
+}
+
+TEST_CASE("motion: position is the integral of velocity, velocity that of acceleration") {
+  const JointMotion motion(random_program(3, 3, 12, 0.2), robot_with({2, 1, 3}, {4, 5, 6}));
+  // Central differences of pieces whose third derivative is bounded: h^2/6 times the jerk (some 100 rad/s3
+  // for the shortest moves, more only within h of a piece's end).
+  constexpr double h = 1e-6, difference_error = 1e-3;
+  double worst_velocity = 0, worst_acceleration = 0;
+  for (double t = 0.0137; t < motion.duration(); t += 0.0231) {
+    const VectorXd v = (motion.position(t + h) - motion.position(t - h)) / (2 * h);
+    const VectorXd a = (motion.velocity(t + h) - motion.velocity(t - h)) / (2 * h);
+    worst_velocity = std::max(worst_velocity, (v - motion.velocity(t)).lpNorm<Eigen::Infinity>());
+    worst_acceleration = std::max(worst_acceleration, (a - motion.acceleration(t)).lpNorm<Eigen::Infinity>());
+  }
+  CHECK(worst_velocity < difference_error);
+  CHECK(worst_acceleration < difference_error);
+}
+
+TEST_CASE("motion: all axes of a move start and end together, the slowest sets the time") {
+  const JointMotion motion(motion_of({move_to({0, 0}), move_to({1, 2})}), robot_with({2, 1}, {4, 3}));
+  CHECK(motion.duration() == Approx(2 / 1.0 + 1 / (mean_share * 3)).epsilon(rounding));
+  for (double t = 0; t <= motion.duration(); t += 0.01)
+    CHECK(motion.position(t)[1] == Approx(2 * motion.position(t)[0]).margin(rounding));
+}
+
+TEST_CASE("motion: speed is a percentage of the axes' or that of the fastest axis") {
+  const pipeline::Robot robot = robot_with({2, 1}, {400, 400});
+  pipeline::Motion motion = motion_of({move_to({0, 0}), move_to({4, 1})});
+  motion.speed_percent = 50;
+  CHECK(JointMotion(motion, robot).velocity(2)[0] == Approx(1).epsilon(rounding));
+  motion.steps[1].speed_percent = 25;
+  CHECK(JointMotion(motion, robot).velocity(2)[0] == Approx(0.5).epsilon(rounding));
+  motion.steps[1].speed = 1.25;
+  CHECK(JointMotion(motion, robot).velocity(2)[0] == Approx(1.25).epsilon(rounding));
+  motion.steps[1].speed = 100;  // no axis beyond its limit
+  CHECK(JointMotion(motion, robot).velocity(1)[0] == Approx(2).epsilon(rounding));
+}
+
+TEST_CASE("motion: a smaller share of acceleration takes the closed form's time") {
+  pipeline::Motion motion = motion_of({move_to({0}), move_to({6})});
+  motion.acceleration_percent = 40;
+  CHECK(JointMotion(motion, robot_with({2}, {4})).duration() ==
+        Approx(6 / 2.0 + 2 / (mean_share * 1.6)).epsilon(rounding));
+}
+
+TEST_CASE("motion: velocity is continuous and no limit is exceeded anywhere") {
+  const std::vector<double> speeds{2, 1, 3}, accelerations{4, 9, 30};
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const JointMotion motion(random_program(seed, 3, 40, 0.3), robot_with(speeds, accelerations));
+    const double step = motion.duration() / 20000;
+    VectorXd before = motion.velocity(0), place = motion.position(0);
+    double over_speed = -1, over_acceleration = -1, jump = 0, leap = 0;
+    for (int k = 1; k <= 20000; ++k) {
+      const VectorXd v = motion.velocity(k * step), a = motion.acceleration(k * step);
+      const VectorXd q = motion.position(k * step);
+      for (int i = 0; i < 3; ++i) {
+        over_speed = std::max(over_speed, std::abs(v[i]) - speeds[i]);
+        over_acceleration = std::max(over_acceleration, std::abs(a[i]) - accelerations[i]);
+        jump = std::max(jump, std::abs(v[i] - before[i]) - accelerations[i] * step);
+        leap = std::max(leap, std::abs(q[i] - place[i]) - speeds[i] * step);
+      }
+      before = v;
+      place = q;
+    }
+    INFO("seed " << seed);
+    CHECK(over_speed < limit_margin);
+    CHECK(over_acceleration < limit_margin);
+    CHECK(jump < limit_margin);  // a jump of velocity would exceed acceleration times step
+    CHECK(leap < limit_margin);
+  }
+}
+
+TEST_CASE("motion: pieces join without a gap in place or speed") {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const JointMotion motion(random_program(seed, 4, 60, 0.5), robot_with({2, 1, 3, 2}, {4, 9, 30, 50}));
+    double gap = 0, jump = 0;
+    for (size_t k = 1; k < motion.pieces().size(); ++k) {
+      const MotionPiece &a = motion.pieces()[k - 1], &b = motion.pieces()[k];
+      const VectorXd end = a.position + a.duration * (a.velocity_before + a.velocity_change / 2);
+      gap = std::max(gap, (end - b.position).lpNorm<Eigen::Infinity>());
+      jump = std::max(jump,
+                      (a.velocity_before + a.velocity_change - b.velocity_before).lpNorm<Eigen::Infinity>());
+    }
+    INFO("seed " << seed);
+    CHECK(gap < rounding);
+    CHECK(jump < rounding);
+  }
+}
+
+double deviation_from_legs(const JointMotion& motion, const std::vector<VectorXd>& waypoints) {
+  double worst = 0;
+  for (double t = 0; t < motion.duration(); t += 1e-3) {
+    const VectorXd q = motion.position(t);
+    double nearest = INFINITY;
+    for (size_t k = 0; k + 1 < waypoints.size(); ++k) {
+      const VectorXd way = waypoints[k + 1] - waypoints[k];
+      const double s = std::clamp((q - waypoints[k]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (q - waypoints[k] - s * way).lpNorm<Eigen::Infinity>());
+    }
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+TEST_CASE("motion: a blended path stays within the zone and leaves the legs") {
+  const pipeline::Robot robot = robot_with({2, 2}, {6, 6});
+  const std::vector<VectorXd> waypoints{VectorXd{{0, 0}}, VectorXd{{2, 0}}, VectorXd{{2, 2}},
+                                        VectorXd{{0, 1}}};
+  const auto program = [&](double zone) {
+    return motion_of({move_to({0, 0}), move_to({2, 0}, zone), move_to({2, 2}, zone), move_to({0, 1})});
+  };
+  double longer = JointMotion(program(0), robot).duration();
+  CHECK(deviation_from_legs(JointMotion(program(0), robot), waypoints) < rounding);
+  for (const double zone : {0.02, 0.1, 0.4}) {
+    const JointMotion motion(program(zone), robot);
+    const double deviation = deviation_from_legs(motion, waypoints);
+    CHECK(deviation < zone);
+    CHECK(deviation > zone / 20);
+    CHECK(motion.duration() < longer);  // a larger zone saves time
+    longer = motion.duration();
+  }
+}
+
+TEST_CASE("motion: a right-angled blend takes the closed form's time") {
+  // Both axes change by w in tau = w/A, which takes w tau/2 = z of each leg, so w = sqrt(2 A z). The rest of
+  // each leg, L - z, goes between 0 and w by (M3).
+  const double length = 1, speed = 100, acceleration = 4, zone = 0.1, mean = mean_share * acceleration;
+  const JointMotion motion(
+      motion_of({move_to({0, 0}), move_to({length, 0}, zone), move_to({length, length})}),
+      robot_with({speed, speed}, {acceleration, acceleration}));
+  const double w = std::sqrt(2 * mean * zone), tau = w / mean;
+  const double top = std::sqrt((2 * mean * (length - zone) + w * w) / 2);
+  CHECK(motion.duration() == Approx(2 * (top / mean + (top - w) / mean) + tau).epsilon(1e-9));
+}
+
+TEST_CASE("motion: a waypoint inside a straight run costs no time") {
+  const pipeline::Robot robot = robot_with({2}, {4});
+  const JointMotion whole(motion_of({move_to({0}), move_to({3})}), robot);
+  const JointMotion passed(motion_of({move_to({0}), move_to({1.7}, 0.05), move_to({3})}), robot);
+  CHECK(passed.duration() == Approx(whole.duration()).epsilon(rounding));
+  CHECK(passed.step(0.5) == 1);
+  CHECK(passed.step(whole.duration() - 0.5) == 2);
+}
+
+TEST_CASE("motion: a dwell stops the robot and lasts as long as it says") {
+  const pipeline::Robot robot = robot_with({2}, {4});
+  const JointMotion motion(motion_of({move_to({0}), move_to({1}, 0.5), dwell(0.8), move_to({2})}), robot);
+  const double leg = 2 * std::sqrt(1 / 3.0);
+  CHECK(motion.duration() == Approx(2 * leg + 0.8).epsilon(rounding));
+  CHECK(motion.step(leg + 0.4) == 2);
+  CHECK(motion.position(leg + 0.4)[0] == Approx(1).epsilon(rounding));
+  CHECK(motion.velocity(leg + 0.4)[0] == 0);
+}
+
+TEST_CASE("motion: a block runs as often as it says and keeps its program lines") {
+  pipeline::MotionStep block;
+  block.repeat = 3;
+  block.text = "weld";
+  block.steps = {move_to({1}), dwell(0.5), move_to({0})};
+  block.steps[1].text = "spot";
+  const pipeline::Robot robot = robot_with({2}, {4});
+  const JointMotion motion(motion_of({move_to({0}), block, dwell(1)}), robot);
+  const double leg = 2 * std::sqrt(1 / 3.0), round = 2 * leg + 0.5;
+  CHECK(motion.duration() == Approx(3 * round + 1).epsilon(rounding));
+  CHECK(motion.step_texts() ==
+        std::vector<std::string>{"move 1", "weld: move 2", "weld: spot", "weld: move 4", "dwell 5"});
+  for (int k = 0; k < 3; ++k) {
+    CHECK(motion.step(k * round + leg / 2) == 1);
+    CHECK(motion.step(k * round + leg + 0.25) == 2);
+    CHECK(motion.step(k * round + 1.5 * leg + 0.5) == 3);
+  }
+  CHECK(motion.step(3 * round + 0.5) == 4);
+}
+
+TEST_CASE("motion: a program that goes nowhere stands") {
+  const JointMotion motion(motion_of({move_to({0.5}), move_to({0.5})}), robot_with({2}, {4}));
+  CHECK(motion.duration() == 0);
+  CHECK(motion.position(0)[0] == 0.5);
+  CHECK(motion.velocity(1)[0] == 0);
+}
+
+TEST_CASE("motion: a waypoint beyond a limit is reported where it stands") {
+  pipeline::MotionStep block;
+  block.repeat = 2;
+  block.text = "panel A";
+  block.steps = {move_to({0, -10.5})};
+  block.steps[0].where = {"program.yaml", 7, 9};
+  CHECK_THROWS_WITH(
+      JointMotion(motion_of({move_to({0, 0}), block}), robot_with({2, 2}, {4, 4})),
+      "program.yaml:7:9: error: waypoint 'panel A: move 2' turns joint_2 to -601.606 deg (must be "
+      "within -572.958 .. 572.958 deg); move it inside the limits of test robot");
+}
+
+TEST_CASE("motion: a program has to begin with a move") {
+  pipeline::Motion motion = motion_of({dwell(1)});
+  motion.steps[0].where = {"program.yaml", 4, 5};
+  CHECK_THROWS_WITH(JointMotion(motion, robot_with({2}, {4})),
+                    "program.yaml:4:5: error: motion 'test' does not begin with a move; begin with the "
+                    "joints_deg at which the robot starts");
+}
+
+}  // namespace
+}  // namespace dresslife::sim

@@ -1,0 +1,46 @@
+// Logarithm, exponential and the map from angular velocity to the link's rotation vector.
+#include "sim/rod/rotation.h"
+
+#include <catch2/catch.hpp>
+
+#include "sim/rod/link.h"
+
+using namespace dresslife::sim;
+
+TEST_CASE("log undoes exp for every turn below half a turn") {
+  const double rounding = 1e-14;
+  const Vector3 axis = Vector3(0.3, -0.8, 0.5).normalized();
+  for (const double angle : {0.0, 1e-12, 1e-9, 1e-5, 0.0099, 0.0101, 0.5, 2.0, 3.1}) {
+    CAPTURE(angle);
+    const Vector3 r = angle * axis;
+    CHECK((rotation_vector(rotation(r)) - r).norm() < rounding);
+    const Quaternion expected(Eigen::AngleAxisd(angle, axis));
+    CHECK((rotation(r).coeffs() - expected.coeffs()).norm() < rounding);
+  }
+}
+
+TEST_CASE("the tangent is the rotated z axis and a roll leaves it alone") {
+  const Frame frame{{1, 2, 3}, rotation({0.4, -1.1, 0.7})};
+  CHECK((tangent(frame.orientation) - frame.orientation * Vector3::UnitZ()).norm() < 1e-15);
+  CHECK((tangent(rolled(frame, 1.3).orientation) - tangent(frame.orientation)).norm() < 1e-15);
+}
+
+TEST_CASE("a link's map G gives the rate of its rotation vector") {
+  // Central differences of log(R_a^T R_b) while the second body turns: their error is of order step^2.
+  const double step = 1e-5, tolerance = 1e-9;
+  const Quaternion a = rotation({0.2, 0.9, -0.4});
+  for (const double size : {1e-3, 0.1, 0.29, 0.31, 1.0, 2.5}) {
+    CAPTURE(size);
+    const Quaternion b = a * rotation(size * Vector3(0.6, -0.48, 0.64));
+    const LinkTurn turn = link_turn(a, b);
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 spin = step * Vector3::Unit(k);
+      const Vector3 rate =
+          (link_turn(a, rotation(spin) * b).phi - link_turn(a, rotation(-spin) * b).phi) / (2 * step);
+      CHECK((turn.map.transpose().col(k) - rate).norm() < tolerance);
+    }
+    const Matrix3 square = turn.stretch * turn.stretch * Matrix3::Identity() +
+                           turn.axis_excess * turn.axis * turn.axis.transpose();
+    CHECK((turn.map * turn.map.transpose() - square).norm() < 1e-13);
+  }
+}
