@@ -1,0 +1,47 @@
+// A cable that lies loose in its hose: what it is, and its state at one sample.
+//
+// It runs along the hose at a0 + b(s), s the arc of the hose's axis: a0 is the place that the dresspack gives
+// it, b the offset to where it rests now. Both are in the hose's frame (d1, d2), so that the path of a cable
+// that keeps its place follows the hose's twist. Per length of the axis the path gains (README W30)
+//     g = e + k1 a2 - k2 a1 + |a' + tau J a|^2 / 2,    J a = (-a2, a1),
+// with the hose's elongation e, curvatures k1, k2 and twist tau.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace dresslife::strain {
+
+constexpr double without_limit = std::numeric_limits<double>::infinity();
+
+struct LooseCable {
+  std::array<double, 2> place{};  ///< a0, from the hose's axis toward d1 and d2 [m]
+  double radius = 0;              ///< [m]
+  double axial_stiffness = 0;     ///< E A, of its wires [N]
+  double bending_stiffness = 0;   ///< E I, as its wires slide [N m2]
+  double mass_per_length = 0;     ///< [kg/m]
+  double slack = 0;  ///< length between the clamps beyond the path on which it was laid in, over it
+  double play = without_limit;  ///< c: how far it can move from its place, whatever else stops it [m]
+  double wall_stiffness = 1e8;  ///< k_w, of what it lies against, force per length and depth [N/m2]
+  double friction = 0;          ///< mu, Coulomb, against what it lies on
+  double grip = without_limit;  ///< force at which a clamp lets it slip [N]
+};
+
+/// What of the hose the cables can meet.
+struct HoseSection {
+  double inner_radius = without_limit;  ///< of the wall [m]
+  double core_radius = 0;               ///< of what fills the middle [m]; 0: nothing
+};
+
+/// One cable at one sample. Nodes are evenly spaced from the base clamp (0) to the tool clamp (last);
+/// element i lies between nodes i and i + 1.
+struct CableState {
+  double strain = 0;              ///< of its free length, clamp to clamp: mean over it
+  std::vector<double> tension;    ///< T [N] (element); above 0: pulled
+  std::vector<double> press;      ///< on what it lies against [N/m] (node)
+  std::vector<double> offset;     ///< b [m] (node, 2)
+  std::vector<double> curvature;  ///< of its own path about the hose's d1 and d2 [1/m] (node, 2)
+};
+
+}  // namespace dresslife::strain
