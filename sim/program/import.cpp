@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/job/document.h"
+#include "sim/program/encoding.h"
 #include "sim/program/fanuc.h"
 #include "sim/program/krl.h"
 #include "sim/program/rapid.h"
@@ -42,7 +43,7 @@ SourceFile source_of(const std::filesystem::path& file) {
                                fmt::format("has {} bytes (at most {})", size, ImportLimits::file_bytes),
                                "split the program");
   const std::filesystem::path shown = std::filesystem::proximate(file, failure);
-  return {failure || shown.empty() ? file.string() : shown.string(), pipeline::read_text(file)};
+  return {failure || shown.empty() ? file.string() : shown.string(), decoded_text(pipeline::read_text(file))};
 }
 
 /// "sill.mod:34 main: MoveL p20, v500, z10, gun;"

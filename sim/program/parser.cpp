@@ -150,6 +150,12 @@ Expression Cursor::primary() {
         next();
         return e;
       }
+      if (krl_ && token.text == "#" && peek(1).kind == Token::Kind::word) {  // # State: #State
+        next();
+        e.kind = Kind::name;
+        e.text = "#" + lower_case(next().text);
+        return e;
+      }
       return reference();
     default:
       break;

@@ -11,6 +11,22 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+/// Two bytes of UTF-8: the letters of ISO 8859-1 and Latin Extended-A and -B (U+00C0 .. U+024F).
+bool is_latin_letter(std::string_view text, std::size_t at) {
+  if (at + 1 >= text.size()) return false;
+  const auto first = static_cast<unsigned char>(text[at]), second = static_cast<unsigned char>(text[at + 1]);
+  return first >= 0xC3 && first <= 0xC9 && (second & 0xC0) == 0x80 &&
+         !(first == 0xC3 && (second == 0x97 || second == 0xB7));  // times, divided by
+}
+
+/// As lower(char), and U+00C0 .. U+00DE: the small letter is 0x20 further on.
+char lower(std::string_view text, std::size_t at) {
+  const char c = text[at];
+  if (at > 0 && text[at - 1] == '\xC3' && c >= '\x80' && c <= '\x9E' && c != '\x97')
+    return static_cast<char>(c + 0x20);
+  return lower(c);
+}
+
 class Cutter {
  public:
   Cutter(const SourceFile& source, const TokenRules& rules, Problems& problems)
@@ -51,7 +67,8 @@ class Cutter {
       ++at_;
     } else if (c == rules_.comment) {
       at_ = std::min(text_.find('\n', at_), text_.size());
-    } else if (is_letter(c) || rules_.extra.find(c) != std::string_view::npos) {
+    } else if (is_letter(c) || is_latin_letter(text_, at_) ||
+               rules_.extra.find(c) != std::string_view::npos) {
       word();
     } else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
       number();
@@ -65,10 +82,17 @@ class Cutter {
   }
 
   void word() {
-    const std::size_t begin = at_++;
-    while (is_letter(peek()) || is_digit(peek()) ||
-           (rules_.extra.find('$') != std::string_view::npos && peek() == '$'))
-      ++at_;
+    const std::size_t begin = at_;
+    at_ += is_latin_letter(text_, at_) ? 2 : 1;
+    while (true) {
+      if (is_letter(peek()) || is_digit(peek()) ||
+          (rules_.extra.find('$') != std::string_view::npos && peek() == '$'))
+        ++at_;
+      else if (is_latin_letter(text_, at_))
+        at_ += 2;
+      else
+        break;
+    }
     add(Token::Kind::word, begin, at_);
   }
 
@@ -152,13 +176,15 @@ std::vector<Token> tokens_of(const SourceFile& source, const TokenRules& rules, 
 }
 
 bool same_word(std::string_view a, std::string_view b) {
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return lower(x) == lower(y); });
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (lower(a, i) != lower(b, i)) return false;
+  return true;
 }
 
 std::string lower_case(std::string_view word) {
   std::string result(word);
-  for (char& c : result) c = lower(c);
+  for (std::size_t i = 0; i < word.size(); ++i) result[i] = lower(word, i);
   return result;
 }
 
