@@ -66,7 +66,9 @@ struct alignas(64) SlidingState {
       const FloatPack twist_by = part(twist_change, t);
       const FloatPack turning = of.R2_over_D0 * (twist_by * (twist_by + of.two_sigma0));
       const FloatPack q = shape(BendShape::square_stretch, t) * of.inverse_D0 + turning;  // D / D0 - 1
-      const FloatPack over_D = inverse(1.0f + q);                                         // D0 / D
+      // D0 / D, by a true quotient: what a fibre feels at rest is taken off its products, and the error of
+      // inverse(), two roundings on processors whose own is good to 12 digits, would be all of the budget
+      const FloatPack over_D = 1.0f / (1.0f + q);
       const FloatPack tau = (of.tau0 + turning) * over_D;
       const FloatPack k = shape(BendShape::bend_squared, t) * of.R2_over_D0 * over_D;
       // (W10) of a helix in a straight part, and what bending adds: as mean_over_pitch()
