@@ -166,7 +166,7 @@ std::vector<ClampPlace> clamps_of(const pipeline::Routing& routing, double lengt
   std::vector<ClampPlace> clamps{{"base clamp", 0}};
   for (const pipeline::IntermediateClamp& between : routing.clamps)
     clamps.push_back({fmt::format("clamp {} on {}", clamps.size(), between.clamp.link), between.at_length});
-  if (routing.tool_end == pipeline::ToolEnd::clamped) clamps.push_back({"tool clamp", length});
+  if (is_clamped(routing.tool_end)) clamps.push_back({"tool clamp", length});
   return clamps;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "fatigue/log_table.h"
 #include "fatigue/stress_path.h"
@@ -31,7 +32,7 @@ template <class Curve, class Damage>
 std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Counting counting,
                                        const Curve& curve, const Damage& damage) {
   if (reversals.empty()) return {};
-  const bool repeating = counting == Counting::repeating;
+  const bool repeating = is_repeated(counting);
   const std::vector<Reversal> path =
       repeating ? rotate_to_largest(reversals) : std::vector<Reversal>(reversals.begin(), reversals.end());
   MemoryPath memory(curve);
@@ -67,7 +68,7 @@ std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
   const CyclicCurve cyclic(material);
   const StrainLife life(material, settings.mean_stress, settings.endurance_strain);
   const auto curve = [&](double strain) {
-    return settings.stress == Stress::cyclic ? cyclic.stress(strain) : material.youngs_modulus * strain;
+    return yields(settings.stress) ? cyclic.stress(strain) : material.youngs_modulus * strain;
   };
   return list_cycles(reversals, settings.counting, curve,
                      [&](double amplitude, double stress_max, double stress_mean) {
@@ -166,43 +167,109 @@ class CurveTable {
   LogTable table_;
 };
 
+// ---- mean stress: all that this file knows of each rule ---------------------------------------------------
+
+struct MetalTables;
+
+// A rule has: life_room, by which its lives may leave those of the curve (8) that it reads; read(), which
+// hands a table to the loop that counts side by side where damage is a function of amplitude, or of amplitude
+// times the largest stress, and nothing where it is not; and damage() of one load.
+
+struct WithoutMeanStress {  // (8)
+  static constexpr double life_room = 1;
+  static bool read(const MetalTables& metal, LockstepTables& to);
+  static double damage(const MetalTables& metal, double amplitude, double, double);
+};
+
+struct SmithWatsonTopper {  // (9)
+  static constexpr double life_room = 1;
+  static bool read(const MetalTables& metal, LockstepTables& to);
+  static double damage(const MetalTables& metal, double amplitude, double stress_max, double);
+};
+
+struct Morrow {  // (F7): the axis is stretched by u^(1/(c-b)), which leaves room for s_m of -2 sf to 0.999 sf
+  static constexpr double life_room = 1e7;
+  static bool read(const MetalTables&, LockstepTables&) { return false; }
+  static double damage(const MetalTables& metal, double amplitude, double, double stress_mean);
+};
+
+struct Walker {  // (F12): by (s_a/s_max)^(-(1-gamma)/b), for copper down to s_a = 0.03 s_max
+  static constexpr double life_room = 1e7;
+  static bool read(const MetalTables&, LockstepTables&) { return false; }
+  static double damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean);
+};
+
+/// Calls use(rule). A rule of pipeline/job/fatigue.h that is not here does not compile.
+template <class Use>
+auto with_rule(MeanStress rule, const Use& use) {
+  switch (rule) {
+    case MeanStress::none:
+      return use(WithoutMeanStress{});
+    case MeanStress::swt:
+      return use(SmithWatsonTopper{});
+    case MeanStress::morrow:
+      return use(Morrow{});
+    case MeanStress::walker:
+      return use(Walker{});
+  }
+  throw std::logic_error("no such rule of mean stress");
+}
+
 /// What the loop reads for a metal.
 struct MetalTables {
-  // Morrow's axis is stretched by u^(1/(c-b)); these ends leave room for mean stresses of -2 sf to 0.999 sf.
-  // Walker's by (s_a/s_max)^(-(1-gamma)/b): for copper down to s_a = 0.03 s_max; beyond, lives are solved.
-  static constexpr double life_room = 1e7;
-
   MetalTables(const pipeline::Material& m, const pipeline::Fatigue& f)
       : life(m, f.mean_stress, f.endurance_strain),
         branch(CyclicCurve(m)),
         strain_damage(life.coffin_manson(), fewest_reversals / room(f), most_reversals * room(f)),
         swt_damage(life.swt(), fewest_reversals, most_reversals) {}
   static double room(const pipeline::Fatigue& f) {
-    return f.mean_stress == MeanStress::morrow || f.mean_stress == MeanStress::walker ? life_room : 1;
+    return with_rule(f.mean_stress, [](auto rule) { return rule.life_room; });
   }
-
-  double morrow_damage(double amplitude, double stress_mean) const;
-  double walker_damage(double amplitude, double stress_max, double stress_mean) const;
 
   StrainLife life;
   BranchTable branch;
   CurveTable strain_damage, swt_damage;
 };
 
-double MetalTables::walker_damage(double amplitude, double stress_max, double stress_mean) const {
-  if (stress_max <= 0) return 0;
-  const double stretch = life.walker_stretch(stress_max, stress_mean);
-  if (stretch < 1 / life_room || stretch > life_room)
-    return life.damage({amplitude, stress_max, stress_mean});
-  const double damage = strain_damage(amplitude) / stretch;
+/// Of a curve whose axis is stretched: within the same lives as the others.
+double within_lives(double damage) {
   return damage < 2 / most_reversals ? 0 : std::min(damage, 2 / fewest_reversals);
 }
 
-double MetalTables::morrow_damage(double amplitude, double stress_mean) const {
-  if (stress_mean >= life.fatigue_strength()) return 2 / fewest_reversals;
-  const StrainLife::MorrowScale scale = life.morrow_scale(stress_mean);  // (F8)
-  const double damage = strain_damage(amplitude / scale.strain) / scale.life;
-  return damage < 2 / most_reversals ? 0 : std::min(damage, 2 / fewest_reversals);
+void hand_over(const CurveTable& table, LockstepTables& to) {
+  to.damage = table.view();
+  to.damage_at_high = table.at_high();
+}
+
+bool WithoutMeanStress::read(const MetalTables& metal, LockstepTables& to) {
+  hand_over(metal.strain_damage, to);
+  return true;
+}
+double WithoutMeanStress::damage(const MetalTables& metal, double amplitude, double, double) {
+  return metal.strain_damage(amplitude);
+}
+
+bool SmithWatsonTopper::read(const MetalTables& metal, LockstepTables& to) {
+  hand_over(metal.swt_damage, to);
+  to.times_stress_max = true;
+  return true;
+}
+double SmithWatsonTopper::damage(const MetalTables& metal, double amplitude, double stress_max, double) {
+  return metal.swt_damage(stress_max * amplitude);
+}
+
+double Walker::damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean) {
+  if (stress_max <= 0) return 0;
+  const double stretch = metal.life.walker_stretch(stress_max, stress_mean);
+  if (stretch < 1 / life_room || stretch > life_room)  // beyond the table: solved
+    return metal.life.damage({amplitude, stress_max, stress_mean});
+  return within_lives(metal.strain_damage(amplitude) / stretch);
+}
+
+double Morrow::damage(const MetalTables& metal, double amplitude, double, double stress_mean) {
+  if (stress_mean >= metal.life.fatigue_strength()) return 2 / fewest_reversals;
+  const StrainLife::MorrowScale scale = metal.life.morrow_scale(stress_mean);  // (F8)
+  return within_lives(metal.strain_damage(amplitude / scale.strain) / scale.life);
 }
 
 /// True if rises and falls take turns strictly, as dresslife-strain writes them. No branch, and whole numbers
@@ -333,67 +400,48 @@ auto DamageCounter::Tables::with_functions(const Use& use) const {
     };
     if (measured)
       return lasting([&](double amplitude, double, double) { return measured->damage(amplitude); });
-    switch (settings.mean_stress) {
-      case MeanStress::none:
-        return lasting([&](double amplitude, double, double) { return metal->strain_damage(amplitude); });
-      case MeanStress::morrow:
-        return lasting(
-            [&](double amplitude, double, double mean) { return metal->morrow_damage(amplitude, mean); });
-      case MeanStress::walker:
-        return lasting([&](double amplitude, double max, double mean) {
-          return metal->walker_damage(amplitude, max, mean);
-        });
-      case MeanStress::swt:
-        break;
-    }
-    return lasting([&](double amplitude, double max, double) { return metal->swt_damage(max * amplitude); });
+    return with_rule(settings.mean_stress, [&](auto rule) {
+      return lasting([&](double amplitude, double max, double mean) {
+        return rule.damage(*metal, amplitude, max, mean);
+      });
+    });
   };
-  if (metal && settings.stress == Stress::cyclic)
+  if (metal && yields(settings.stress))
     return with_damage([&](double range) { return metal->branch(range); });
   return with_damage([modulus = material.youngs_modulus](double range) { return modulus * range; });
 }
 
-/// The tables of (8) and (9) are read side by side; Morrow, Walker and measured points one load at a time.
+/// Tables are read side by side; what is none, one load at a time.
 void DamageCounter::Tables::fill_side_by_side() {
   LockstepTables& to = side_by_side;
   to.material = this;
   to.endurance = settings.endurance_strain;
   to.elastic = material.youngs_modulus;
-  if (metal && settings.stress == Stress::cyclic) {
+  if (metal && yields(settings.stress)) {
     to.elastic = metal->branch.elastic();
     to.branch = metal->branch.view();
     to.far_branch = [](const void* self, double range) {
       return static_cast<const Tables*>(self)->metal->branch(range);
     };
   }
-  const auto read = [&](const CurveTable& table) {
-    to.damage = table.view();
-    to.damage_at_high = table.at_high();
-  };
   if (measured) {
     to.damage_of = [](const void* self, double amplitude, double, double) {
       return static_cast<const Tables*>(self)->measured->damage(amplitude);
     };
-  } else if (settings.mean_stress == MeanStress::none) {
-    read(metal->strain_damage);
-  } else if (settings.mean_stress == MeanStress::swt) {
-    read(metal->swt_damage);
-    to.times_stress_max = true;
-  } else if (settings.mean_stress == MeanStress::morrow) {
-    to.damage_of = [](const void* self, double amplitude, double, double mean) {
-      return static_cast<const Tables*>(self)->metal->morrow_damage(amplitude, mean);
-    };
-  } else {
-    to.damage_of = [](const void* self, double amplitude, double max, double mean) {
-      return static_cast<const Tables*>(self)->metal->walker_damage(amplitude, max, mean);
-    };
+    return;
   }
+  with_rule(settings.mean_stress, [&](auto rule) {
+    if (rule.read(*metal, to)) return;
+    to.damage_of = [](const void* self, double amplitude, double max, double mean) {
+      return decltype(rule)::damage(*static_cast<const Tables*>(self)->metal, amplitude, max, mean);
+    };
+  });
 }
 
 void DamageCounter::operator()(std::span<const StrainList> histories, std::span<double> damage,
                                Workspace& workspace) const {
   assert(histories.size() == damage.size());
-  if (tables_->settings.counting == Counting::half_cycles) {
+  if (!is_repeated(tables_->settings.counting)) {
     for (std::size_t k = 0; k < histories.size(); ++k) damage[k] = damage_once(histories[k], workspace);
     return;
   }

@@ -502,7 +502,7 @@ std::vector<std::string> warnings_of(const Context& c, const std::vector<Damagin
         }))
       continue;
     const pipeline::Material& material = pipeline::material_of(c.job, name);
-    if (c.job.fatigue.stress != pipeline::Stress::cyclic || !material.strain_life_table.empty()) continue;
+    if (!yields(c.job.fatigue.stress) || !material.strain_life_table.empty()) continue;
     const std::string warning = compatibility_warning(material);
     if (!warning.empty()) warnings.insert("warning: " + warning);
   }

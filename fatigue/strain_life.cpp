@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace dresslife::fatigue {
 namespace {
@@ -75,8 +76,7 @@ double StrainLife::reversals(const Load& load) const {
       return bounded(walker_stretch(load.stress_max, load.stress_mean) *
                      coffin_manson_.inverse(load.strain_amplitude));
   }
-  assert(false);
-  return infinity;
+  throw std::logic_error("no such rule of mean stress");
 }
 
 double StrainLife::damage(const Load& load) const { return 2 / reversals(load); }

@@ -42,7 +42,7 @@ void RobotPath::add_dresspack(const pipeline::Job& job, const pipeline::Routing&
     end_clamps_.push_back(static_cast<int>(clamps_.size()) - 1);
     end_links_.push_back(free ? no_link : clamp_links_.back());
   };
-  const bool free = routing.tool_end == pipeline::ToolEnd::free;
+  const bool free = !is_clamped(routing.tool_end);
   add(*routing.base_clamp);
   add_end();
   for (const pipeline::IntermediateClamp& between : routing.clamps) {

@@ -43,7 +43,7 @@ std::vector<RodProperties> spans_of(const RodProperties& whole, const pipeline::
   if (const auto& unit = routing.retraction)
     spans.front().slider =
         Slider{unit->force, unit->spring, unit->stroke, unit->damping, unit->friction, unit->mass};
-  if (routing.tool_end == pipeline::ToolEnd::free) {
+  if (!is_clamped(routing.tool_end)) {
     spans.back().tool_end = End::free;
     spans.back().tip_mass = routing.tool_mass;
   }

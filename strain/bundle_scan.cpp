@@ -53,7 +53,7 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
   constexpr float glued = std::numeric_limits<float>::infinity();
   mixed.cap = slip.sliding == Sliding::glued ? glued : static_cast<float>(slip.cap.constant);
   mixed.cap_per_mean = static_cast<float>(slip.cap.per_mean);
-  mixed.scales = construction_.kinematics() == pipeline::Kinematics::exact;
+  mixed.scales = !is_thesis(construction_.kinematics());
   mixed.with_shear = settings_.with_shear;
   mixed.on_axis = settings_.on_axis;
   mixed.rest.resize(1 + settings_.fibre_count);

@@ -96,7 +96,7 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   layer.count = component.count;
   layer.part_radius = component.radius;
   layer.helix_radius = component.helix_radius;
-  layer.lay_angle = component.hand == pipeline::Hand::left ? -component.lay_angle : component.lay_angle;
+  layer.lay_angle = sign_of(component.hand) * component.lay_angle;
   layer.phase = component.phase;
   layer.friction = component.friction.value_or(0);
   layer.line_load = component.radial_line_load.value_or(0);
@@ -133,14 +133,14 @@ std::vector<int> Construction::ancestry(int part) const {
 
 /// The thesis knows no hands: all its lay angles are positive.
 double Construction::lay_angle(const Layer& layer) const {
-  return kinematics_ == pipeline::Kinematics::thesis ? std::abs(layer.lay_angle) : layer.lay_angle;
+  return is_thesis(kinematics_) ? std::abs(layer.lay_angle) : layer.lay_angle;
 }
 
 double Construction::phase(int layer, int number, int parent, double arc) const {
   const Layer& of = layers_[layer];
   double phase = of.phase + 2 * pi * (number - 1) / of.count;
   if (of.helix_radius > 0) phase += arc * length_rate(parent) * of.lay_tangent / of.helix_radius;
-  if (kinematics_ == pipeline::Kinematics::thesis && parent != dresspack_itself) {  // (19)
+  if (is_thesis(kinematics_) && parent != dresspack_itself) {  // (19)
     const Part& in = parts_[parent];
     phase += pi - this->phase(in.layer, in.number, in.parent, arc);
   }

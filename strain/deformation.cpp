@@ -81,7 +81,7 @@ DeformationGauge::DeformationGauge(std::vector<double> lengths, pipeline::Deform
 void DeformationGauge::measure(const ChainPose& pose, std::span<Deformation> out) {
   assert(out.size() == lengths_.size() && pose.segment_position.size() == 3 * lengths_.size());
   measure_links(pose);
-  if (measure_ == pipeline::DeformationMeasure::thesis && lengths_.size() >= 3)
+  if (is_thesis(measure_) && lengths_.size() >= 3)
     circles(pose, out);
   else
     rotation_vectors(out);
@@ -105,7 +105,8 @@ void DeformationGauge::measure_links(const ChainPose& pose) {
     const Vector3d tangent_before = frame * Vector3d::UnitZ();
     const double arms = between ? 1 + (1 - tangent_before.dot(tangent)) / 12 : 1;  // (S17)
     const Vector3d gap = centre - centre_before - arms * (half + half_before);
-    links_[i] = {logarithm(turn), angle_about_tangent(turn), gap.dot((tangent_before + tangent).normalized())};
+    links_[i] = {logarithm(turn), angle_about_tangent(turn),
+                 gap.dot((tangent_before + tangent).normalized())};
     frame = next;
     centre_before = centre;
     half_before = half;

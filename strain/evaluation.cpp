@@ -70,8 +70,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       fibres_(strain::surface_fibres(settings.surface_fibres)),
       surface_fibres_(settings.surface_fibres),
       scan_{static_cast<int>(fibres_.size()), static_cast<float>(settings.gate),
-            settings.equivalent != pipeline::Equivalent::axial, settings.surface_fibres == 0},
-      with_planes_(settings.equivalent == pipeline::Equivalent::critical_plane),
+            counts_shear(settings.equivalent), settings.surface_fibres == 0},
+      with_planes_(judges_planes(settings.equivalent)),
       means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
       stick_{{construction, plan_slip(construction, {pipeline::Slip::stick}, total(lengths_)), lengths_,
               arcs_, samples},
@@ -330,7 +330,7 @@ FibreHistory Evaluation::mixed_history(const BundleNesting& nesting, const Layer
   const WireNode& node = nesting.nodes[0];
   const Fibre& fibre = nesting.fibres[0];
   const double rest_bending = rest_ingredient(node, &fibre), rest_shear = rest_ingredient(node, nullptr);
-  const bool scales = construction_.kinematics() == pipeline::Kinematics::exact;
+  const bool scales = !is_thesis(construction_.kinematics());
   constexpr double glued = std::numeric_limits<double>::infinity();
   Slider slider;
   for (int run = 0; run < (slip.friction ? 2 : 1); ++run)

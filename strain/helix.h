@@ -98,7 +98,7 @@ template <class T>
 T path_rate(const Rod<T>& parent, const Placement& place) {
   const double R = place.radius;
   const T X = parent.bend1.at[0] * place.sine.at[0] - parent.bend2.at[0] * place.cosine.at[0];
-  if (place.kinematics == pipeline::Kinematics::thesis) {
+  if (is_thesis(place.kinematics)) {
     const ThesisAngle<T> a = thesis_angle(parent, place);
     return 1.0 + a.cosine_squared * (parent.stretch.at[0] - 1.0 + R * X) +
            R * a.sine_cosine * parent.twist.at[0];
@@ -114,7 +114,7 @@ T path_rate(const Rod<T>& parent, const Placement& place) {
 template <class T>
 T mean_path_rate(const Rod<T>& parent, const Placement& place) {
   const double R = place.radius;
-  if (place.kinematics == pipeline::Kinematics::thesis) {
+  if (is_thesis(place.kinematics)) {
     const ThesisAngle<T> a = thesis_angle(parent, place);
     return 1.0 + a.cosine_squared * (parent.stretch.at[0] - 1.0) + R * a.sine_cosine * parent.twist.at[0];
   }
@@ -144,7 +144,7 @@ WireState<T> wire_state(const Rod<T>& parent, const Placement& place) {
   const double sine = place.sine.at[0], cosine = place.cosine.at[0];
   const T X = parent.bend1.at[0] * sine - parent.bend2.at[0] * cosine;
   const T radial = parent.bend1.at[0] * cosine + parent.bend2.at[0] * sine;
-  if (place.kinematics == pipeline::Kinematics::thesis) {
+  if (is_thesis(place.kinematics)) {
     const ThesisAngle<T> a = thesis_angle(parent, place);
     return {path_rate(parent, place), -a.cosine * radial, a.cosine_squared * X, a.sine_cosine * X,
             1.0 + 0.0 * X};
@@ -163,7 +163,7 @@ WireState<T> wire_state(const Rod<T>& parent, const Placement& place) {
 /// The component glued to its parent, one order less than the parent (W6).
 template <class T>
 Rod<T> child(const Rod<T>& parent, const Placement& place) {
-  if (place.kinematics == pipeline::Kinematics::thesis) return thesis_child(parent, place);
+  if (is_thesis(place.kinematics)) return thesis_child(parent, place);
   if (parent.stretch.order == 1) {
     const WireState<T> values = wire_state(parent, place);
     return {constant_series(values.stretch, 0), constant_series(values.bend1, 0),
@@ -193,7 +193,7 @@ template <class T>
 Rod<T> slid(const Rod<T>& glued, const T& strain, const Rod<double>& rest, pipeline::Kinematics kinematics) {
   Rod<T> rod = glued;
   for (int k = 0; k <= glued.stretch.order; ++k) rod.stretch.at[k] = (1.0 + strain) * rest.stretch.at[k];
-  if (kinematics == pipeline::Kinematics::thesis) return rod;
+  if (is_thesis(kinematics)) return rod;
   if (glued.stretch.order == 0) {
     const T factor = rod.stretch.at[0] / glued.stretch.at[0];
     rod.bend1.at[0] *= factor;
@@ -214,7 +214,7 @@ Rod<T> slid_unevenly(const Rod<T>& glued, const Series<T>& strain, const Rod<dou
                      pipeline::Kinematics kinematics) {
   Rod<T> rod = glued;
   rod.stretch = (1.0 + strain) * rest.stretch;
-  if (kinematics == pipeline::Kinematics::thesis) return rod;
+  if (is_thesis(kinematics)) return rod;
   const Series<T> factor = rod.stretch / glued.stretch;
   rod.bend1 = glued.bend1 * factor;
   rod.bend2 = glued.bend2 * factor;

@@ -34,7 +34,7 @@ SlidingNumbers sliding_numbers(const LayerSlip& slip, const BundleNesting& nesti
 void put_at_rest(WireNode& node, const Rod<double>& parent) {
   node.rest = wire_state(parent, node.place);
   node.inverse_rest_stretch = 1 / node.rest.stretch;
-  const bool exact = node.place.kinematics == pipeline::Kinematics::exact;
+  const bool exact = !is_thesis(node.place.kinematics);
   node.rest_rate = exact ? node.rest.stretch / node.place.lay_cosine : node.rest.stretch;
 }
 
@@ -98,8 +98,8 @@ void add_wire_layer(const Construction& construction, const std::vector<LayerSli
                     BundleNesting& nesting, int layer, int part, double arc) {
   const double fifth = 2 * pi / waves_per_layer, sine = std::sin(fifth), cosine = std::cos(fifth);
   WireNode node = node_at(construction, plan, nesting, layer, 1, part, arc, 0);
-  const bool closed = nesting.order == 0 && node.place.kinematics == pipeline::Kinematics::exact &&
-                      node.slide.sliding == Sliding::over_pitch;
+  const bool closed =
+      nesting.order == 0 && !is_thesis(node.place.kinematics) && node.slide.sliding == Sliding::over_pitch;
   nesting.sliding.push_back(closed ? sliding_layer(rest_at_end(nesting), node.place) : SlidingLayer{});
   nesting.nodes.push_back(node);
   for (int k = 1; k < waves_per_layer; ++k) {

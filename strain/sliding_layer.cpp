@@ -23,7 +23,7 @@ struct RestStretch {
 }  // namespace
 
 SlidingLayer sliding_layer(const Rod<double>& parent, const Placement& first) {
-  assert(first.kinematics == pipeline::Kinematics::exact && first.radius > 0);
+  assert(!is_thesis(first.kinematics) && first.radius > 0);
   const auto single = [](double x) { return static_cast<float>(x); };
   const double R = first.radius, s = parent.stretch.at[0], sigma = first.turn_rate + parent.twist.at[0];
   const double bend1 = parent.bend1.at[0], bend2 = parent.bend2.at[0], B = std::hypot(bend1, bend2);

@@ -41,7 +41,7 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     evening[k] = helical          ? layer.pitch() / std::cos(layer.lay_angle)
                  : inherited == 0 ? length[k]
                                   : evening[layer.parent] / std::cos(layer.lay_angle);
-    if (slip[level - 1] == pipeline::Slip::stick || layer.is_hose) continue;
+    if (!slides(slip[level - 1]) || layer.is_hose) continue;
     if (helical)
       plan[k].sliding = Sliding::over_pitch;
     else if (inherited > 0) {
@@ -50,7 +50,7 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     } else {
       plan[k].sliding = Sliding::clamp_to_clamp;
     }
-    if (slip[level - 1] != pipeline::Slip::friction) continue;
+    if (!rubs(slip[level - 1])) continue;
     plan[k].friction = true;
     plan[k].cap = friction_cap(layer, evening[k]);
   }

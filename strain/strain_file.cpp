@@ -75,7 +75,7 @@ class MotionReader {
     const bool last = k + 1 == spans_.size() || spans_[k + 1].dresspack != spans_[k].dresspack;
     if (dresspack >= job.dresspacks.size()) return {};  // check() tells of it
     const pipeline::MountedDresspack& mounted = job.dresspacks[dresspack];
-    if (!last || mounted.routing.tool_end != pipeline::ToolEnd::free) return {};
+    if (!last || is_clamped(mounted.routing.tool_end)) return {};
     return Eigen::Vector3d(0, mounted.dresspack.rest_curvature, 0);
   }
 

@@ -17,7 +17,7 @@ void describe(Fields& f, Component& component) {
            "from the parent's axis to the part's (R)");
   f.number("lay_angle_deg", component.lay_angle, Need::optional, between(0, 60),
            "angle to the parent's axis (alpha)");
-  f.choice("hand", component.hand, {"right", "left"}, "of the helix: right (Z) or left (S)");
+  f.choice("hand", component.hand, "of the helix: right (Z) or left (S)");
   f.number("phase_deg", component.phase, Need::optional, between(-360, 360),
            "angle of part 1 at the base clamp");
   f.maybe_number("friction_coefficient", component.friction, between(0, 1e6),
@@ -130,8 +130,7 @@ void check_hose(const Dresspack& dresspack) {
 
 /// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
 void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
-  if (slip[std::min(level, slip.size()) - 1] == Slip::friction &&
-      !(component.friction && component.radial_line_load))
+  if (rubs(slip[std::min(level, slip.size()) - 1]) && !(component.friction && component.radial_line_load))
     throw InputError(component.where,
                      fmt::format("'{}' has no {} (strain.slip of its level is friction)", component.name,
                                  component.friction ? "radial_line_load_N_per_m" : "friction_coefficient"),

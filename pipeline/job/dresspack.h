@@ -15,6 +15,25 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class Hand { right, left };
+constexpr std::string_view word(Hand value) {
+  switch (value) {
+    case Hand::right:
+      return "right";
+    case Hand::left:
+      return "left";
+  }
+  return {};
+}
+/// +1 of a right-handed helix (Z), -1 of a left-handed one (S).
+constexpr int sign_of(Hand value) {
+  switch (value) {
+    case Hand::right:
+      return 1;
+    case Hand::left:
+      return -1;
+  }
+  return 0;
+}
 
 /// K equal parts on one helix, each of which may hold further layers of parts (physics.md 1).
 struct Component {

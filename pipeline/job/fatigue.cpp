@@ -5,12 +5,9 @@
 namespace dresslife::pipeline {
 
 void describe(Fields& f, Fatigue& fatigue) {
-  f.choice("stress", fatigue.stress, {"cyclic", "elastic"},
-           "Ramberg-Osgood with Masing memory, or E times strain");
-  f.choice("mean_stress", fatigue.mean_stress, {"none", "morrow", "swt", "walker"},
-           "correction of the strain-life curve");
-  f.choice("counting", fatigue.counting, {"repeating", "half_cycles"},
-           "rainflow of an endlessly repeated motion, or of one run");
+  f.choice("stress", fatigue.stress, "Ramberg-Osgood with Masing memory, or E times strain");
+  f.choice("mean_stress", fatigue.mean_stress, "correction of the strain-life curve");
+  f.choice("counting", fatigue.counting, "rainflow of an endlessly repeated motion, or of one run");
   f.number("endurance_strain", fatigue.endurance_strain, Need::optional, between(0, 0.1),
            "amplitudes up to this do no damage");
   f.text("material", fatigue.material, Need::optional,

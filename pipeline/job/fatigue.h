@@ -1,15 +1,73 @@
 // Settings of dresslife-fatigue.
+//
+// A choice of the user is an enumeration. Each has a word() for its values, and where the code goes one of
+// two ways by it, a named question: switches without default, in which a new value that is forgotten does not
+// compile.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace dresslife::pipeline {
 
 class Fields;
 
 enum class Stress { cyclic, elastic };
+constexpr std::string_view word(Stress value) {
+  switch (value) {
+    case Stress::cyclic:
+      return "cyclic";
+    case Stress::elastic:
+      return "elastic";
+  }
+  return {};
+}
+/// Whether stress follows the cyclic curve; else it is E times strain.
+constexpr bool yields(Stress value) {
+  switch (value) {
+    case Stress::cyclic:
+      return true;
+    case Stress::elastic:
+      return false;
+  }
+  return false;
+}
+
 enum class MeanStress { none, morrow, swt, walker };
+constexpr std::string_view word(MeanStress value) {
+  switch (value) {
+    case MeanStress::none:
+      return "none";
+    case MeanStress::morrow:
+      return "morrow";
+    case MeanStress::swt:
+      return "swt";
+    case MeanStress::walker:
+      return "walker";
+  }
+  return {};
+}
+
 enum class Counting { repeating, half_cycles };
+constexpr std::string_view word(Counting value) {
+  switch (value) {
+    case Counting::repeating:
+      return "repeating";
+    case Counting::half_cycles:
+      return "half_cycles";
+  }
+  return {};
+}
+/// Whether the motion is taken to repeat for ever; else it happens once.
+constexpr bool is_repeated(Counting value) {
+  switch (value) {
+    case Counting::repeating:
+      return true;
+    case Counting::half_cycles:
+      return false;
+  }
+  return false;
+}
 
 struct Fatigue {
   Stress stress = Stress::cyclic;

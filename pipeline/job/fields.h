@@ -46,6 +46,15 @@ class Fields {
   using Key = std::string_view;
   using Words = std::vector<std::string_view>;  ///< of a choice, in the order of the enum's values
 
+  /// The words of an enumeration that counts from 0: its word() is empty beyond the last value.
+  template <class Enum>
+  static Words words_of() {
+    Words words;
+    while (!word(static_cast<Enum>(words.size())).empty())
+      words.push_back(word(static_cast<Enum>(words.size())));
+    return words;
+  }
+
   virtual void text(Key key, std::string& value, Need need, std::string_view meaning) = 0;
   virtual void number(Key key, double& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) = 0;
@@ -61,18 +70,19 @@ class Fields {
   /// Where the map being read begins.
   virtual void place(Where& where) = 0;
 
+  /// One of an enumeration that has a word() for each of its values.
   template <class Enum>
-  void choice(Key key, Enum& value, const Words& words, std::string_view meaning) {
+  void choice(Key key, Enum& value, std::string_view meaning) {
     int index = static_cast<int>(value);
-    choose(key, index, words, meaning);
+    choose(key, index, words_of<Enum>(), meaning);
     value = static_cast<Enum>(index);
   }
   /// One word, or a list of words.
   template <class Enum>
-  void choices(Key key, std::vector<Enum>& values, const Words& words, std::string_view meaning) {
+  void choices(Key key, std::vector<Enum>& values, std::string_view meaning) {
     std::vector<int> indices;
     for (Enum value : values) indices.push_back(static_cast<int>(value));
-    choose_some(key, indices, words, meaning);
+    choose_some(key, indices, words_of<Enum>(), meaning);
     values.clear();
     for (int index : indices) values.push_back(static_cast<Enum>(index));
   }

@@ -237,7 +237,7 @@ void describe_sim(Fields& echo, Job copy) {
 }
 
 void describe_strain(Fields& echo, Job copy) {
-  const bool friction = std::count(copy.strain.slip.begin(), copy.strain.slip.end(), Slip::friction) > 0;
+  const bool friction = std::any_of(copy.strain.slip.begin(), copy.strain.slip.end(), rubs);
   std::vector<StrainKeys> keys;
   for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted, friction});
   describe_each(echo, forms_of(copy), keys);

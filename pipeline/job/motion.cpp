@@ -9,7 +9,7 @@ namespace dresslife::pipeline {
 void describe(Fields& f, MotionStep& step) {
   f.place(step.where);
   f.text("text", step.text, Need::optional, "what the step is, for reports");
-  f.choice("path", step.path, {"joint", "linear", "circular"}, "how a move gets to its target");
+  f.choice("path", step.path, "how a move gets to its target");
   f.numbers("joints_deg", step.joints, Need::optional, "target of a joint move, one angle per axis");
   f.numbers("position_mm", step.position, Need::optional,
             "target of the tool in the work object: x, y, z, instead of joints_deg");
@@ -55,7 +55,7 @@ void describe(Fields& f, MotionFrame& frame) {
 
 void describe(Fields& f, BranchAssumption& assumption) {
   f.text("line", assumption.line, Need::required, "of the branch: FILE:LINE, or LINE alone");
-  f.choice("take", assumption.take, {"then", "else"}, "what the branch does");
+  f.choice("take", assumption.take, "what the branch does");
 }
 
 void describe(Fields& f, ProgramFile& file) {
@@ -116,7 +116,7 @@ void check_move(const MotionStep& step, const Robot& robot) {
   if (!step.joints.empty() && !step.position.empty())
     throw InputError(where, "both joints_deg and position_mm are given", "keep one of the two");
   if (!step.position.empty()) check_pose(step.position, step.quaternion, where);
-  if ((step.path == PathKind::circular) != !step.via_position.empty() ||
+  if (has_via(step.path) != !step.via_position.empty() ||
       (!step.via_position.empty() && step.via_position.size() != 3))
     throw InputError(where, "via_position_mm belongs to a circular move, which must have it",
                      "give x, y, z, or change the path");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/job/document.h"
@@ -16,6 +17,39 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class PathKind { joint, linear, circular };
+constexpr std::string_view word(PathKind value) {
+  switch (value) {
+    case PathKind::joint:
+      return "joint";
+    case PathKind::linear:
+      return "linear";
+    case PathKind::circular:
+      return "circular";
+  }
+  return {};
+}
+/// Whether the tool's origin follows a path in space; else the axes move straight to their targets.
+constexpr bool leads_tool(PathKind value) {
+  switch (value) {
+    case PathKind::linear:
+    case PathKind::circular:
+      return true;
+    case PathKind::joint:
+      return false;
+  }
+  return false;
+}
+/// Whether a point on the way belongs to it.
+constexpr bool has_via(PathKind value) {
+  switch (value) {
+    case PathKind::circular:
+      return true;
+    case PathKind::joint:
+    case PathKind::linear:
+      return false;
+  }
+  return false;
+}
 
 /// One line of a robot program: a move, a dwell, or a block repeated `repeat` times. A move leads to joint
 /// angles or to a pose of the tool in the work object.
@@ -60,6 +94,15 @@ struct BranchAssumption {
   std::string line;  ///< "file.mod:12" or "12"
   enum class Take { then_branch, else_branch } take = Take::then_branch;
 };
+constexpr std::string_view word(BranchAssumption::Take value) {
+  switch (value) {
+    case BranchAssumption::Take::then_branch:
+      return "then";
+    case BranchAssumption::Take::else_branch:
+      return "else";
+  }
+  return {};
+}
 
 struct ProgramFile {
   std::filesystem::path file;

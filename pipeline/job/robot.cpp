@@ -35,8 +35,8 @@ void describe(Fields& f, Joint& joint) {
 void describe(Fields& f, ExternalAxis& axis) {
   f.place(axis.where);
   f.text("name", axis.name, Need::required, "name of the axis");
-  f.choice("kind", axis.kind, {"linear", "rotary"}, "slides along, or turns about its axis");
-  f.choice("carries", axis.carries, {"robot", "nothing"},
+  f.choice("kind", axis.kind, "slides along, or turns about its axis");
+  f.choice("carries", axis.carries,
            "what it moves: the robot's base, or nothing that matters here but the time that it takes");
   f.vector("origin_m", axis.origin, Need::optional,
            "of its frame in the world, or on the axis before that carries");

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/job/document.h"
@@ -39,6 +40,24 @@ struct ExternalAxis {
   double speed = 0, acceleration = 0;
   Where where;
 };
+constexpr std::string_view word(ExternalAxis::Kind value) {
+  switch (value) {
+    case ExternalAxis::Kind::linear:
+      return "linear";
+    case ExternalAxis::Kind::rotary:
+      return "rotary";
+  }
+  return {};
+}
+constexpr std::string_view word(ExternalAxis::Carries value) {
+  switch (value) {
+    case ExternalAxis::Carries::robot:
+      return "robot";
+    case ExternalAxis::Carries::nothing:
+      return "nothing";
+  }
+  return {};
+}
 
 struct Link {
   std::string name;  ///< link k > 0 is moved by joint k - 1 (counted from 0); link 0 is the base

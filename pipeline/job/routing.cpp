@@ -70,7 +70,7 @@ void describe(Fields& f, Routing& routing) {
                 "spring-returned slack: the base clamp slides along its direction and is pulled back");
   f.number("pre_twist_deg", routing.pre_twist, Need::optional, between(-36000, 36000),
            "by which the tool clamp is turned when it is mounted, on top of what its roll_deg says");
-  f.choice("tool_end", routing.tool_end, {"clamped", "free"},
+  f.choice("tool_end", routing.tool_end,
            "free: the dresspack hangs from its last clamp, without a tool_clamp");
   f.number("tool_mass_kg", routing.tool_mass, Need::optional, at_least(0),
            "hung at the end of a dresspack whose tool_end is free");
@@ -132,7 +132,7 @@ void check_robot_only(const Routing& routing) {
   if (!routing.clamps.empty()) refuse(true, "clamps", routing.clamps.front().clamp.where);
   if (!routing.rings.empty()) refuse(true, "rings", routing.rings.front().where);
   if (routing.retraction) refuse(true, "retraction", routing.retraction->where);
-  refuse(routing.tool_end == ToolEnd::free, "tool_end: free", routing.where);
+  refuse(!is_clamped(routing.tool_end), "tool_end: free", routing.where);
   refuse(routing.pre_twist != 0, "pre_twist_deg", routing.where);
 }
 
@@ -192,7 +192,7 @@ void place_clamps(Routing& routing, const Robot& robot) {
 void check_routing(const Routing& routing, double diameter, const Robot& robot, bool recorded) {
   if (!recorded) {
     check_clamp(routing.base_clamp, "base_clamp", routing, robot);
-    if (routing.tool_end == ToolEnd::clamped) check_clamp(routing.tool_clamp, "tool_clamp", routing, robot);
+    if (is_clamped(routing.tool_end)) check_clamp(routing.tool_clamp, "tool_clamp", routing, robot);
   } else if (routing.base_clamp || routing.tool_clamp) {
     throw InputError(routing.where, "clamps are given although motion.clamp_poses brings their poses",
                      "keep one of the two");
@@ -200,13 +200,13 @@ void check_routing(const Routing& routing, double diameter, const Robot& robot, 
   if (recorded) check_robot_only(routing);
   check_intermediate_clamps(routing, robot);
   check_rings(routing, diameter, robot);
-  if (routing.tool_end == ToolEnd::free && routing.tool_clamp)
+  if (!is_clamped(routing.tool_end) && routing.tool_clamp)
     throw InputError(routing.tool_clamp->where,
                      "routing.tool_clamp is given although routing.tool_end is free", "keep one of the two");
-  if (routing.tool_end == ToolEnd::free && routing.pre_twist != 0)
+  if (!is_clamped(routing.tool_end) && routing.pre_twist != 0)
     throw InputError(routing.where, "routing.pre_twist_deg is given although routing.tool_end is free",
                      "keep one of the two");
-  if (routing.tool_mass > 0 && routing.tool_end == ToolEnd::clamped)
+  if (routing.tool_mass > 0 && is_clamped(routing.tool_end))
     throw InputError(routing.where, "routing.tool_mass_kg is given although the tool end is clamped",
                      "add tool_end: free, or leave the mass out");
   if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != robot.axes())

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/job/document.h"
@@ -52,6 +53,25 @@ struct Retraction {
 };
 
 enum class ToolEnd { clamped, free };
+constexpr std::string_view word(ToolEnd value) {
+  switch (value) {
+    case ToolEnd::clamped:
+      return "clamped";
+    case ToolEnd::free:
+      return "free";
+  }
+  return {};
+}
+/// Whether a clamp of the robot ends the dresspack; else it hangs from its last clamp.
+constexpr bool is_clamped(ToolEnd value) {
+  switch (value) {
+    case ToolEnd::clamped:
+      return true;
+    case ToolEnd::free:
+      return false;
+  }
+  return false;
+}
 
 struct Routing {
   double free_length = 0;                       ///< of dresspack between the clamps, unstretched [m]

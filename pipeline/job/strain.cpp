@@ -11,14 +11,12 @@ void describe(Fields& f, Probe& probe) {
 }
 
 void describe(Fields& f, Strain& strain) {
-  f.choice("deformation", strain.deformation, {"rotation_vector", "thesis"},
-           "how curvature and twist are measured");
-  f.choice("kinematics", strain.kinematics, {"exact", "thesis"},
-           "nested helices: the geometry itself, or (12)..(23)");
-  f.choices("slip", strain.slip, {"free", "stick", "friction"},
+  f.choice("deformation", strain.deformation, "how curvature and twist are measured");
+  f.choice("kinematics", strain.kinematics, "nested helices: the geometry itself, or (12)..(23)");
+  f.choices("slip", strain.slip,
             "between a part and its parent; one word, or one per level, outermost first");
   f.choice(
-      "equivalent", strain.equivalent, {"axial", "shear_included", "critical_plane"},
+      "equivalent", strain.equivalent,
       "strain that is counted: along the fibre; with the shear of the wire's torsion, signed "
       "sqrt(eps^2 + gamma^2/3); or the latter and, for the likely worst wires, that across the plane that it "
       "damages most");

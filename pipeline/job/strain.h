@@ -1,7 +1,8 @@
-// Settings of dresslife-strain.
+// Settings of dresslife-strain. Enumerations as in fatigue.h.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dresslife::pipeline {
@@ -9,9 +10,116 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class DeformationMeasure { rotation_vector, thesis };
+constexpr std::string_view word(DeformationMeasure value) {
+  switch (value) {
+    case DeformationMeasure::rotation_vector:
+      return "rotation_vector";
+    case DeformationMeasure::thesis:
+      return "thesis";
+  }
+  return {};
+}
+/// Whether curvature and twist are the thesis' (24).
+constexpr bool is_thesis(DeformationMeasure value) {
+  switch (value) {
+    case DeformationMeasure::thesis:
+      return true;
+    case DeformationMeasure::rotation_vector:
+      return false;
+  }
+  return false;
+}
+
 enum class Kinematics { exact, thesis };
+constexpr std::string_view word(Kinematics value) {
+  switch (value) {
+    case Kinematics::exact:
+      return "exact";
+    case Kinematics::thesis:
+      return "thesis";
+  }
+  return {};
+}
+/// Whether (12) to (23) are used as they are printed; else the geometry itself.
+constexpr bool is_thesis(Kinematics value) {
+  switch (value) {
+    case Kinematics::thesis:
+      return true;
+    case Kinematics::exact:
+      return false;
+  }
+  return false;
+}
+
 enum class Slip { free, stick, friction };
+constexpr std::string_view word(Slip value) {
+  switch (value) {
+    case Slip::free:
+      return "free";
+    case Slip::stick:
+      return "stick";
+    case Slip::friction:
+      return "friction";
+  }
+  return {};
+}
+/// Whether a part may move along its parent.
+constexpr bool slides(Slip value) {
+  switch (value) {
+    case Slip::free:
+    case Slip::friction:
+      return true;
+    case Slip::stick:
+      return false;
+  }
+  return false;
+}
+/// Whether friction holds it back there.
+constexpr bool rubs(Slip value) {
+  switch (value) {
+    case Slip::friction:
+      return true;
+    case Slip::free:
+    case Slip::stick:
+      return false;
+  }
+  return false;
+}
+
 enum class Equivalent { axial, shear_included, critical_plane };
+constexpr std::string_view word(Equivalent value) {
+  switch (value) {
+    case Equivalent::axial:
+      return "axial";
+    case Equivalent::shear_included:
+      return "shear_included";
+    case Equivalent::critical_plane:
+      return "critical_plane";
+  }
+  return {};
+}
+/// Whether the shear of a wire enters its strain (W19).
+constexpr bool counts_shear(Equivalent value) {
+  switch (value) {
+    case Equivalent::shear_included:
+    case Equivalent::critical_plane:
+      return true;
+    case Equivalent::axial:
+      return false;
+  }
+  return false;
+}
+/// Whether planes are judged one by one (F18).
+constexpr bool judges_planes(Equivalent value) {
+  switch (value) {
+    case Equivalent::critical_plane:
+      return true;
+    case Equivalent::axial:
+    case Equivalent::shear_included:
+      return false;
+  }
+  return false;
+}
 
 struct Probe {
   int segment_from_tool = 1;

@@ -550,8 +550,7 @@ void describe(Fields& f, UrdfRequest& request) {
          "link of the URDF at the flange; without it tool0, flange, or the only end");
   f.path("package_folder", request.package_folder, Need::optional,
          "folder that holds the packages of package:// names; without it those above the URDF");
-  f.choice("collision", request.collision, {"keep", "drop"},
-           "whether the URDF's collision shapes are the links' shapes");
+  f.choice("collision", request.collision, "whether the URDF's collision shapes are the links' shapes");
   f.numbers("accelerations_deg_per_s2", request.accelerations, Need::optional,
             "highest accelerations of the axes, in their order: a URDF has none");
 }

@@ -29,6 +29,15 @@ struct UrdfRequest {
   enum class Collision { keep, drop } collision = Collision::keep;
   std::vector<double> accelerations;  ///< of the axes, in their order [rad/s2]
 };
+constexpr std::string_view word(UrdfRequest::Collision value) {
+  switch (value) {
+    case UrdfRequest::Collision::keep:
+      return "keep";
+    case UrdfRequest::Collision::drop:
+      return "drop";
+  }
+  return {};
+}
 
 class Fields;
 void describe(Fields& f, UrdfRequest& request);

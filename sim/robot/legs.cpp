@@ -191,7 +191,7 @@ class Layout {
     if (!step.joints.empty()) {
       move.to = joined(Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size())),
                        external);
-      if (step.path != PathKind::joint && place_.size() > 0)
+      if (leads_tool(step.path) && place_.size() > 0)
         move.path = ToolPath(tooling, tooling.pose(arm_.flange(place_)), tooling.pose(arm_.flange(move.to)));
     } else if (!reach(step, line, external, move)) {
       return;
@@ -213,7 +213,7 @@ class Layout {
     const auto& p = step.position;
     const auto& q = step.quaternion;
     const Frame target{Vector3(p[0], p[1], p[2]), Quaternion(q[0], q[1], q[2], q[3]).normalized()};
-    const bool path = step.path != PathKind::joint && place_.size() > 0;
+    const bool path = leads_tool(step.path) && place_.size() > 0;
     std::string reason;
     const auto configuration = arm_configuration(step.configuration);
     if (!configuration)
@@ -229,7 +229,7 @@ class Layout {
     move.to = *joints;
     if (!path) return true;
     move.path = ToolPath(move.tooling, move.tooling.pose(arm_.flange(place_)), target);
-    if (step.path == PathKind::circular)
+    if (has_via(step.path))
       move.path->bend({step.via_position[0], step.via_position[1], step.via_position[2]});
     follow(move);
     if (arm_.unsupported().empty() && !arm_.may_end(move.to, *configuration))

@@ -131,7 +131,7 @@ inline void strains_of_node(const BundlePointers& nesting, const Rod<Pack>& pare
   Pack bend1 = wire.bend1, bend2 = wire.bend2;
   if (node.slide.sliding != Sliding::glued) {
     axial = sliding;
-    if (node.place.kinematics == pipeline::Kinematics::exact) {  // curvature per path length stays (W11)
+    if (!is_thesis(node.place.kinematics)) {  // curvature per path length stays (W11)
       const Pack factor = (1.0 + sliding) * node.rest.stretch * wire.inverse_stretch;
       bend1 *= factor;
       bend2 *= factor;
@@ -827,7 +827,7 @@ void over_layers(const BundlePointers& nesting, const DeformationColumns& in, st
 }
 
 bool is_thesis(const BundlePointers& nesting) {
-  return nesting.node_count > 0 && nesting.nodes[0].place.kinematics == pipeline::Kinematics::thesis;
+  return nesting.node_count > 0 && is_thesis(nesting.nodes[0].place.kinematics);
 }
 
 void layer_waves(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,

@@ -117,8 +117,8 @@ inline namespace DRESSLIFE_MACHINE {
 /// Whether waves in a part need its parent in single precision only. nodes: in the part, which `last` leads
 /// to.
 inline bool single_suffices(const NestingLevel& last, const WireNode* nodes, int node_count, int order) {
-  bool suffice = order == 0 && last.place.kinematics == pipeline::Kinematics::exact &&
-                 last.slide.held == nullptr && last.slide.sliding != Sliding::along_ancestor;
+  bool suffice = order == 0 && !is_thesis(last.place.kinematics) && last.slide.held == nullptr &&
+                 last.slide.sliding != Sliding::along_ancestor;
   for (int n = 0; n < node_count; ++n) suffice &= nodes[n].slide.sliding != Sliding::along_ancestor;
   return suffice;
 }
