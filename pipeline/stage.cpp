@@ -24,6 +24,7 @@ const char* part_name(Part part) {
 
 void check_output(const StageCall& call) {
   std::error_code failure;
+  if (call.info.may_lack_output && call.output.empty()) return;
   if (std::filesystem::is_directory(call.output, failure))
     throw InputError({call.output.string()}, "is a folder (the output must be a file)",
                      "name a file after -o");
@@ -44,7 +45,9 @@ int run_stage(const StageInfo& info, int argc, char** argv,
   CLI::App app(info.purpose + "\n\nExample: " + info.example, info.program);
   std::string input, output, job_file;
   app.add_option("input", input, info.input)->required()->type_name("");
-  app.add_option("-o,--output", output, "where to write " + info.output)->required()->type_name("FILE");
+  app.add_option("-o,--output", output, "where to write " + info.output)
+      ->required(!info.may_lack_output)
+      ->type_name("FILE");
   if (!info.input_is_job)
     app.add_option("--job", job_file, "take the settings from this job instead of the one in the input")
         ->type_name("JOB.yaml");
@@ -54,9 +57,13 @@ int run_stage(const StageInfo& info, int argc, char** argv,
       ->allow_extra_args(false);
   call.options.resize(info.options.size());
   for (std::size_t i = 0; i < info.options.size(); ++i)
-    app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)
-        ->type_name(info.options[i].value)
-        ->allow_extra_args(false);
+    if (info.options[i].value.empty())
+      app.add_flag_callback(
+          info.options[i].name, [&call, i] { call.options[i].emplace_back(); }, info.options[i].meaning);
+    else
+      app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)
+          ->type_name(info.options[i].value)
+          ->allow_extra_args(false);
   app.add_flag("--quiet", call.quiet, "no progress, no notes");
   app.set_version_flag("--version", info.program + " " + DRESSLIFE_VERSION);
   try {

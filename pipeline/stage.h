@@ -21,17 +21,18 @@ enum class Part;
 /// An option of one stage only; it may be given several times.
 struct StageOption {
   std::string name;   ///< "--assume"
-  std::string value;  ///< what it takes: "LINE=then|else"
+  std::string value;  ///< what it takes: "LINE=then|else"; empty: nothing, the option is there or not
   std::string meaning;
 };
 
 struct StageInfo {
-  std::string program;        ///< "dresslife-sim"
-  std::string purpose;        ///< one sentence for --help
-  std::string input;          ///< what the positional argument is: "JOB.yaml", "motion.h5"
-  std::string output;         ///< what -o names: "motion.h5"
-  std::string example;        ///< a command that can be typed
-  bool input_is_job = false;  ///< the input is the job itself; other stages take --job
+  std::string program;           ///< "dresslife-sim"
+  std::string purpose;           ///< one sentence for --help
+  std::string input;             ///< what the positional argument is: "JOB.yaml", "motion.h5"
+  std::string output;            ///< what -o names: "motion.h5"
+  std::string example;           ///< a command that can be typed
+  bool input_is_job = false;     ///< the input is the job itself; other stages take --job
+  bool may_lack_output = false;  ///< without -o nothing is written
   std::vector<StageOption> options = {};
 };
 

@@ -262,16 +262,11 @@ std::string part_text(const Job& job, Part part) {
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {
   std::vector<std::filesystem::path> files;
+  std::error_code failure;
   for (const auto& file : {job.motion.clamp_poses, job.motion.program})
-    if (!file.empty()) files.push_back(file);
+    if (!file.empty() && !std::filesystem::is_directory(file, failure)) files.push_back(file);
   for (const ProgramFile& module : job.motion.modules) files.push_back(module.file);
-  const std::filesystem::path& program = job.motion.program;
-  if (program.extension() == ".src" || program.extension() == ".SRC")
-    for (const char* end : {".dat", ".DAT"}) {  // KRL reads a program's data list by itself
-      const std::filesystem::path data = std::filesystem::path(program).replace_extension(end);
-      std::error_code failure;
-      if (std::filesystem::is_regular_file(data, failure)) files.push_back(data);
-    }
+  for (const auto& file : program_files(job.motion.program)) files.push_back(file);
   for (const Link& link : job.robot.links)
     for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);
   for (const MeshFile& mesh : job.cell.meshes) files.push_back(mesh.file);

@@ -1,6 +1,8 @@
 #include "pipeline/job/motion.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "pipeline/job/fields.h"
 
@@ -55,7 +57,17 @@ void describe(Fields& f, MotionFrame& frame) {
 
 void describe(Fields& f, BranchAssumption& assumption) {
   f.text("line", assumption.line, Need::required, "of the branch: FILE:LINE, or LINE alone");
-  f.choice("take", assumption.take, "what the branch does");
+  f.text(
+      "take", assumption.take, Need::optional,
+      "what the branch does: then, else; of a choice among several (TEST, SWITCH, SELECT): the value that it "
+      "hangs on");
+}
+
+void describe(Fields& f, ProgramValue& value) {
+  f.text("name", value.name, Need::required,
+         "of an input, a register, a variable or a position, as the program writes it: di5, $IN[3], R[1], "
+         "PR[2]");
+  f.text("value", value.value, Need::required, "likewise: TRUE, 3, [[0,0,100],[1,0,0,0]]");
 }
 
 void describe(Fields& f, ProgramFile& file) {
@@ -79,12 +91,19 @@ void describe(Fields& f, Motion& motion) {
   f.list("work_objects", motion.work_objects, Need::optional,
          "work objects, in the robot's base frame; likewise");
   f.path("program", motion.program, Need::optional,
-         "a robot program instead of steps: RAPID (.mod, .prg, .sys), KRL (.src), Fanuc (.ls), joints "
-         "(.csv), ROS (.yaml, .json)");
+         "a robot program instead of steps: RAPID (.mod, .prg, .sys, .pgf), KRL (.src), Fanuc (.ls), joints "
+         "(.csv), ROS (.yaml, .json), or the folder of a controller's backup");
   f.list("modules", motion.modules, Need::optional,
          "further files of the program: modules, .dat files, called programs");
-  f.text("routine", motion.routine, Need::optional, "of the program to run; without it main, or the first");
+  f.text(
+      "routine", motion.routine, Need::optional,
+      "of the program to run, with its arguments where it takes some: name(1, p20); without it main, or the "
+      "first");
   f.list("assume", motion.assume, Need::optional, "how branches of the program go that hang on inputs");
+  f.list("values", motion.values, Need::optional,
+         "what the program asks and only the running robot knows: inputs, registers, variables, positions");
+  f.integer("passes", motion.passes, Need::optional, at_least(0),
+            "of the program's endless main loop; 0: until it repeats itself");
   f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0),
            "dwell of a spot weld of the program");
   f.path("clamp_poses", motion.clamp_poses, Need::optional,
@@ -160,6 +179,51 @@ void check_motion(const Motion& motion, const Robot& robot) {
   if (!motion.steps.empty() && !motion.steps.front().is_move())
     throw InputError(motion.steps.front().where,
                      "the program must begin with a move (where the robot starts)", "begin with joints_deg");
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const fs::path& file) {
+  std::string end = file.extension().string();
+  for (char& c : end)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return end;
+}
+
+bool ends_like_a_program(const fs::path& file) {
+  static const std::set<std::string> ends{".mod", ".modx", ".prg", ".sys", ".sysx", ".pgf",
+                                          ".src", ".dat",  ".sub", ".ls",  ".va"};
+  return ends.contains(lower_extension(file));
+}
+
+constexpr std::size_t most_files = 20'000;  // of a folder: many times a controller's backup
+
+}  // namespace
+
+std::vector<fs::path> program_files(const fs::path& program) {
+  std::vector<fs::path> files;
+  std::error_code failure;
+  const bool listed = lower_extension(program) == ".pgf";
+  if (fs::is_directory(program, failure) || listed) {
+    const fs::path folder = !listed ? program : program.has_parent_path() ? program.parent_path() : ".";
+    for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failure),
+         end;
+         !failure && at != end; at.increment(failure)) {
+      if (!at->is_regular_file(failure) || !ends_like_a_program(at->path())) continue;
+      files.push_back(at->path());
+      if (files.size() > most_files)
+        throw InputError({program.string()}, fmt::format("holds more than {} program files", most_files),
+                         "name the folder of one controller");
+    }
+  } else if (lower_extension(program) == ".src") {
+    for (const char* end : {".dat", ".DAT"})
+      if (const fs::path data = fs::path(program).replace_extension(end); fs::is_regular_file(data, failure))
+        files.push_back(data);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 std::string motion_text(const Motion& motion) { return to_yaml(echo_fields(motion)); }

@@ -91,18 +91,14 @@ struct MotionFrame {
 
 /// A line of a program on which a branch hangs on what is known only while the robot runs.
 struct BranchAssumption {
-  std::string line;  ///< "file.mod:12" or "12"
-  enum class Take { then_branch, else_branch } take = Take::then_branch;
+  std::string line;           ///< "file.mod:12" or "12"
+  std::string take = "then";  ///< "then", "else"; of a choice among several: the value that it hangs on
 };
-constexpr std::string_view word(BranchAssumption::Take value) {
-  switch (value) {
-    case BranchAssumption::Take::then_branch:
-      return "then";
-    case BranchAssumption::Take::else_branch:
-      return "else";
-  }
-  return {};
-}
+
+/// What a program does not say: an input, a register, persistent data, a position register.
+struct ProgramValue {
+  std::string name, value;  ///< both as the language writes them
+};
 
 struct ProgramFile {
   std::filesystem::path file;
@@ -114,11 +110,14 @@ struct Motion {
   double acceleration_percent = 100;
   double zone = 0;  ///< default of the moves [rad]
   std::vector<MotionFrame> tools, work_objects;
-  std::vector<MotionStep> steps;     ///< the first is a move: the robot starts there, at rest
-  std::filesystem::path program;     ///< a robot program instead of steps (sim/program); empty: none
+  std::vector<MotionStep> steps;  ///< the first is a move: the robot starts there, at rest
+  /// A robot program instead of steps (sim/program), or the folder of one; empty: none.
+  std::filesystem::path program;
   std::vector<ProgramFile> modules;  ///< more files of the program
-  std::string routine;               ///< of the program; empty: its start
+  std::string routine;               ///< of the program, "name" or "name(arguments)"; empty: its start
   std::vector<BranchAssumption> assume;
+  std::vector<ProgramValue> values;
+  int passes = 0;                     ///< of the program's endless main loop; 0: until it repeats itself
   double spot_time = 1;               ///< dwell of a spot weld in a program [s]
   std::filesystem::path clamp_poses;  ///< CSV with both clamps' poses instead of steps; empty: none
   Where where;
@@ -127,11 +126,17 @@ struct Motion {
 void describe(Fields& f, MotionStep& step);
 void describe(Fields& f, MotionFrame& frame);
 void describe(Fields& f, BranchAssumption& assumption);
+void describe(Fields& f, ProgramValue& value);
 void describe(Fields& f, ProgramFile& file);
 void describe(Fields& f, Motion& motion);
 
 /// Errors: InputError at the step that is no whole move, dwell or block, or that the robot's axes do not fit.
 void check_motion(const Motion& motion, const Robot& robot);
+
+/// Files that a robot program may be read from besides those that the motion names: of a folder (or of the
+/// folder of a list of modules), those that end like robot programs, within it and the folders in it; of a
+/// KRL program, the data list of its name. Sorted.
+std::vector<std::filesystem::path> program_files(const std::filesystem::path& program);
 
 /// One motion as YAML, and from a document that holds nothing else (checked key by key, not against a robot).
 std::string motion_text(const Motion& motion);

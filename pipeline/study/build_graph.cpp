@@ -90,8 +90,12 @@ void write_job(const StudyJob& job, const StudyPlaces& places) {
   const fs::path folder = places.job(job.name);
   fs::create_directories(folder / ".stage");
   write_text_if_changed(folder / "job.yaml", job_text(job.job), Sync::never);
-  for (const StageEdge& edge : edges)
-    write_text_if_changed(folder / settings_file(edge), part_text(job.job, edge.part), Sync::never);
+  for (const StageEdge& edge : edges) {
+    std::string settings = part_text(job.job, edge.part);
+    if (edge.part == Part::sim)  // a file that came or went in a program's folder is a change, too
+      for (const fs::path& beside : files_beside(job.job)) settings += "# " + beside.string() + "\n";
+    write_text_if_changed(folder / settings_file(edge), settings, Sync::never);
+  }
 }
 
 /// First line of a stage's log that tells an error, else its last line.

@@ -3,19 +3,46 @@
 namespace dresslife::sim {
 
 void Code::index() {
-  for (std::size_t i = 0; i < routines.size(); ++i)
-    by_name_.emplace(routines[i].name, i);  // the first one stays
+  local_.assign(modules.size(), {});
+  for (const Routine& routine : routines)
+    (routine.local && routine.module >= 0 ? local_[routine.module] : global_)[routine.name].push_back(
+        &routine);
 }
 
-const Routine* Code::find(const std::string& name) const {
-  const auto found = by_name_.find(name);
-  return found == by_name_.end() ? nullptr : &routines[found->second];
+const Routine* Code::find(const std::string& name, int module) const {
+  if (module >= 0 && module < static_cast<int>(local_.size()))
+    if (const auto found = local_[module].find(name); found != local_[module].end())
+      return found->second.front();
+  const auto found = global_.find(name);
+  return found == global_.end() ? nullptr : found->second.front();
+}
+
+const Code::Scope& Code::scope_of(const Routine& routine) const {
+  return routine.local && routine.module >= 0 ? local_[routine.module] : global_;
+}
+
+const Routine* Code::rival(const Routine& routine) const {
+  const Scope& scope = scope_of(routine);
+  const auto found = scope.find(routine.name);
+  if (found == scope.end() || found->second.size() < 2) return nullptr;
+  return found->second[found->second[0] == &routine];
 }
 
 const RecordType* Code::record(const std::string& name) const {
   for (const RecordType& type : records)
     if (type.name == name) return &type;
   return nullptr;
+}
+
+void Code::sort_problems(int file, const Problems& found) {
+  for (const Problem& problem : found.list()) {
+    Routine* holder = nullptr;
+    for (Routine& routine : routines)
+      if (routine.place.file == file && routine.place.line <= problem.where.line &&
+          problem.where.line <= routine.last_line)
+        holder = &routine;
+    (holder ? holder->problems : problems).push_back(problem);
+  }
 }
 
 }  // namespace dresslife::sim

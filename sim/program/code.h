@@ -35,6 +35,7 @@ struct Expression {
   std::vector<Expression> items;
   std::vector<std::string> keys;  ///< lower case
   std::string option;             ///< of an argument given by name (\WObj:=...); lower case
+  bool if_present = false;        ///< of an argument \name?value: given only if the value's name is
   Place place;
   int depth = 1;  ///< levels of items
 };
@@ -85,7 +86,27 @@ struct Routine {
   std::vector<Parameter> parameters;
   std::vector<Statement> body;
   Place place;
+  int last_line = 0;              ///< of the lines that belong to it
+  int module = -1;                ///< index into Code::modules; -1: none
+  bool local = false;             ///< known in its module alone
+  std::vector<Problem> problems;  ///< of its lines; they count when it is run
 };
+
+/// What has names of its own: a RAPID module; a KRL program with the data list of its name.
+struct Module {
+  std::string name, written;  ///< lower case, as written
+  Place place;
+};
+
+/// A declaration or assignment outside of routines.
+struct Datum {
+  Statement statement;
+  int module = -1;
+  bool local = false;  ///< known in its module alone
+};
+
+/// Name of an instruction whose first argument tells the routine that it calls: %"step" + ValToStr(n)%;
+inline constexpr const char* late_binding = "%";
 
 /// Fields of a record, in their order; types: of records within, null for single values.
 struct RecordType {
@@ -97,16 +118,32 @@ struct RecordType {
 
 struct Code {
   std::deque<SourceFile> files;  // tokens point into them
-  std::vector<Routine> routines;
-  std::vector<Statement> data;  ///< declarations outside of routines
+  std::vector<Module> modules;
+  std::deque<Routine> routines;
+  std::deque<Datum> data;
   std::deque<RecordType> records;
+  std::vector<Problem> problems;             ///< outside of routines
+  std::map<std::string, Expression> values;  ///< that the user gives; names in lower case, without blanks
+  /// "file.mod:12" or "12" -> the value by which an undecided TEST or SWITCH chooses.
+  std::map<std::string, Expression> choices;
+  std::string start;  ///< routine to run, in lower case; empty: the language's own
+  std::vector<Expression> start_arguments;
 
-  const Routine* find(const std::string& name) const;  ///< name in lower case
+  /// The routine that a name means within a module: its own local one, else the one of all modules.
+  const Routine* find(const std::string& name, int module) const;
+  /// Another routine that the same name means as well; null: there is none.
+  const Routine* rival(const Routine& routine) const;
   const RecordType* record(const std::string& name) const;
-  void index();  ///< to be called once when all is read
+  /// To be called once when all is read.
+  void index();
+  /// Gives the problems of a file's reading to the routines that hold their lines, the others to `problems`.
+  void sort_problems(int file, const Problems& found);
 
  private:
-  std::map<std::string, std::size_t, std::less<>> by_name_;
+  using Scope = std::map<std::string, std::vector<const Routine*>, std::less<>>;
+  const Scope& scope_of(const Routine& routine) const;
+  Scope global_;
+  std::vector<Scope> local_;
 };
 
 }  // namespace dresslife::sim

@@ -1,6 +1,7 @@
 // Expressions: evaluation, variables, assignment.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/program/interpreter.h"
 
@@ -46,11 +47,7 @@ Value Interpreter::evaluate_inner(const Expression& expression) {
     case Kind::aggregate:
       return aggregate(expression);
     case Kind::call:
-      if (const Routine* routine = code_.find(expression.text))
-        return call(*routine, expression.items, expression.place);
-      if (std::optional<Value> value = dialect_.function(expression, *this)) return *value;
-      for (const Expression& argument : expression.items) evaluate(argument);
-      return {};
+      return call_value(expression);
     case Kind::name:
     case Kind::element:
     case Kind::field:
@@ -64,16 +61,154 @@ std::optional<double> Interpreter::number(const Expression& expression) {
   return value.is_number() ? std::optional(value.number) : std::nullopt;
 }
 
-const Value* Interpreter::variable(const std::string& name) const {
+Value Interpreter::call_value(const Expression& expression) {
+  if (const Routine* routine = routine_named(expression.text, expression.place))
+    return call(*routine, expression.items, expression.place);
+  std::optional<Value> value = dialect_.function(expression, *this);
+  if (value && value->known()) return *value;
+  // An input by its function, or a routine of a file that is not there: the user may know.
+  if (std::optional<Value> known = given(expression.text)) return *known;
+  if (value && value->first_cause()) return *value;
+  for (const Expression& argument : expression.items)
+    if (Value cause = why_unknown(argument); cause.cause) return cause;
+  if (value) return unknown_value(expression.text, "is a function of what the robot meets");
+  forget_arguments(expression.text, expression.items, expression.place);
+  return unknown_value(expression.text, "is a function that no file read holds");
+}
+
+/// What makes an expression unknown, found without running anything twice.
+Value Interpreter::why_unknown(const Expression& expression) {
+  if (expression.kind == Kind::name || expression.kind == Kind::field || expression.kind == Kind::element)
+    return unknown_value(evaluate(expression));
+  for (const Expression& item : expression.items)
+    if (Value cause = why_unknown(item); cause.cause) return cause;
+  return {};
+}
+
+// ---- variables --------------------------------------------------------------------------------------------
+
+/// Tells data of all modules from that of one, and finds names that are given twice.
+void Interpreter::index_data() {
+  module_data_.assign(code_.modules.size(), {});
+  std::map<std::string, std::set<const Scope*>, std::less<>> scopes;  // of the names that the user gives
+  for (const Datum& datum : code_.data) {
+    if (datum.statement.kind != Statement::Kind::declare) continue;
+    Scope& scope = datum.local && datum.module >= 0 ? module_data_[datum.module] : globals_;
+    if (code_.values.contains(datum.statement.name)) scopes[datum.statement.name].insert(&scope);
+    Variable& variable = scope[datum.statement.name];
+    if (!variable.datum) {
+      variable.datum = &datum;
+      variable.written = datum.statement.place;
+    } else if (!variable.rival && !same_declaration(*variable.datum, datum)) {
+      variable.rival = &datum;
+    }
+  }
+  for (const auto& [name, holders] : scopes)
+    if (holders.size() > 1)
+      complain(code_.values.at(name).place,
+               fmt::format("is a name that {} modules have each for themselves", holders.size()),
+               fmt::format("write --value MODULE:{}=...", name));
+}
+
+namespace {
+
+bool same_expression(const Expression& a, const Expression& b) {
+  return a.kind == b.kind && a.text == b.text && a.number == b.number && a.keys == b.keys &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same_expression);
+}
+
+}  // namespace
+
+bool Interpreter::same_declaration(const Datum& a, const Datum& b) const {
+  const auto& x = a.statement.arguments;
+  const auto& y = b.statement.arguments;
+  return a.statement.text == b.statement.text &&
+         std::equal(x.begin(), x.end(), y.begin(), y.end(), same_expression);
+}
+
+Interpreter::Variable* Interpreter::find(const std::string& name) {
+  const auto within = [&](Scope& scope) {
+    const auto found = scope.find(name);
+    return found == scope.end() ? nullptr : &found->second;
+  };
   if (!locals_.empty())
-    if (const auto local = locals_.back().find(name); local != locals_.back().end()) return &local->second;
-  const auto global = globals_.find(name);
-  return global == globals_.end() ? nullptr : &global->second;
+    if (Variable* local = within(locals_.back())) return local;
+  if (module_ >= 0)
+    if (Variable* own = within(module_data_[module_])) return own;
+  return within(globals_);
+}
+
+/// The value of a variable, worked out when it is first asked for, in its own module.
+Value* Interpreter::ready(Variable& variable) {
+  using State = Variable::State;
+  if (variable.state == State::ready) return &variable.value;
+  if (variable.state == State::being_read) {
+    complain(variable.written,
+             fmt::format("gives '{}' a value that hangs on itself", variable.datum->statement.name),
+             "write it as a constant");
+    return &variable.value;
+  }
+  const Statement& statement = variable.datum->statement;
+  if (variable.rival)
+    complain(statement.place,
+             fmt::format("gives '{}' another value than {} does", statement.name,
+                         where(variable.rival->statement.place).text()),
+             "leave one of the two files out, or make the names those of their modules alone (LOCAL)");
+  variable.state = State::being_read;
+  const int module = std::exchange(module_, variable.datum->module);
+  locals_.emplace_back();  // a declaration outside of routines sees no routine's variables
+  std::optional<Value> value = given_for(*variable.datum);
+  if (!value) value = declared_value(statement);
+  locals_.pop_back();
+  module_ = module;
+  variable.value = *std::move(value);
+  variable.state = State::ready;
+  return &variable.value;
+}
+
+/// What the user gives for data that a file declares: "name", or "module:name" where several have the name.
+std::optional<Value> Interpreter::given_for(const Datum& datum) {
+  const Statement& statement = datum.statement;
+  std::optional<Value> value;
+  if (datum.module >= 0)
+    value = given(fmt::format("{}:{}", code_.modules[datum.module].name, statement.name));
+  if (!value) value = given(statement.name);
+  if (const RecordType* type = dialect_.type_of(statement.text);
+      value && type && statement.arguments.size() == 1)
+    if (!shape(*value, type))
+      complain(statement.place,
+               fmt::format("is given a value that has not the {} components of a {}", type->fields.size(),
+                           type->name),
+               fmt::format("write all of them in --value {}=...", statement.name));
+  return value;
+}
+
+const Value* Interpreter::variable(const std::string& name) {
+  Variable* found = find(name);
+  return found ? ready(*found) : nullptr;
+}
+
+std::optional<Value> Interpreter::given(const std::string& name) {
+  const auto found = code_.values.find(name);
+  if (found == code_.values.end()) return {};
+  used_values_.insert(name);
+  return evaluate(found->second);
+}
+
+Place Interpreter::origin(const Expression& expression) {
+  const Expression* base = &expression;
+  while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
+  if (base->kind == Kind::call && !base->items.empty()) return origin(base->items[0]);
+  const Variable* found = base->kind == Kind::name ? find(base->text) : nullptr;
+  return found ? found->written : Place{};
 }
 
 void Interpreter::set(const std::string& name, Value value) {
   charge(value.weight());
-  globals_.insert_or_assign(name, std::move(value));
+  Variable& variable = globals_[name];
+  variable.state = Variable::State::ready;
+  variable.assigned = true;
+  variable.value = std::move(value);
 }
 
 void Interpreter::forget(const std::string& name) {
@@ -86,18 +221,24 @@ Value* Interpreter::locate(const Expression& expression) {
   if (expression.kind == Kind::name) return const_cast<Value*>(variable(expression.text));
   if (expression.kind != Kind::field && expression.kind != Kind::element) return nullptr;
   // Indices first: a function in one may change what a place found earlier lies in.
-  std::vector<std::size_t> indices;
+  std::vector<double> indices;
   for (std::size_t i = 1; expression.kind == Kind::element && i < expression.items.size(); ++i) {
     const auto index = number(expression.items[i]);
-    if (!index || !(*index >= 1 && *index <= static_cast<double>(ImportLimits::values))) return nullptr;
-    indices.push_back(static_cast<std::size_t>(*index) - 1);
+    if (!index) return nullptr;
+    indices.push_back(*index);
   }
   Value* whole = locate(expression.items[0]);
   if (!whole) return nullptr;
   if (expression.kind == Kind::field) return const_cast<Value*>(whole->field(expression.text));
-  for (std::size_t index : indices) {
-    if (index >= whole->items.size()) return nullptr;
-    whole = &whole->items[index];
+  for (double index : indices) {
+    if (whole->kind != Value::Kind::list || whole->type) return nullptr;
+    const auto count = static_cast<double>(whole->items.size());
+    if (!(index >= 1 && index <= count) || index != std::trunc(index)) {
+      complain(expression.place, fmt::format("has the index {} of a list of {}", index, count),
+               "mend the index (the controller stops here)");
+      return nullptr;
+    }
+    whole = &whole->items[static_cast<std::size_t>(index) - 1];
   }
   return whole;
 }
@@ -133,6 +274,17 @@ Value Interpreter::name_value(const Expression& expression) {
   }
   if (expression.kind == Kind::name)
     if (std::optional<Value> value = dialect_.constant(expression.text)) return *value;
+  const std::string path = path_of(expression);
+  if (path.empty()) return unknown_index(expression);
+  if (std::optional<Value> value = given(path)) return *value;
+  return unknown_value(path, "is a name that no file read declares");
+}
+
+/// An element whose index is unknown is as unknown as that.
+Value Interpreter::unknown_index(const Expression& expression) {
+  if (expression.kind == Kind::field) return unknown_index(expression.items[0]);
+  for (std::size_t i = 1; expression.kind == Kind::element && i < expression.items.size(); ++i)
+    if (const Value index = evaluate(expression.items[i]); !index.known()) return unknown_value(index);
   return {};
 }
 
@@ -155,19 +307,58 @@ void Interpreter::assign(const Expression& target, Value value) {
   }
   if (Value* place = locate(target)) {
     if (place->type && value.kind == Value::Kind::list && !value.type) shape(value, place->type);
+    if (value.kind == Value::Kind::unknown) value = forgotten(*place, value.cause);
     *place = std::move(value);
+    if (Variable* variable = base_of(target)) {
+      variable->written = target.place;
+      variable->assigned = true;
+    }
     return;
   }
   const std::string path = path_of(target);
-  if (path.empty()) return;
+  if (path.empty()) return assign_somewhere(target);
   if (globals_.size() >= ImportLimits::values) {
     complain(target.place, "is one variable too many", "mend the loop that makes them");
     throw Stop{};
   }
   if (value.kind == Value::Kind::list && value.type)  // $VEL = {CP 1, ...} is $VEL.CP = 1, ...
     for (std::size_t i = 0; i < value.items.size(); ++i)
-      globals_.insert_or_assign(path + "." + value.type->fields[i], value.items[i]);
-  globals_.insert_or_assign(path, std::move(value));
+      set(path + "." + value.type->fields[i], value.items[i]);
+  set(path, std::move(value));
+  globals_[path].written = target.place;
+}
+
+Interpreter::Variable* Interpreter::base_of(const Expression& expression) {
+  const Expression* base = &expression;
+  while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
+  return base->kind == Kind::name ? find(base->text) : nullptr;
+}
+
+/// An element with an unknown index is written: any element may be the one.
+void Interpreter::assign_somewhere(const Expression& target) {
+  const Value cause = unknown_index(target);
+  if (Variable* variable = base_of(target)) {
+    Value* whole = ready(*variable);
+    *whole = forgotten(std::move(*whole), cause.cause);
+    variable->assigned = true;
+  }
+}
+
+void Interpreter::make_unknown(const Expression& target, const std::string& why) {
+  if (target.kind != Kind::name && target.kind != Kind::field && target.kind != Kind::element) return;
+  const std::string path = path_of(target);
+  if (std::optional<Value> value = given(path)) return assign(target, *value);
+  if (locate(target)) assign(target, unknown_value(path, why));
+}
+
+std::string Interpreter::because(const Value& unknown) const {
+  const Cause* cause = unknown.first_cause();
+  return cause ? fmt::format(": '{}' {}", cause->name, cause->why) : "";
+}
+
+std::string Interpreter::remedy_for(const Value& unknown) const {
+  const Cause* cause = unknown.first_cause();
+  return cause && !cause->name.empty() ? fmt::format("--value '{}=...'", cause->name) : "";
 }
 
 Value Interpreter::aggregate(const Expression& expression) {
@@ -198,7 +389,7 @@ Value Interpreter::unary(const Expression& expression) {
     return negative;
   }
   if (expression.text == "+") return value;
-  return {};
+  return unknown_value(value);
 }
 
 namespace {
@@ -264,13 +455,24 @@ Value Interpreter::binary(const Expression& expression) {
     for (const Value* side : {&a, &b})
       if (side->kind == Value::Kind::truth && (side->number != 0) == deciding) return truth_value(deciding);
   }
-  if (a.kind == Value::Kind::unknown || b.kind == Value::Kind::unknown) return {};
-  if (a.kind == Value::Kind::list || b.kind == Value::Kind::list) return computed_lists(op, a, b);
+  if (a.kind == Value::Kind::unknown || b.kind == Value::Kind::unknown) {
+    const Value cause = unknown_value(a);
+    return cause.cause ? cause : unknown_value(b);
+  }
+  if (a.kind == Value::Kind::list || b.kind == Value::Kind::list) {
+    if (const Value result = computed_lists(op, a, b); result.known()) return result;
+    const Value cause = unknown_value(a);
+    return cause.cause ? cause : unknown_value(b);
+  }
   if (a.kind != b.kind) return {};
   if (op == "and" || op == "or") return a.kind == Value::Kind::truth ? truth_value(op == "and") : Value{};
   if (op == "xor" || op == "exor")
     return a.kind == Value::Kind::truth ? truth_value(a.number != b.number) : Value{};
   if (a.kind == Value::Kind::text && op == "+") return text_value((a.text + b.text).substr(0, text_length));
+  if (b.is_number() && b.number == 0 && (op == "/" || op == "div" || op == "mod")) {
+    complain(expression.place, "divides by zero", "mend the line (the controller stops here)");
+    return {};
+  }
   if (const Value relation = compared(op, a, b); relation.known()) return relation;
   return a.is_number() ? computed(op, a.number, b.number) : Value{};
 }

@@ -3,11 +3,16 @@
 #include <algorithm>
 
 #include "pipeline/job/document.h"
+<<<<<<< HEAD
 #include "sim/program/encoding.h"
+=======
+#include "sim/program/backup.h"
+>>>>>>> 2da9be5 (Give robot programs what a controller knows: scope, unknown values with their cause, values, passes, folders)
 #include "sim/program/fanuc.h"
 #include "sim/program/krl.h"
 #include "sim/program/rapid.h"
 #include "sim/program/rapid_types.h"
+#include "sim/program/request.h"
 #include "sim/program/tokens.h"
 #include "sim/program/trajectory.h"
 
@@ -90,6 +95,7 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
 
 Language language_of(const std::filesystem::path& file) {
   static const std::pair<const char*, Language> ends[] = {{".mod", Language::rapid},
+                                                          {".pgf", Language::rapid},
                                                           {".modx", Language::rapid},
                                                           {".prg", Language::rapid},
                                                           {".sys", Language::rapid},
@@ -98,6 +104,7 @@ Language language_of(const std::filesystem::path& file) {
                                                           {".dat", Language::krl},
                                                           {".sub", Language::krl},
                                                           {".ls", Language::fanuc},
+                                                          {".va", Language::fanuc},
                                                           {".csv", Language::joint_columns},
                                                           {".yaml", Language::ros_trajectory},
                                                           {".yml", Language::ros_trajectory},
@@ -105,10 +112,29 @@ Language language_of(const std::filesystem::path& file) {
   const std::string extension = lower_case(file.extension().string());
   for (const auto& [end, language] : ends)
     if (extension == end) return language;
-  throw pipeline::InputError(
-      {file.string()}, fmt::format("is no robot program by its name ('{}')", extension),
-      "give RAPID (.mod, .prg, .sys), KRL (.src, .dat), Fanuc (.ls), joints (.csv) or ROS (.yaml, .json)");
+  throw pipeline::InputError({file.string()},
+                             fmt::format("is no robot program by its name ('{}')", extension),
+                             "give RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), joints "
+                             "(.csv), ROS (.yaml, .json), or "
+                             "the folder of a backup");
 }
+
+namespace {
+
+/// A mistake in a routine counts only if that runs, one outside of routines only if the program fails; but a
+/// file that is given up has lost routines and data that nobody would miss.
+void parse_files(Code& code, Language language, Problems& problems) {
+  for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
+    Problems found;
+    language == Language::rapid ? parse_rapid(code, file, found) : parse_krl(code, file, found);
+    if (!found.full())
+      code.sort_problems(file, found);
+    else
+      for (const Problem& problem : found.list()) problems.add(problem.where, problem.what, problem.remedy);
+  }
+}
+
+}  // namespace
 
 Program read_program(Language language, std::deque<SourceFile> files, const ImportOptions& options,
                      const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects,
@@ -122,14 +148,19 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       Code code;
       code.files = std::move(files);
       if (language == Language::rapid) add_rapid_types(code);
-      for (int file = 0; file < static_cast<int>(code.files.size()); ++file)
-        language == Language::rapid ? parse_rapid(code, file, problems) : parse_krl(code, file, problems);
+      parse_files(code, language, problems);
+      add_requests(code, options, language == Language::krl, problems);
       code.index();
       if (!problems.empty()) return program;
       if (language == Language::rapid)
         run_rapid(code, options, tools, work_objects, program, problems);
       else
         run_krl(code, options, tools, work_objects, program, problems);
+      for (const Problem& unread : code.problems)  // they may be why
+        if (problems.empty())
+          program.skipped.push_back({unread.where, "not read: " + unread.what, true});
+        else
+          problems.add(unread.where, unread.what, unread.remedy);
       break;
     }
     case Language::fanuc:
@@ -148,19 +179,37 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
   return program;
 }
 
-Program read_program(const pipeline::Motion& motion) {
-  const Language language = language_of(motion.program);
-  std::deque<SourceFile> files;
-  files.push_back(source_of(motion.program));
-  for (const pipeline::ProgramFile& module : motion.modules) files.push_back(source_of(module.file));
+ImportOptions options_of(const pipeline::Motion& motion) {
   ImportOptions options;
   options.routine = motion.routine;
   options.spot_time = motion.spot_time;
+  options.passes = motion.passes;
   for (const pipeline::BranchAssumption& assumption : motion.assume)
-    options.assume[assumption.line] = assumption.take == pipeline::BranchAssumption::Take::then_branch
-                                          ? Assumption::then_branch
-                                          : Assumption::else_branch;
-  if (language == Language::krl) {  // the data list of the same name belongs to the program
+    if (assumption.take == "then" || assumption.take == "else")
+      options.assume[assumption.line] =
+          assumption.take == "then" ? Assumption::then_branch : Assumption::else_branch;
+    else
+      options.choose[assumption.line] = assumption.take;
+  for (const pipeline::ProgramValue& given : motion.values) options.values[given.name] = given.value;
+  return options;
+}
+
+Program read_program(const pipeline::Motion& motion) {
+  ImportOptions options = options_of(motion);
+  Language language = Language::rapid;
+  std::deque<SourceFile> files;
+  if (is_backup(motion.program)) {
+    const Backup backup = backup_of(motion.program, motion.routine);
+    language = backup.language;
+    options.routine = backup.routine;
+    for (const std::filesystem::path& file : backup.files) files.push_back(source_of(file));
+  } else {
+    language = language_of(motion.program);
+    files.push_back(source_of(motion.program));
+  }
+  for (const pipeline::ProgramFile& module : motion.modules) files.push_back(source_of(module.file));
+  if (language == Language::krl &&
+      !is_backup(motion.program)) {  // the data list of the same name belongs to the program
     for (const char* end : {".dat", ".DAT"}) {
       std::filesystem::path data = motion.program;
       std::error_code failure;
@@ -187,6 +236,8 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   motion.modules.clear();
   motion.assume.clear();
   motion.routine.clear();
+  motion.values.clear();
+  motion.passes = 0;
   if (motion.name.empty()) motion.name = program.name;
   motion.tools = frames_of(program.tools);
   motion.work_objects = frames_of(program.work_objects);
@@ -203,11 +254,71 @@ pipeline::Motion resolved_motion(const pipeline::Motion& motion) {
   return motion.program.empty() ? motion : motion_of(read_program(motion), motion);
 }
 
+namespace {
+
+/// "SetDO: input, output or logic" -> "SetDO", "input, output or logic".
+std::pair<std::string, std::string> name_and_reason(const std::string& what) {
+  const std::size_t colon = what.find(": ");
+  return colon == std::string::npos ? std::pair(std::string(), what)
+                                    : std::pair(what.substr(0, colon), what.substr(colon + 2));
+}
+
+constexpr int listed_lines = 5;  // of one thing that is skipped; the rest is counted
+
+struct SkippedGroup {
+  pipeline::Where first;
+  std::string name, reason;
+  int more = 0;
+  std::string lines;  // "14, 20, door.mod:3"
+};
+
+void add_to_group(SkippedGroup& group, const Skipped& skipped) {
+  if (++group.more > listed_lines) return;
+  const std::string file = std::filesystem::path(skipped.where.file).filename().string();
+  const bool same_file = skipped.where.file == group.first.file;
+  group.lines +=
+      fmt::format("{}{}{}", group.lines.empty() ? "" : ", ", same_file ? "" : file + ":", skipped.where.line);
+}
+
+}  // namespace
+
 std::vector<std::string> skipped_lines(const Program& program) {
   std::vector<std::string> lines;
-  for (const Skipped& skipped : program.skipped)
-    lines.push_back(fmt::format("{}: {}: {}", skipped.where.text(),
-                                skipped.may_move ? "warning: skipped" : "skipped", skipped.what));
+  std::vector<SkippedGroup> moving;
+  std::map<std::string, std::map<std::string, int>> harmless;  // reason -> name -> how often
+  std::map<std::string, std::size_t> known;
+  for (const Skipped& skipped : program.skipped) {
+    const auto [name, reason] = name_and_reason(skipped.what);
+    if (!skipped.may_move && name.empty()) {
+      lines.push_back(fmt::format("{}: note: {}", skipped.where.text(), reason));
+      continue;
+    }
+    if (!skipped.may_move) {
+      ++harmless[reason][name];
+      continue;
+    }
+    const auto [at, is_new] = known.emplace(skipped.what, moving.size());
+    if (is_new)
+      moving.push_back({skipped.where, name, reason, 0, ""});
+    else
+      add_to_group(moving[at->second], skipped);
+  }
+  std::vector<std::string> warnings;
+  for (const SkippedGroup& group : moving)
+    warnings.push_back(fmt::format("{}: warning: skipped: {}{}{}", group.first.text(),
+                                   group.name.empty() ? "" : group.name + ": ", group.reason,
+                                   group.more == 0
+                                       ? ""
+                                       : fmt::format(" (and {} more: line {}{})", group.more, group.lines,
+                                                     group.more > listed_lines ? ", ..." : "")));
+  lines.insert(lines.begin(), warnings.begin(), warnings.end());
+  for (const auto& [reason, names] : harmless) {
+    std::string list;
+    for (const auto& [name, count] : names)
+      list +=
+          fmt::format("{}{}{}", list.empty() ? "" : ", ", name, count > 1 ? fmt::format(" x{}", count) : "");
+    lines.push_back(fmt::format("skipped: {}: {}", reason, list));
+  }
   return lines;
 }
 

@@ -4,6 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <tuple>
+#include <utility>
+
+#include "sim/program/tokens.h"
 
 namespace dresslife::sim {
 namespace {
@@ -14,7 +19,14 @@ constexpr int stack_depth = 1200;  // of execute() and evaluate() in each other;
 
 constexpr std::size_t instruction_work = 10;  // of a move, in statements
 
-const char* assume_remedy = "choose with --assume {}:{}=then or =else (motion.assume in a job)";
+// In search of the pass of an endless loop after which it repeats itself: enough for a pallet of 200 boxes,
+// and little beside what a program may run.
+constexpr int searched_passes = 200;
+constexpr long searched_work = ImportLimits::executed / 3;
+constexpr std::size_t searched_moves = 20'000;
+constexpr int repeats_for_certainty = 3;
+
+std::string passes_text(long passes) { return passes == 1 ? "one pass" : fmt::format("{} passes", passes); }
 
 }  // namespace
 
@@ -29,20 +41,64 @@ struct Interpreter::Deeper {
   Interpreter& run_;
 };
 
+/// A loop that runs, as long as this lives.
+struct Interpreter::Round {
+  Round(Interpreter& run, const Place& place) : run_(run), at_(run.loops_.size()) {
+    run.loops_.push_back({place});
+  }
+  Round(const Round&) = delete;
+  ~Round() { run_.loops_.resize(at_); }
+  long again() {
+    run_.charge(1);
+    return ++run_.loops_[at_].passes;
+  }
+  Interpreter& run_;
+  std::size_t at_;
+};
+
 Interpreter::Interpreter(const Code& code, Dialect& dialect, const ImportOptions& options, Program& program,
                          Problems& problems)
     : code_(code), dialect_(dialect), options_(options), program_(program), problems_(problems) {}
 
 void Interpreter::run(const Routine& routine) {
   try {
-    for (const Statement& statement : code_.data)
-      statement.kind == Kind::declare ? declare(statement)
-                                      : assign(statement.arguments[0], evaluate(statement.arguments[1]));
+    index_data();
+    for (const Datum& datum : code_.data) {  // of a KRL data list; declarations wait until they are used
+      if (datum.statement.kind != Kind::assign) continue;
+      module_ = datum.module;
+      assign(datum.statement.arguments[0], evaluate(datum.statement.arguments[1]));
+    }
+    module_ = -1;
     locals_.emplace_back();
-    routines_.push_back(&routine);
-    execute_routine(routine);
+    start(routine);
   } catch (const Stop&) {
   }
+  for (const auto& [line, assumption] : options_.assume)
+    if (!used_assumptions_.contains(line))
+      note(routine.place, fmt::format("--assume {}: no branch on that line was to be decided", line), true);
+  for (const auto& [name, expression] : code_.values)
+    if (!used_values_.contains(name))
+      note(expression.place, fmt::format("--value {}: nothing in the program asked for it", name), true);
+}
+
+void Interpreter::start(const Routine& routine) {
+  if (const Routine* rival = code_.rival(routine))
+    complain(
+        routine.place,
+        fmt::format("holds '{}', which stands in {} as well", routine.written, where(rival->place).text()),
+        "leave one of the two out");
+  const auto needed = [](const Parameter& parameter) { return !parameter.option; };
+  const auto count = std::count_if(routine.parameters.begin(), routine.parameters.end(), needed);
+  if (static_cast<long>(code_.start_arguments.size()) < count) {
+    std::string names;
+    for (const Parameter& parameter : routine.parameters)
+      if (needed(parameter)) names += (names.empty() ? "" : ", ") + parameter.name;
+    complain(routine.place, fmt::format("'{}' takes {} arguments: {}", routine.written, count, names),
+             fmt::format("give them: --routine '{}({})' with their values (motion.routine)", routine.written,
+                         names));
+    return;
+  }
+  call(routine, code_.start_arguments, routine.place);
 }
 
 pipeline::Where Interpreter::where(const Place& place) const {
@@ -51,6 +107,11 @@ pipeline::Where Interpreter::where(const Place& place) const {
 
 void Interpreter::complain(const Place& place, const std::string& what, const std::string& remedy) {
   problems_.add(where(place), what, remedy);
+}
+
+void Interpreter::miss(const std::string& name, const Place& place, const std::string& what,
+                       const std::string& remedy) {
+  problems_.add_missing(name, where(place), what, remedy);
 }
 
 void Interpreter::note(const Place& place, const std::string& what, bool may_move) {
@@ -66,12 +127,23 @@ void Interpreter::note(const Place& place, const std::string& what, bool may_mov
 void Interpreter::charge(std::size_t work) {
   executed_ += static_cast<long>(work);
   if (executed_ <= ImportLimits::executed) return;
-  const Place place = routines_.empty() ? Place{} : routines_.back()->place;
+  // The loop that has gone round most often since it was entered runs away, not those around or within it.
+  const auto longest = std::max_element(loops_.begin(), loops_.end(),
+                                        [](const Loop& a, const Loop& b) { return a.passes < b.passes; });
+  const Place place = longest != loops_.end() ? longest->place
+                      : routines_.empty()     ? Place{}
+                                              : routines_.back()->place;
   complain(place,
            fmt::format("has run {} statements without an end (a loop that input would end?)",
                        ImportLimits::executed),
-           fmt::format("take one pass of the loop with --assume LINE=then, or leave it out with =else"));
+           fmt::format("take one pass of the loop with --assume {0}=then, or leave it out with =else",
+                       short_place(place)));
   throw Stop{};
+}
+
+std::string Interpreter::short_place(const Place& place) const {
+  return fmt::format("{}:{}", std::filesystem::path(code_.files[place.file].name()).filename().string(),
+                     place.line);
 }
 
 int Interpreter::frame_index(std::vector<NamedFrame>& list, const NamedFrame& frame) {
@@ -108,6 +180,7 @@ void Interpreter::emit(Instruction instruction, const Statement& statement) {
 // ---- statements -------------------------------------------------------------------------------------------
 
 Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
+  std::optional<Round> round;  // of jumps back
   for (std::size_t i = 0; i < body.size(); ++i) {
     const Flow flow = execute(body[i]);
     if (flow == Flow::next) continue;
@@ -117,9 +190,13 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
     });
     if (label == body.end()) return flow;  // in a block around this one
     const auto target = static_cast<std::size_t>(label - body.begin());
-    if (target <= i && jumps_for_ever(body, target, i)) {
-      note(jump_->place, "jumps back for ever: the motion is one pass");
-      throw Stop{};
+    if (target <= i) {
+      if (!round) round.emplace(*this, jump_->place);
+      const long passes = round->again();
+      if (jumps_for_ever(body, target, i) && passes >= std::max(1, options_.passes)) {
+        note(jump_->place, "an endless loop, of which the motion is " + passes_text(passes));
+        throw Stop{};
+      }
     }
     charge(1);
     i = target;
@@ -186,33 +263,45 @@ Interpreter::Flow Interpreter::execute(const Statement& statement) {
   return Flow::next;
 }
 
-std::optional<bool> Interpreter::assumed(const Place& place) const {
-  if (options_.assume.empty()) return {};
+/// What the user says of a line, under any of its names.
+template <class Answers>
+const typename Answers::mapped_type* Interpreter::answer(const Answers& answers, const Place& place) {
+  if (answers.empty()) return nullptr;
   const std::string& file = code_.files[place.file].name();
   for (const std::string& key :
-       {fmt::format("{}:{}", file, place.line), fmt::format("{}", place.line),
-        fmt::format("{}:{}", std::filesystem::path(file).filename().string(), place.line)})
-    if (const auto found = options_.assume.find(key); found != options_.assume.end())
-      return found->second == Assumption::then_branch;
-  return {};
+       {fmt::format("{}:{}", file, place.line), fmt::format("{}", place.line), short_place(place)})
+    if (const auto found = answers.find(key); found != answers.end()) {
+      used_assumptions_.insert(key);
+      return &found->second;
+    }
+  return nullptr;
 }
 
-void Interpreter::ask(const Place& place, const std::string& what) {
-  const std::string file = std::filesystem::path(code_.files[place.file].name()).filename().string();
-  complain(place, what, fmt::format(fmt::runtime(assume_remedy), file, place.line));
+std::optional<bool> Interpreter::assumed(const Place& place) {
+  const Assumption* found = answer(options_.assume, place);
+  return found ? std::optional(*found == Assumption::then_branch) : std::nullopt;
+}
+
+void Interpreter::ask(const Place& place, const std::string& what, const Value& unknown,
+                      const std::string& answers) {
+  const std::string value = remedy_for(unknown);
+  complain(place, what + because(unknown),
+           fmt::format("choose with --assume {}={} (motion.assume in a job){}", short_place(place), answers,
+                       value.empty() ? "" : fmt::format(", or give {} (motion.values)", value)));
 }
 
 Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
   for (const Branch& branch : statement.branches) {
     if (branch.conditions.empty()) return execute(branch.body);
     std::optional<bool> decision = assumed(branch.place);
+    Value condition;
     if (!decision) {
-      const Value condition = evaluate(branch.conditions[0]);
+      condition = evaluate(branch.conditions[0]);
       if (condition.kind == Value::Kind::truth) decision = condition.number != 0;
     }
     if (!decision) {
-      if (!matters({statement})) return leave_out(statement);
-      ask(branch.place, "branches on what is known only while the robot runs");
+      if (!matters(statement)) return leave_out(statement, condition);
+      ask(branch.place, "branches on what is known only while the robot runs", condition, "then or =else");
       return run_both(statement);
     }
     if (*decision) return execute(branch.body);
@@ -221,38 +310,55 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
 }
 
 Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
-  const Value subject = evaluate(statement.arguments[0]);
+  const Expression* chosen = answer(code_.choices, statement.place);
+  const Value subject = evaluate(chosen ? *chosen : statement.arguments[0]);
   for (const Branch& branch : statement.branches) {
     if (branch.conditions.empty()) return execute(branch.body);
     const std::optional<bool> decision = assumed(branch.place);
     if (decision ? *decision : false) return execute(branch.body);
     if (decision) continue;
-    bool unknown = !subject.known();
     for (const Expression& condition : branch.conditions) {
       const Value value = evaluate(condition);
-      unknown |= !value.known();
-      if (!unknown && value.kind == subject.kind && value.number == subject.number &&
-          value.text == subject.text)
-        return execute(branch.body);
+      if (!subject.known() || !value.known()) {
+        const Value& unknown = subject.known() ? value : subject;
+        if (!matters(statement)) return leave_out(statement, unknown);
+        ask(statement.place, "chooses by what is known only while the robot runs", unknown,
+            "VALUE, the value that it then has");
+        return run_both(statement);
+      }
+      if (value == subject) return execute(branch.body);
     }
-    if (!unknown) continue;
-    if (!matters({statement})) return leave_out(statement);
-    ask(branch.place, "is a case of what is known only while the robot runs");
   }
   return Flow::next;
 }
 
 /// An undecided branch that does not move the robot: nothing but its variables becomes unknown.
-Interpreter::Flow Interpreter::leave_out(const Statement& statement) {
-  note(statement.place, "a branch on what is known only while the robot runs, without moves");
-  for (const Branch& branch : statement.branches) forget_assigned(branch.body);
-  return Flow::next;
+Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value& unknown) {
+  const Cause* cause = unknown.first_cause();
+  note(statement.place, fmt::format("branch without moves{}: known only while the robot runs",
+                                    cause ? fmt::format(" on '{}'", cause->name) : ""));
+  const std::string why = fmt::format("hangs on the branch in {}", short_place(statement.place));
+  std::set<const Routine*> done;
+  for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
+  if (!leaves(statement, false)) return Flow::next;
+  // What follows in the routine may run or not, and moves nothing either (see matters()).
+  forget_assigned(routines_.back()->body, why, done);
+  result_ = unknown_value(unknown);
+  return Flow::give_back;
 }
 
 /// The reading has failed; what else there is to ask or to mend in the arms is told as well.
 Interpreter::Flow Interpreter::run_both(const Statement& statement) {
   for (const Branch& branch : statement.branches) execute(branch.body);
   return Flow::next;
+}
+
+Expression Interpreter::counter_of(const Statement& statement) {
+  Expression counter;
+  counter.kind = Expression::Kind::name;
+  counter.text = statement.name;
+  counter.place = statement.place;
+  return counter;
 }
 
 Interpreter::Flow Interpreter::run_count(const Statement& statement) {
@@ -263,31 +369,34 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   std::optional<double> step = from && to && *to < *from ? -1 : 1;  // RAPID counts either way
   if (written_step.kind != Expression::Kind::none) step = number(written_step);
   if (!decision && (!from || !to || !step || *step == 0)) {
-    if (matters({statement}))
-      ask(statement.place, "counts to what is known only while the robot runs (then: one pass, else: none)");
+    Value unknown;
+    for (const Expression& bound : statement.arguments)
+      if (unknown.cause == nullptr) unknown = unknown_value(evaluate(bound));
+    if (!matters(statement)) return leave_out(statement, unknown);
+    ask(statement.place, "counts to what is known only while the robot runs (then: one pass, else: none)",
+        unknown, "then or =else");
     return Flow::next;
   }
   const double first = from.value_or(1), last = decision ? first : *to, by = decision ? 1 : *step;
-  auto& variables = locals_.back();
+  Scope& variables = locals_.back();
   const auto before = variables.find(statement.name);
-  const std::optional<Value> hidden =
+  const std::optional<Variable> hidden =
       before == variables.end() ? std::nullopt : std::optional(before->second);
   const auto count = [&](double value) {
     if (statement.keeps_counter) {
-      Expression counter;
-      counter.kind = Expression::Kind::name;
-      counter.text = statement.name;
-      counter.place = statement.place;
-      assign(counter, number_value(value));
+      assign(counter_of(statement), number_value(value));
     } else {
-      variables.insert_or_assign(statement.name, number_value(value));
+      variables.insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
+                                                          .value = number_value(value),
+                                                          .written = statement.place});
     }
   };
+  Round round(*this, statement.place);
   Flow flow = Flow::next;
   double value = first;
   for (long k = 0; flow == Flow::next && (by > 0 ? value <= last : value >= last);
        value = first + static_cast<double>(++k) * by) {
-    charge(1);
+    round.again();
     count(value);
     flow = execute(statement.branches[0].body);
   }
@@ -307,65 +416,195 @@ Interpreter::Flow Interpreter::run_while(const Statement& statement) {
   if (!decision && condition.kind == Expression::Kind::truth && condition.number != 0)
     return run_endless(statement);
   Flow flow = Flow::next;
+  Round round(*this, statement.place);
   while (flow == Flow::next) {
     if (decision && !*decision) break;
     if (!decision) {
       const Value go_on = evaluate(condition);
-      if (go_on.kind == Value::Kind::unknown) {
-        if (!matters({statement})) return leave_out(statement);
+      if (!go_on.known()) {
+        if (!matters(statement)) return leave_out(statement, go_on);
         ask(statement.place,
             "repeats while something holds that is known only while the robot runs (then: one pass, else: "
-            "none)");
+            "none)",
+            go_on, "then or =else");
         return run_both(statement);
       }
       if (go_on.number == 0) break;
     }
-    charge(1);
+    const long passes = round.again();
     flow = execute(statement.branches[0].body);
-    if (decision) break;
+    if (decision && passes >= std::max(1, options_.passes)) break;
   }
   return flow == Flow::leave_loop ? Flow::next : flow;
 }
 
 Interpreter::Flow Interpreter::run_until(const Statement& statement) {
+  Round round(*this, statement.place);
   while (true) {
     const Flow flow = execute(statement.branches[0].body);
     if (flow != Flow::next) return flow == Flow::leave_loop ? Flow::next : flow;
     if (assumed(statement.place)) return Flow::next;
     const Value done = evaluate(statement.arguments[0]);
-    if (done.kind == Value::Kind::unknown) {
+    if (!done.known()) {
       note(statement.place,
-           "repeats until something holds that is known only while the robot runs: one pass is taken");
+           "a loop that ends when something holds that is known only while the robot runs, of which one pass "
+           "is "
+           "taken" +
+               because(done),
+           matters(statement));
       return Flow::next;
     }
     if (done.number != 0) return Flow::next;
-    charge(1);
+    round.again();
   }
+}
+
+namespace {
+
+/// Whether two moves are the same motion; where they stand in the program does not count.
+bool same_motion(const Instruction& a, const Instruction& b) {
+  const auto same_pose = [](const Frame& x, const Frame& y) {
+    return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
+  };
+  const auto settings = [](const Instruction& i) {
+    return std::tie(i.kind, i.target.joints, i.target.configuration, i.target.external_axes, i.tool,
+                    i.work_object, i.speed.axis_percent, i.speed.tool, i.speed.orientation, i.speed.duration,
+                    i.zone.distance, i.zone.percent, i.acceleration_percent, i.dwell);
+  };
+  return settings(a) == settings(b) && same_pose(a.target.pose, b.target.pose) && same_pose(a.via, b.via);
+}
+
+/// The passes of an endless loop so far.
+class Passes {
+ public:
+  explicit Passes(const std::vector<Instruction>& moves) : moves_(moves), ends_{moves.size()} {}
+
+  void add(std::uint64_t state) {
+    ends_.push_back(moves_.size());
+    states_.push_back(state);
+  }
+  std::size_t count() const { return states_.size(); }
+  std::size_t end(std::size_t pass) const { return ends_[pass]; }  ///< moves up to the end of pass 1, 2, ..
+  bool same_motion(std::size_t a, std::size_t b) const {
+    return std::equal(moves_.begin() + begin(a), moves_.begin() + stop(a), moves_.begin() + begin(b),
+                      moves_.begin() + stop(b), sim::same_motion);
+  }
+  /// The last pass ends as an earlier one did and moved as it did: from here on everything repeats.
+  bool repeats() const {
+    const std::size_t last = count();
+    for (std::size_t pass = 1; pass < last; ++pass)
+      if (states_[pass - 1] == states_[last - 1] && same_motion(pass, last)) return true;
+    return false;
+  }
+  /// Variables that only count never come back. Passes whose motion repeats, judged by the moves alone:
+  /// how many there are up to the end of the first period; 0: no period is seen.
+  std::size_t by_motion() const {
+    const std::size_t last = count();
+    for (std::size_t period = 1; period * (repeats_for_certainty + 1) <= last; ++period) {
+      std::size_t first =
+          last - period;  // the earliest pass from which on each equals the one a period later
+      while (first >= 1 && same_motion(first, first + period)) --first;
+      if (first + 1 + repeats_for_certainty * period <= last) return first + period;
+    }
+    return 0;
+  }
+  /// How many passes the motion is.
+  std::size_t kept(std::size_t wanted) const {
+    if (wanted) return wanted;
+    if (repeats()) return count() - 1;
+    if (const std::size_t periodic = by_motion()) return periodic;
+    std::size_t first = 1;  // that moves
+    while (first < count() && end(first) == end(0)) ++first;
+    return first;
+  }
+
+ private:
+  long begin(std::size_t pass) const { return static_cast<long>(ends_[pass - 1]); }
+  long stop(std::size_t pass) const { return static_cast<long>(ends_[pass]); }
+  const std::vector<Instruction>& moves_;
+  std::vector<std::size_t> ends_;
+  std::vector<std::uint64_t> states_;
+};
+
+}  // namespace
+
+/// A sum over all that the program has assigned.
+std::uint64_t Interpreter::state() const {
+  std::uint64_t sum = 14695981039346656037u;  // FNV-1a
+  const auto take = [&](const void* bytes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      sum = (sum ^ static_cast<const unsigned char*>(bytes)[i]) * 1099511628211u;
+  };
+  const std::function<void(const Value&)> value = [&](const Value& v) {
+    take(&v.kind, sizeof v.kind);
+    if (v.kind == Value::Kind::number || v.kind == Value::Kind::truth) take(&v.number, sizeof v.number);
+    take(v.text.data(), v.text.size());
+    for (const Value& item : v.items) value(item);
+  };
+  const auto scope = [&](const Scope& variables) {
+    for (const auto& [name, variable] : variables) {
+      if (!variable.assigned) continue;
+      take(name.data(), name.size() + 1);
+      value(variable.value);
+    }
+  };
+  scope(globals_);
+  for (const Scope& variables : module_data_) scope(variables);
+  for (const Scope& variables : locals_) scope(variables);
+  return sum;
 }
 
 /// The endless loop of a main program is one cycle of the motion; nothing can follow it.
 Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   const bool leaves = holds_loop_exit(statement.branches[0].body);
+  const std::size_t wanted = options_.passes > 0 ? options_.passes : assumed(statement.place) ? 1 : 0;
+  const std::size_t before = program_.instructions.size();
+  const long work_before = executed_;
+  Round round(*this, statement.place);
+  Passes passes(program_.instructions);
   while (true) {
-    const std::size_t moves = program_.instructions.size();
+    const std::size_t problems = problems_.count();
     const Flow flow = execute(statement.branches[0].body);
     if (flow != Flow::next) return flow == Flow::leave_loop ? Flow::next : flow;
-    if (!leaves || assumed(statement.place)) {
-      note(statement.place, "repeats for ever: the motion is one pass");
-      if (moves == program_.instructions.size() && !assumed(statement.place)) return Flow::next;
+    passes.add(state());
+    round.again();
+    if (problems_.count() > problems) {
+      if (passes.count() > 1)
+        problems_.hint(problems,
+                       fmt::format("in pass {} of the loop in {}: --passes {} ends before", passes.count(),
+                                   short_place(statement.place), passes.count() - 1));
       throw Stop{};
     }
-    charge(1);
+    if (passes.count() == wanted || (!wanted && passes.repeats())) break;
+    const bool searched = passes.count() >= searched_passes || executed_ - work_before > searched_work ||
+                          program_.instructions.size() - before > searched_moves;
+    if (!wanted && !leaves && searched) break;
   }
+  if (!wanted && !leaves && program_.instructions.size() == before) return Flow::next;
+  const std::size_t kept = passes.kept(wanted);
+  const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
+  program_.instructions.resize(passes.end(kept));
+  note(statement.place,
+       fmt::format(
+           "an endless loop, of which the motion is {}{}", passes_text(static_cast<long>(kept)),
+           cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
+       cut);
+  throw Stop{};
+}
+
+bool Interpreter::present(const Expression& argument) {
+  return argument.kind != Expression::Kind::name || find(argument.text) != nullptr;
 }
 
 void Interpreter::run_instruction(const Statement& statement) {
-  if (const Routine* routine = code_.find(statement.name)) {
+  if (statement.name == late_binding) return run_late(statement);
+  if (const Routine* routine = routine_named(statement.name, statement.place)) {
     call(*routine, statement.arguments, statement.place);
     return;
   }
   charge(instruction_work);
   if (dialect_.instruction(statement, *this)) return;
+  forget_arguments(statement.name, statement.arguments, statement.place);
   if (dialect_.harmless(statement.name))
     note(statement.place, statement.text + ": input, output or logic");
   else
@@ -373,36 +612,95 @@ void Interpreter::run_instruction(const Statement& statement) {
          true);
 }
 
+/// %"step" + ValToStr(n)% x: the name is worked out.
+void Interpreter::run_late(const Statement& statement) {
+  const Value name = evaluate(statement.arguments[0]);
+  if (name.kind != Value::Kind::text) {
+    const std::string value = remedy_for(name);
+    complain(statement.place, "runs a routine whose name is known only while the robot runs" + because(name),
+             value.empty() ? "write its name" : "give " + value);
+    return;
+  }
+  run_named(name.text, {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);
+}
+
+void Interpreter::run_named(const std::string& name, const std::vector<Expression>& arguments,
+                            const Place& place) {
+  const std::string lower = lower_case(name);
+  if (const Routine* routine = routine_named(lower.substr(lower.find(':') + 1), place)) {
+    call(*routine, arguments, place);
+    return;
+  }
+  forget_arguments(lower, arguments, place);
+  note(place, name + ": not a routine of the files read and not a known instruction", true);
+}
+
+/// What an instruction that is left out may write to is unknown from here on.
+void Interpreter::forget_arguments(const std::string& name, const std::vector<Expression>& arguments,
+                                   const Place& place) {
+  int position = 0;
+  for (const Expression& argument : arguments) {
+    const int at = argument.option.empty() ? position++ : -1;
+    if (dialect_.writes(name, at, argument))
+      make_unknown(argument, fmt::format("may be written by {} ({})", name, short_place(place)));
+  }
+}
+
+/// The routine of a name, at its use; null: there is none.
+const Routine* Interpreter::routine_named(const std::string& name, const Place& place) {
+  const Routine* routine = code_.find(name, module_);
+  if (!routine) return nullptr;
+  if (const Routine* rival = code_.rival(*routine))
+    complain(place,
+             fmt::format("runs '{}', which stands both in {} and in {}", routine->written,
+                         where(routine->place).text(), where(rival->place).text()),
+             "leave one of the two files out");
+  return routine;
+}
+
 void Interpreter::declare(const Statement& statement) {
-  if (!routines_.empty() && statement.arguments[0].kind == Expression::Kind::none)
+  if (statement.arguments[0].kind == Expression::Kind::none)
     for (const Parameter& parameter :
          routines_.back()->parameters)  // KRL declares its parameters' types inside
       if (parameter.name == statement.name) return;
+  locals_.back().insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
+                                                           .value = declared_value(statement),
+                                                           .written = statement.place});
+}
+
+Value Interpreter::declared_value(const Statement& statement) {
   const RecordType* type = dialect_.type_of(statement.text);
-  Value value;
   const Expression& written = statement.arguments[0];
   if (written.kind != Expression::Kind::none) {
-    value = evaluate(written);
+    Value value = evaluate(written);
     if (type && statement.arguments.size() == 1 && value.kind == Value::Kind::list && !shape(value, type))
       complain(written.place,
                fmt::format("has not the {} components of a {}", type->fields.size(), type->name),
                "write all of them");
-  } else {
-    value = dialect_.initial(statement.text);
-    double count = 1;
-    for (std::size_t i = statement.arguments.size(); i-- > 1;) {
-      const double size = number(statement.arguments[i]).value_or(0);
-      count *= size;
-      if (!(size >= 1) || !(count * static_cast<double>(value.weight()) <= ImportLimits::values)) {
-        value = Value{};
-        break;
-      }
-      charge(static_cast<std::size_t>(count));
-      value = list_value(std::vector<Value>(static_cast<std::size_t>(size), value));
-    }
+    return value;
   }
-  auto& variables = locals_.empty() ? globals_ : locals_.back();
-  variables.insert_or_assign(statement.name, std::move(value));
+  Value value = dialect_.initial(statement.text);
+  double count = 1;
+  for (std::size_t i = statement.arguments.size(); i-- > 1;) {
+    const double size = number(statement.arguments[i]).value_or(0);
+    count *= size;
+    if (!(size >= 1) || !(count * static_cast<double>(value.weight()) <= ImportLimits::values)) return {};
+    charge(static_cast<std::size_t>(count));
+    value = list_value(std::vector<Value>(static_cast<std::size_t>(size), value));
+  }
+  return value;
+}
+
+/// The parameter that an argument goes to, by its name or as the next; null: there is none.
+const Parameter* Interpreter::parameter_of(const Routine& routine, const Expression& argument,
+                                           std::size_t& position) {
+  if (!argument.option.empty()) {
+    for (const Parameter& parameter : routine.parameters)
+      if (parameter.name == argument.option) return &parameter;
+    return nullptr;
+  }
+  while (position < routine.parameters.size() && routine.parameters[position].option) ++position;
+  return position < routine.parameters.size() ? &routine.parameters[position++] : nullptr;
 }
 
 Value Interpreter::call(const Routine& routine, const std::vector<Expression>& arguments,
@@ -413,26 +711,24 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
              "mend the recursion");
     throw Stop{};
   }
-  std::map<std::string, Value, std::less<>> variables;
+  for (const Problem& problem : routine.problems) problems_.add(problem.where, problem.what, problem.remedy);
+  Scope variables;
   std::vector<std::pair<const Parameter*, const Expression*>> given;
   std::size_t position = 0;
   for (const Expression& argument : arguments) {
-    const Parameter* parameter = nullptr;
-    if (!argument.option.empty()) {
-      for (const Parameter& p : routine.parameters)
-        if (p.name == argument.option) parameter = &p;
-    } else {
-      while (position < routine.parameters.size() && routine.parameters[position].option) ++position;
-      if (position < routine.parameters.size()) parameter = &routine.parameters[position++];
-    }
+    if (argument.if_present && !present(argument)) continue;
+    const Parameter* parameter = parameter_of(routine, argument, position);
     if (!parameter) {
       complain(argument.place, fmt::format("is no argument that {} takes", routine.written), "mend the call");
       continue;
     }
-    variables[parameter->name] =
-        argument.kind == Expression::Kind::none ? truth_value(true) : evaluate(argument);
+    Variable& variable = variables[parameter->name];
+    variable.state = Variable::State::ready;
+    variable.value = argument.kind == Expression::Kind::none ? truth_value(true) : evaluate(argument);
+    variable.written = origin(argument);
     if (parameter->given_back) given.emplace_back(parameter, &argument);
   }
+  const int module = std::exchange(module_, routine.module);
   routines_.push_back(&routine);
   locals_.push_back(std::move(variables));
   result_ = Value{};
@@ -441,45 +737,90 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
   variables = std::move(locals_.back());
   locals_.pop_back();
   routines_.pop_back();
+  module_ = module;
   for (const auto& [parameter, argument] : given)
     if (argument->kind == Expression::Kind::name || argument->kind == Expression::Kind::field ||
         argument->kind == Expression::Kind::element)
-      assign(*argument, variables[parameter->name]);
+      assign(*argument, variables[parameter->name].value);
   return result;
 }
 
 // ---- what a branch may do ---------------------------------------------------------------------------------
 
-bool Interpreter::matters(const std::vector<Statement>& body, int depth) const {
-  if (depth > 8) return true;
-  for (const Statement& statement : body) {
-    switch (statement.kind) {
-      case Kind::give_back:
-      case Kind::leave_loop:
-      case Kind::jump:
-        return true;
-      case Kind::instruction:
-        if (const Routine* routine = code_.find(statement.name)) {
-          // A routine's own RETURN ends only itself: what counts is whether it moves.
-          if (matters(routine->body, depth + 1)) return true;
-        } else if (dialect_.matters(statement.name)) {
-          return true;
-        }
-        break;
-      default:
-        break;
-    }
-    for (const Branch& branch : statement.branches)
-      if (matters(branch.body, depth + 1)) return true;
+bool Interpreter::moves(const Statement& statement, int module) {
+  if (statement.kind == Kind::instruction) {
+    const Routine* routine = code_.find(statement.name, module);
+    if (routine ? moves(*routine) : statement.name == late_binding || dialect_.matters(statement.name))
+      return true;
   }
-  return false;
+  return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
+    return std::any_of(branch.body.begin(), branch.body.end(),
+                       [&](const Statement& inner) { return moves(inner, module); });
+  });
 }
 
-void Interpreter::forget_assigned(const std::vector<Statement>& body) {
+bool Interpreter::moves(const Routine& routine) {
+  const auto [known, is_new] = routine_moves_.emplace(&routine, false);  // a recursion adds nothing
+  if (is_new)
+    known->second = std::any_of(routine.body.begin(), routine.body.end(),
+                                [&](const Statement& inner) { return moves(inner, routine.module); });
+  return known->second;
+}
+
+/// Whether it makes a difference to the motion how an undecided statement goes: it moves the robot, or it
+/// leaves a loop, jumps or returns in a routine that does. A branch that ends the program is none of its
+/// cycle.
+bool Interpreter::matters(const Statement& statement) {
+  return moves(statement, module_) || (leaves(statement, false) && moves(*routines_.back()));
+}
+
+/// All that the statements may write to is unknown from here on.
+void Interpreter::forget_assigned(const std::vector<Statement>& body, const std::string& why,
+                                  std::set<const Routine*>& done) {
   for (const Statement& statement : body) {
-    if (statement.kind == Kind::assign) assign(statement.arguments[0], Value{});
-    for (const Branch& branch : statement.branches) forget_assigned(branch.body);
+    charge(1);
+    if (statement.kind == Kind::assign) make_unknown(statement.arguments[0], why);
+    if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(counter_of(statement), why);
+    if (statement.kind == Kind::instruction) forget_written(statement, why, done);
+    for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
   }
+}
+
+/// Of a call: what the routine assigns to data outside of it, and the arguments that it gives back.
+void Interpreter::forget_written(const Statement& statement, const std::string& why,
+                                 std::set<const Routine*>& done) {
+  const Routine* routine = code_.find(statement.name, module_);
+  std::size_t position = 0;
+  for (const Expression& argument : statement.arguments) {
+    const int at = static_cast<int>(position);
+    const Parameter* parameter = routine ? parameter_of(*routine, argument, position) : nullptr;
+    if (!routine && argument.option.empty()) ++position;
+    const bool written = routine
+                             ? parameter && parameter->given_back
+                             : dialect_.writes(statement.name, argument.option.empty() ? at : -1, argument);
+    if (written) make_unknown(argument, why);
+  }
+  if (!routine || !done.insert(routine).second) return;
+  Scope own;  // names of the routine hide those outside
+  for (const Parameter& parameter : routine->parameters) own[parameter.name].state = Variable::State::ready;
+  for (const Statement& inner : routine->body)
+    if (inner.kind == Kind::declare) own[inner.name].state = Variable::State::ready;
+  const int module = std::exchange(module_, routine->module);
+  locals_.push_back(std::move(own));
+  forget_assigned(routine->body, why, done);
+  locals_.pop_back();
+  module_ = module;
+}
+
+/// Whether a statement may go elsewhere than behind itself, within the program.
+bool Interpreter::leaves(const Statement& statement, bool in_loop) const {
+  if (statement.kind == Kind::give_back || statement.kind == Kind::jump) return true;
+  if (statement.kind == Kind::leave_loop) return !in_loop;
+  const bool loop = in_loop || (statement.kind != Kind::branch && statement.kind != Kind::choose);
+  return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
+    return std::any_of(branch.body.begin(), branch.body.end(),
+                       [&](const Statement& inner) { return leaves(inner, loop); });
+  });
 }
 
 bool Interpreter::holds_loop_exit(const std::vector<Statement>& body) const {

@@ -1,21 +1,35 @@
 // Runs the tree of a RAPID or KRL program as the controller would, as far as that can be known offline, and
-// collects the moves. What comes from inputs is an unknown value: it spreads through expressions, and where a
-// branch hangs on it, the branch is left out if nothing in it moves or changes the robot, and asked for
-// otherwise (ImportOptions::assume).
+// collects the moves. What comes from inputs, or from an instruction that is left out, is an unknown value
+// that remembers what made it so: it spreads through expressions, and where a branch hangs on it, the branch
+// is left out if nothing in it moves or changes the robot, and asked for otherwise (ImportOptions::assume,
+// values).
 //
-// An endless main loop is run once: the simulated motion is one cycle. A loop that a known condition keeps
-// going is run as often as it says, within ImportLimits.
+// Names: those of the routine hide those of its module, which hide those of all modules. Data outside of
+// routines is worked out when it is first used. A name that two files give to different things is refused
+// where it is used.
+//
+// An endless main loop is run until the program's variables are what they were after an earlier pass: that is
+// one cycle of the machine. Where they never are, it is one pass; ImportOptions::passes says how many else. A
+// loop that a known condition keeps going is run as often as it says, within ImportLimits.
 #pragma once
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "sim/program/code.h"
 
 namespace dresslife::sim {
+
+/// Why a value is unknown.
+struct Cause {
+  std::string name;  ///< under which ImportOptions::values can give it; empty: there is none
+  std::string why;   ///< "is read by TPReadNum (m.mod:9)", "is no name that a file declares"
+};
 
 struct Value {
   enum class Kind { unknown, number, truth, text, list };
@@ -24,18 +38,25 @@ struct Value {
   std::string text;
   std::vector<Value> items;
   const RecordType* type = nullptr;
+  std::shared_ptr<const Cause> cause;  ///< of an unknown one; null: not known either
 
   bool known() const;  ///< with everything in it
   bool is_number() const { return kind == Kind::number; }
   const Value* field(const std::string& name) const;  ///< null: none of that name
   std::size_t weight() const;                         ///< values in it
   int depth() const;                                  ///< levels of lists in it
+  const Cause* first_cause() const;                   ///< of what is unknown in it; null: none
+  bool operator==(const Value& other) const;          ///< unknown ones are equal, whatever made them so
 };
 
 Value number_value(double number);
 Value truth_value(bool truth);
 Value text_value(std::string text);
 Value list_value(std::vector<Value> items, const RecordType* type = nullptr);
+Value unknown_value(std::string name, std::string why);
+Value unknown_value(const Value& because);  ///< with the cause of that one
+/// The same lists with nothing known in them.
+Value forgotten(Value value, const std::shared_ptr<const Cause>& cause);
 
 class Interpreter;
 
@@ -53,6 +74,12 @@ class Dialect {
   virtual bool matters(const std::string& instruction) const = 0;
   /// Whether an unknown instruction is known to be input, output or logic.
   virtual bool harmless(const std::string& instruction) const = 0;
+  /// Whether an instruction that is left out, or a function that is not read, may write to this argument.
+  virtual bool writes(const std::string& instruction, int position, const Expression& argument) const {
+    static_cast<void>(position);
+    static_cast<void>(argument);
+    return !harmless(instruction);
+  }
   virtual const RecordType* type_of(const std::string& name) const = 0;
   /// Value of a declared variable without one.
   virtual Value initial(const std::string& type) const = 0;
@@ -69,7 +96,19 @@ class Interpreter {
   Value evaluate(const Expression& expression);
   std::optional<double> number(const Expression& expression);  ///< absent: unknown, or no number
   /// The variable as it stands; null: not declared.
-  const Value* variable(const std::string& name) const;
+  const Value* variable(const std::string& name);
+  /// What the user gives for a name or path; absent: nothing.
+  std::optional<Value> given(const std::string& name);
+  /// Where the variable that an expression begins with was last written; line 0: not in the files.
+  Place origin(const Expression& expression);
+  /// The expression as it stands in its file, up to the argument's end.
+  std::string written(const Expression& expression) const;
+  /// Runs a routine by its name, "name" or "module:name".
+  void run_named(const std::string& name, const std::vector<Expression>& arguments, const Place& place);
+  /// Whether the argument that \name?value names was given to the routine that runs.
+  bool present(const Expression& argument);
+  /// The variable becomes unknown, or what the user gives for it, because of `who`.
+  void make_unknown(const Expression& target, const std::string& why);
   void set(const std::string& name, Value value);  ///< of the module
   void forget(const std::string& name);
   void assign(const Expression& target, Value value);
@@ -78,7 +117,14 @@ class Interpreter {
   void emit(Instruction instruction, const Statement& statement);
   void note(const Place& place, const std::string& what, bool may_move = false);
   void complain(const Place& place, const std::string& what, const std::string& remedy);
+  /// A name that is missing is told once, however often it is used.
+  void miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy);
+  /// ": k is read by TPReadNum (m.mod:9)", or nothing.
+  std::string because(const Value& unknown) const;
+  /// "--value k=... ", or nothing: what would make it known.
+  std::string remedy_for(const Value& unknown) const;
   pipeline::Where where(const Place& place) const;
+  std::string short_place(const Place& place) const;  ///< "main.mod:12"
   const ImportOptions& options() const { return options_; }
   Program& program() { return program_; }
   /// Index of the frame in the list; added when it is new.
@@ -89,10 +135,23 @@ class Interpreter {
  private:
   enum class Flow { next, leave_loop, give_back, jump };
   struct Stop {};  // thrown: the program ends, or goes past a limit
+  struct Variable {
+    enum class State { declared, being_read, ready };
+    const Datum* datum = nullptr;  // null: made by an assignment
+    const Datum* rival = nullptr;  // another declaration of the same name, with another value
+    State state = State::declared;
+    Value value;
+    Place written;          // where it was declared or last assigned; line 0: by no line
+    bool assigned = false;  // since it was declared: part of the program's state
+  };
+  using Scope = std::map<std::string, Variable, std::less<>>;
   struct Deeper;
+  struct Round;
 
+  void start(const Routine& routine);
   Flow execute(const std::vector<Statement>& body);
   Flow execute_routine(const Routine& routine);
+  const Routine* routine_named(const std::string& name, const Place& place);
   Flow execute(const Statement& statement);
   Flow run_branch(const Statement& statement);
   Flow run_choice(const Statement& statement);
@@ -101,24 +160,49 @@ class Interpreter {
   Flow run_until(const Statement& statement);
   Flow run_endless(const Statement& statement);
   Flow run_both(const Statement& statement);
-  Flow leave_out(const Statement& statement);
+  Flow leave_out(const Statement& statement, const Value& unknown);
   void run_instruction(const Statement& statement);
+  void run_late(const Statement& statement);
   void declare(const Statement& statement);
+  static const Parameter* parameter_of(const Routine& routine, const Expression& argument,
+                                       std::size_t& position);
+  static Expression counter_of(const Statement& statement);
   Value call(const Routine& routine, const std::vector<Expression>& arguments, const Place& place);
-  void ask(const Place& place, const std::string& what);
-  std::optional<bool> assumed(const Place& place) const;
+  std::uint64_t state() const;
+  void ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers);
+  template <class Answers>
+  const typename Answers::mapped_type* answer(const Answers& answers, const Place& place);
+  std::optional<bool> assumed(const Place& place);
 
-  bool matters(const std::vector<Statement>& body, int depth = 0) const;
-  void forget_assigned(const std::vector<Statement>& body);
+  bool moves(const Statement& statement, int module);
+  bool moves(const Routine& routine);
+  bool matters(const Statement& statement);
+  bool leaves(const Statement& statement, bool in_loop) const;
+  void forget_assigned(const std::vector<Statement>& body, const std::string& why,
+                       std::set<const Routine*>& done);
+  void forget_written(const Statement& statement, const std::string& why, std::set<const Routine*>& done);
+  void forget_arguments(const std::string& name, const std::vector<Expression>& arguments,
+                        const Place& place);
   bool holds_loop_exit(const std::vector<Statement>& body) const;
   bool jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const;
 
   Value evaluate_inner(const Expression& expression);
   Value name_value(const Expression& expression);
+  Value call_value(const Expression& expression);
+  Value unknown_index(const Expression& expression);
+  Value why_unknown(const Expression& expression);
   Value unary(const Expression& expression);
   Value binary(const Expression& expression);
   Value aggregate(const Expression& expression);
   Value* locate(const Expression& expression);
+  Variable* find(const std::string& name);
+  Variable* base_of(const Expression& expression);
+  Value* ready(Variable& variable);
+  void assign_somewhere(const Expression& target);
+  Value declared_value(const Statement& statement);
+  void index_data();
+  std::optional<Value> given_for(const Datum& datum);
+  bool same_declaration(const Datum& a, const Datum& b) const;
   void charge(std::size_t work);
 
   const Code& code_;
@@ -126,9 +210,17 @@ class Interpreter {
   const ImportOptions& options_;
   Program& program_;
   Problems& problems_;
-  std::map<std::string, Value, std::less<>> globals_;
-  std::deque<std::map<std::string, Value, std::less<>>>
-      locals_;  // stay where they are while routines are called
+  Scope globals_;
+  std::vector<Scope> module_data_;  // of LOCAL data
+  std::deque<Scope> locals_;        // stay where they are while routines are called
+  int module_ = -1;                 // whose names are seen
+  std::set<std::string> used_values_, used_assumptions_;
+  std::map<const Routine*, bool> routine_moves_;
+  struct Loop {
+    Place place;
+    long passes = 0;
+  };
+  std::vector<Loop> loops_;  // that are running, outermost first
   std::vector<const Routine*> routines_;
   Value result_;
   const Statement* jump_ = nullptr;  // on its way to its label

@@ -513,7 +513,7 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
              const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems) {
   const Routine* routine = nullptr;
   if (!options.routine.empty())
-    routine = code.find(lower_case(options.routine));
+    routine = code.find(code.start, -1);
   else if (!code.routines.empty())
     routine = &code.routines[0];
   if (!routine) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include "sim/program/krl.h"
 #include "sim/program/parser.h"
@@ -20,6 +21,9 @@ class KrlParser : StatementParser {
       : StatementParser(code, file, tokens, problems, true) {}
 
   void run() {
+    module_ = static_cast<int>(code_.modules.size());
+    const std::string stem = std::filesystem::path(code_.files[file_].name()).stem().string();
+    code_.modules.push_back({lower_case(stem), stem, at_.place()});
     skip_line_ends();
     while (!at_.at_end() && !problems_.full()) {
       guarded([&] { member(); });
@@ -28,6 +32,8 @@ class KrlParser : StatementParser {
   }
 
  private:
+  int module_ = -1;
+
   void skip_line_ends() {
     while (at_.peek().kind == Token::Kind::line_end) at_.next();
   }
@@ -60,7 +66,8 @@ class KrlParser : StatementParser {
     std::vector<Statement> statements;
     statement(statements);
     for (Statement& s : statements)
-      if (s.kind == Kind::declare || s.kind == Kind::assign) code_.data.push_back(std::move(s));
+      if (s.kind == Kind::declare || s.kind == Kind::assign)
+        code_.data.push_back({std::move(s), module_, false});
   }
 
   void routine() {
@@ -87,6 +94,8 @@ class KrlParser : StatementParser {
     const char* end = function ? "endfct" : "end";
     routine.body = body({end});
     at_.need_word(end);
+    routine.module = module_;
+    routine.last_line = at_.place().line;
     code_.routines.push_back(std::move(routine));
   }
 

@@ -263,14 +263,26 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
       Expression value;
       value.place = place();
       const std::string option = word("the name of an argument");
-      if (take_sign(":=")) value = expression();
+      if (take_sign(":=")) {
+        value = expression();
+      } else if (take_sign("?")) {  // \x?y: given as far as the routine's own argument y is
+        value = expression();
+        value.if_present = true;
+      }
       value.option = option;
       list.push_back(std::move(value));
       continue;
     }
     if (!comma)
       fail(fmt::format("has {} where ',' or the end of the statement is expected", seen()), "mend the line");
-    list.push_back(expression());
+    if (!krl_ && peek().kind == Token::Kind::word && at_sign(":=", 1)) {  // Tool:=gun
+      const std::string parameter = word("the name of an argument");
+      next();
+      list.push_back(expression());
+      list.back().option = parameter;
+    } else {
+      list.push_back(expression());
+    }
     comma = false;
     while (at_sign("|")) next();
   }

@@ -64,7 +64,23 @@ void Problems::add(const pipeline::Where& where, const std::string& what, const 
   };
   if (full() || std::any_of(problems_.begin(), problems_.end(), same))
     return;  // a line in a loop is told once
-  problems_.push_back({where, what, remedy});
+  problems_.push_back({.where = where, .what = what, .remedy = remedy});
+}
+
+void Problems::add_missing(const std::string& name, const pipeline::Where& where, const std::string& what,
+                           const std::string& remedy) {
+  for (Problem& problem : problems_)
+    if (problem.about == name) {
+      if (problem.where.line != where.line || problem.where.file != where.file) ++problem.more_uses;
+      return;
+    }
+  const std::size_t before = problems_.size();
+  add(where, what, remedy);
+  if (problems_.size() > before) problems_.back().about = name;
+}
+
+void Problems::hint(std::size_t from, const std::string& more) {
+  for (std::size_t i = from; i < problems_.size(); ++i) problems_[i].remedy += fmt::format(" ({})", more);
 }
 
 bool Problems::full() const { return problems_.size() >= listed_problems; }
@@ -76,6 +92,8 @@ void Problems::throw_if_any() const {
     return std::tie(a.where.file, a.where.line, a.where.column) <
            std::tie(b.where.file, b.where.line, b.where.column);
   });
+  for (Problem& problem : sorted)
+    if (problem.more_uses > 0) problem.what += fmt::format(" (here and {} times more)", problem.more_uses);
   std::string rest;
   for (std::size_t i = 1; i < sorted.size(); ++i)
     rest +=

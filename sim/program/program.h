@@ -11,6 +11,7 @@
 // output, messages, logic without moves) is listed with its line.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -63,6 +64,13 @@ struct MoveZone {
   double percent = 0;  ///< of the way in which the robot would stop, where the controller blends by speed [%]
 };
 
+/// Where a part of an instruction was last given its value, for whoever asks why.
+struct Origin {
+  const char* part = "";  ///< "target", "tool", "work object", "speed", "zone", "via"
+  std::string written;    ///< in the instruction: "p20", "Offs(p20, 0, 0, 10)"
+  pipeline::Where where;  ///< of its declaration or of the last assignment; line 0: nowhere in the files
+};
+
 struct Instruction {
   enum class Kind { joint, linear, circular, dwell };
   Kind kind = Kind::joint;
@@ -77,13 +85,14 @@ struct Instruction {
   pipeline::Where where;
   std::string routine;  ///< that holds the line
   std::string text;     ///< of the line
+  std::vector<Origin> origins;
 };
 
 /// Something the reader left out.
 struct Skipped {
   pipeline::Where where;
-  std::string what;
-  bool may_move = false;  ///< nobody knows whether it moves the robot
+  std::string what;       ///< "SetDO: input, output or logic": what it is, then why it is left out
+  bool may_move = false;  ///< nobody knows whether it moves the robot, or changes how it moves
 };
 
 struct Program {
@@ -96,14 +105,22 @@ struct Program {
 struct Problem {
   pipeline::Where where;
   std::string what, remedy;
+  std::string about;  ///< the name that is missing, of a problem that is told once for all of its uses
+  int more_uses = 0;
 };
 
 class Problems {
  public:
   void add(const pipeline::Where& where, const std::string& what, const std::string& remedy);
+  /// The same, but for further uses of a name that is missing: these are counted behind the first.
+  void add_missing(const std::string& name, const pipeline::Where& where, const std::string& what,
+                   const std::string& remedy);
   bool empty() const { return problems_.empty(); }
   bool full() const;  ///< more would not help anybody
   const std::vector<Problem>& list() const { return problems_; }
+  std::size_t count() const { return problems_.size(); }
+  /// Adds to the remedies of those from the given one on.
+  void hint(std::size_t from, const std::string& more);
   /// Throws one InputError that words every problem on a line of its own, in the order of the files' lines.
   void throw_if_any() const;
 
@@ -114,9 +131,14 @@ class Problems {
 enum class Assumption { then_branch, else_branch };
 
 struct ImportOptions {
-  std::string routine;  ///< where to start; empty: the language's own start
+  std::string routine;  ///< where to start, "name" or "name(arguments)"; empty: the language's own start
   /// "file.mod:12" or "12" -> what an undecidable branch on that line does.
   std::map<std::string, Assumption> assume;
+  /// "file.mod:12" or "12" -> the value by which an undecidable choice of several on that line goes.
+  std::map<std::string, std::string> choose;
+  /// Inputs, registers, persistent data, positions: name as the language writes it -> value, likewise.
+  std::map<std::string, std::string> values;
+  int passes = 0;        ///< of an endless main loop; 0: until it begins again as it did before
   double spot_time = 1;  ///< dwell of a spot weld [s]
 };
 
@@ -130,6 +152,7 @@ struct ImportLimits {
   static constexpr std::size_t instructions = 100'000;
   static constexpr std::size_t skipped = 20'000;
   static constexpr std::size_t values = 100'000;  ///< numbers of one variable, and variables
+  static constexpr int passes = 1000;  ///< of an endless loop, in search of the one after which it repeats
 };
 
 /// A source file in memory.

@@ -156,6 +156,7 @@ class Rapid final : public Dialect {
   bool read_tool(const Expression& written, Instruction& move, Interpreter& run);
   bool read_work_object(const Expression& written, Instruction& move, Interpreter& run);
   void read_options(const Statement& statement, Instruction& move, Interpreter& run);
+  static bool is_frame(std::string_view type) { return type == "tooldata" || type == "wobjdata"; }
   std::optional<Value> typed(const Expression& written, const char* type, const char* what, Interpreter& run);
   void settings(const Statement& statement, Interpreter& run);
   Value offset(const Expression& call, bool in_tool, Interpreter& run);
@@ -174,14 +175,19 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
                                   Interpreter& run) {
   Value value = run.evaluate(written);
   if (!value.known()) {
+    const std::string remedy = run.remedy_for(value);
     if (written.kind == Expression::Kind::name && !run.variable(written.text))
-      run.complain(written.place,
-                   fmt::format("names {} '{}' that no module read declares", what, written.text),
-                   "give the module that declares it too (or, for a tool or work object, motion.tools or "
-                   "motion.work_objects)");
+      run.miss(
+          written.text, written.place,
+          fmt::format("names {} '{}' that no module read declares", what, written.text),
+          fmt::format("give the module that declares it too (--module, motion.modules), or {}",
+                      is_frame(type) ? "its frame in --frames FILE.yaml (motion.tools, motion.work_objects)"
+                                     : remedy + " (motion.values)"));
     else
-      run.complain(written.place, fmt::format("has {} that is known only while the robot runs", what),
-                   fmt::format("write {} as a constant", what));
+      run.complain(written.place,
+                   fmt::format("has {} that is known only while the robot runs", what) + run.because(value),
+                   remedy.empty() ? fmt::format("write {} as a constant", what)
+                                  : fmt::format("give {} (motion.values)", remedy));
     return {};
   }
   const RecordType* record = code_.record(type);
@@ -522,8 +528,10 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
 
 void run_rapid(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
                const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems) {
-  const std::string start = options.routine.empty() ? "main" : lower_case(options.routine);
-  const Routine* routine = code.find(start);
+  const std::string start = code.start.empty() ? "main" : code.start;
+  const Routine* routine = code.find(start, -1);
+  for (const Routine& other : code.routines)  // a local one is meant where there is no other
+    if (!routine && other.name == start) routine = &other;
   if (!routine && options.routine.empty() && code.routines.size() == 1) routine = &code.routines[0];
   if (!routine) {
     std::vector<std::string> names;

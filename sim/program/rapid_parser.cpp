@@ -25,6 +25,12 @@ class RapidParser : StatementParser {
       at_.next();
       return;
     }
+    Module module;
+    module.place = at_.place();
+    module.written = std::string(at_.peek().text);
+    module.name = lower_case(module.written);
+    module_ = static_cast<int>(code_.modules.size());
+    code_.modules.push_back(std::move(module));
     guarded([&] {
       at_.word("the module's name");
       if (at_.take_sign("("))
@@ -55,11 +61,12 @@ class RapidParser : StatementParser {
   }
 
   void member() {
-    if (at_.take_word("local") || at_.take_word("task")) return member();
-    if (at_.at_word("proc") || at_.at_word("func") || at_.at_word("trap")) return routine();
+    const bool local = at_.take_word("local");
+    if (!local) at_.take_word("task");
+    if (at_.at_word("proc") || at_.at_word("func") || at_.at_word("trap")) return routine(local);
     if (at_.take_word("record")) return record();
     if (at_.at_word("const") || at_.at_word("var") || at_.at_word("pers")) {
-      code_.data.push_back(declaration());
+      code_.data.push_back({declaration(), module_, local});
       return;
     }
     if (at_.take_word("alias")) {
@@ -101,8 +108,34 @@ class RapidParser : StatementParser {
     return statement;
   }
 
-  void routine() {
-    Routine routine;
+  /// A routine with a mistake in it is kept, so that a call of it tells the mistake.
+  void routine(bool local) {
+    Routine& routine = code_.routines.emplace_back();
+    routine.module = module_;
+    routine.local = local;
+    routine.place = at_.place();
+    routine.last_line = routine.place.line;
+    try {
+      routine_lines(routine);
+    } catch (const SyntaxError&) {
+      if (!routine.name.empty() && !at_end_of_routine()) skip_routine();
+      routine.last_line = at_.place().line;
+      throw;
+    }
+  }
+
+  bool at_end_of_routine() const { return at_any({"endmodule", "proc", "func", "trap"}) || at_.at_end(); }
+  void skip_routine() {
+    while (!at_end_of_routine())
+      if (at_any({"endproc", "endfunc", "endtrap"})) {
+        at_.next();
+        return;
+      } else {
+        at_.next();
+      }
+  }
+
+  void routine_lines(Routine& routine) {
     const bool function = at_.at_word("func");
     const std::string end = function ? "endfunc" : at_.at_word("trap") ? "endtrap" : "endproc";
     at_.next();
@@ -116,8 +149,8 @@ class RapidParser : StatementParser {
       if (at_.at_word("endmodule") || at_.at_word("proc") || at_.at_word("func")) break;
       at_.next();
     }
+    routine.last_line = at_.place().line;
     at_.need_word(end);
-    code_.routines.push_back(std::move(routine));
   }
 
   void parameters(Routine& routine) {
@@ -171,7 +204,7 @@ class RapidParser : StatementParser {
       test_statement(s);
     else if (at_.take_word("return"))
       return_statement(s);
-    else if (at_.take_word("exit"))
+    else if (at_.take_word("exit") || at_.take_word("exitcycle"))  // main begins again: the cycle is whole
       simple(s, Kind::finish);
     else if (at_.take_word("goto"))
       goto_statement(s);
@@ -269,6 +302,8 @@ class RapidParser : StatementParser {
     at_.need_sign(";");
   }
 
+  int module_ = -1;
+
   void connect_statement(Statement& s) {
     s.name = "connect";
     while (!at_.at_end() && !at_.at_sign(";")) at_.next();
@@ -277,11 +312,12 @@ class RapidParser : StatementParser {
 
   void late_call(Statement& s) {  // %"routine"% arguments;
     at_.next();
-    Expression name = at_.expression(6);
+    Expression name = at_.expression();
     at_.need_sign("%");
-    s.name = name.kind == Expression::Kind::text ? lower_case(name.text) : "%";
+    s.name = name.kind == Expression::Kind::text ? lower_case(name.text) : late_binding;
     s.text = name.text;
     s.arguments = at_.arguments(";");
+    if (s.name == late_binding) s.arguments.insert(s.arguments.begin(), std::move(name));
     at_.need_sign(";");
   }
 

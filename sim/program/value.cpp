@@ -28,6 +28,42 @@ int Value::depth() const {
   return deepest;
 }
 
+const Cause* Value::first_cause() const {
+  if (kind == Kind::unknown) return cause.get();
+  for (const Value& item : items)
+    if (const Cause* found = item.first_cause()) return found;
+  return nullptr;
+}
+
+bool Value::operator==(const Value& other) const {
+  return kind == other.kind && (kind == Kind::unknown || kind == Kind::list || number == other.number) &&
+         text == other.text && items == other.items;
+}
+
+Value unknown_value(std::string name, std::string why) {
+  Value value;
+  value.cause = std::make_shared<const Cause>(Cause{std::move(name), std::move(why)});
+  return value;
+}
+
+Value unknown_value(const Value& because) {
+  Value value;
+  if (because.kind == Value::Kind::unknown) value.cause = because.cause;
+  for (const Value& item : because.items)
+    if (!value.cause) value.cause = unknown_value(item).cause;
+  return value;
+}
+
+Value forgotten(Value value, const std::shared_ptr<const Cause>& cause) {
+  if (value.kind == Value::Kind::list) {
+    for (Value& item : value.items) item = forgotten(std::move(item), cause);
+    return value;
+  }
+  value = Value{};
+  value.cause = cause;
+  return value;
+}
+
 Value number_value(double number) {
   Value value;
   value.kind = Value::Kind::number;

@@ -134,9 +134,10 @@ TEST_CASE("rapid: a branch on an input is asked for, with its line, and all of t
   const Reading r = run(body);
   REQUIRE(r.problems.size() == 2);
   CHECK(r.problem(0) ==
-        "main.mod:3:1: error: branches on what is known only while the robot runs; choose with --assume "
-        "main.mod:3=then or =else "
-        "(motion.assume in a job)");
+        "main.mod:3:1: error: branches on what is known only while the robot runs: 'di1' is a name that no "
+        "file "
+        "read declares; choose with --assume main.mod:3=then or =else (motion.assume in a job), or give "
+        "--value 'di1=...' (motion.values)");
   CHECK(r.problems[1].where.line == 8);
   REQUIRE(r.program.skipped.size() == 1);  // the branch without moves needs no answer
   CHECK(r.program.skipped[0].where.line == 11);
@@ -158,7 +159,7 @@ TEST_CASE("rapid: an endless main loop is one pass; a known condition ends a loo
   CHECK(r.problems.empty());
   CHECK(r.program.instructions.size() == 4);
   REQUIRE(r.program.skipped.size() == 1);
-  CHECK(r.program.skipped[0].what == "repeats for ever: the motion is one pass");
+  CHECK(r.program.skipped[0].what == "an endless loop, of which the motion is one pass");
 }
 
 TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
@@ -168,8 +169,8 @@ TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
   REQUIRE(r.problems.size() == 5);
   CHECK(r.problem(0) ==
         "main.mod:3:7: error: names a target 'p9' that no module read declares; give the module that "
-        "declares it too "
-        "(or, for a tool or work object, motion.tools or motion.work_objects)");
+        "declares it "
+        "too (--module, motion.modules), or --value 'p9=...' (motion.values)");
   CHECK(r.problems[1].what == "names a zone 'z77' that no module read declares");
   CHECK(r.problems[2].what == "names a tool 'torch' that no module read declares");
   CHECK(r.problems[3].what == "names a speed 'v1' that no module read declares");

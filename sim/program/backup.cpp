@@ -1,0 +1,59 @@
+#include "sim/program/backup.h"
+
+#include <map>
+
+#include "sim/program/tokens.h"
+
+namespace dresslife::sim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A file that can hold moves, not settings alone.
+bool holds_moves(const fs::path& file) {
+  const std::string end = lower_case(file.extension().string());
+  const auto among = [&](std::initializer_list<const char*> ends) {
+    return std::any_of(ends.begin(), ends.end(), [&](const char* other) { return end == other; });
+  };
+  return among({".mod", ".modx", ".prg", ".sys", ".sysx", ".src", ".ls"});
+}
+
+}  // namespace
+
+bool is_backup(const fs::path& program) {
+  std::error_code failure;
+  return fs::is_directory(program, failure) || lower_case(program.extension().string()) == ".pgf";
+}
+
+Backup backup_of(const fs::path& program, const std::string& routine) {
+  std::error_code failure;
+  const bool listed = !fs::is_directory(program, failure);
+  const fs::path folder = listed ? (program.has_parent_path() ? program.parent_path() : ".") : program;
+  std::map<Language, std::vector<fs::path>> files;
+  for (const fs::path& file : pipeline::program_files(folder)) files[language_of(file)].push_back(file);
+  if (listed) {
+    std::vector<fs::path> own{program};
+    for (const fs::path& file : files[Language::rapid])
+      if (lower_case(file.extension().string()) != ".pgf") own.push_back(file);
+    return rapid_backup(folder, own, routine);
+  }
+  std::erase_if(files, [](const auto& of_language) {  // settings alone make no program
+    return std::none_of(of_language.second.begin(), of_language.second.end(), holds_moves);
+  });
+  if (files.size() != 1)
+    throw pipeline::InputError(
+        {folder.string()}, files.empty() ? "holds no robot program" : "holds programs of several languages",
+        files.empty() ? "give RAPID, KRL or Fanuc files" : "name the folder of one");
+  const auto& [language, list] = *files.begin();
+  switch (language) {
+    case Language::rapid:
+      return rapid_backup(folder, list, routine);
+    case Language::krl:
+      return krl_backup(folder, list, routine);
+    default:
+      return fanuc_backup(folder, list, routine);
+  }
+}
+
+}  // namespace dresslife::sim

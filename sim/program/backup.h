@@ -1,0 +1,34 @@
+// Whole backups and program folders: which of their files make a program, and where it begins.
+//
+// The files of a folder are all those in it and in the folders within whose names end like a robot program's
+// (pipeline::program_files), sorted. One function for each language picks the program among them.
+#pragma once
+
+#include <filesystem>
+
+#include "sim/program/import.h"
+
+namespace dresslife::sim {
+
+struct Backup {
+  Language language = Language::rapid;
+  std::vector<std::filesystem::path> files;  ///< the first one gives the program its name
+  std::string routine;                       ///< where it begins; empty: the language's own start
+};
+
+/// Whether a program is given as a folder or as a list of files.
+bool is_backup(const std::filesystem::path& program);
+
+/// routine: that is asked for, empty: none. Errors: InputError that names the choices where several programs
+/// could be meant.
+Backup backup_of(const std::filesystem::path& program, const std::string& routine);
+
+/// The programs of one language among `files` of `folder`.
+Backup rapid_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
+                    const std::string& routine);
+Backup krl_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
+                  const std::string& routine);
+Backup fanuc_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
+                    const std::string& routine);
+
+}  // namespace dresslife::sim

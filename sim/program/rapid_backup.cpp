@@ -1,0 +1,106 @@
+// ABB: BACKUP/RAPID/TASK1/{PROGMOD,SYSMOD}/*.mod, one folder for each task, all of whose modules are loaded;
+// or a program's folder with its list of modules (.pgf) and the system modules beside it.
+#include <set>
+
+#include "pipeline/job/document.h"
+#include "sim/program/backup.h"
+#include "sim/program/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string extension_of(const fs::path& file) { return lower_case(file.extension().string()); }
+std::string name_of(const fs::path& file) { return lower_case(file.filename().string()); }
+
+/// Folder of the task that a file of a backup belongs to, "…/RAPID/TASK1"; empty: it lies in no such folder.
+fs::path task_of(const fs::path& file) {
+  fs::path folder;
+  std::string before;
+  for (const fs::path& part : file.parent_path()) {
+    folder /= part;
+    const std::string name = lower_case(part.string());
+    if (before == "rapid" && (name.starts_with("task") || name.starts_with("t_"))) return folder;
+    before = name;
+  }
+  return {};
+}
+
+/// Whether a module's text says that it moves a robot: the words of moves, outside of comments.
+bool moves(const fs::path& file) {
+  const std::string text = lower_case(pipeline::read_text(file));
+  static constexpr std::string_view words[] = {"moveabsj", "movej", "movel", "movec", "triggl",
+                                               "triggj",   "spotl", "spotj", "arcl",  "arcc"};
+  for (std::string_view word : words)
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      const std::size_t line = text.rfind('\n', at) + 1;
+      if (text.substr(line, at - line).find('!') == std::string::npos) return true;
+    }
+  return false;
+}
+
+/// Modules that a list of modules (XML: <Module>name.mod</Module>) names, among those beside it.
+std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& files) {
+  const std::string text = pipeline::read_text(list);
+  const std::string lower = lower_case(text);
+  std::vector<fs::path> modules;
+  for (std::size_t at = lower.find("<module>"); at != std::string::npos;
+       at = lower.find("<module>", at + 1)) {
+    const std::size_t begin = at + 8, end = lower.find('<', begin);
+    if (end == std::string::npos) break;
+    std::string name = lower.substr(begin, end - begin);
+    name = name.substr(name.find_last_of("/\\") + 1);
+    const auto found = std::find_if(files.begin(), files.end(), [&](const fs::path& file) {
+      return name_of(file) == name && file.parent_path() == list.parent_path();
+    });
+    if (found == files.end())
+      throw pipeline::InputError({list.string()}, fmt::format("lists {}, which is not beside it", name),
+                                 "add the module, or give those that there are with --module");
+    modules.push_back(*found);
+  }
+  if (modules.empty())
+    throw pipeline::InputError({list.string()}, "lists no module", "give the module that holds main");
+  return modules;
+}
+
+std::string names_of(const std::set<fs::path>& paths) {
+  std::string names;
+  for (const fs::path& path : paths) names += (names.empty() ? "" : ", ") + path.string();
+  return names;
+}
+
+}  // namespace
+
+Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
+  Backup backup{Language::rapid, {}, routine};
+  std::set<fs::path> tasks, moving, lists;
+  for (const fs::path& file : files) {
+    if (extension_of(file) == ".pgf") lists.insert(file);
+    const fs::path task = task_of(file);
+    if (task.empty() || !tasks.insert(task).second) continue;
+  }
+  for (const fs::path& file : files)  // those without moves run beside the robot's
+    if (const fs::path task = task_of(file); !task.empty() && extension_of(file) != ".pgf" &&
+                                             !moving.contains(task) && (tasks.size() == 1 || moves(file)))
+      moving.insert(task);
+  if (moving.size() > 1)
+    throw pipeline::InputError({folder.string()}, "holds several tasks that move a robot",
+                               "name the folder of one: " + names_of(moving));
+  if (!moving.empty()) {  // all modules of the task are loaded
+    for (const fs::path& file : files)
+      if (extension_of(file) != ".pgf" && task_of(file) == *moving.begin()) backup.files.push_back(file);
+    return backup;
+  }
+  if (lists.size() > 1)
+    throw pipeline::InputError({folder.string()}, "holds several lists of modules",
+                               "name one: " + names_of(lists));
+  if (!lists.empty()) backup.files = listed(*lists.begin(), files);
+  for (const fs::path& file : files)
+    if (extension_of(file) != ".pgf" && (lists.empty() || extension_of(file).starts_with(".sys")) &&
+        std::find(backup.files.begin(), backup.files.end(), file) == backup.files.end())
+      backup.files.push_back(file);
+  return backup;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,68 @@
+#include "sim/program/request.h"
+
+#include "sim/program/parser.h"
+
+namespace dresslife::sim {
+namespace {
+
+const TokenRules& rules_of(bool krl) {
+  static constexpr TokenRules krl_rules{';', "$#", true, true}, rapid_rules{'!', "", false, false};
+  return krl ? krl_rules : rapid_rules;
+}
+
+/// The text as a source of its own, read by `read`.
+template <class Read>
+void read_text(Code& code, const std::string& name, const std::string& text, bool krl, Problems& problems,
+               const Read& read) {
+  code.files.emplace_back(name, text);
+  const int file = static_cast<int>(code.files.size()) - 1;
+  const std::vector<Token> tokens = tokens_of(code.files[file], rules_of(krl), problems);
+  Cursor at(tokens, file, krl);
+  try {
+    read(at);
+    if (!at.at_end()) at.fail(fmt::format("has {} behind its end", at.seen()), "give it as in a program");
+  } catch (const SyntaxError& error) {
+    problems.add({name, error.place.line, error.place.column}, error.what, error.remedy);
+  }
+}
+
+}  // namespace
+
+std::string value_key(const std::string& name) {
+  std::string key;
+  for (char c : lower_case(name)) {
+    if (static_cast<unsigned char>(c) <= ' ') continue;
+    if (c == ',')
+      key += "][";
+    else
+      key += c == '{' ? '[' : c == '}' ? ']' : c;
+  }
+  return key;
+}
+
+std::pair<std::string, std::string> routine_and_arguments(const std::string& written) {
+  const std::size_t end = std::min(written.find_first_of("( \t"), written.size());
+  std::string arguments = written.substr(end);
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!arguments.empty() && blank(arguments.front())) arguments.erase(0, 1);
+  while (!arguments.empty() && blank(arguments.back())) arguments.pop_back();
+  if (arguments.size() >= 2 && arguments.front() == '(' && arguments.back() == ')')
+    arguments = arguments.substr(1, arguments.size() - 2);
+  return {written.substr(0, end), arguments};
+}
+
+void add_requests(Code& code, const ImportOptions& options, bool krl, Problems& problems) {
+  for (const auto& [name, text] : options.values)
+    read_text(code, "value " + name, text, krl, problems,
+              [&](Cursor& at) { code.values[value_key(name)] = at.expression(); });
+  for (const auto& [line, text] : options.choose)
+    read_text(code, "assumption " + line, text, krl, problems,
+              [&](Cursor& at) { code.choices[line] = at.expression(); });
+  const auto [routine, arguments] = routine_and_arguments(options.routine);
+  code.start = lower_case(routine);
+  if (!arguments.empty())
+    read_text(code, "routine " + routine, arguments, krl, problems,
+              [&](Cursor& at) { code.start_arguments = at.arguments(""); });
+}
+
+}  // namespace dresslife::sim
