@@ -203,6 +203,24 @@ Place Interpreter::origin(const Expression& expression) {
   return found ? found->written : Place{};
 }
 
+std::string Interpreter::written(const Expression& expression) const {
+  const Expression* first = &expression;  // the operator stands behind its first operand
+  while ((first->kind == Kind::binary || first->kind == Kind::field || first->kind == Kind::element) &&
+         !first->items.empty())
+    first = &first->items[0];
+  const std::string line = code_.files[first->place.file].from(first->place.line, first->place.column);
+  int depth = 0;
+  std::size_t end = 0;
+  for (; end < line.size(); ++end) {
+    const char c = line[end];
+    if (c == '(' || c == '[' || c == '{') ++depth;
+    if ((c == ')' || c == ']' || c == '}') && --depth < 0) break;
+    if (depth == 0 && (c == ',' || c == ';' || c == '\\')) break;
+  }
+  while (end > 0 && line[end - 1] == ' ') --end;
+  return line.substr(0, end);
+}
+
 void Interpreter::set(const std::string& name, Value value) {
   charge(value.weight());
   Variable& variable = globals_[name];

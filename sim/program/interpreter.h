@@ -123,6 +123,7 @@ class Interpreter {
   std::string because(const Value& unknown) const;
   /// "--value k=... ", or nothing: what would make it known.
   std::string remedy_for(const Value& unknown) const;
+  std::size_t problem_count() const { return problems_.count(); }
   pipeline::Where where(const Place& place) const;
   std::string short_place(const Place& place) const;  ///< "main.mod:12"
   const ImportOptions& options() const { return options_; }

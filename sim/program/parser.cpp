@@ -7,6 +7,8 @@ namespace {
 
 using Kind = Expression::Kind;
 
+constexpr int precedence_of_signs = 6;  // of - and + before a value
+
 /// Precedence of a binary operator; 0: not one.
 int precedence(const Token& token) {
   static constexpr std::pair<std::string_view, int> table[] = {
@@ -104,7 +106,7 @@ Expression Cursor::finished(Expression e) const {
 
 Expression Cursor::expression(int lowest) {
   const Deeper deeper(*this);
-  Expression left = unary();
+  Expression left = unary(lowest);
   while (true) {
     const int level = precedence(peek());
     if (level < lowest || level == 0 || (at_sign(":") && !krl_)) return left;
@@ -118,7 +120,8 @@ Expression Cursor::expression(int lowest) {
   }
 }
 
-Expression Cursor::unary() {
+/// RAPID's NOT in front of an expression takes all that AND joins: NOT a AND b is NOT (a AND b).
+Expression Cursor::unary(int lowest) {
   const Deeper deeper(*this);
   const bool negation = at_word("not") || at_word("b_not");
   if (!negation && !at_sign("-") && !at_sign("+")) return primary();
@@ -126,7 +129,7 @@ Expression Cursor::unary() {
   e.kind = Kind::unary;
   e.place = place();
   e.text = lower_case(next().text);
-  e.items.push_back(negation && !krl_ ? expression(3) : unary());  // RAPID: NOT a = b is NOT (a = b)
+  e.items.push_back(negation && !krl_ ? expression(lowest <= 1 ? 2 : 3) : unary(precedence_of_signs));
   return finished(std::move(e));
 }
 
@@ -275,14 +278,11 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
     }
     if (!comma)
       fail(fmt::format("has {} where ',' or the end of the statement is expected", seen()), "mend the line");
-    if (!krl_ && peek().kind == Token::Kind::word && at_sign(":=", 1)) {  // Tool:=gun
-      const std::string parameter = word("the name of an argument");
+    if (!krl_ && peek().kind == Token::Kind::word && at_sign(":=", 1)) {  // Tool:=gun: in its place anyway
+      word("the name of an argument");
       next();
-      list.push_back(expression());
-      list.back().option = parameter;
-    } else {
-      list.push_back(expression());
     }
+    list.push_back(expression());
     comma = false;
     while (at_sign("|")) next();
   }

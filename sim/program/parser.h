@@ -44,7 +44,7 @@ class Cursor {
  private:
   struct Deeper;
   Expression primary();
-  Expression unary();
+  Expression unary(int lowest);
   Expression aggregate_in_order();
   Expression aggregate_with_names();
   Expression finished(Expression e) const;  // sets the depth, checks it

@@ -108,9 +108,11 @@ SourceFile::SourceFile(std::string name, std::string text)
     if (text_[i] == '\n') starts_.push_back(i + 1);
 }
 
-std::string SourceFile::line(int number) const {
-  if (number < 1 || number > static_cast<int>(starts_.size())) return "";
-  std::size_t begin = starts_[number - 1];
+std::string SourceFile::line(int number) const { return from(number, 1); }
+
+std::string SourceFile::from(int number, int column) const {
+  if (number < 1 || number > static_cast<int>(starts_.size()) || column < 1) return "";
+  std::size_t begin = std::min(starts_[number - 1] + static_cast<std::size_t>(column) - 1, text_.size());
   std::size_t end = std::min(text_.find('\n', begin), text_.size());
   const auto blank = [&](std::size_t i) { return static_cast<unsigned char>(text_[i]) <= ' '; };
   while (begin < end && blank(begin)) ++begin;

@@ -105,7 +105,7 @@ struct Program {
 struct Problem {
   pipeline::Where where;
   std::string what, remedy;
-  std::string about;  ///< the name that is missing, of a problem that is told once for all of its uses
+  std::string about = {};  ///< the name that is missing, of a problem that is told once for all of its uses
   int more_uses = 0;
 };
 
@@ -164,6 +164,8 @@ class SourceFile {
   const std::string& text() const { return text_; }
   /// Line (from 1) without its end and the blanks around it, at most 200 characters; unprintable ones as '?'.
   std::string line(int number) const;
+  /// Likewise, from a column (from 1) on.
+  std::string from(int number, int column) const;
 
  private:
   std::string name_, text_;

@@ -16,5 +16,7 @@ std::optional<Value> rapid_zone(const Code& code, const std::string& name);
 Value rapid_initial(const Code& code, const std::string& type, int depth = 0);
 /// Input, output and logic, sorted.
 const std::vector<std::string>& harmless_rapid_instructions();
+/// What an instruction that is not followed may do to the motion; null: nothing is known of it.
+const char* rapid_told_effect(const std::string& instruction);
 
 }  // namespace dresslife::sim
