@@ -71,6 +71,26 @@ void merge_by_name(Node& base, const Node& over) {
   }
 }
 
+/// Accelerations are in no URDF: without this check the URDF's lines would be told to miss them.
+void check_accelerations(const Node& robot, const fs::path& urdf, const Where& asked) {
+  std::vector<std::string> without;
+  std::size_t driven = 0;
+  const Node* joints = robot.find("joints");
+  for (const Node& joint : joints ? joints->items : std::vector<Node>{}) {
+    if (!joint.is_map() || joint.find("follows")) continue;
+    ++driven;
+    const Node* name = joint.find("name");
+    if (!joint.find("acceleration_deg_per_s2")) without.push_back(name ? name->text : "?");
+  }
+  if (without.empty()) return;
+  throw InputError(
+      asked,
+      fmt::format("{} has no accelerations of {} (a URDF cannot hold any)", urdf.string(),
+                  fmt::join(without, ", ")),
+      fmt::format("give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes",
+                  driven));
+}
+
 /// `urdf: FILE` and what else says how to read it; all other keys of the entry go over the robot in it.
 void read_urdf(Node& entry) {
   Node about = entry, over = entry;
@@ -94,6 +114,7 @@ void read_urdf(Node& entry) {
     else
       known = e.value;
   }
+  check_accelerations(robot, request.urdf, entry.where);
   entry = std::move(robot);
 }
 

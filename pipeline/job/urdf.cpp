@@ -107,6 +107,9 @@ class XmlPlaces {
       return;
     }
     any_ = true;
+    if (name.starts_with("xacro:"))
+      throw InputError({file_, line}, fmt::format("is xacro, from which a URDF is made (<{}>)", name),
+                       fmt::format("run xacro first: xacro {} > robot.urdf", file_));
     if ((name == "link" || name == "joint") && ++elements_ > most_elements)
       fail(line, fmt::format("has more than {} links and joints", most_elements));
     lines_.try_emplace(name + " " + attribute(tag, "name"), line);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "sim/program/fanuc_words.h"
 #include "sim/program/tokens.h"
 
 namespace dresslife::sim {
@@ -23,8 +24,8 @@ std::string_view trimmed(std::string_view text) {
 
 class ListingParser {
  public:
-  ListingParser(const SourceFile& source, int file, Problems& problems)
-      : source_(source), problems_(problems) {
+  ListingParser(const SourceFile& source, int file, Program& program, Problems& problems)
+      : source_(source), program_(program), problems_(problems) {
     listing_.file = file;
   }
 
@@ -32,8 +33,8 @@ class ListingParser {
     for (next_line(); !done_; next_line()) {
       const std::string_view line = trimmed(line_);
       if (line.starts_with("/PROG")) {
-        FanucCursor name(line.substr(5));
-        listing_.name = name.word();
+        const std::string_view name = trimmed(line.substr(5));  // "NAME", or "NAME  Macro"
+        listing_.name = lower_case(name.substr(0, name.find_first_of(" \t")));
       } else if (line.starts_with("/MN")) {
         section_ = Section::statements;
       } else if (line.starts_with("/POS")) {
@@ -55,6 +56,7 @@ class ListingParser {
     }
     if (listing_.name.empty())
       problems_.add({source_.name(), 1, 1}, "holds no /PROG", "give a listing (.ls), not a .tp file");
+    index();
     return std::move(listing_);
   }
 
@@ -78,45 +80,55 @@ class ListingParser {
     problems_.add({source_.name(), number_, column}, what, remedy);
   }
 
-  /// "  12:  L P[1] ... ;" over as many lines as it takes to the ';'. A continued line begins with blanks and
-  /// ':'.
+  /// What stands before the ':' of a line that begins a statement: its number, or (in copies) nothing.
+  static std::optional<std::string_view> number_of(std::string_view line) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos) return {};
+    const std::string_view before = trimmed(line.substr(0, colon));
+    return std::all_of(before.begin(), before.end(), digit) ? std::optional(before) : std::nullopt;
+  }
+
+  /// "  12:  L P[1] ... ;" over as many lines as it takes to the ';'.
   void statement() {
-    const std::size_t colon = line_.find(':');
-    const std::string_view before = trimmed(line_.substr(0, std::min(colon, line_.size())));
-    if (colon == std::string_view::npos || !std::all_of(before.begin(), before.end(), digit)) {
+    const std::string_view line = trimmed(line_);
+    if (line.starts_with("---")) return;  // the end of what runs at a move's end
+    if (!number_of(line_)) {
       complain("is no statement (a number, ':', the statement, ';')", "list the program again");
       return;
     }
+    const std::size_t colon = line_.find(':');
     FanucStatement made;
     made.line = number_;
-    const std::size_t first = begin_ + colon + 1;
     made.column = static_cast<int>(colon) + 2;
-    std::size_t last = semicolon(line_);
-    int continued = 0;
-    while (last == std::string_view::npos && continued < 100) {
-      const std::size_t resume = next_;
-      const int number = number_;
-      const std::size_t begun = begin_;
+    const std::size_t first = begin_ + colon + 1;
+    std::size_t end = begin_ + line_.size();
+    std::size_t last = semicolon(line_.substr(colon + 1));
+    if (last != std::string_view::npos) end = first + last;
+    for (int continued = 0; last == std::string_view::npos && continues(); ++continued) {
+      if (continued == 100) return complain("ends a statement of more than 100 lines", "write the ';'");
       next_line();
-      const std::string_view more = trimmed(line_);
-      if (done_ || more.starts_with("/")) {  // the ';' is missing: the section ends
-        problems_.add({source_.name(), made.line, made.column}, "has no ';' at the end of the statement",
-                      "write it");
-        next_ = done_ ? source_.text().size() : resume;
-        number_ = number;
-        begin_ = begun;
-        done_ = false;
-        return;
-      }
-      ++continued;
       last = semicolon(line_);
+      end = begin_ + (last == std::string_view::npos ? line_.size() : last);
     }
-    if (last == std::string_view::npos) {
-      complain("ends a statement of more than 100 lines", "write the ';'");
-      return;
-    }
-    made.text = trimmed(std::string_view(source_.text()).substr(first, begin_ + last - first));
-    if (!made.text.empty()) listing_.statements.push_back(made);
+    const std::string_view text = trimmed(std::string_view(source_.text()).substr(first, end - first));
+    if (text.empty()) return;
+    if (last == std::string_view::npos && !text.starts_with("!") &&
+        program_.skipped.size() < ImportLimits::skipped)
+      program_.skipped.push_back(
+          {{source_.name(), made.line, made.column}, "no ';' at the end: the statement ends with its line"});
+    made.text = fanuc_in_english(text);
+    listing_.statements.push_back(std::move(made));
+  }
+
+  /// Whether the next line goes on with this statement: it has no number of its own.
+  bool continues() const {
+    const std::string_view all = source_.text();
+    if (next_ >= all.size()) return false;
+    const std::string_view next = all.substr(next_, std::min(all.find('\n', next_), all.size()) - next_);
+    const std::string_view line = trimmed(next);
+    if (line.starts_with("/") || line.starts_with("---")) return false;
+    const auto number = number_of(next);
+    return !line.empty() && (!number || number->empty());
   }
 
   static std::size_t semicolon(std::string_view line) {
@@ -126,6 +138,44 @@ class ListingParser {
       if (line[i] == ';' && !quoted) return i;
     }
     return quoted ? line.rfind(';') : std::string_view::npos;
+  }
+
+  /// Labels, and which ELSE, ENDIF and ENDFOR belong to which IF and FOR.
+  void index() {
+    std::vector<std::size_t> ifs, loops;
+    auto& statements = listing_.statements;
+    for (FanucStatement& s : statements) s.other = s.end = statements.size();
+    for (std::size_t i = 0; i < statements.size(); ++i) {
+      FanucCursor at(statements[i].text);
+      const std::string word = at.word();
+      if (word == "lbl" && at.take_sign('[')) {
+        if (const auto number = at.number())
+          listing_.labels.try_emplace(static_cast<int>(std::clamp(*number, 0.0, 1e6)), i);
+      } else if (word == "if" && lower_case(statements[i].text).ends_with("then")) {
+        ifs.push_back(i);
+      } else if (word == "else" && at.at_end() && !ifs.empty()) {
+        statements[ifs.back()].other = i;
+      } else if (word == "endif" && !ifs.empty()) {
+        FanucStatement& opened = statements[ifs.back()];
+        opened.end = i;
+        if (opened.other < i) statements[opened.other].end = i;
+        opened.other = std::min(opened.other, i);
+        ifs.pop_back();
+      } else if (word == "for") {
+        loops.push_back(i);
+      } else if (word == "endfor" && !loops.empty()) {
+        statements[loops.back()].end = i;
+        statements[i].end = loops.back();
+        loops.pop_back();
+      }
+    }
+    for (std::size_t open : ifs) unclosed(open, "ENDIF");
+    for (std::size_t open : loops) unclosed(open, "ENDFOR");
+  }
+
+  void unclosed(std::size_t open, const char* end) {
+    const FanucStatement& s = listing_.statements[open];
+    problems_.add({source_.name(), s.line, s.column}, fmt::format("has no {}", end), "write it");
   }
 
   /// P[1:"name"]{ GP1: UF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0', X = 1.0 mm, ... GP2: ... };
@@ -150,7 +200,7 @@ class ListingParser {
     const std::size_t end = begin_ + close;
     while (!done_ && next_ <= end) next_line();  // to the line that closes it
     if (close == window.size()) complain("ends in a position", "close it with }");
-    if (std::string problem = fields(body, read); !problem.empty()) {
+    if (std::string problem = PositionFields(body, read).run(); !problem.empty()) {
       problems_.add({source_.name(), line, 1}, problem,
                     "write six coordinates or the joint angles, in mm and deg");
       return;
@@ -158,87 +208,95 @@ class ListingParser {
     listing_.positions[static_cast<int>(std::clamp(*number, 0.0, 1e6))] = std::move(read);
   }
 
-  /// Empty, or what is wrong.
-  static std::string fields(std::string_view body, FanucPosition& read) {
-    FanucCursor at(body);
-    constexpr std::string_view names = "xyzwpr";
-    bool seen[6] = {};
-    int group = 1;
-    while (!at.at_end()) {
-      const std::string name = at.word();
-      if (name.empty()) {
-        at.move_to(at.offset() + 1);  // a comma, or what this reader does not know
-        continue;
-      }
-      if (name.starts_with("gp")) {
-        group = name.size() > 2 && digit(name[2]) ? name[2] - '0' : 0;
-        continue;
-      }
-      if (!at.take_sign(':') && !at.take_sign('=')) continue;
-      if (name == "config") {
-        if (!at.take_sign('\'')) return "has no CONFIG in quotes";
-        const std::string_view rest = at.rest();
-        const std::size_t quote = rest.find('\'');
-        if (quote == std::string_view::npos) return "has a CONFIG without its closing quote";
-        if (group == 1 && !configuration(rest.substr(0, quote), read.configuration))
-          return "has a CONFIG like none of 'N U T, 0, 0, 0'";
-        at.move_to(at.offset() + quote + 1);
-        continue;
-      }
-      const auto number = at.number();
-      if (name == "uf" || name == "ut") {
-        if (group == 1)
-          (name == "uf" ? read.frame : read.tool) =
-              number ? static_cast<int>(std::clamp(*number, 0.0, 1e6)) : -1;
-        continue;
-      }
-      if (!number) {
-        if (name.size() <= 2) return "has " + name + " without a number";  // ****: not taught
-        continue;
-      }
-      const std::size_t which = name.size() == 1 ? names.find(name[0]) : std::string_view::npos;
-      if (which != std::string_view::npos && group == 1) {
-        read.pose[which] = *number;
-        seen[which] = true;
-      } else if (name.size() == 2 && name[0] == 'j' && digit(name[1]) && group == 1) {
-        const std::size_t axis = static_cast<std::size_t>(name[1] - '0');
-        if (axis != read.joints.size() + 1) return "has joint angles out of order";
-        read.joints.push_back(*number);
-      } else if (name.size() == 2 && (name[0] == 'e' || name[0] == 'j') && read.external_axes.size() < 12) {
-        read.external_axes.push_back(*number);
-      }
-    }
-    const bool pose = std::all_of(std::begin(seen), std::end(seen), [](bool s) { return s; });
-    return pose || !read.joints.empty() ? "" : "has neither joint angles nor six coordinates";
-  }
+  /// What stands between { and }.
+  class PositionFields {
+   public:
+    PositionFields(std::string_view body, FanucPosition& read) : at_(body), read_(read) {}
 
-  /// N U T, 0, 0, 0: wrist not flipped (F), arm up (D), arm in front (B); turns of axes 1, 4, 6 (or 4, 5, 6).
-  static bool configuration(std::string_view text, ArmConfiguration& read) {
-    FanucCursor at(text);
-    read.kind = ArmConfiguration::Kind::fanuc;
-    read.numbers = {0, 1, 1};
-    for (std::string letter = at.word(); !letter.empty(); letter = at.word()) {
-      for (char c : letter) {
-        if (c == 'f' || c == 'n')
-          read.numbers[0] = c == 'f';
-        else if (c == 'u' || c == 'd')
-          read.numbers[1] = c == 'u';
-        else if (c == 't' || c == 'b')
-          read.numbers[2] = c == 't';
-        else if (c != 'l' && c != 'r')
-          return false;
+    /// Empty, or what is wrong.
+    std::string run() {
+      while (!at_.at_end()) {
+        const std::string name = at_.word();
+        if (name.empty()) {
+          at_.move_to(at_.offset() + 1);  // a comma, a star, or what this reader does not know
+          continue;
+        }
+        if (name.starts_with("gp")) {
+          group_ = name.size() > 2 && digit(name[2]) ? name[2] - '0' : 0;
+          continue;
+        }
+        if (!at_.take_sign(':') && !at_.take_sign('=')) continue;
+        const std::string problem = name == "config" ? configuration() : field(name);
+        if (!problem.empty()) return problem;
       }
+      const bool pose = std::all_of(std::begin(seen_), std::end(seen_), [](bool s) { return s; });
+      const bool any = std::any_of(std::begin(seen_), std::end(seen_), [](bool s) { return s; });
+      if (!joints_.empty()) {
+        read_.form = FanucPosition::Form::joints;
+        read_.values = joints_;
+      } else if (pose) {
+        read_.form = FanucPosition::Form::pose;
+        read_.values.assign(std::begin(pose_), std::end(pose_));
+      } else if (any) {
+        return "has neither joint angles nor six coordinates";
+      } else {
+        read_.form = others_ ? FanucPosition::Form::other_groups : FanucPosition::Form::unknown;
+      }
+      return "";
     }
-    while (at.take_sign(',')) {
-      const auto turns = at.number();
-      if (!turns || std::abs(*turns) > 9 || read.numbers.size() >= 6) return false;
-      read.numbers.push_back(static_cast<int>(*turns));
+
+   private:
+    std::string configuration() {
+      if (!at_.take_sign('\'')) return "has no CONFIG in quotes";
+      const std::string_view rest = at_.rest();
+      const std::size_t quote = rest.find('\'');
+      if (quote == std::string_view::npos) return "has a CONFIG without its closing quote";
+      at_.move_to(at_.offset() + quote + 1);
+      if (group_ != 1) return "";
+      const auto read = fanuc_configuration(rest.substr(0, quote));
+      if (!read) return "has a CONFIG like none of 'N U T, 0, 0, 0'";
+      read_.configuration = *read;
+      return "";
     }
-    read.numbers.resize(6, 0);
-    return at.at_end();
-  }
+
+    std::string field(const std::string& name) {
+      const auto number = at_.number();
+      if (name == "uf" || name == "ut") {
+        if (group_ == 1)
+          (name == "uf" ? read_.frame : read_.tool) =
+              number ? static_cast<int>(std::clamp(*number, 0.0, 1e6)) : -1;
+        return "";
+      }
+      const double value = number.value_or(NAN);  // ****: not taught
+      constexpr std::string_view names = "xyzwpr";
+      const bool remote = name.size() == 2 && name[0] == 'r';
+      const std::size_t which = name.size() == 1 || remote ? names.find(name.back()) : std::string_view::npos;
+      if (group_ != 1) others_ = true;
+      if (which != std::string_view::npos && group_ == 1) {
+        pose_[which] = value;
+        seen_[which] = true;
+        read_.remote |= remote;
+      } else if (name.size() == 2 && name[0] == 'j' && digit(name[1]) && group_ == 1) {
+        if (static_cast<std::size_t>(name[1] - '0') != joints_.size() + 1)
+          return "has joint angles out of order";
+        joints_.push_back(value);
+      } else if (name.size() == 2 && (name[0] == 'e' || name[0] == 'j') && digit(name[1]) &&
+                 read_.external_axes.size() < 12) {
+        read_.external_axes.push_back(value);
+      }
+      return "";
+    }
+
+    FanucCursor at_;
+    FanucPosition& read_;
+    int group_ = 1;
+    double pose_[6] = {};
+    bool seen_[6] = {}, others_ = false;
+    std::vector<double> joints_;
+  };
 
   const SourceFile& source_;
+  Program& program_;
   Problems& problems_;
   FanucListing listing_;
   Section section_ = Section::none;
@@ -249,6 +307,39 @@ class ListingParser {
 };
 
 }  // namespace
+
+bool FanucPosition::known() const {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return !values.empty() && std::all_of(values.begin(), values.end(), finite) &&
+         std::all_of(external_axes.begin(), external_axes.end(), finite);
+}
+
+/// N U T, 0, 0, 0: wrist not flipped (F), arm up (D), arm in front (B); turns of axes 1, 4, 6.
+std::optional<ArmConfiguration> fanuc_configuration(std::string_view text) {
+  ArmConfiguration read;
+  FanucCursor at(text);
+  read.kind = ArmConfiguration::Kind::fanuc;
+  read.numbers = {0, 1, 1};
+  for (std::string letters = at.word(); !letters.empty(); letters = at.word()) {
+    for (char c : letters) {
+      if (c == 'f' || c == 'n')
+        read.numbers[0] = c == 'f';
+      else if (c == 'u' || c == 'd')
+        read.numbers[1] = c == 'u';
+      else if (c == 't' || c == 'b')
+        read.numbers[2] = c == 't';
+      else if (c != 'l' && c != 'r')
+        return {};
+    }
+  }
+  while (at.take_sign(',')) {
+    const auto turns = at.number();
+    if (!turns || std::abs(*turns) > 9 || read.numbers.size() >= 6) return {};
+    read.numbers.push_back(static_cast<int>(*turns));
+  }
+  read.numbers.resize(6, 0);
+  return at.at_end() ? std::optional(read) : std::nullopt;
+}
 
 void FanucCursor::skip_blanks() {
   while (at_ < text_.size() && blank(text_[at_])) ++at_;
@@ -277,6 +368,8 @@ bool FanucCursor::take_sign(char sign) {
   return true;
 }
 
+void FanucCursor::skip_to(char sign) { at_ = std::min(text_.find(sign, at_), text_.size() - 1) + 1; }
+
 std::optional<double> FanucCursor::number() {
   skip_blanks();
   std::size_t begin = at_;
@@ -296,10 +389,17 @@ std::string FanucCursor::word() {
   return lower_case(text_.substr(begin, at_ - begin));
 }
 
+std::string_view FanucCursor::name() {
+  skip_blanks();
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && (wordly(text_[at_]) || text_[at_] == '-')) ++at_;
+  return text_.substr(begin, at_ - begin);
+}
+
 std::string_view FanucCursor::rest() { return text_.substr(std::min(at_, text_.size())); }
 
-FanucListing parse_fanuc(const SourceFile& source, int file, Problems& problems) {
-  return ListingParser(source, file, problems).run();
+FanucListing parse_fanuc(const SourceFile& source, int file, Program& program, Problems& problems) {
+  return ListingParser(source, file, program, problems).run();
 }
 
 }  // namespace dresslife::sim

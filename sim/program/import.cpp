@@ -9,6 +9,7 @@
 #include "sim/program/backup.h"
 >>>>>>> 2da9be5 (Give robot programs what a controller knows: scope, unknown values with their cause, values, passes, folders)
 #include "sim/program/fanuc.h"
+#include "sim/program/fanuc_backup.h"
 #include "sim/program/krl.h"
 #include "sim/program/rapid.h"
 #include "sim/program/rapid_types.h"
@@ -167,10 +168,10 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       read_fanuc(files, options, tools, work_objects, program, problems);
       break;
     case Language::joint_columns:
-      read_joint_columns(files[0], program, problems);
+      read_joint_columns(files[0], options, program, problems);
       break;
     case Language::ros_trajectory:
-      read_ros_trajectory(files[0], program, problems);
+      read_ros_trajectory(files[0], options, program, problems);
       break;
   }
   if (problems.empty() && program.instructions.empty())
@@ -223,6 +224,16 @@ Program read_program(const pipeline::Motion& motion) {
       }
     }
   }
+  if (language == Language::fanuc &&
+      !is_backup(motion.program))  // programs that it calls and the registers of its backup lie beside it
+    for (const std::filesystem::path& beside : fanuc_files_beside(motion.program)) {
+      std::error_code failure;
+      const bool listed = std::any_of(motion.modules.begin(), motion.modules.end(), [&](const auto& m) {
+        return std::filesystem::equivalent(m.file, beside, failure) ||
+               lower_case(m.file.filename().string()) == lower_case(beside.filename().string());
+      });
+      if (!listed) files.push_back(source_of(beside));
+    }
   Problems problems;
   Program program = read_program(language, std::move(files), options, frames_of(motion.tools),
                                  frames_of(motion.work_objects), problems);

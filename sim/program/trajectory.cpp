@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "pipeline/job/document.h"
+#include "sim/program/axis_names.h"
 #include "sim/program/tokens.h"
 
 namespace dresslife::sim {
@@ -74,95 +75,204 @@ class Rows {
   std::optional<double> last_time_;
 };
 
-struct Column {
-  bool time = false;
-  double factor = degree;
-};
-
 std::vector<std::string_view> cells_of(std::string_view line, char separator) {
+  constexpr std::size_t most = 200;  // columns, of which the most are left out
   std::vector<std::string_view> cells;
-  while (cells.size() <= most_axes + 1) {
+  while (cells.size() <= most) {
     const std::size_t end = line.find(separator);
-    cells.push_back(trimmed(line.substr(0, end)));
+    std::string_view cell = trimmed(line.substr(0, end));
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+    cells.push_back(cell);
     if (end == std::string_view::npos) break;
     line.remove_prefix(end + 1);
   }
   return cells;
 }
 
+std::string answer(const ImportOptions& options, const char* name) {
+  const auto found = options.values.find(name);
+  return found == options.values.end() ? "" : found->second;
+}
+
+/// A file of columns: its header, then its rows.
+class Columns {
+ public:
+  Columns(const SourceFile& file, const ImportOptions& options, Program& program, Problems& problems)
+      : file_(file), options_(options), program_(program), problems_(problems) {}
+
+  void run() {
+    const std::string_view all = file_.text();
+    for (std::size_t begin = 0; begin < all.size() && !problems_.full() && !stopped_;) {
+      const std::size_t end = std::min(all.find('\n', begin), all.size());
+      const std::string_view line = trimmed(all.substr(begin, end - begin));
+      begin = end + 1;
+      ++number_;
+      if (line.empty() || line.front() == '#') continue;
+      names_.empty() ? header(line) : row(line);
+    }
+    if (names_.empty() && !stopped_)
+      problems_.add({file_.name(), 1, 1}, "is empty", "give a line of names, then one row per pose");
+    if (problems_.empty() && !stopped_) moves();
+  }
+
+ private:
+  struct Row {
+    int line;
+    std::optional<double> time;
+    std::vector<double> angles;  // as written, in the order of the robot's axes
+  };
+  pipeline::Where where() const { return {file_.name(), number_, 1}; }
+  void refuse(const std::string& what, const std::string& remedy) {
+    problems_.add(where(), what, remedy);
+    stopped_ = true;
+  }
+
+  void header(std::string_view line) {
+    header_ = number_;
+    for (char candidate : {',', ';', '\t'})
+      if (line.find(candidate) != std::string_view::npos) separator_ = candidate;
+    std::vector<std::string> axes;
+    std::vector<std::size_t> at;
+    bool points = false;
+    for (std::string_view name : cells_of(line, separator_)) {
+      if (number_in(name))
+        return refuse("begins with numbers", "put a line of names first: time, axis 1, axis 2, ...");
+      const ColumnName read = column_name(name);
+      if (read.kind == ColumnName::Kind::time && !time_) {
+        time_ = names_.size();
+        seconds_ = read.seconds;
+      } else if (read.kind == ColumnName::Kind::axis) {
+        axes.emplace_back(name);
+        at.push_back(names_.size());
+      } else if (!name.empty() || read.kind != ColumnName::Kind::other) {
+        points |= read.kind == ColumnName::Kind::point;
+        left_out_.emplace_back(name);
+      }
+      names_.emplace_back(name);
+      units_.push_back(read.unit);
+    }
+    choose(axes, at, points);
+  }
+
+  /// Which columns are the axes, and in which order.
+  void choose(const std::vector<std::string>& axes, const std::vector<std::size_t>& at, bool points) {
+    if (points)
+      return refuse(fmt::format("names points in space ({})", fmt::join(left_out_, ", ")),
+                    "give the angles of the axes, one column each");
+    if (axes.empty() || axes.size() > most_axes)
+      return refuse(fmt::format("names {} axes", axes.size()), "give one column per axis");
+    const std::string wanted = answer(options_, "joints");
+    const auto order = order_of_axes(axes, wanted);
+    if (!order)
+      return refuse(
+          fmt::format("names axes whose order it does not tell ({})", fmt::join(axes, ", ")),
+          "number them in their names (joint_1 ...), or give --value joints=NAME,NAME,... in the order of "
+          "the robot's axes");
+    for (std::size_t axis : *order) axes_.push_back(at[axis]);
+    for (const std::string& name : left_out_)
+      program_.skipped.push_back({where(), fmt::format("column '{}': no angle of an axis", name)});
+    for (std::size_t i = 0; i < axes.size() && !wanted.empty(); ++i)
+      if (std::find(order->begin(), order->end(), i) == order->end())
+        program_.skipped.push_back(
+            {where(), fmt::format("column '{}': none of the axes asked for", axes[i])});
+  }
+
+  void row(std::string_view line) {
+    const std::vector<std::string_view> cells = cells_of(line, separator_);
+    if (cells.size() != names_.size())
+      return problems_.add(where(),
+                           fmt::format("has {} cells (there are {} names)", cells.size(), names_.size()),
+                           "give one number per name");
+    if (std::none_of(cells.begin(), cells.end(), [](std::string_view cell) { return number_in(cell); }))
+      return problems_.add(where(), "has no numbers",
+                           "put one line of names first, then a row of joint angles per line");
+    Row made{number_, {}, {}};
+    bool whole = true;
+    const auto number = [&](std::size_t column) {
+      const auto value = number_in(cells[column]);
+      if (!value)
+        problems_.add(where(), fmt::format("has no number in cell {} ({})", column + 1, names_[column]),
+                      "write a finite number");
+      whole &= value.has_value();
+      return value.value_or(0);
+    };
+    if (time_) made.time = number(*time_) * seconds_;
+    for (std::size_t column : axes_) made.angles.push_back(number(column));
+    if (whole && rows_.size() <= ImportLimits::instructions) rows_.push_back(std::move(made));
+  }
+
+  /// Factors to rad of the axes' columns; empty: nobody knows.
+  std::vector<double> factors() {
+    // No axis turns further than two turns either way, but for those of a wrist that is read in degrees
+    // anyway.
+    constexpr double widest = 4 * std::numbers::pi;
+    double largest = 0;
+    for (const Row& row : rows_)
+      for (double angle : row.angles) largest = std::max(largest, std::abs(angle));
+    const std::string told = answer(options_, "unit");
+    std::vector<double> made;
+    for (std::size_t column : axes_) {
+      ColumnName::Unit unit = units_[column];
+      if (unit == ColumnName::Unit::unknown && largest > widest) unit = ColumnName::Unit::degrees;
+      if (told == "deg") unit = ColumnName::Unit::degrees;
+      if (told == "rad") unit = ColumnName::Unit::radians;
+      if (unit == ColumnName::Unit::unknown) return {};
+      made.push_back(unit == ColumnName::Unit::radians ? 1 : degree);
+    }
+    return made;
+  }
+
+  void moves() {
+    const std::vector<double> factor = factors();
+    if (factor.empty()) {
+      number_ = header_;
+      return refuse("gives angles without a unit (none is too large for radians)",
+                    "end the names in deg or rad (joint_1_rad), or give --value unit=deg or unit=rad");
+    }
+    Rows rows(program_, problems_);
+    for (Row& row : rows_) {
+      for (std::size_t i = 0; i < factor.size(); ++i) row.angles[i] *= factor[i];
+      if (!rows.add(std::move(row.angles), row.time, {file_.name(), row.line, 1}, file_.line(row.line)))
+        return;
+    }
+  }
+
+  const SourceFile& file_;
+  const ImportOptions& options_;
+  Program& program_;
+  Problems& problems_;
+  std::vector<std::string> names_, left_out_;
+  std::vector<ColumnName::Unit> units_;
+  std::vector<std::size_t> axes_;  // columns, in the order of the robot's axes
+  std::optional<std::size_t> time_;
+  double seconds_ = 1;
+  std::vector<Row> rows_;
+  char separator_ = ',';
+  int number_ = 0, header_ = 0;
+  bool stopped_ = false;
+};
+
 }  // namespace
 
-void read_joint_columns(const SourceFile& file, Program& program, Problems& problems) {
-  Rows rows(program, problems);
-  std::vector<Column> columns;
-  char separator = ',';
-  int number = 0;
-  const std::string_view all = file.text();
-  for (std::size_t begin = 0; begin < all.size() && !problems.full();) {
-    const std::size_t end = std::min(all.find('\n', begin), all.size());
-    const std::string_view line = trimmed(all.substr(begin, end - begin));
-    begin = end + 1;
-    ++number;
-    if (line.empty() || line.front() == '#') continue;
-    const pipeline::Where where{file.name(), number, 1};
-    if (columns.empty()) {
-      for (char candidate : {',', ';', '\t'})
-        if (line.find(candidate) != std::string_view::npos) separator = candidate;
-      for (std::string_view name : cells_of(line, separator)) {
-        const std::string word = lower_case(name);
-        if (number_in(name))
-          return problems.add(where, "begins with numbers",
-                              "put a line of names first: time, axis 1, axis 2, ...");
-        columns.push_back({columns.empty() && word.starts_with("t"), word.ends_with("rad") ? 1 : degree});
-      }
-      if (columns.size() - columns[0].time > most_axes || columns.size() == columns[0].time)
-        return problems.add(where, fmt::format("names {} axes", columns.size() - columns[0].time),
-                            "give one column per axis");
-      continue;
-    }
-    const std::vector<std::string_view> cells = cells_of(line, separator);
-    if (cells.size() != columns.size()) {
-      problems.add(where, fmt::format("has {} cells (there are {} names)", cells.size(), columns.size()),
-                   "give one number per name");
-      continue;
-    }
-    std::vector<double> joints;
-    std::optional<double> time;
-    bool whole =
-        std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return number_in(cell); });
-    if (!whole) {
-      problems.add(where, "has no numbers",
-                   "put one line of names first, then a row of joint angles per line");
-      continue;
-    }
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const auto value = number_in(cells[i]);
-      if (!value)
-        problems.add(where, fmt::format("has no number in cell {}", i + 1), "write a finite number");
-      whole &= value.has_value();
-      if (!value) continue;
-      if (columns[i].time)
-        time = *value;
-      else
-        joints.push_back(*value * columns[i].factor);
-    }
-    if (whole && !rows.add(std::move(joints), time, where, file.line(number))) return;
-  }
-  if (columns.empty())
-    problems.add({file.name(), 1, 1}, "is empty", "give a line of names, then one row per pose");
+void read_joint_columns(const SourceFile& file, const ImportOptions& options, Program& program,
+                        Problems& problems) {
+  Columns(file, options, program, problems).run();
 }
 
 namespace {
 
 using pipeline::Node;
 
-/// The map with `points`, at most two keys deep.
-const Node* trajectory_in(const Node& node, int depth = 0) {
-  if (!node.is_map() || depth > 2) return nullptr;
-  if (node.find("points")) return &node;
-  for (const pipeline::Entry& entry : node.entries)
-    if (const Node* found = trajectory_in(entry.value, depth + 1)) return found;
-  return nullptr;
+/// Maps with `points` that hold something, at most six keys and lists deep.
+void trajectories_in(const Node& node, std::vector<const Node*>& found, int depth = 0) {
+  if (depth > 6 || found.size() > 100) return;
+  for (const Node& item : node.items) trajectories_in(item, found, depth + 1);
+  const Node* points = node.is_map() ? node.find("points") : nullptr;
+  if (points && points->is_list() && !points->items.empty() && points->items[0].is_map() &&
+      !points->items[0].find("transforms"))
+    found.push_back(&node);
+  else
+    for (const pipeline::Entry& entry : node.entries) trajectories_in(entry.value, found, depth + 1);
 }
 
 /// Seconds, as one number or as {sec, nanosec} (ROS 2), {secs, nsecs} (ROS 1).
@@ -180,15 +290,17 @@ std::optional<double> time_of(const Node& node) {
   return any ? std::optional(time) : std::nullopt;
 }
 
-bool read_point(const Node& point, Rows& rows, Problems& problems) {
+bool read_point(const Node& point, const std::vector<std::size_t>& order, std::size_t names, Rows& rows,
+                Problems& problems) {
   const Node* positions = point.is_map() ? point.find("positions") : nullptr;
-  if (!positions || !positions->is_list() || positions->items.empty() ||
-      positions->items.size() > most_axes) {
-    problems.add(point.where, "has no positions", "give one angle per joint [rad]");
+  if (!positions || !positions->is_list() || positions->items.size() != names) {
+    problems.add(point.where, fmt::format("has no positions of {} joints", names),
+                 "give one angle per joint [rad]");
     return !problems.full();
   }
   std::vector<double> joints;
-  for (const Node& item : positions->items) {
+  for (std::size_t axis : order) {
+    const Node& item = positions->items[axis];
     const auto number = item.is_scalar() ? number_in(item.text) : std::nullopt;
     if (!number) {
       problems.add(item.where, "is no finite number", "give the angle in rad");
@@ -205,29 +317,76 @@ bool read_point(const Node& point, Rows& rows, Problems& problems) {
   return rows.add(std::move(joints), time, point.where, fmt::format("point at {:.6g} s", *time));
 }
 
+/// Every document of a file, as `ros2 topic echo` writes them: parted by "---". False: one is no YAML.
+bool documents_of(const SourceFile& file, std::vector<Node>& documents, Problems& problems) {
+  const std::string& text = file.text();
+  int lines = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end =
+        begin == 0 && text.starts_with("---") ? text.find("\n---", 3) : text.find("\n---", begin);
+    end = std::min(end == std::string::npos ? text.size() : end + 1, text.size());
+    const std::string part =
+        std::string(static_cast<std::size_t>(lines), '\n') + text.substr(begin, end - begin);
+    lines += static_cast<int>(
+        std::count(text.begin() + static_cast<long>(begin), text.begin() + static_cast<long>(end), '\n'));
+    begin = end < text.size() ? std::min(text.find('\n', end), text.size()) : end;
+    if (documents.size() > 100 || part.find_first_not_of(" \t\r\n-") == std::string::npos) continue;
+    try {
+      documents.push_back(pipeline::parse_yaml(part, file.name()));
+    } catch (const pipeline::InputError& error) {
+      // The message begins with its own place.
+      const std::string what = error.what();
+      const std::size_t word = what.find(": error: ");
+      problems.add({file.name(), 1, 1}, what.substr(word == std::string::npos ? 0 : word + 9), "");
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The one that is meant; null: none, or nobody knows.
+const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& documents,
+                              const ImportOptions& options, Problems& problems) {
+  std::vector<const Node*> found;
+  for (const Node& document : documents) trajectories_in(document, found);
+  const auto told = number_in(answer(options, "trajectory"));
+  if (found.empty())
+    problems.add({file.name(), 1, 1}, "holds no trajectory with points",
+                 "give a trajectory_msgs/JointTrajectory");
+  else if (told && *told >= 1 && *told <= static_cast<double>(found.size()))
+    return found[static_cast<std::size_t>(*told) - 1];
+  else if (found.size() > 1)
+    problems.add(found[1]->where, fmt::format("is one of {} trajectories in the file", found.size()),
+                 fmt::format("choose with --value trajectory=1 .. {}", found.size()));
+  else
+    return found[0];
+  return nullptr;
+}
+
 }  // namespace
 
-void read_ros_trajectory(const SourceFile& file, Program& program, Problems& problems) {
-  std::string text = file.text();
-  // What `ros2 topic echo` writes: documents parted by "---"; the first one counts.
-  if (const std::size_t end = text.find("\n---"); end != std::string::npos && end > 0) text.resize(end + 1);
-  Node document;
-  try {
-    document = pipeline::parse_yaml(text, file.name());
-  } catch (const pipeline::InputError& error) {
-    // The message begins with its own place.
-    const std::string what = error.what();
-    const std::size_t word = what.find(": error: ");
-    return problems.add({file.name(), 1, 1}, what.substr(word == std::string::npos ? 0 : word + 9), "");
-  }
-  const Node* trajectory = trajectory_in(document);
-  const Node* points = trajectory ? trajectory->find("points") : nullptr;
-  if (!points || !points->is_list() || points->items.empty())
-    return problems.add({file.name(), 1, 1}, "holds no trajectory with points",
-                        "give a trajectory_msgs/JointTrajectory");
+void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, Program& program,
+                         Problems& problems) {
+  std::vector<Node> documents;
+  if (!documents_of(file, documents, problems)) return;
+  const Node* trajectory = chosen_trajectory(file, documents, options, problems);
+  if (!trajectory) return;
+  const Node* points = trajectory->find("points");
+  const Node* names = trajectory->find("joint_names");
+  std::vector<std::string> joints;
+  for (const Node& name : names ? names->items : std::vector<Node>{}) joints.push_back(name.text);
+  if (joints.empty() || joints.size() > most_axes)
+    return problems.add(trajectory->where, fmt::format("has {} joint_names", joints.size()),
+                        "name the joints in the order of their positions");
+  const auto order = order_of_axes(joints, answer(options, "joints"));
+  if (!order)
+    return problems.add(
+        names->where,
+        fmt::format("names joints whose order on the robot it does not tell ({})", fmt::join(joints, ", ")),
+        "give --value joints=NAME,NAME,... in the order of the robot's axes");
   Rows rows(program, problems);
   for (const Node& point : points->items)
-    if (!read_point(point, rows, problems)) return;
+    if (!read_point(point, *order, joints.size(), rows, problems)) return;
 }
 
 }  // namespace dresslife::sim

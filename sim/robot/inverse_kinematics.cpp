@@ -12,6 +12,11 @@ using Eigen::VectorXd;
 constexpr double pi = std::numbers::pi;
 constexpr double alignment =
     1e-6;  // of axes that a closed form takes as parallel, perpendicular or meeting [1, m]
+/// The same where figures were rounded to two decimals (1.57 for a right angle): the closed form gives
+/// starts.
+constexpr double rounded_alignment = 5e-3;
+constexpr double no_direction =
+    1e-3;  // of singular values: an axis must move a thousand times as fast as the flange
 constexpr double singular_wrist = 1e-9;  // sine between axes 4 and 6 below which q4 is free
 constexpr double out_of_reach = 1e-9;    // of a cosine: rounding at a stretched arm
 constexpr double limit_rounding = 1e-9;  // [rad]
@@ -88,23 +93,58 @@ void InverseKinematics::check_geometry() {
     point_[i] = joint.position;
     axis_[i] = joint.orientation * robot_.joints[i].axis.normalized();
   }
+  NumericalInverse::Angles lower, upper;
+  for (int i = 0; i < 6; ++i) {
+    lower[i] = robot_.joints[i].lower;
+    upper[i] = robot_.joints[i].upper;
+  }
+  numerical_.emplace(point_, axis_, zero_, lower, upper);
   // The wrist centre: on axis 5 where axis 4 comes nearest; axis 6 must pass through it, too.
   const Vector3 across = axis_[3].cross(axis_[4]);
-  if (across.norm() > alignment)
+  wrist_ = point_[4];
+  if (across.norm() > rounded_alignment)
     wrist_ = point_[4] + axis_[4] * (point_[3] - point_[4]).cross(axis_[3]).dot(axis_[4].cross(axis_[3])) /
                              across.squaredNorm();
   const auto off = [&](int i) { return (wrist_ - point_[i]).cross(axis_[i]).norm(); };
-  if (std::abs(axis_[0].dot(axis_[1])) > alignment)
-    unsupported_ = "axis 2 is not perpendicular to axis 1";
-  else if (axis_[1].cross(axis_[2]).norm() > alignment)
-    unsupported_ = "axis 3 is not parallel to axis 2";
-  else if (across.norm() <= alignment || off(3) > alignment || off(4) > alignment || off(5) > alignment)
-    unsupported_ = "axes 4, 5 and 6 do not meet in one point";
+  const double leaning = std::abs(axis_[0].dot(axis_[1])), skewed = axis_[1].cross(axis_[2]).norm(),
+               apart = std::max({off(3), off(4), off(5)});
+  exact_ = std::max({leaning, skewed, apart}) <= alignment;
+  if (leaning > rounded_alignment)
+    open_ = "axis 2 is not perpendicular to axis 1";
+  else if (skewed > rounded_alignment)
+    open_ = "axis 3 is not parallel to axis 2";
+  else if (across.norm() <= rounded_alignment || apart > rounded_alignment)
+    open_ = "axes 4, 5 and 6 do not meet in one point";
+}
+
+bool InverseKinematics::singular(const VectorXd& joints) const {
+  return numerical_ && numerical_->dexterity(joints.head<6>()) < no_direction;
 }
 
 std::vector<VectorXd> InverseKinematics::arms(const Frame& flange, const VectorXd& near) const {
+  if (!unsupported_.empty()) return {};
+  if (exact_) return closed_arms(flange, near);
+  NumericalInverse::Angles start = NumericalInverse::Angles::Zero();
+  if (near.size() >= 6) start = near.head<6>();
   std::vector<VectorXd> found;
-  if (!unsupported_.empty()) return found;
+  if (!open_.empty()) {
+    for (const auto& arm : numerical_->arms(flange, start)) found.push_back(arm);
+    return found;
+  }
+  for (const VectorXd& nearly : closed_arms(flange, near))
+    if (auto arm = numerical_->solve(flange, nearly.head<6>())) {
+      for (double& angle : *arm) angle = wrapped(angle);
+      found.push_back(*arm);
+    }
+  if (auto arm = found.empty() ? numerical_->solve(flange, start) : std::nullopt) {  // at a singular wrist
+    for (double& angle : *arm) angle = wrapped(angle);
+    found.push_back(*arm);
+  }
+  return found;
+}
+
+std::vector<VectorXd> InverseKinematics::closed_arms(const Frame& flange, const VectorXd& near) const {
+  std::vector<VectorXd> found;
   // The flange's frame carries the wrist centre with it.
   const Vector3 wrist = flange.point(inverse(zero_).point(wrist_));
   const Vector3 w1 = axis_[0], w2 = axis_[1], w3 = axis_[2];
@@ -245,6 +285,30 @@ bool InverseKinematics::may_end(const VectorXd& joints, const ArmConfiguration& 
   return true;
 }
 
+VectorXd InverseKinematics::whole(const VectorXd& joints, const VectorXd& near) const {
+  VectorXd all = VectorXd::Zero(6 + externals_);
+  if (near.size() == all.size()) all = near;
+  all.head(6) = joints;
+  return all;
+}
+
+std::optional<VectorXd> InverseKinematics::follow(const Frame& flange, const VectorXd& near,
+                                                  std::string& reason) const {
+  if (open_.empty() || !unsupported_.empty()) return solve(flange, {}, near, reason);
+  const auto arm = numerical_->solve(on_tracks(flange, near), near.head<6>());
+  if (!arm) {
+    reason = "is out of reach";
+    return {};
+  }
+  for (int i = 0; i < 6; ++i)
+    if ((*arm)[i] < robot_.joints[i].lower - limit_rounding ||
+        (*arm)[i] > robot_.joints[i].upper + limit_rounding) {
+      reason = "is reached only outside the joint limits";
+      return {};
+    }
+  return whole(*arm, near);
+}
+
 std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmConfiguration& configuration,
                                                  const VectorXd& near, std::string& reason) const {
   if (!unsupported_.empty()) {
@@ -258,14 +322,17 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
   bool within_limits = false;
   for (bool with_sides : {true, false}) {
     if (best || (!with_sides && configuration.kind != ArmConfiguration::Kind::abb))
-      break;  // old ABB programs leave cfx 0
-    for (const VectorXd& arm : reaching)
+      break;            // old ABB programs leave cfx 0
+    int different = 0;  // arms of this configuration
+    for (const VectorXd& arm : reaching) {
+      bool fits = false;
       for (const VectorXd& joints : with_turns(arm)) {
         within_limits = true;
         if (!matches(joints, configuration, with_sides)) {
           if (with_sides) others.push_back(this->configuration(joints, configuration.kind).text());
           continue;
         }
+        fits = true;
         // The slowest axis' time, and a little of every axis' so that none turns round for nothing.
         constexpr double share_of_others = 1e-3;
         double time = 0, sum = 0;
@@ -280,13 +347,16 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
           best = joints;
         }
       }
+      different += fits;
+    }
+    if (different > 1 && !open_.empty() && configuration.kind != ArmConfiguration::Kind::any) {
+      reason =
+          fmt::format("is reached by {} arms of configuration {}: {}, and only joint angles tell them apart",
+                      different, configuration.text(), open_);
+      return {};
+    }
   }
-  if (best) {
-    VectorXd whole = VectorXd::Zero(6 + externals_);
-    if (near.size() == whole.size()) whole = near;
-    whole.head(6) = *best;
-    return whole;
-  }
+  if (best) return whole(*best, near);
   std::sort(others.begin(), others.end());
   others.erase(std::unique(others.begin(), others.end()), others.end());
   if (others.size() > 8) others.resize(8);

@@ -14,6 +14,13 @@
 // Each is a cos q + b sin q = c. Eight arms at most, and each axis may be whole turns away, within its
 // limits.
 //
+// The axes of a URDF that was written by hand fit this nearly: 1.57 or 1.57076 for a right angle leaves axes
+// 4, 5 and 6 some micrometres or a millimetre apart. Figures of two decimals are off by 5 mrad and 5 mm at
+// most; up to there the closed form gives starts and numerical_inverse.h brings them home, so that the flange
+// is where it is wanted on the robot as it is written. All other arms of six turning axes (UR, CRX, GoFa) are
+// solved by numerical_inverse.h alone: near the arm before along a path, from many starts for a single
+// target.
+//
 // Which arm: front(1) = (W - p1).R1 x > 0; front(2): W in front of the line from p2 to p3, seen with the
 // arm's front to the right; q5 >= 0. At zero angles of axis 1 the arm's front is x.
 //   ABB confdata: floor(q/90 deg) of axes 1, 4, 6; cfx = 4 behind(1) + 2 behind(2) + (q5 < 0).
@@ -31,6 +38,7 @@
 
 #include "pipeline/job/robot.h"
 #include "sim/program/program.h"
+#include "sim/robot/numerical_inverse.h"
 #include "sim/robot/robot.h"
 
 namespace dresslife::sim {
@@ -39,21 +47,31 @@ class InverseKinematics {
  public:
   explicit InverseKinematics(const pipeline::Robot& robot);
 
-  /// Empty, or why no closed form fits this robot.
+  /// Empty, or why this robot cannot be solved for.
   const std::string& unsupported() const { return unsupported_; }
+  /// Why no closed form fits this robot, not even nearly; empty: one does.
+  const std::string& without_closed_form() const { return open_; }
+  /// Whether the arm is about to lose a direction in which it can move or turn: near such a place a path asks
+  /// axes to jump.
+  bool singular(const Eigen::VectorXd& joints) const;
 
   /// The flange in the frame that programs are written in, at these values of all axes (robot.h). Any serial
   /// robot. The frame stands still: a robot on a track moves in it.
   Frame flange(const Eigen::VectorXd& axes) const;
 
   /// Every arm (six angles) that reaches the flange's frame while external axes are at 0, angles within
-  /// (-pi, pi]; at singular wrists axis 4 as in `near`.
+  /// (-pi, pi]; at singular wrists axis 4 as in `near`. Without a closed form: those that are found.
   std::vector<Eigen::VectorXd> arms(const Frame& flange, const Eigen::VectorXd& near) const;
 
   /// The arm of this configuration within the limits, else (any) the one nearest to `near` by the time to get
-  /// there; all axes, the external ones as in `near`. Absent: none; `reason` says why.
+  /// there; all axes, the external ones as in `near`. Absent: none; `reason` says why. Without a closed form
+  /// several arms may have one configuration: then none is returned.
   std::optional<Eigen::VectorXd> solve(const Frame& flange, const ArmConfiguration& configuration,
                                        const Eigen::VectorXd& near, std::string& reason) const;
+
+  /// The arm that goes on from `near` on a path whose next point is this near; all axes.
+  std::optional<Eigen::VectorXd> follow(const Frame& flange, const Eigen::VectorXd& near,
+                                        std::string& reason) const;
 
   /// Whether a path may end with these angles where its program says `programmed`. ABB watches axes 1, 4 and
   /// 6, which may be a quadrant off (ConfL); Fanuc wants its letters and turns; others do not look.
@@ -67,6 +85,8 @@ class InverseKinematics {
     bool front_of_axis, front_of_arm, wrist_positive;
   };
   void check_geometry();
+  std::vector<Eigen::VectorXd> closed_arms(const Frame& flange, const Eigen::VectorXd& near) const;
+  Eigen::VectorXd whole(const Eigen::VectorXd& joints, const Eigen::VectorXd& near) const;
   Sides sides(const Eigen::VectorXd& joints) const;
   void add_wrists(const Frame& flange, double q1, double q2, double q3, const Eigen::VectorXd& near,
                   std::vector<Eigen::VectorXd>& found) const;
@@ -84,7 +104,9 @@ class InverseKinematics {
   std::array<Vector3, 6> axis_{};    // w_i
   Vector3 wrist_ = Vector3::Zero();  // W0
   Frame zero_;                       // flange at zero
-  std::string unsupported_;
+  std::string unsupported_, open_;
+  bool exact_ = false;  // the closed form needs no iteration
+  std::optional<NumericalInverse> numerical_;
 };
 
 }  // namespace dresslife::sim

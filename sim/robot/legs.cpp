@@ -261,18 +261,20 @@ class Layout {
                                                   std::ceil(path.turn() / point_turn)}));
     while (true) {
       std::string reason;
-      const auto next = arm_.solve(path.flange(u + step), {}, at_share(move, u + step, joints), reason);
+      const auto next = arm_.follow(path.flange(u + step), at_share(move, u + step, joints), reason);
       const double change = next ? (*next - joints).lpNorm<Eigen::Infinity>() : INFINITY;
       if (change <= point_change || (step <= shortest && change <= jump)) {
         const double at = end - u - step < 1e-12 ? end : u + step;
         return std::pair{at, *next};
       }
       if (step <= shortest) {
-        refuse(
-            *move.step, move.line,
-            next ? fmt::format("is not reached along its path (at {:.0f} % of it the wrist would turn over)",
-                               100 * u)
-                 : fmt::format("is not reached along its path (at {:.0f} % of it it {})", 100 * u, reason));
+        refuse(*move.step, move.line,
+               next
+                   ? fmt::format("is not reached along its path (at {:.0f} % of it {})", 100 * u,
+                                 arm_.without_closed_form().empty() ? "the wrist would turn over"
+                                 : arm_.singular(joints) ? "the arm is singular: its axes would jump"
+                                                         : "its axes would jump into another configuration")
+                   : fmt::format("is not reached along its path (at {:.0f} % of it it {})", 100 * u, reason));
         return {};
       }
       step /= 2;
@@ -481,7 +483,15 @@ class Layout {
     const VectorXd begin = last_, corner = move.to;
     const bool straight = move.is_path() && next.is_path() && move.path->same_tooling(*next.path);
     VectorXd end = next.from + next.cut_before * (next.to - next.from);
-    if (next.is_path()) {
+    if (next.is_path() && !arm_.without_closed_form().empty()) {  // on the branch that the corner is on
+      end = corner;
+      for (double u = 0; u < next.cut_before;) {
+        const auto reached = advance(next, u, next.cut_before, end);
+        if (!reached) return;
+        u = reached->first;
+        end = reached->second;
+      }
+    } else if (next.is_path()) {
       std::string reason;
       const auto reached =
           arm_.solve(next.path->flange(next.cut_before), {}, at_share(next, next.cut_before, corner), reason);
@@ -503,7 +513,7 @@ class Layout {
         VectorXd near = joints;  // external axes go over likewise
         const long external = near.size() - static_cast<long>(robot_.axes());
         near.tail(external) = target.tail(external);
-        const auto reached = arm_.solve(next.path->tooling().flange(pose), {}, near, reason);
+        const auto reached = arm_.follow(next.path->tooling().flange(pose), near, reason);
         if (!reached) return static_cast<void>(refuse(*next.step, next.line, reason));
         target = *reached;
       }

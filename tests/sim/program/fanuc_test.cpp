@@ -92,11 +92,10 @@ TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
           "OTHER ;\n 6: DO[1]=ON ;\n 7:J P[7] 5% FINE ;\n");
   REQUIRE(r.problems.size() == 3);
   CHECK(r.problem(0) ==
-        "cell.ls:5:4: error: branches on what is known only while the robot runs; choose with --assume "
-        "cell.ls:5=then or "
-        "=else (motion.assume in a job)");
-  CHECK(r.problems[1].what == "has a speed that is known only while the robot runs");
-  CHECK(r.problems[2].what == "moves to a position that is not listed");
+        "cell.ls:5:4: error: branches on DI[3], which is known only while the robot runs; choose with "
+        "--assume cell.ls:5=then or =else (motion.assume in a job), or give --value 'DI[3]=...'");
+  CHECK(r.problems[1].what == "has a speed by R[9], which is known only while the robot runs");
+  CHECK(r.problems[2].what == "moves to P[7], which is not listed");
   REQUIRE(r.program.skipped.size() == 2);
   CHECK(r.program.skipped[0].may_move);
   CHECK_FALSE(r.program.skipped[1].may_move);

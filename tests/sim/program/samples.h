@@ -39,9 +39,9 @@ inline const std::vector<std::pair<sim::Language, std::string>>& samples() {
        "LBL[1] ;\n/POS\nP[1]{\n GP1:\n UF : 0, UT : 0,\n J1= 1 deg, J2= 2 deg, J3= 3 deg, J4= 4 deg, J5= 5 "
        "deg, J6= 6 deg\n};\nP[2]{\n GP1:\n UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n X = 1 mm, "
        "Y = 2 mm, Z = 3 mm,\n W = 4 deg, P = 5 deg, R = 6 deg\n};\n/END\n"},
-      {Language::joint_columns, "time, axis 1, axis 2\n0, 1, 2\n0.5, 1.5, 2.5\n# note\n1, 2, 3\n"},
+      {Language::joint_columns, "time, axis 1 deg, axis 2 deg\n0, 1, 2\n0.5, 1.5, 2.5\n# note\n1, 2, 3\n"},
       {Language::ros_trajectory,
-       R"({"joint_names": ["a", "b"], "points": [{"positions": [0, 1], "time_from_start": {"sec": 0, "nanosec": 0}}, {"positions": [0.5, 1], "time_from_start": 1.5}]})"}};
+       R"({"joint_names": ["joint_1", "joint_2"], "points": [{"positions": [0, 1], "time_from_start": {"sec": 0, "nanosec": 0}}, {"positions": [0.5, 1], "time_from_start": 1.5}]})"}};
   return list;
 }
 

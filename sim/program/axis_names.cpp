@@ -1,0 +1,154 @@
+#include "sim/program/axis_names.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "sim/program/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+bool digit(char c) { return c >= '0' && c <= '9'; }
+bool letter(char c) { return c >= 'a' && c <= 'z'; }
+
+/// Runs of letters and runs of digits, in lower case: "Joint_1 [deg]" -> joint, 1, deg.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words;
+  char before = ' ';
+  for (char c : lower_case(name)) {
+    const bool part = digit(c) || letter(c);
+    if (part && ((digit(c) && digit(before)) || (letter(c) && letter(before))))
+      words.back() += c;
+    else if (part)
+      words.emplace_back(1, c);
+    before = c;
+  }
+  return words;
+}
+
+template <std::size_t n>
+bool among(const std::string& word, const std::array<std::string_view, n>& list) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+constexpr std::array<std::string_view, 9> times{"time", "t",    "timestamp", "stamp", "sec",
+                                                "secs", "seconds", "clock",     "zeit"};
+constexpr std::array<std::string_view, 5> coordinates{"x", "y", "z", "tcp", "pose"};
+constexpr std::array<std::string_view, 32> others{
+    "velocity", "velocities",  "vel",     "speed", "acceleration", "accelerations", "acc",    "accel",
+    "effort",   "efforts",     "torque",  "trq",   "current",      "gripper",       "finger", "force",
+    "seq",      "frame",       "id",      "index", "line",         "step",          "row",    "name",
+    "temp",     "temperature", "voltage", "error", "digital",      "status",        "mode",   "jerk"};
+
+/// The number that tells the axis, as the last or the first number of every name; empty: they do not count.
+std::vector<int> numbers_of(const std::vector<std::string>& names, bool last) {
+  std::vector<int> numbers;
+  for (const std::string& name : names) {
+    std::vector<std::string> words = words_of(name);
+    std::erase_if(words, [](const std::string& w) { return !digit(w[0]) || w.size() > 3; });
+    if (words.empty()) return {};
+    numbers.push_back(std::stoi(last ? words.back() : words.front()));
+  }
+  std::vector<int> sorted = numbers;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i] != sorted[i - 1] + 1) return {};
+  return numbers;
+}
+
+std::vector<std::size_t> sorted_by(const std::vector<int>& numbers) {
+  std::vector<std::size_t> order(numbers.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+  return order;
+}
+
+/// Where each of an arm's words stands in exactly one name.
+std::optional<std::vector<std::size_t>> order_by(const std::vector<std::string>& names,
+                                                 const std::vector<std::vector<std::string>>& arm) {
+  if (names.size() != arm.size()) return {};
+  std::vector<std::size_t> order;
+  for (const std::vector<std::string>& wanted : arm) {
+    std::size_t found = names.size();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::vector<std::string> words = words_of(names[i]);
+      const bool fits = std::all_of(wanted.begin(), wanted.end(), [&](const std::string& w) {
+        return std::find(words.begin(), words.end(), w) != words.end();
+      });
+      if (!fits) continue;
+      if (found < names.size()) return {};
+      found = i;
+    }
+    if (found == names.size() || std::find(order.begin(), order.end(), found) != order.end()) return {};
+    order.push_back(found);
+  }
+  return order;
+}
+
+}  // namespace
+
+ColumnName column_name(std::string_view name) {
+  ColumnName made;
+  const std::vector<std::string> words = words_of(name);
+  const auto has = [&](const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  if (has("rad") || has("radian") || has("radians")) made.unit = ColumnName::Unit::radians;
+  if (has("deg") || has("degree") || has("degrees") || name.find("\xC2\xB0") != std::string_view::npos)
+    made.unit = ColumnName::Unit::degrees;
+  const bool any_other =
+      std::any_of(words.begin(), words.end(), [](const auto& w) { return among(w, others); });
+  const bool coordinate =
+      std::any_of(words.begin(), words.end(), [](const auto& w) { return among(w, coordinates); });
+  if (!words.empty() &&
+      (among(words[0], times) || (words.size() > 1 && words.back() == "time") || name == "%time")) {
+    made.kind = ColumnName::Kind::time;
+    if (has("ms") || has("msec")) made.seconds = 1e-3;
+    if (has("us") || has("usec")) made.seconds = 1e-6;
+    if (has("ns") || has("nsec") || name == "%time") made.seconds = 1e-9;
+  } else if (any_other || words.empty()) {
+    made.kind = ColumnName::Kind::other;
+  } else if (has("stamp")) {  // of a header beside %time
+    made.kind = ColumnName::Kind::other;
+  } else if (coordinate) {
+    made.kind = ColumnName::Kind::point;
+  }
+  return made;
+}
+
+std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::string>& names,
+                                                      const std::string& wanted) {
+  if (!wanted.empty()) {
+    std::vector<std::size_t> order;
+    for (std::size_t begin = 0; begin <= wanted.size();) {
+      const std::size_t end = std::min(wanted.find(',', begin), wanted.size());
+      std::string name = wanted.substr(begin, end - begin);
+      std::erase(name, ' ');
+      const auto found =
+          std::find_if(names.begin(), names.end(), [&](const std::string& n) { return same_word(n, name); });
+      if (found == names.end()) return {};
+      order.push_back(static_cast<std::size_t>(found - names.begin()));
+      begin = end + 1;
+    }
+    std::vector<std::size_t> sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+    return twice ? std::nullopt : std::optional(order);
+  }
+  if (names.size() == 1) return std::vector<std::size_t>{0};
+  if (auto order = order_by(names, {{"shoulder", "pan"},
+                                    {"shoulder", "lift"},
+                                    {"elbow"},
+                                    {"wrist", "1"},
+                                    {"wrist", "2"},
+                                    {"wrist", "3"}}))
+    return order;
+  if (auto order = order_by(names, {{"s"}, {"l"}, {"u"}, {"r"}, {"b"}, {"t"}})) return order;
+  for (bool last : {true, false})
+    if (const std::vector<int> numbers = numbers_of(names, last); !numbers.empty()) return sorted_by(numbers);
+  return {};
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,61 @@
+// What Fanuc statements may do, seen without running them: for branches that nobody can decide. A branch
+// whose arms neither move the robot nor lead elsewhere is no question: what they may write is unknown from
+// then on.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sim/program/fanuc_parser.h"
+
+namespace dresslife::sim {
+
+struct FanucEffects {
+  bool moves = false;         ///< the robot, or makes it wait for a time
+  bool leaves = false;        ///< a jump may lead out of the statements looked at
+  bool any_register = false;  ///< writes registers and position registers that cannot be told beforehand
+  std::set<int> registers, positions;
+  std::set<std::string> named;  ///< "override", "uframe_num", "utool_num", "uframe[2]"
+
+  void add(const FanucEffects& other);
+};
+
+/// Programs by their names (lower case) and macros by theirs, which name programs.
+class FanucOutlook {
+ public:
+  FanucOutlook(const std::vector<FanucListing>& listings, const std::map<std::string, std::string>& macros);
+
+  /// Null: not among those read.
+  const FanucListing* program(const std::string& name) const;
+  /// The program that a statement calls as a macro; null: none, or one that is not read.
+  const FanucListing* macro(const std::string& statement) const;
+
+  /// Of the statements from .. to - 1 of a listing. Jumps to `to` itself do not leave.
+  FanucEffects effects(const FanucListing& listing, std::size_t from, std::size_t to);
+  /// Whether a decision (an IF with its block, a SELECT with its cases) can jump out of the statements from
+  /// .. to.
+  bool leads_out(const FanucListing& listing, std::size_t decision, std::size_t from, std::size_t to) const;
+  /// Of one action: a statement, or what follows the condition of an IF.
+  FanucEffects effects(const std::string& action);
+
+ private:
+  const FanucEffects& whole(const FanucListing& listing);
+
+  const std::vector<FanucListing>& listings_;
+  const std::map<std::string, std::string>& macros_;
+  std::map<std::string, const FanucListing*> by_name_;
+  std::map<const FanucListing*, FanucEffects> known_;
+};
+
+/// What an IF, SELECT, = or ELSE does behind its comma; other statements whole.
+std::string fanuc_action(const std::string& statement);
+
+enum class FanucWord { motion, logic, shapes_motion, other };
+
+/// By the first word of a statement (lower case). shapes_motion: weaving, tracking, touching, soft axes: what
+/// it does lies in the controller. other: control flow, assignments, macros.
+FanucWord fanuc_word(const std::string& word);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,626 @@
+#include "sim/program/fanuc_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/program/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
+
+std::string file_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
+/// Whether two passes of a loop move alike.
+bool same_move(const Instruction& a, const Instruction& b) {
+  return a.kind == b.kind && a.target.joints == b.target.joints &&
+         a.target.pose.position == b.target.pose.position &&
+         a.target.pose.orientation.coeffs() == b.target.pose.orientation.coeffs() && a.tool == b.tool &&
+         a.work_object == b.work_object && a.dwell == b.dwell && a.where.line == b.where.line &&
+         a.where.file == b.where.file;
+}
+
+}  // namespace
+
+FanucRun::FanucRun(const Surroundings& around, Program& program, Problems& problems)
+    : around_(around),
+      program_(program),
+      problems_(problems),
+      values_(around.variables, around.options.values, problems),
+      outlook_(around.listings, around.variables.macros) {}
+
+void FanucRun::run(const FanucListing& listing, const std::string& arguments) {
+  FanucCursor at(arguments);
+  std::vector<FanucNumber> read;
+  while (!at.at_end()) {
+    read.push_back(values_.expression(at));
+    if (!at.take_sign(',') && !at.at_end()) at.move_to(at.offset() + 1);
+  }
+  try {
+    call(listing, std::move(read));
+  } catch (const Stop&) {
+  }
+}
+
+// ---- words -----------------------------------------------------------------------------------------------
+
+const FanucStatement& FanucRun::statement() const {
+  const Routine& r = routines_.back();
+  return r.listing->statements[std::min(r.at, r.listing->statements.size() - 1)];
+}
+
+pipeline::Where FanucRun::where() const {
+  if (routines_.empty()) return {around_.files.empty() ? "" : around_.files[0].name(), 1, 1};
+  const Routine& r = routines_.back();
+  if (r.listing->statements.empty()) return {around_.files[r.listing->file].name(), 1, 1};
+  return {around_.files[r.listing->file].name(), statement().line, statement().column};
+}
+
+std::string FanucRun::line_name() const { return fmt::format("{}:{}", file_of(where().file), where().line); }
+
+void FanucRun::complain(const std::string& what, const std::string& remedy) {
+  problems_.add(where(), what, remedy);
+}
+
+void FanucRun::missing(const std::string& name, const std::string& what, const std::string& remedy) {
+  problems_.add_missing(name, where(), what, remedy);
+}
+
+void FanucRun::missing_value(const std::string& what) {
+  const std::string name = values_.missing().empty() ? "a value" : values_.missing();
+  const bool position = name.starts_with("PR");
+  const bool named = name.find('[') != std::string::npos || name.find(' ') == std::string::npos;
+  missing(name, fmt::format("{} {}, which is known only while the robot runs", what, name),
+          !named ? "write it as a constant"
+                 : fmt::format("give it with --value '{}=...' (motion.values){}", name,
+                               position                 ? ", or posreg.va of the backup"
+                               : name.starts_with("R[") ? ", or numreg.va of the backup"
+                                                        : ""));
+}
+
+void FanucRun::note(const std::string& what, bool may_move) {
+  const pipeline::Where at = where();
+  if (!noted_.insert(fmt::format("{}:{} {}", at.file, at.line, what)).second) return;
+  if (program_.skipped.size() < ImportLimits::skipped) program_.skipped.push_back({at, what, may_move});
+}
+
+void FanucRun::charge(long steps) {
+  executed_ += steps;
+  if (executed_ + values_.charged() <= ImportLimits::executed) return;
+  const pipeline::Where at = last_jump_.line > 0 ? last_jump_ : where();
+  problems_.add(
+      at, fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
+      fmt::format("decide what ends the loop: --assume {}:LINE=then or =else, or --value", file_of(at.file)));
+  throw Stop{};
+}
+
+std::optional<bool> FanucRun::assumed(int line) const {
+  const std::string file = where().file;
+  for (const std::string& key :
+       {fmt::format("{}:{}", file, line), fmt::format("{}:{}", file_of(file), line), fmt::format("{}", line)})
+    if (const auto found = around_.options.assume.find(key); found != around_.options.assume.end())
+      return found->second == Assumption::then_branch;
+  return {};
+}
+
+// ---- programs --------------------------------------------------------------------------------------------
+
+void FanucRun::call(const FanucListing& listing, std::vector<FanucNumber> arguments) {
+  if (static_cast<int>(routines_.size()) >= ImportLimits::calls) {
+    complain(fmt::format("calls {} programs deep (without end?)", ImportLimits::calls), "mend the recursion");
+    throw Stop{};
+  }
+  if (const Problems& parsing = around_.parsing[listing.file]; !parsing.empty()) {
+    for (const Problem& problem : parsing.list()) problems_.add(problem.where, problem.what, problem.remedy);
+    throw Stop{};
+  }
+  routines_.push_back({&listing, 0, {}, {}});
+  values_.enter(std::move(arguments));
+  while (routine().at < listing.statements.size()) {
+    charge();
+    const std::size_t before = routine().at;
+    values_.forget_missing();
+    execute(listing.statements[before]);
+    if (routine().at == before) ++routine().at;
+    if (problems_.full()) throw Stop{};
+  }
+  values_.leave();
+  routines_.pop_back();
+}
+
+std::vector<FanucNumber> FanucRun::arguments_in(FanucCursor& at) {
+  std::vector<FanucNumber> read;
+  if (!at.take_sign('(')) return read;
+  while (!at.at_end() && !at.take_sign(')') && read.size() < 100) {
+    read.push_back(values_.expression(at));
+    if (!at.take_sign(',') && !at.at_end() && !at.rest().starts_with(')')) at.move_to(at.offset() + 1);
+  }
+  values_.forget_missing();
+  return read;
+}
+
+/// CALL name(arguments), RUN name.
+void FanucRun::call_statement(const std::string& text, bool beside) {
+  FanucCursor at(text);
+  const std::string name = lower_case(at.name());
+  const FanucListing* listing = outlook_.program(name);
+  if (beside) return note(fmt::format("RUN {}: runs beside this program", name), listing != nullptr);
+  if (!listing) return unread("CALL " + name);
+  call(*listing, arguments_in(at));
+}
+
+/// What a program that nobody read may have done.
+void FanucRun::unread(const std::string& what) {
+  note(what + ": not among the files read; registers may be others behind it", true);
+  values_.forget_registers();
+  last_.reset();
+}
+
+// ---- statements ------------------------------------------------------------------------------------------
+
+void FanucRun::execute(const FanucStatement& s) {
+  const std::string& text = s.text;
+  if (text.starts_with("!") || text.starts_with("--") || text.starts_with("//")) return;
+  FanucCursor at(text);
+  const std::size_t begin = at.offset();
+  const std::string word = at.word();
+  if (fanuc_word(word) == FanucWord::motion && !at.rest().starts_with("[")) {
+    if (word == "a" || word == "s") note("an arc or spline by A or S moves: read as straight lines", true);
+    return move(at, word == "j"   ? Instruction::Kind::joint
+                    : word == "c" ? Instruction::Kind::circular
+                                  : Instruction::Kind::linear);
+  }
+  at.move_to(begin);
+  if (word == "if") {
+    at.word();
+    return if_statement(at);
+  }
+  if (word == "select") return select();
+  if (word == "lbl" || (word.empty() && !at.take_sign('='))) return;
+  if (word.empty() || (word == "else" && !fanuc_action(text).empty()))
+    return;  // of a SELECT that went elsewhere
+  action(text);
+}
+
+void FanucRun::action(const std::string& text) {
+  FanucCursor at(text);
+  const std::string word = at.word();
+  if (word == "for") return for_statement(at);
+  if (word == "endfor" || word == "else" || word == "end" || word == "endif") return block(word);
+  if (word == "jmp") return jump(at, true);
+  if (word == "call" || word == "run") return call_statement(std::string(at.rest()), word == "run");
+  if (word == "wait") return wait(at);
+  if (word == "abort") {
+    note("ABORT: the program ends here");
+    throw Stop{};
+  }
+  if (word == "offset" || word == "tool_offset") {  // CONDITION PR[n]
+    at.take("CONDITION");
+    (word == "offset" ? offset_condition_ : tool_offset_condition_) = std::string(at.rest());
+    return;
+  }
+  if (word == "spot") {
+    Instruction weld;
+    weld.kind = Instruction::Kind::dwell;
+    weld.dwell = around_.options.spot_time;
+    return emit(weld);
+  }
+  assignment(word, at);
+}
+
+void FanucRun::assignment(const std::string& word, FanucCursor& at) {
+  if (word == "r") return assign_register(at);
+  if (word == "pr") return assign_position(at);
+  if (word == "uframe" || word == "utool") return assign_frame(word, at);
+  const std::string text = statement().text;
+  const std::string left = plain_fanuc_name(std::string_view(text).substr(0, text.find('=')));
+  if (word == "override" || word == "uframe_num" || word == "utool_num" || left == "$mcr.$genoverride" ||
+      left == "$prgoverride") {
+    at.skip_to('=');
+    const FanucNumber number = values_.expression(at);
+    return values_.set_named(left == "$mcr.$genoverride" ? "override"
+                             : left.starts_with("$")     ? left
+                                                         : word,
+                             number);
+  }
+  if (left.starts_with("$mnuframe[") || left.starts_with("$mnutool[")) {
+    frames_.clear();
+    return note(word + ": changes a frame of the controller", true);
+  }
+  switch (fanuc_word(word)) {
+    case FanucWord::logic:
+    case FanucWord::motion:
+      return note(word + ": input, output or logic");
+    case FanucWord::shapes_motion:
+      return note(word + ": changes how the robot moves; what it does lies in the controller", true);
+    case FanucWord::other:
+      break;
+  }
+  if (const FanucListing* macro = outlook_.macro(text)) {
+    const std::size_t open = text.find('(');
+    FanucCursor arguments(std::string_view(text).substr(std::min(open, text.size())));
+    return call(*macro, arguments_in(arguments));
+  }
+  unread(fmt::format("'{}', a macro or an instruction that is not known", text.substr(0, 40)));
+}
+
+/// Ends and middles of blocks that run.
+void FanucRun::block(const std::string& word) {
+  if (word == "endfor") end_for();
+  if (word == "else") routine().at = statement().end + 1;  // behind the arm that ran
+  if (word == "end") routine().at = routine().listing->statements.size();
+}
+
+void FanucRun::jump(FanucCursor& at, bool certain) {
+  if (!at.take("LBL")) return complain("jumps to no LBL[n]", "mend the statement");
+  const auto label = values_.index(at);
+  if (!label || !label->number) return missing_value("jumps to a label by");
+  const auto& labels = routine().listing->labels;
+  const auto found = labels.find(whole(*label->number));
+  if (found == labels.end())
+    return complain(fmt::format("jumps to LBL[{}], which is not there", *label->number), "mend the label");
+  jump_to(found->second, certain);
+}
+
+void FanucRun::jump_to(std::size_t target, bool certain) {
+  const std::size_t here = routine().at;
+  if (target <= here) last_jump_ = where();
+  if (certain && target <= here) {
+    bool exit = false;  // some decision within may leave the loop: it is run until it does
+    for (auto d = routine().decided.lower_bound(target); d != routine().decided.end() && *d <= here; ++d)
+      exit |= outlook_.leads_out(*routine().listing, *d, target, here);
+    if (!exit && !goes_on(target)) {
+      note("repeats for ever: the motion is what comes until it repeats itself");
+      throw Stop{};
+    }
+  }
+  routine().at = target + 1;
+}
+
+/// Whether an endless loop that is back at its label runs once more: as often as the user wants, else until
+/// it finds all values as before, or moves as in its first pass.
+bool FanucRun::goes_on(std::size_t label) {
+  Endless& loop = endless_[{routine().listing, label}];
+  auto& made = program_.instructions;
+  ++loop.passes;
+  if (around_.options.passes > 0) return loop.passes < around_.options.passes;
+  const bool again = !loop.states.insert(values_.state()).second;
+  const std::size_t length = made.size() - loop.begin;
+  bool alike = loop.passes > 1 && length > 0 && 2 * length <= made.size();
+  for (std::size_t i = 0; alike && i < length; ++i)
+    alike = same_move(made[loop.begin + i], made[loop.begin - length + i]);
+  if (alike) made.resize(loop.begin);
+  loop.begin = made.size();
+  if (again || alike) return false;
+  if (loop.passes < ImportLimits::passes) return true;
+  complain(fmt::format("does not repeat itself within {} passes", ImportLimits::passes),
+           "say how many are wanted: --passes N (motion.passes)");
+  return false;
+}
+
+void FanucRun::wait(FanucCursor& at) {
+  const std::size_t begin = at.offset();
+  FanucNumber time = at.number();
+  if (!time && (at.take("R") || at.take("AR"))) {
+    at.move_to(begin);
+    time = values_.value(at);
+    if (const bool alone = at.at_end() || at.rest().starts_with("("); alone && !time)
+      return missing_value("waits for the time");
+    else if (!alone)
+      time.reset();
+  }
+  if (!time) {
+    at.move_to(begin);
+    const auto met = values_.condition(at);
+    if (met && !*met) {  // somebody else will make it true
+      const std::string text = statement().text;
+      for (std::size_t found = text.find("R["); found != std::string::npos;
+           found = text.find("R[", found + 1)) {
+        FanucCursor name(std::string_view(text).substr(found + 1));
+        if (const auto index = values_.index(name); index && index->number)
+          values_.forget_register(whole(*index->number));
+      }
+    }
+    return note("WAIT for input");
+  }
+  if (*time <= 0) return;
+  Instruction wait;
+  wait.kind = Instruction::Kind::dwell;
+  wait.dwell = *time;
+  emit(wait);
+}
+
+// ---- assignments -----------------------------------------------------------------------------------------
+
+void FanucRun::assign_register(FanucCursor& at) {
+  const auto index = values_.index(at);
+  at.skip_to('=');
+  values_.forget_missing();
+  const FanucNumber value = values_.expression(at);
+  if (index && index->number) return values_.set_register(whole(*index->number), value);
+  values_.forget_registers();
+  note("writes a register whose number is known only while the robot runs");
+}
+
+/// PR[1]=PR[2]+PR[3], =P[1], =LPOS, =JPOS, =UFRAME[1]; PR[1,3]=number.
+void FanucRun::assign_position(FanucCursor& at) {
+  const auto index = values_.index(at);
+  at.skip_to('=');
+  if (index && index->group != 1) return note("PR of another group");
+  if (!index || !index->number) {
+    values_.forget_registers();
+    return note("writes a position register whose number is known only while the robot runs");
+  }
+  const int number = whole(*index->number);
+  if (index->part) return values_.set_component(number, whole(*index->part), values_.expression(at));
+  const auto sum = position_sum(at);
+  if (sum)
+    values_.set_position(number, *sum);
+  else
+    values_.forget_position(number);
+}
+
+std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
+  std::optional<FanucPosition> sum;
+  for (double sign = 1;;) {
+    charge();
+    const std::size_t begin = at.offset();
+    const std::string word = at.word();
+    std::optional<FanucPosition> read;
+    if (word == "lpos" || word == "jpos") {
+      const auto form = word == "lpos" ? FanucPosition::Form::pose : FanucPosition::Form::joints;
+      FanucPosition unknown;
+      unknown.form = form;
+      unknown.values.assign(6, NAN);
+      const bool here = last_ && last_->form == form &&
+                        (word == "jpos" || (values_.named("uframe_num") == FanucNumber(last_->frame) &&
+                                            values_.named("utool_num") == FanucNumber(last_->tool)));
+      read = here ? *last_ : unknown;
+    } else if (word == "uframe" || word == "utool") {
+      const auto index = values_.index(at);
+      const auto known =
+          index && index->number ? frame(word == "utool", whole(*index->number)) : std::nullopt;
+      if (!known) return {};
+      read.emplace();
+      read->form = FanucPosition::Form::pose;
+      read->values = fanuc_values_of(known->frame);
+    } else {
+      at.move_to(begin);
+      read = position(at);
+    }
+    if (!read) return {};
+    read->frame = read->tool = -1;
+    if (!sum) {
+      sum = read;
+    } else {
+      if (sum->form != read->form || sum->values.size() != read->values.size() || sum->remote != read->remote)
+        return {};
+      for (std::size_t i = 0; i < sum->values.size(); ++i) sum->values[i] += sign * read->values[i];
+    }
+    if (at.take_sign('+'))
+      sign = 1;
+    else if (at.take_sign('-'))
+      sign = -1;
+    else
+      return sum;
+  }
+}
+
+void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
+  const auto index = values_.index(at);
+  at.skip_to('=');
+  if (!index || !index->number || index->group != 1)
+    return note(word + ": a frame of another group or number", true);
+  const auto read = position_sum(at);
+  auto& frame = frames_[{word == "utool", whole(*index->number)}];
+  frame.reset();
+  if (read && read->form == FanucPosition::Form::pose && read->known()) frame = frame_of_fanuc(read->values);
+}
+
+// ---- branches and loops ----------------------------------------------------------------------------------
+
+void FanucRun::ask(const std::string& what) {
+  const std::string name = values_.missing().empty() ? "what" : values_.missing() + ", which";
+  complain(fmt::format("{} {} is known only while the robot runs", what, name),
+           fmt::format("choose with --assume {}=then or =else (motion.assume in a job){}", line_name(),
+                       name == "what" ? "" : fmt::format(", or give --value '{}=...'", values_.missing())));
+}
+
+/// Whether leaving statements out changes nothing but values, which are unknown from here on.
+bool FanucRun::no_matter(const FanucEffects& effects) {
+  if (effects.moves || effects.leaves) return false;
+  note("a branch on what is known only while the robot runs, without moves");
+  if (effects.any_register) values_.forget_registers();
+  for (int number : effects.registers) values_.forget_register(number);
+  for (int number : effects.positions) values_.forget_position(number);
+  for (const std::string& name : effects.named) {
+    if (name.find('[') == std::string::npos) values_.set_named(name, {});
+    FanucCursor at(name);
+    const bool tool = at.word() == "utool";
+    if (const auto number = at.take_sign('[') ? at.number() : std::nullopt)
+      frames_[{tool, whole(*number)}].reset();
+  }
+  return true;
+}
+
+void FanucRun::if_statement(FanucCursor& at) {
+  const std::size_t here = routine().at;
+  const FanucStatement& s = statement();
+  std::optional<bool> decision = values_.condition(at);
+  if (decision) routine().decided.insert(here);
+  if (const auto told = assumed(s.line)) decision = told;
+  if (lower_case(s.text).ends_with("then")) {
+    if (!decision) {
+      if (!no_matter(outlook_.effects(*routine().listing, here + 1, s.end))) ask("branches on");
+      routine().at = s.end;
+    } else if (!*decision) {
+      routine().at = s.other + 1;
+    }
+    return;
+  }
+  const std::string rest = fanuc_action(s.text);
+  if (rest.empty()) return complain("is no IF condition,action", "mend the statement");
+  if (!decision) return undecided(rest);
+  if (!*decision) return;
+  FanucCursor jumping(rest);
+  if (jumping.take("JMP")) return jump(jumping, false);
+  FanucCursor moving(rest);
+  if (fanuc_word(moving.word()) == FanucWord::motion && !moving.rest().starts_with("["))
+    return complain("moves behind a condition", "list the program again");
+  action(rest);
+}
+
+/// IF ... ,action where nobody knows the condition.
+void FanucRun::undecided(const std::string& action) {
+  const std::size_t here = routine().at;
+  const FanucListing& listing = *routine().listing;
+  FanucCursor at(action);
+  const std::string word = at.word();
+  std::size_t target = word == "end" ? listing.statements.size() : here;
+  if (word == "jmp" && at.take("LBL")) {
+    const auto label = values_.index(at);
+    const auto found =
+        label && label->number ? listing.labels.find(whole(*label->number)) : listing.labels.end();
+    if (found == listing.labels.end()) return ask("branches on");
+    target = found->second;
+  }
+  if (word == "abort") return note("ABORT on a condition: taken not to happen");
+  const FanucEffects effects = target == here  ? outlook_.effects(action)
+                               : target > here ? outlook_.effects(listing, here + 1, target)
+                                               : outlook_.effects(listing, target, here);
+  if (!no_matter(effects)) return ask("branches on");
+  if (target > here) routine().at = target;
+}
+
+/// SELECT R[1]=1,JMP LBL[1] ; =2,CALL X ; ELSE,JMP LBL[3] : one decision.
+void FanucRun::select() {
+  const std::size_t here = routine().at;
+  const auto& statements = routine().listing->statements;
+  FanucCursor at(statement().text);
+  at.word();
+  const FanucNumber selected = values_.value(at);
+  std::vector<Case> cases;
+  std::size_t behind = here;
+  for (bool first = true; behind < statements.size(); ++behind, first = false) {
+    const std::string& text = statements[behind].text;
+    if (text.starts_with("!") || text.starts_with("--")) continue;
+    FanucCursor next = first ? at : FanucCursor(text);
+    const bool otherwise = !first && next.take("ELSE");
+    if (!otherwise && !next.take_sign('=')) break;
+    cases.push_back(
+        {behind, otherwise ? FanucNumber{} : values_.expression(next), otherwise, fanuc_action(text)});
+    if (otherwise) {
+      ++behind;
+      break;
+    }
+  }
+  const auto which = chosen(cases, selected);
+  if (!which) return undecided_select(cases, behind);
+  routine().decided.insert(here);
+  routine().at = behind;
+  if (*which >= cases.size()) return;  // none of them
+  routine().at = cases[*which].statement;
+  FanucCursor jumping(cases[*which].action);
+  if (jumping.take("JMP"))
+    jump(jumping, false);
+  else
+    action(cases[*which].action);
+  if (routine().at == cases[*which].statement) routine().at = behind;
+}
+
+/// Index of the case that runs, or their number: none of them; absent: nobody knows.
+std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, FanucNumber selected) {
+  const std::string file = where().file;
+  FanucNumber value = selected;
+  for (const std::string& key :
+       {line_name(), fmt::format("{}:{}", file, where().line), fmt::format("{}", where().line)})
+    if (const auto told = around_.options.choose.find(key); told != around_.options.choose.end()) {
+      FanucCursor at(told->second);  // --assume FILE:LINE=2
+      value = at.number();
+      if (!value)
+        for (std::size_t i = 0; i < cases.size(); ++i)
+          if (cases[i].otherwise) return i;
+    }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto told = assumed(routine().listing->statements[cases[i].statement].line);
+    if (told && *told) return i;
+    if (told) continue;
+    if (cases[i].otherwise) return value ? std::optional(i) : std::nullopt;
+    if (!value || !cases[i].value) return {};
+    if (*value == *cases[i].value) return i;
+  }
+  return value ? std::optional(cases.size()) : std::nullopt;
+}
+
+void FanucRun::undecided_select(const std::vector<Case>& cases, std::size_t behind) {
+  const FanucListing& listing = *routine().listing;
+  FanucEffects effects;
+  std::vector<std::string> values;
+  std::size_t furthest = behind;
+  for (const Case& one : cases) {
+    values.push_back(one.otherwise ? "else" : one.value ? fmt::format("{}", *one.value) : "?");
+    FanucCursor at(one.action);
+    const bool jumps = at.take("JMP") && at.take("LBL");
+    const auto label = jumps ? values_.index(at) : std::nullopt;
+    const auto found =
+        label && label->number ? listing.labels.find(whole(*label->number)) : listing.labels.end();
+    if (jumps && (found == listing.labels.end() || found->second < behind)) effects.leaves = true;
+    if (jumps && found != listing.labels.end()) furthest = std::max(furthest, found->second);
+    if (!jumps) effects.add(outlook_.effects(one.action));
+  }
+  effects.add(outlook_.effects(listing, behind, furthest));
+  if (!no_matter(effects)) {
+    const std::string name = values_.missing().empty() ? "what" : values_.missing() + ", which";
+    complain(fmt::format("selects by {} is known only while the robot runs", name),
+             fmt::format("choose with --assume {}=VALUE ({}; motion.assume in a job)", line_name(),
+                         fmt::join(values, ", ")));
+  }
+  routine().at = furthest;
+}
+
+void FanucRun::for_statement(FanucCursor& at) {
+  const std::size_t here = routine().at, end = statement().end;
+  std::optional<FanucValues::Index> index;
+  if (at.take("R")) index = values_.index(at);
+  at.skip_to('=');
+  const FanucNumber from = values_.expression(at);
+  const bool down = at.take("DOWNTO");
+  if (!down) at.take("TO");
+  const FanucNumber to = values_.expression(at);
+  if (!index || !index->number || !from || !to) {
+    if (!no_matter(outlook_.effects(*routine().listing, here + 1, end))) missing_value("counts by");
+    routine().at = end + 1;
+    return;
+  }
+  const int number = whole(*index->number);
+  values_.set_register(number, *from);
+  if (down ? *from < *to : *from > *to)
+    routine().at = end + 1;
+  else
+    routine().loops[here] = {number, *to, down ? -1.0 : 1.0};
+}
+
+/// The counter goes on only while it is short of its last value: behind the loop it has that value.
+void FanucRun::end_for() {
+  const auto found = routine().loops.find(statement().end);
+  if (found == routine().loops.end()) return complain("has no FOR that runs", "enter the loop by its FOR");
+  const Loop loop = found->second;
+  values_.forget_missing();
+  const std::string name = fmt::format("R[{}]", loop.register_number);
+  FanucCursor at(name);
+  const FanucNumber counter = values_.value(at);
+  if (!counter) {
+    routine().loops.erase(found);
+    return missing_value("counts by");
+  }
+  if (loop.step > 0 ? *counter < loop.last : *counter > loop.last) {
+    values_.set_register(loop.register_number, *counter + loop.step);
+    last_jump_ = where();
+    routine().at = statement().end + 1;
+  } else {
+    routine().loops.erase(found);
+  }
+}
+
+}  // namespace dresslife::sim

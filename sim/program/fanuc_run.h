@@ -1,0 +1,141 @@
+// One run of a Fanuc program: statement by statement with a program counter, into moves and dwells (fanuc.h).
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sim/program/fanuc_effects.h"
+#include "sim/program/fanuc_values.h"
+
+namespace dresslife::sim {
+
+/// X Y Z [mm], W P R [deg] as a frame, and back.
+Frame frame_of_fanuc(const std::vector<double>& values);
+std::vector<double> fanuc_values_of(const Frame& frame);
+
+class FanucRun {
+ public:
+  struct Surroundings {
+    const std::deque<SourceFile>& files;
+    const std::vector<FanucListing>& listings;
+    std::vector<Problems>& parsing;  ///< of each listing: told when it is reached
+    const FanucVariables& variables;
+    const ImportOptions& options;
+    const std::vector<NamedFrame>&tools, &work_objects;
+  };
+  FanucRun(const Surroundings& around, Program& program, Problems& problems);
+
+  /// arguments: what AR[1], AR[2] ... are, as a call writes them: "1,'a',R[2]".
+  void run(const FanucListing& listing, const std::string& arguments);
+
+ private:
+  struct Stop {};  // thrown: the run ends
+  struct Loop {
+    int register_number;
+    double last, step;
+  };
+  struct Routine {
+    const FanucListing* listing;
+    std::size_t at = 0;
+    std::map<std::size_t, Loop> loops;  // by their FOR
+    std::set<std::size_t> decided;      // statements that branched on known values
+  };
+  /// How an endless loop went so far, for the pass after which it repeats itself.
+  struct Endless {
+    std::set<std::string> states;
+    std::size_t begin = 0;  // of the pass: number of instructions
+    int passes = 0;
+  };
+  struct Case {  // of a SELECT
+    std::size_t statement;
+    FanucNumber value;
+    bool otherwise;
+    std::string action;
+  };
+
+  // ---- statements: fanuc_run.cpp
+  void call(const FanucListing& listing, std::vector<FanucNumber> arguments);
+  void execute(const FanucStatement& s);
+  void action(const std::string& text);
+  void assignment(const std::string& word, FanucCursor& at);
+  void block(const std::string& word);
+  void jump(FanucCursor& at, bool certain);
+  void jump_to(std::size_t target, bool certain);
+  bool goes_on(std::size_t label);  // an endless loop for another pass
+  void call_statement(const std::string& text, bool beside);
+  std::vector<FanucNumber> arguments_in(FanucCursor& at);
+  void unread(const std::string& what);
+  void wait(FanucCursor& at);
+  void assign_register(FanucCursor& at);
+  void assign_position(FanucCursor& at);
+  std::optional<FanucPosition> position_sum(FanucCursor& at);
+  void assign_frame(const std::string& word, FanucCursor& at);
+  void if_statement(FanucCursor& at);
+  void undecided(const std::string& action);
+  bool no_matter(const FanucEffects& effects);
+  void ask(const std::string& what);
+  void select();
+  std::optional<std::size_t> chosen(const std::vector<Case>& cases, FanucNumber selected);
+  void undecided_select(const std::vector<Case>& cases, std::size_t behind);
+  void for_statement(FanucCursor& at);
+  void end_for();
+
+  // ---- moves: fanuc_moves.cpp
+  void move(FanucCursor& at, Instruction::Kind kind);
+  struct Options {
+    std::optional<FanucPosition> offset, tool_offset;
+    bool remote = false, failed = false, skips = false, coordinated = false;
+    std::string calls;  // programs that run before or behind the point
+  };
+  bool read_options(FanucCursor& at, Instruction& move, Options& options);
+  bool read_option(FanucCursor& at, Instruction& move, Options& options);
+  FanucNumber needed(FanucCursor& at, const char* what);
+  void offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const char* condition);
+  std::optional<FanucPosition> position(FanucCursor& at);
+  std::optional<FanucPosition> target_position(FanucCursor& at);
+  bool place_joints(const FanucPosition& position, const Options& options, Instruction& move);
+  bool place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
+                 const Options& options, Instruction& move);
+  bool place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose);
+  bool read_speed(FanucCursor& at, Instruction& move);
+  std::optional<double> override_share();
+  bool active(bool tool, int& number);
+  void compare_active(bool tool, int listed);
+  std::optional<NamedFrame> frame(bool tool, int number);
+  bool use(const NamedFrame& frame, bool as_tool, Instruction& move);
+  void emit(Instruction instruction);
+  void stopped_on_the_way();
+  void remember(const Instruction& move, const FanucPosition& target);
+
+  // ---- words
+  Routine& routine() { return routines_.back(); }
+  const FanucStatement& statement() const;
+  pipeline::Where where() const;
+  std::string line_name() const;  // "cell.ls:12"
+  std::optional<bool> assumed(int line) const;
+  void complain(const std::string& what, const std::string& remedy);
+  void missing(const std::string& name, const std::string& what, const std::string& remedy);
+  void missing_value(const std::string& what);  // the value that values_ misses
+  void note(const std::string& what, bool may_move = false);
+  void charge(long steps = 1);
+
+  const Surroundings around_;
+  Program& program_;
+  Problems& problems_;
+  FanucValues values_;
+  FanucOutlook outlook_;
+  std::vector<Routine> routines_;
+  std::map<std::pair<bool, int>, std::optional<Frame>> frames_;  // (tool?, number) that the program assigned
+  std::optional<FanucPosition> last_;                            // where the robot is: JPOS and LPOS
+  std::string offset_condition_, tool_offset_condition_;         // PR[n] of OFFSET CONDITION
+  std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
+  std::set<std::string> noted_;
+  pipeline::Where last_jump_;  // back
+  long executed_ = 0;
+};
+
+}  // namespace dresslife::sim
