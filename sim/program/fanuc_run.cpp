@@ -322,7 +322,7 @@ void FanucRun::wait(FanucCursor& at) {
           values_.forget_register(whole(*index->number));
       }
     }
-    return note("WAIT for input");
+    return note("WAIT: input");
   }
   if (*time <= 0) return;
   Instruction wait;
@@ -340,17 +340,17 @@ void FanucRun::assign_register(FanucCursor& at) {
   const FanucNumber value = values_.expression(at);
   if (index && index->number) return values_.set_register(whole(*index->number), value);
   values_.forget_registers();
-  note("writes a register whose number is known only while the robot runs");
+  note("R: writes a register whose number is known only while the robot runs");
 }
 
 /// PR[1]=PR[2]+PR[3], =P[1], =LPOS, =JPOS, =UFRAME[1]; PR[1,3]=number.
 void FanucRun::assign_position(FanucCursor& at) {
   const auto index = values_.index(at);
   at.skip_to('=');
-  if (index && index->group != 1) return note("PR of another group");
+  if (index && index->group != 1) return note("PR: of another group than the robot");
   if (!index || !index->number) {
     values_.forget_registers();
-    return note("writes a position register whose number is known only while the robot runs");
+    return note("PR: writes a position register whose number is known only while the robot runs");
   }
   const int number = whole(*index->number);
   if (index->part) return values_.set_component(number, whole(*index->part), values_.expression(at));
@@ -430,7 +430,7 @@ void FanucRun::ask(const std::string& what) {
 /// Whether leaving statements out changes nothing but values, which are unknown from here on.
 bool FanucRun::no_matter(const FanucEffects& effects) {
   if (effects.moves || effects.leaves) return false;
-  note("a branch on what is known only while the robot runs, without moves");
+  note("IF, SELECT, FOR: a branch on what is known only while the robot runs, without moves");
   if (effects.any_register) values_.forget_registers();
   for (int number : effects.registers) values_.forget_register(number);
   for (int number : effects.positions) values_.forget_position(number);
@@ -485,7 +485,7 @@ void FanucRun::undecided(const std::string& action) {
     if (found == listing.labels.end()) return ask("branches on");
     target = found->second;
   }
-  if (word == "abort") return note("ABORT on a condition: taken not to happen");
+  if (word == "abort") return note("ABORT: on a condition that is taken not to be met");
   const FanucEffects effects = target == here  ? outlook_.effects(action)
                                : target > here ? outlook_.effects(listing, here + 1, target)
                                                : outlook_.effects(listing, target, here);
@@ -542,10 +542,12 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
         for (std::size_t i = 0; i < cases.size(); ++i)
           if (cases[i].otherwise) return i;
     }
+  std::vector<std::optional<bool>> told;  // --assume FILE:LINE=then of one case
+  for (const Case& one : cases) told.push_back(assumed(routine().listing->statements[one.statement].line));
+  if (const auto taken = std::find(told.begin(), told.end(), true); taken != told.end())
+    return static_cast<std::size_t>(taken - told.begin());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const auto told = assumed(routine().listing->statements[cases[i].statement].line);
-    if (told && *told) return i;
-    if (told) continue;
+    if (told[i]) continue;
     if (cases[i].otherwise) return value ? std::optional(i) : std::nullopt;
     if (!value || !cases[i].value) return {};
     if (*value == *cases[i].value) return i;

@@ -75,7 +75,7 @@ TEST_CASE("fanuc: registers, loops, labels, calls") {
       run(" 1: R[1]=0 ;\n 2: LBL[1] ;\n 3: R[1]=R[1]+1 ;\n 4: CALL MORE ;\n 5: IF R[1]<3,JMP LBL[1] ;\n 6: "
           "FOR R[2]=1 TO 2 ;\n 7:J P[1] 10% FINE ;\n 8: ENDFOR ;\n"
           " 9: SELECT R[1]=1,JMP LBL[9] ;\n10:        =3,CALL MORE ;\n11:        ELSE,JMP LBL[9] ;\n12: IF "
-          "(R[1]>1 AND R[2]>=3) THEN ;\n13:J P[1] 20% FINE ;\n14: ELSE ;\n"
+          "(R[1]>1 AND R[2]=2) THEN ;\n13:J P[1] 20% FINE ;\n14: ELSE ;\n"
           "15:J P[1] 30% FINE ;\n16: ENDIF ;\n17: LBL[9] ;\n18: LBL[5] ;\n19:J P[1] 40% FINE ;\n20: JMP "
           "LBL[5] ;\n",
           {}, " 1:J P[1] R[1]% FINE ;\n");

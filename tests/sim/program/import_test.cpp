@@ -62,9 +62,12 @@ TEST_CASE("import: joint columns and ROS trajectories") {
   REQUIRE(ros.program.instructions.size() == 2);
   CHECK(ros.move(1).target.joints[0] == 0.5);
   CHECK(ros.move(1).speed.duration.value() == 1.5);
-  const Reading bad = Reader{Language::joint_columns}({{"j.csv", "t, a\n0, 1\n0, 2\n1, x\n1, 2, 3\n"}});
-  REQUIRE(bad.problems.size() == 3);
-  CHECK(bad.problem(0) ==
+  const Reading bad = Reader{Language::joint_columns}({{"j.csv", "t, a1 deg\n0, 1\n1, x\n1, 2, 3\n"}});
+  REQUIRE(bad.problems.size() == 2);
+  CHECK(bad.problem(0) == "j.csv:3:1: error: has no number in cell 2 (a1 deg); write a finite number");
+  const Reading back = Reader{Language::joint_columns}({{"j.csv", "t, a1 deg\n0, 1\n0, 2\n"}});
+  REQUIRE(back.problems.size() == 1);
+  CHECK(back.problem(0) ==
         "j.csv:3:1: error: has the time 0 s, not after the one before; order the rows by increasing times");
 }
 

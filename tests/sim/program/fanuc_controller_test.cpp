@@ -1,0 +1,362 @@
+// What a Fanuc controller does with listings as they lie on it, each with its reason.
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "tests/sim/program/reading.h"
+
+using namespace dresslife;
+using namespace dresslife::sim;
+using dresslife::tests::Reader;
+using dresslife::tests::Reading;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double rounding = 1e-9;  // of millimetres and angles through a dozen products
+
+const std::string joints = R"(P[1]{
+   GP1:
+	UF : 0, UT : 0,
+	J1= 1.000 deg,	J2= 0.0 deg,	J3= 0.0 deg,
+	J4= 0.0 deg,	J5= -30.0 deg,	J6= 0.0 deg
+};
+P[2]{
+   GP1:
+	UF : 0, UT : 0,
+	J1= 2.000 deg,	J2= 0.0 deg,	J3= 0.0 deg,
+	J4= 0.0 deg,	J5= -30.0 deg,	J6= 0.0 deg
+};
+)";
+const std::string poses = R"(P[3]{
+   GP1:
+	UF : 3, UT : 2,	CONFIG : 'N U T, 0, 0, 0',
+	X = 1000.0 mm,	Y = 0.0 mm,	Z = 300.0 mm,
+	W = 180.0 deg,	P = 0.0 deg,	R = 0.0 deg
+};
+P[4]{
+   GP1:
+	UF : 3, UT : 2,	CONFIG : 'N U T, 0, 0, 0',
+	RX = 100.0 mm,	RY = 0.0 mm,	RZ = 300.0 mm,
+	RW = 0.0 deg,	RP = 0.0 deg,	RR = 90.0 deg
+};
+P[5]{
+   GP1:
+	UF : 3, UT : 2,	CONFIG : 'N U T, 0, 0, 0',
+	X = ********  mm,	Y = ********  mm,	Z = ********  mm,
+	W = ******** deg,	P = ******** deg,	R = ******** deg
+};
+P[6]{
+   GP2:
+	UF : 0, UT : 1,
+	J1= 45.0 deg
+};
+)";
+
+struct Asked {
+  std::map<std::string, std::string> values = {}, choose = {};
+  std::map<std::string, Assumption> assume = {};
+  int passes = 0;
+  std::string routine = "";
+};
+
+/// The lines as the program CELL, with further files (name, text).
+Reading run(const std::string& lines, const Asked& asked = {},
+            const std::vector<std::pair<std::string, std::string>>& more = {}) {
+  ImportOptions options;
+  options.values = asked.values;
+  options.choose = asked.choose;
+  options.assume = asked.assume;
+  options.passes = asked.passes;
+  options.routine = asked.routine;
+  const std::vector<NamedFrame> tools{{"UTOOL[2]", {Vector3(0, 0, 0.4), Quaternion::Identity()}, false}};
+  const std::vector<NamedFrame> objects{{"UFRAME[3]", {Vector3(1, 0, 0), Quaternion::Identity()}, false}};
+  std::vector<std::pair<std::string, std::string>> files{
+      {"cell.ls", "/PROG  CELL\n/ATTR\n/MN\n" + lines + "/POS\n" + joints + poses + "/END\n"}};
+  files.insert(files.end(), more.begin(), more.end());
+  return Reader{Language::fanuc, options, tools, objects}(files);
+}
+
+/// First joint angles of the moves [deg].
+std::vector<int> stops(const Reading& reading) {
+  std::vector<int> list;
+  for (const Instruction& i : reading.program.instructions)
+    if (i.kind != Instruction::Kind::dwell && !i.target.joints.empty())
+      list.push_back(static_cast<int>(std::lround(i.target.joints[0] / degree)));
+  return list;
+}
+
+std::string listing(const std::string& name, const std::string& lines) {
+  return "/PROG  " + name + "\n/MN\n" + lines + "/POS\n" + joints + "/END\n";
+}
+
+std::vector<std::string> warnings(const Reading& reading) {
+  std::vector<std::string> list;
+  for (const Skipped& s : reading.program.skipped)
+    if (s.may_move) list.push_back(s.what);
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("fanuc lines: one without ';' ends where the next number begins") {
+  // A controller would not load it; its meaning is plain, and no line may vanish into another.
+  const Reading moves =
+      run("   1:J P[1] 100% FINE\n   2:J P[2] 100% FINE ;\n   3:\n   4:J P[1] 100% FINE ;\n");
+  CHECK(moves.problem() == "no such problem");
+  CHECK(stops(moves) == std::vector<int>{1, 2, 1});
+  REQUIRE(moves.program.skipped.size() == 1);
+  CHECK(moves.program.skipped[0].what == "no ';' at the end: the statement ends with its line");
+  CHECK(stops(run("   1:  !don't stop; here\n   2:J P[1] 100% FINE ;\n")) == std::vector<int>{1});
+}
+
+TEST_CASE("fanuc lines: what VW robots run at the end of a move") {
+  const Reading r =
+      run("   1:J P[1] 100% CNT0 ACC100 TB   0.00sec,P-SPS    ;\n      1:  DO[23]=(OFF) ;\n      2:  WAIT    "
+          ".10(sec) ;\n       ------ ;\n   2:J P[2] 100% FINE    ;\n");
+  CHECK(r.problem() == "no such problem");
+  CHECK(stops(r) == std::vector<int>{1, 2});
+  CHECK(r.move(1).dwell == 0.1);
+}
+
+TEST_CASE("fanuc lines: German listings are the same program") {
+  const Reading r =
+      run("   1:  BENUTZER_NUM=3 ;\n   2:  WKZ_NUM=2 ;\n   3:  A[79]=AN ;\n   4:  i[5:Zahl]=2 ;\n   5:J P[1] "
+          "100% "
+          "CNT0 ACC100 ZEIT VOR    .10sek,P-SPS    ;\n      1:  WARTE (E[9] [&] M[3:Tuer] [+] !E[10])    ;\n "
+          "     2:  "
+          "AUFRUF UP1    ;\n       ------ ;\n   6:  WENN i[5]=2,SPRUNG LABEL[7] ;\n   7:J P[2] 100% FINE ;\n "
+          "  8:  "
+          "LABEL[7] ;\n   9:L P[3] 500mm/sek CNT0 WKZ_Offset ,PR[1] Offset,PR[2]    ;\n  10:  IST    "
+          "i[5]=1,SPRUNG "
+          "LABEL[8] ;\n  11:         =2,AUFRUF UP1 ;\n  12:         SONST,SPRUNG LABEL[8] ;\n  13:  LABEL[8] "
+          ";\n  14:  "
+          "WARTE   0.50(sec) ;\n  15:  ENDE ;\n  16:J P[2] 100% FINE ;\n",
+          {.values = {{"PR[1]", "0,0,0,0,0,0"}, {"PR[2]", "X 10 Y 0 Z 0 W 0 P 0 R 0"}}},
+          {{"up1.ls", listing("UP1", "   1:J P[2] 50% FINE ;\n")}});
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 5);
+  CHECK(stops(r) == std::vector<int>{1, 2, 2});
+  CHECK(r.move(2).target.pose.position.x() == Approx(1.01).epsilon(rounding));  // Offset, in mm
+  CHECK(r.move(2).speed.tool.value() == Approx(0.5).epsilon(rounding));
+  CHECK(r.program.work_objects.at(r.move(2).work_object).name == "UFRAME[3]");
+  CHECK(r.move(4).dwell == 0.5);
+}
+
+TEST_CASE("fanuc positions: what is not taught matters only where a move needs it") {
+  CHECK(stops(run("   1:J P[1] 100% FINE ;\n")) == std::vector<int>{1});
+  const Reading untaught = run("   1:J P[5] 100% FINE ;\n   2:J P[5] 10% FINE ;\n   3:J P[9] 5% FINE ;\n");
+  REQUIRE(untaught.problems.size() == 2);  // one for each position
+  CHECK(untaught.problems[0].what == "moves to P[5], which is not taught");
+  CHECK(untaught.problems[1].what == "moves to P[9], which is not listed");
+  // Only a positioner turns.
+  const Reading positioner = run("   1:J P[1] 100% FINE ;\n   2:J P[6] 100% FINE ;\n");
+  CHECK(stops(positioner) == std::vector<int>{1});
+}
+
+TEST_CASE("fanuc positions: a remote tool stands in the user frame, the robot carries the work") {
+  // RX ... is the place of UF in UT: 100 mm and 300 mm away, turned by 90 deg about z. Then UT in UF is the
+  // inverse, and the flange is at UF P^-1 UT^-1 whichever way the move is made.
+  const Reading r =
+      run("   1:J P[4] 100% FINE ;\n   2:L P[4] 100mm/sec FINE RTCP ;\n   3:L P[3] 100mm/sec FINE RTCP ;\n");
+  REQUIRE(r.problem() == "no such problem");
+  const auto flange = [&](const Instruction& i) {
+    const NamedFrame &tool = r.program.tools.at(i.tool), &object = r.program.work_objects.at(i.work_object);
+    const auto inverse = [](const Frame& f) {
+      return Frame{f.orientation.conjugate() * Vector3(-f.position), f.orientation.conjugate()};
+    };
+    return tool.stationary ? tool.frame * inverse(object.frame * i.target.pose)
+                           : object.frame * i.target.pose * inverse(tool.frame);
+  };
+  // UF at x = 1 m; P^-1: position -Rz(-90) (0.1, 0, 0.3) = (0, 0.1, -0.3); the tool is 0.4 m long.
+  const Vector3 expected(1, 0.1, -0.7);
+  for (int i : {0, 1}) CHECK((flange(r.move(i)).position - expected).norm() < rounding);
+  CHECK_FALSE(r.program.tools.at(r.move(0).tool).stationary);
+  CHECK(r.program.tools.at(r.move(1).tool).stationary);
+  CHECK(r.program.tools.at(r.move(1).tool).name == "UFRAME[3]");
+  // A position in the usual form on a remote move: (2, 0, 0.3) upside down, then 0.4 m up along the tool.
+  CHECK((flange(r.move(2)).position - Vector3(2, 0, 0.7)).norm() < rounding);
+}
+
+TEST_CASE("fanuc values: KAREL programs and macros may write registers") {
+  const Reading asked =
+      run("   1:  R[1]=3 ;\n   2:  CALL GETCOUNT(1) ;\n   3:  FOR R[2]=1 TO R[1] ;\n   4:J P[1] 100% FINE "
+          ";\n   5:  "
+          "ENDFOR ;\n");
+  REQUIRE(asked.problems.size() == 1);
+  CHECK(asked.problem() ==
+        "cell.ls:6:6: error: counts by R[1], which is known only while the robot runs; give it with --value "
+        "'R[1]=...' (motion.values), or numreg.va of the backup");
+  const Reading told =
+      run("   1:  R[1]=3 ;\n   2:  CALL GETCOUNT(1) ;\n   3:  FOR R[2]=1 TO R[1] ;\n   4:J P[1] 100% FINE "
+          ";\n   5:  ENDFOR ;\n",
+          {.values = {{"R[1]", "2"}}});
+  CHECK(stops(told) == std::vector<int>{1, 1});
+  CHECK(run("   1:  R[1]=30 ;\n   2:  OPEN GRIPPER ;\n   3:J P[1] R[1]% FINE ;\n").problems.size() == 1);
+  CHECK(run("   1:  R[1]=30 ;\n   2:  DO[1]=ON ;\n   3:J P[1] R[1]% FINE ;\n").problems.empty());
+}
+
+TEST_CASE("fanuc values: components of position registers, with names and in sums") {
+  const Asked known{
+      .values = {{"PR[1]", "X 500 Y 0 Z 100 W 180 P 0 R 0"}, {"UFRAME_NUM", "3"}, {"UTOOL_NUM", "2"}}};
+  const Reading r =
+      run("   1:  PR[2:place]=PR[1:pick] ;\n   2:  R[188:step]=25 ;\n   3:  "
+          "PR[2,3:place]=PR[2,3:place]+R[188:step]*2  "
+          "  ;\n   4:L PR[2:place] 100mm/sec FINE ;\n   5:  PR[3]=PR[2]-PR[1] ;\n   6:L PR[1] 100mm/sec FINE "
+          "Offset,PR[3] ;\n   7:  PR[4]=LPOS ;\n   8:  PR[4,1]=PR[4,1]-100 ;\n   9:L PR[4] 100mm/sec FINE "
+          ";\n  10:  "
+          "PR[GP1:4,2]=7 ;\n  11:L PR[4] 100mm/sec FINE ;\n",
+          known);
+  REQUIRE(r.problem() == "no such problem");
+  const double z[] = {0.15, 0.15, 0.15, 0.15}, x[] = {0.5, 0.5, 0.4, 0.4}, y[] = {0, 0, 0, 0.007};
+  for (int i = 0; i < 4; ++i) {
+    INFO(i);
+    CHECK((r.move(i).target.pose.position - Vector3(x[i], y[i], z[i])).norm() < rounding);
+  }
+  // One component of a register that nobody knows makes no position of zeros.
+  const Reading unknown = run("   1:  PR[9,3]=50 ;\n   2:L PR[9] 100mm/sec FINE ;\n", known);
+  CHECK(unknown.problems.at(0).what == "moves to PR[9], which is known only while the robot runs");
+  CHECK(run("   1:L PR[1] 100mm/sec FINE ;\n", {.values = {{"PR[1]", "1,2,3,4,5,6"}}}).problems.at(0).what ==
+        "moves in the active user frame, and nothing says which that is (UFRAME_NUM)");
+}
+
+TEST_CASE("fanuc values: arguments, and the program that is named with them") {
+  const std::string sub = listing("SUB", "   1:J P[AR[1]] AR[2]% FINE ;\n");
+  const Reading r =
+      run("   1:  R[7]=20 ;\n   2:  CALL SUB(2,R[7]+5) ;\n   3:  CALL SUB(1,10) ;\n", {}, {{"sub.ls", sub}});
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(stops(r) == std::vector<int>{2, 1});
+  CHECK(r.move(0).speed.axis_percent.value() == 25);
+  CHECK(stops(run("", {.routine = "sub(2, 50)"}, {{"sub.ls", sub}})) == std::vector<int>{2});
+  CHECK(run("   1:  CALL SUB(2) ;\n", {}, {{"sub.ls", sub}}).problems.at(0).what ==
+        "has a speed by AR[2], which is known only while the robot runs");
+}
+
+TEST_CASE("fanuc values: AND binds closer than OR") {
+  const auto taken = [](const std::string& condition) {
+    return stops(run("   1:  R[1]=1 ;\n   2:  R[2]=2 ;\n   3:  IF (" + condition +
+                     ") THEN ;\n   4:J P[1] 100% FINE ;\n   5:  ELSE ;\n   6:J P[2] 100% FINE ;\n   7:  "
+                     "ENDIF ;\n"))
+               .at(0) == 1;
+  };
+  CHECK(taken("R[1]=1 OR R[1]=0 AND R[2]=0"));
+  CHECK_FALSE(taken("(R[1]=1 OR R[1]=0) AND R[2]=0"));
+  CHECK(taken("R[1]+1=R[2] AND !(R[1]>R[2])"));
+  CHECK(taken("R[1]<>R[2]"));
+  CHECK(taken("R[1]=1 OR DI[5]"));  // enough, whatever the input is
+}
+
+TEST_CASE("fanuc branches: no question where no arm moves, one question for a SELECT") {
+  const Reading logic = run(
+      "   1:J P[1] 100% FINE ;\n   2:  IF DI[5]=OFF,JMP LBL[1] ;\n   3:  DO[3]=ON ;\n   4:  LBL[1] ;\n   5:J "
+      "P[2] "
+      "100% FINE ;\n   6:  LBL[2] ;\n   7:  WAIT DI[7]=ON ;\n   8:  IF DI[8]=OFF,JMP LBL[2] ;\n   9:  SELECT "
+      "GI[1]=1,JMP LBL[3] ;\n  10:         =2,JMP LBL[3] ;\n  11:  LBL[3] ;\n  12:  IF (DI[9])R[5]=(1) ;\n");
+  CHECK(logic.problem() == "no such problem");
+  CHECK(stops(logic) == std::vector<int>{1, 2});
+  // What the arms may write is unknown behind them.
+  CHECK(
+      run("   1:  R[5]=20 ;\n   2:  IF (DI[9])R[5]=(1) ;\n   3:J P[1] R[5]% FINE ;\n").problems.at(0).what ==
+      "has a speed by R[5], which is known only while the robot runs");
+
+  const std::string choice =
+      "   1:J P[1] 100% FINE ;\n   2:  SELECT R[1]=1,JMP LBL[1] ;\n   3:         =2,JMP LBL[2] ;\n   4:      "
+      "   "
+      "ELSE,JMP LBL[9] ;\n   5:  LBL[1] ;\n   6:J P[2] 100% FINE ;\n   7:  JMP LBL[9] ;\n   8:  LBL[2] ;\n   "
+      "9:J P[1] "
+      "50% FINE ;\n  10:  LBL[9] ;\n";
+  const Reading asked = run(choice);
+  REQUIRE(asked.problems.size() == 1);
+  CHECK(asked.problem() ==
+        "cell.ls:5:6: error: selects by R[1], which is known only while the robot runs; choose with --assume "
+        "cell.ls:5=VALUE (1, 2, else; motion.assume in a job)");
+  CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "1"}}})) == std::vector<int>{1, 2});
+  CHECK(stops(run(choice, {.choose = {{"5", "2"}}})) == std::vector<int>{1, 1});
+  CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "else"}}})) == std::vector<int>{1});
+  CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "7"}}})) == std::vector<int>{1});
+  CHECK(stops(run(choice, {.values = {{"R[1]", "1"}}})) == std::vector<int>{1, 2});
+  CHECK(stops(run(choice, {.assume = {{"cell.ls:6", Assumption::then_branch}}})) == std::vector<int>{1, 1});
+}
+
+TEST_CASE(
+    "fanuc loops: a FOR leaves its counter at the last value, and a counter that the body changes counts") {
+  // ENDFOR adds only while the counter is short of its end (FANUC operator's manual).
+  const Reading r =
+      run("   1:  FOR R[1]=1 TO 3 ;\n   2:J P[1] 10% FINE ;\n   3:  ENDFOR ;\n   4:J P[2] R[1]% FINE ;\n   "
+          "5:  FOR R[2]=5 "
+          "DOWNTO 1 ;\n   6:J P[1] R[2]% FINE ;\n   7:  R[2]=R[2]-1 ;\n   8:  ENDFOR ;\n   9:  FOR R[3]=2 TO "
+          "1 ;\n  10:J P[2] "
+          "100% FINE ;\n  11:  ENDFOR ;\n");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(stops(r) == std::vector<int>{1, 1, 1, 2, 1, 1, 1});
+  CHECK(r.move(3).speed.axis_percent.value() == 3);
+  CHECK(r.move(5).speed.axis_percent.value() == 3);
+}
+
+TEST_CASE("fanuc loops: an endless one runs until it repeats itself, or as often as is asked") {
+  // A machine that runs in states: the first pass moves nothing.
+  const std::string states =
+      "   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:  IF R[1]=1,JMP LBL[3] ;\n   4:  IF R[1]=2,JMP LBL[4] ;\n   5: "
+      " R[1]=1 ;\n  "
+      " 6:  JMP LBL[1] ;\n   7:  LBL[3] ;\n   8:J P[1] 100% FINE ;\n   9:  R[1]=2 ;\n  10:  JMP LBL[1] ;\n  "
+      "11:  LBL[4] "
+      ";\n  12:J P[2] 100% FINE ;\n  13:  R[1]=0 ;\n  14:  JMP LBL[1] ;\n";
+  const Reading machine = run(states);
+  CHECK(machine.problem() == "no such problem");
+  CHECK(stops(machine) == std::vector<int>{1, 2});
+  // A counter of parts does not make the motion another one.
+  const std::string parts =
+      "   1:  R[9]=0 ;\n   2:  LBL[1] ;\n   3:J P[1] 100% FINE ;\n   4:J P[2] 100% FINE ;\n   5:  "
+      "R[9]=R[9]+1 ;\n   6:  "
+      "JMP LBL[1] ;\n";
+  CHECK(stops(run(parts)) == std::vector<int>{1, 2});
+  CHECK(stops(run(parts, {.passes = 3})) == std::vector<int>{1, 2, 1, 2, 1, 2});
+  // A palletizer: every pass is another one until it begins again.
+  const std::string pallet =
+      "   1:  LBL[1] ;\n   2:  R[1]=0 ;\n   3:  LBL[2] ;\n   4:  PR[2]=PR[1] ;\n   5:  "
+      "PR[2,3]=PR[2,3]+R[1]*10 ;\n   6:L "
+      "PR[2] 100mm/sec FINE ;\n   7:  R[1]=R[1]+1 ;\n   8:  IF R[1]<4,JMP LBL[2] ;\n   9:  JMP LBL[1] ;\n";
+  CHECK(run(pallet, {.values = {{"PR[1]", "1,2,3,4,5,6"}, {"UFRAME_NUM", "0"}, {"UTOOL_NUM", "0"}}})
+            .program.instructions.size() == 4);
+}
+
+TEST_CASE("fanuc moves: what changes a target is followed, or named") {
+  const Asked known{.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}, {"PR[2]", "0,0,0,0,0,0"}}};
+  const Reading r =
+      run("   1:L P[3] 100mm/sec FINE Offset,PR[1] ;\n   2:L P[3] 100mm/sec FINE Tool_Offset,PR[1] ;\n   3:  "
+          "OFFSET "
+          "CONDITION PR[1] ;\n   4:L P[3] 100mm/sec FINE Offset ;\n   5:J P[1] 50% FINE Offset,PR[2] ;\n",
+          known);
+  REQUIRE(r.problem() == "no such problem");
+  // The tool looks down: 50 mm up in the frame, 50 mm down along the tool.
+  const double z[] = {0.35, 0.25, 0.35};
+  for (int i = 0; i < 3; ++i) CHECK(r.move(i).target.pose.position.z() == Approx(z[i]).epsilon(rounding));
+  CHECK(run("   1:J P[1] 50% FINE Offset,PR[1] ;\n", known).problems.at(0).what ==
+        "is offset in space from joint angles");
+  CHECK(run("   1:L P[3] 100mm/sec FINE Offset,PR[8] ;\n", known).problems.at(0).what ==
+        "is offset by PR[8], which is known only while the robot runs");
+  CHECK(run("   1:L P[3] 100mm/sec FINE VOFFSET,VR[1] ;\n").problems.size() == 1);
+  CHECK(warnings(run("   1:L P[3] 100mm/sec CNT100 COORD ;\n")).at(0).starts_with("COORD: "));
+  CHECK(warnings(run("   1:  Weave Sine[1] ;\n   2:J P[1] 100% FINE ;\n")).at(0).starts_with("weave: "));
+  CHECK(
+      run("   1:L P[3] WELD_SPEED FINE ;\n").problem() ==
+      "cell.ls:4:6: error: moves with WELD_SPEED, which lies in the controller's weld schedule; give it with "
+      "--value 'WELD_SPEED=8mm/sec' (motion.values)");
+  CHECK(run("   1:L P[3] WELD_SPEED FINE ;\n", {.values = {{"WELD_SPEED", "60cm/min"}}})
+            .move(0)
+            .speed.tool.value() == Approx(0.01).epsilon(rounding));
+  CHECK(run("   1:J P[1] 100% CNT R[4] ;\n").problems.at(0).what ==
+        "goes over into the next move by CNT R[4], which is known only while the robot runs");
+}
+
+TEST_CASE("fanuc programs: names with hyphens, logs beside, doubles, faults in programs that never run") {
+  const std::vector<std::pair<std::string, std::string>> one{
+      {"-bcked2-.ls", listing("-BCKED2-\t  Macro", "   1:J P[1] 100% FINE ;\n")}};
+  CHECK(Reader{Language::fanuc}(one).program.instructions.size() == 1);
+  CHECK(stops(run("   1:  CALL -BCKED2- ;\n", {}, one)) == std::vector<int>{1});
+  const std::string broken = "/PROG  BROKEN\n/MN\n   1:  FOR R[1]=1 TO 3 ;\n/END\n";
+  CHECK(run("   1:J P[1] 100% FINE ;\n", {}, {{"broken.ls", broken}}).problems.empty());
+  CHECK(run("   1:  CALL BROKEN ;\n", {}, {{"broken.ls", broken}}).problems.at(0).what == "has no ENDFOR");
+  CHECK(run("   1:J P[1] 100% FINE ;\n", {}, {{"other.ls", listing("CELL", "   1:J P[2] 100% FINE ;\n")}})
+            .problems.at(0)
+            .what == "is the program 'cell', as cell.ls is");
+}
