@@ -222,6 +222,16 @@ std::vector<fs::path> program_files(const fs::path& program) {
       if (const fs::path data = fs::path(program).replace_extension(end); fs::is_regular_file(data, failure))
         files.push_back(data);
   }
+  if (lower_extension(program) == ".ls" &&
+      !fs::is_directory(program, failure))  // what it calls, and its registers
+    for (const fs::path folder = program.has_parent_path() ? program.parent_path() : ".";
+         const fs::path& place : {folder, folder / ".."})
+      for (const fs::directory_entry& beside : fs::directory_iterator(place, failure)) {
+        const std::string end = lower_extension(beside.path());
+        if ((end == ".va" || (end == ".ls" && place == folder)) && beside.path() != program &&
+            files.size() < most_files)
+          files.push_back(beside.path());
+      }
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -32,7 +32,7 @@ bool among(const std::string& word, const std::array<std::string_view, n>& list)
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-constexpr std::array<std::string_view, 9> times{"time", "t",    "timestamp", "stamp", "sec",
+constexpr std::array<std::string_view, 9> times{"time", "t",       "timestamp", "stamp", "sec",
                                                 "secs", "seconds", "clock",     "zeit"};
 constexpr std::array<std::string_view, 5> coordinates{"x", "y", "z", "tcp", "pose"};
 constexpr std::array<std::string_view, 32> others{
@@ -105,9 +105,13 @@ ColumnName column_name(std::string_view name) {
   if (!words.empty() &&
       (among(words[0], times) || (words.size() > 1 && words.back() == "time") || name == "%time")) {
     made.kind = ColumnName::Kind::time;
+    made.unit_told = has("s") || has("sec") || has("secs") || has("seconds");
     if (has("ms") || has("msec")) made.seconds = 1e-3;
     if (has("us") || has("usec")) made.seconds = 1e-6;
     if (has("ns") || has("nsec") || name == "%time") made.seconds = 1e-9;
+    made.unit_told |= made.seconds != 1;
+  } else if (has("mm") || has("cm") || has("m") || has("meter") || has("meters")) {
+    made.kind = ColumnName::Kind::point;
   } else if (any_other || words.empty()) {
     made.kind = ColumnName::Kind::other;
   } else if (has("stamp")) {  // of a header beside %time
@@ -116,6 +120,13 @@ ColumnName column_name(std::string_view name) {
     made.kind = ColumnName::Kind::point;
   }
   return made;
+}
+
+double unit_of_clock(double time) {
+  constexpr double first = 9e11;  // [ms] 1998, below which no recording of a robot is
+  double unit = 1;
+  for (double digits = first; time > digits && unit > 1e-9; digits *= 1e3) unit *= 1e-3;
+  return unit;
 }
 
 std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::string>& names,

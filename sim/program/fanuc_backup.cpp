@@ -7,6 +7,7 @@
 
 #include "pipeline/job/document.h"
 #include "sim/program/backup.h"
+#include "sim/program/encoding.h"
 #include "sim/program/tokens.h"
 
 namespace dresslife::sim {
@@ -94,9 +95,12 @@ class VariableFile {
     FanucPosition made;
     made.frame = made.tool = -1;
     position_ = &((*list)[number] = made);
-    if (line.find("Uninitialized", line.rfind('\'') < line.size() ? line.rfind('\'') : 0) !=
-        std::string_view::npos)
+    const std::size_t name = line.rfind('\'');
+    if (line.find("Uninitialized", name < line.size() ? name : 0) != std::string_view::npos) {
+      position_->form = FanucPosition::Form::pose;  // what its components become that a program assigns
+      position_->values.assign(6, NAN);
       position_ = nullptr;
+    }
   }
 
   /// "X: 1.0 Y: ...", "J1 = 1.0 deg J2 = ...", "Group: 1 Config: N U T, 0, 0, 0", "EXT1: 0.0 mm"
@@ -181,7 +185,7 @@ std::vector<fs::path> variables_of(const fs::path& folder) {
 std::string text_of(const fs::path& file) {
   std::error_code failure;
   if (fs::file_size(file, failure) > ImportLimits::file_bytes || failure) return "";
-  return pipeline::read_text(file);
+  return decoded_text(pipeline::read_text(file));
 }
 
 /// What a listing says about others, without running it.

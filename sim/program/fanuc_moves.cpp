@@ -79,6 +79,13 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
     note(fmt::format("{} is taken from the backup; a program that was not read may have written it since",
                      name),
          true);
+  if (read && read->known() && read->form == FanucPosition::Form::unknown) {
+    complain(
+        fmt::format("moves to {}, and nothing says whether its numbers are a pose or joint angles", name),
+        fmt::format("give --value '{}=X ... Y ... Z ... W ... P ... R ...' or '{}=J1 ... J2 ...'", name,
+                    name));
+    return {};
+  }
   if (read && (read->known() || read->form == FanucPosition::Form::other_groups)) return read;
   if (registered)
     missing(
@@ -297,6 +304,7 @@ void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, co
     complain("is offset in a frame of its own", "list the program with the position as the robot reached it");
   const bool doubtful = index && index->number && values_.doubtful(whole(*index->number));
   if (into && into->known()) {
+    if (into->form == FanucPosition::Form::unknown) into->form = FanucPosition::Form::pose;
     if (doubtful)
       note(fmt::format(
                "PR[{}] is taken from the backup; a program that was not read may have written it since",

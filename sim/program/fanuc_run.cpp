@@ -415,7 +415,8 @@ void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
   const auto read = position_sum(at);
   auto& frame = frames_[{word == "utool", whole(*index->number)}];
   frame.reset();
-  if (read && read->form == FanucPosition::Form::pose && read->known()) frame = frame_of_fanuc(read->values);
+  if (read && read->form != FanucPosition::Form::joints && read->known() && read->values.size() == 6)
+    frame = frame_of_fanuc(read->values);  // six components that a program wrote are a pose here
 }
 
 // ---- branches and loops ----------------------------------------------------------------------------------

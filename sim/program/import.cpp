@@ -3,11 +3,8 @@
 #include <algorithm>
 
 #include "pipeline/job/document.h"
-<<<<<<< HEAD
-#include "sim/program/encoding.h"
-=======
 #include "sim/program/backup.h"
->>>>>>> 2da9be5 (Give robot programs what a controller knows: scope, unknown values with their cause, values, passes, folders)
+#include "sim/program/encoding.h"
 #include "sim/program/fanuc.h"
 #include "sim/program/fanuc_backup.h"
 #include "sim/program/krl.h"

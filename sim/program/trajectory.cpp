@@ -141,6 +141,7 @@ class Columns {
       if (read.kind == ColumnName::Kind::time && !time_) {
         time_ = names_.size();
         seconds_ = read.seconds;
+        clock_ = !read.unit_told;
       } else if (read.kind == ColumnName::Kind::axis) {
         axes.emplace_back(name);
         at.push_back(names_.size());
@@ -157,8 +158,15 @@ class Columns {
   /// Which columns are the axes, and in which order.
   void choose(const std::vector<std::string>& axes, const std::vector<std::size_t>& at, bool points) {
     if (points)
-      return refuse(fmt::format("names points in space ({})", fmt::join(left_out_, ", ")),
+      return refuse(fmt::format("names points or lengths ({})", fmt::join(left_out_, ", ")),
                     "give the angles of the axes, one column each");
+    const bool long_form =
+        axes.size() == 1 && std::any_of(left_out_.begin(), left_out_.end(), [](const auto& name) {
+          return lower_case(name) == "name" || lower_case(name).ends_with("joint_name");
+        });
+    if (long_form)
+      return refuse("lists one joint per line (a column of names)",
+                    "give one column per axis, one line per pose");
     if (axes.empty() || axes.size() > most_axes)
       return refuse(fmt::format("names {} axes", axes.size()), "give one column per axis");
     const std::string wanted = answer(options_, "joints");
@@ -196,7 +204,11 @@ class Columns {
       whole &= value.has_value();
       return value.value_or(0);
     };
-    if (time_) made.time = number(*time_) * seconds_;
+    if (time_) {
+      const double time = number(*time_);
+      if (clock_ && rows_.empty()) seconds_ = unit_of_clock(time);
+      made.time = time * seconds_;
+    }
     for (std::size_t column : axes_) made.angles.push_back(number(column));
     if (whole && rows_.size() <= ImportLimits::instructions) rows_.push_back(std::move(made));
   }
@@ -246,6 +258,7 @@ class Columns {
   std::vector<std::size_t> axes_;  // columns, in the order of the robot's axes
   std::optional<std::size_t> time_;
   double seconds_ = 1;
+  bool clock_ = false;  // the unit of the time is told by the times
   std::vector<Row> rows_;
   char separator_ = ',';
   int number_ = 0, header_ = 0;

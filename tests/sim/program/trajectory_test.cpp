@@ -74,7 +74,7 @@ TEST_CASE("columns: the axes stand in the order of their names") {
 TEST_CASE("columns: points are no axes, and what is no angle is left out by name") {
   const Reading points = columns("time,x1,y1,z1,x2,y2,z2\n0,1,2,3,4,5,60\n");
   REQUIRE(points.problems.size() == 1);
-  CHECK(points.problems[0].what == "names points in space (x1, y1, z1, x2, y2, z2)");
+  CHECK(points.problems[0].what == "names points or lengths (x1, y1, z1, x2, y2, z2)");
   const Reading bag = columns(
       "%time,field.header.seq,field.header.stamp,field.name0,field.name1,field.position0,field.position1,"
       "field.velocity0,field.velocity1\n"
@@ -85,6 +85,24 @@ TEST_CASE("columns: points are no axes, and what is no angle is left out by name
   CHECK(bag.move(0).target.joints.size() == 2);
   CHECK(bag.move(1).speed.duration.value() == Approx(0.5).epsilon(rounding));  // %time counts nanoseconds
   CHECK(bag.program.skipped.size() == 6);
+}
+
+TEST_CASE("columns: a clock since 1970 is told by its digits") {
+  const auto duration = [](const std::string& name, const std::string& first, const std::string& second) {
+    return columns(name + ",a1_deg\n" + first + ",1\n" + second + ",2\n").move(1).speed.duration.value();
+  };
+  constexpr double clock = 1e-5;  // a double holds 1.7e18 ns to 256 ns
+  CHECK(duration("timestamp", "1740157761107442718", "1740157761207442718") == Approx(0.1).epsilon(clock));
+  CHECK(duration("timestamp", "1740157761107", "1740157761207") == Approx(0.1).epsilon(clock));
+  CHECK(duration("ros_time", "1740157761.1", "1740157761.2") == Approx(0.1).epsilon(clock));
+  CHECK(duration("time_ms", "0", "100") == Approx(0.1).epsilon(rounding));
+  CHECK(duration("time", "0", "100") == Approx(100).epsilon(rounding));
+}
+
+TEST_CASE("columns: lengths and one joint per line are no poses") {
+  CHECK(columns("q1_deg,q2_deg,q3_mm\n1,2,3\n").problems.at(0).what == "names points or lengths (q3_mm)");
+  CHECK(columns("ros_time,joint_name,position,velocity\n0,elbow,1,2\n").problems.at(0).what ==
+        "lists one joint per line (a column of names)");
 }
 
 TEST_CASE("ROS: joint_names give the order, and several trajectories are a question") {
