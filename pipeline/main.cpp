@@ -10,6 +10,8 @@
 #include <map>
 #include <thread>
 
+#include "pipeline/installation.h"
+#include "pipeline/program_manual.h"
 #include "pipeline/progress.h"
 #include "pipeline/report/report.h"
 #include "pipeline/stage.h"
@@ -48,8 +50,20 @@ class Lock {
   int descriptor_ = -1;
 };
 
+/// What a user names: a file, or an entry of the catalogue ("two_robots" of studies).
+fs::path named_file(const std::string& name, const char* shelf) {
+  std::error_code failure;
+  const bool is_name = fs::path(name).parent_path().empty() && fs::path(name).extension() != ".yaml";
+  if (!is_name || fs::is_regular_file(name, failure)) return name;
+  const fs::path shipped = shipped_catalogue() / shelf / (name + ".yaml");
+  if (fs::is_regular_file(shipped, failure)) return fs::proximate(shipped);
+  throw InputError({name},
+                   fmt::format("is no file, and {} holds no {}.yaml", shipped.parent_path().string(), name),
+                   "write the path of a YAML file");
+}
+
 StudyPlaces places_of(const Study& study, const Options& options) {
-  return {fs::path(options.out) / study.name, fs::read_symlink("/proc/self/exe").parent_path()};
+  return {fs::path(options.out) / study.name, program_folder()};
 }
 
 std::vector<JobResult> results_of(const Study& study, const StudyPlaces& places,
@@ -85,7 +99,7 @@ void share_cores(int at_a_time, std::size_t jobs) {
 }
 
 int run(const Options& options) {
-  const Study study = read_study(options.study, options.sets);
+  const Study study = read_study(named_file(options.study, "studies"), options.sets);
   const StudyPlaces places = places_of(study, options);
   const Lock lock(places.folder);
   write_build_graph(study, places);
@@ -120,7 +134,7 @@ std::map<std::string, std::string> unfinished_jobs(const Study& study, const Stu
 }
 
 int status(const Options& options) {
-  const Study study = read_study(options.study, options.sets);
+  const Study study = read_study(named_file(options.study, "studies"), options.sets);
   const StudyPlaces places = places_of(study, options);
   const bool begun = fs::is_directory(places.folder);
   const auto unfinished = begun ? unfinished_jobs(study, places) : std::map<std::string, std::string>{};
@@ -139,7 +153,7 @@ int status(const Options& options) {
 }
 
 int report(const Options& options) {
-  const Study study = read_study(options.study, options.sets);
+  const Study study = read_study(named_file(options.study, "studies"), options.sets);
   const StudyPlaces places = places_of(study, options);
   if (!fs::is_directory(places.folder))
     throw InputError({places.folder.string()}, "is not there (the study has not run)",
@@ -147,20 +161,22 @@ int report(const Options& options) {
   return publish(study, places, unfinished_jobs(study, places)) ? 1 : 0;
 }
 
-int manual(const Options& options) {
-  fmt::print("{}", options.what == "files" ? file_manual() : study_manual() + "\n" + job_manual());
+int manual(const CLI::App& app, const Options& options) {
+  if (options.what == "keys")
+    fmt::print("{}\n{}", study_manual(), job_manual());
+  else
+    fmt::print("{}", options.what == "files" ? file_manual() : program_manual(app, options.what));
   return 0;
 }
 
 int show(const Options& options) {
-  fmt::print("{}", job_text(read_job(options.study, options.sets)));
+  fmt::print("{}", job_text(read_job(named_file(options.study, "jobs"), options.sets)));
   return 0;
 }
 
 /// Becomes dresslife-import, which lies beside this program and takes the rest of the command line.
 int import_program(char** arguments) {
-  const std::string program =
-      (fs::read_symlink("/proc/self/exe").parent_path() / "dresslife-import").string();
+  const std::string program = (program_folder() / "dresslife-import").string();
   ::execv(program.c_str(), arguments);
   throw InputError({program}, "cannot be started", "install dresslife's programs into one folder");
 }
@@ -179,11 +195,11 @@ void add_common(CLI::App* command, Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app(
-      "How long does a robot's dresspack live under its programs, which wire breaks, where, and which motion "
-      "does it?\n\n"
-      "Example: dresslife run config/studies/two_robots.yaml",
+      std::string("How long does a robot's dresspack live under its programs, which wire breaks, where, and "
+                  "which motion does it?") +
+          example_mark + "dresslife run two_robots",
       "dresslife");
-  app.set_version_flag("--version", std::string("dresslife ") + DRESSLIFE_VERSION);
+  app.set_version_flag("--version", [] { return version_text("dresslife"); });
   app.require_subcommand(1);
 
   CLI::App* run_command =
@@ -191,7 +207,7 @@ int main(int argc, char** argv) {
   run_command->add_option("study", options.study, "STUDY.yaml")->required()->type_name("");
   run_command->add_option("-j,--jobs", options.jobs, "stages at a time")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+      ->default_str("one per core");
   run_command->add_flag("--quiet", options.quiet, "no progress, no notes");
   add_common(run_command, options);
   CLI::App* status_command =
@@ -211,11 +227,13 @@ int main(int argc, char** argv) {
   app.add_subcommand(
       "import",
       "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help");
-  CLI::App* manual_command =
-      app.add_subcommand("manual", "print the reference of all keys or of all files, as Markdown");
-  manual_command->add_option("what", options.what, "keys or files")
+  CLI::App* manual_command = app.add_subcommand(
+      "manual", "print a reference: of all keys or all files (Markdown), the man page, a shell's completion");
+  std::vector<std::string> references{"keys", "files"};
+  references.insert(references.end(), manual_kinds().begin(), manual_kinds().end());
+  manual_command->add_option("what", options.what, "which one")
       ->required()
-      ->check(CLI::IsMember({"keys", "files"}))
+      ->check(CLI::IsMember(references))
       ->type_name("");
 
   if (argc > 1 && std::string_view(argv[1]) == "import")
@@ -230,6 +248,6 @@ int main(int argc, char** argv) {
     if (status_command->parsed()) return status(options);
     if (report_command->parsed()) return report(options);
     if (show_command->parsed()) return show(options);
-    return manual(options);
+    return manual(app, options);
   });
 }

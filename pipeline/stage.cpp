@@ -4,7 +4,9 @@
 #include <cstdio>
 
 #include "pipeline/files/digest.h"
+#include "pipeline/installation.h"
 #include "pipeline/job/job.h"
+#include "pipeline/program_manual.h"
 #include "pipeline/threads.h"
 
 namespace dresslife::pipeline {
@@ -42,7 +44,7 @@ int run_stage(const StageInfo& info, int argc, char** argv,
               const std::function<void(const StageCall&, Progress&)>& body) {
   StageCall call;
   call.info = info;
-  CLI::App app(info.purpose + "\n\nExample: " + info.example, info.program);
+  CLI::App app(info.purpose + example_mark + info.example, info.program);
   std::string input, output, job_file;
   app.add_option("input", input, info.input)->required()->type_name("");
   app.add_option("-o,--output", output, "where to write " + info.output)
@@ -65,7 +67,17 @@ int run_stage(const StageInfo& info, int argc, char** argv,
           ->type_name(info.options[i].value)
           ->allow_extra_args(false);
   app.add_flag("--quiet", call.quiet, "no progress, no notes");
-  app.set_version_flag("--version", info.program + " " + DRESSLIFE_VERSION);
+  app.set_version_flag("--version", [&info] { return version_text(info.program); });
+  app.add_option_function<std::string>(
+         "--manual",
+         [&app](const std::string& kind) {
+           std::fputs(program_manual(app, kind).c_str(), stdout);
+           throw CLI::Success();
+         },
+         "print this program's man page, or its completion for a shell")
+      ->check(CLI::IsMember(manual_kinds()))
+      ->type_name(fmt::format("{}", fmt::join(manual_kinds(), "|")))
+      ->trigger_on_parse();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -124,7 +136,7 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
 
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier) {
   // The output's name stays out of the history: the same input gives the same bytes wherever they go.
-  std::string line = fmt::format("{} {}: {} {}", call.info.program, DRESSLIFE_VERSION, call.info.program,
+  std::string line = fmt::format("{} {}: {} {}", call.info.program, version(), call.info.program,
                                  call.input.filename().string());
   if (!call.job_file.empty()) line += " --job " + call.job_file.filename().string();
   for (const std::string& set : call.sets) line += " --set " + set;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double window_seconds = 3, window_share = 1.0 / 30;
 constexpr double least_step = 2e-4,
-                 most_step = 1e-2;  // beyond, chains were not tried (chain.md's runs: 1..10 ms)
+                 most_step = 1e-2;  // beyond, chains were not tried (1 to 10 ms were)
 constexpr double usual_step = 5e-3;
 
 void append_curvatures(const Rod& rod, const RodState& state, std::vector<double>& values) {

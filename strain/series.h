@@ -2,7 +2,7 @@
 // that the nested helices need (W6). Every level of nesting uses up one order: the child's rotation rate
 // needs the slope of its lay angle, which needs the slope of its parent's rotation rate.
 //
-// T is double or a pack of samples side by side (kernels_body.h). Orders are run-time numbers below
+// T is double or a pack of samples side by side (strain/kernels/body.h). Orders are run-time numbers below
 // `capacity`.
 //
 // The functions of this header and of helix.h are compiled once per instruction set (kernels.h) and therefore

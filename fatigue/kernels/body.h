@@ -1,4 +1,4 @@
-// The loop of lockstep.h for one instruction set. Included once by each lockstep_*.cpp, which names it
+// The loop of lockstep.h for one instruction set. Included once by baseline.cpp, avx2.cpp, .. , which names it
 // (pipeline/simd.h).
 #pragma once
 

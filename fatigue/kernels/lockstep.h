@@ -1,5 +1,5 @@
 // Repeating counting (F1) with stress (F3, F4) and damage of several histories at once, one in each lane of a
-// register: the innermost loop of the stage, compiled once per instruction set (lockstep_body.h).
+// register: the innermost loop of the stage, compiled once per instruction set (body.h).
 //
 // Neighbouring wires turn at the same samples and close the same loops nearly always, so one flow of control
 // serves all lanes: a step takes the next reversal of each, closes loops until no lane closes any, and opens

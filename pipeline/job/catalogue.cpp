@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "pipeline/installation.h"
 #include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/urdf.h"
@@ -19,12 +20,8 @@ struct Shelf {
 };
 constexpr Shelf shelves[] = {{"robot", "robots"}, {"motion", "programs"}, {"dresspack", "dresspacks"}};
 
-fs::path shipped_catalogue() {
-  if (const char* folder = std::getenv("DRESSLIFE_CONFIG")) return folder;
-  return DRESSLIFE_CONFIG_DIR;
-}
-
-std::vector<fs::path> search_folders(const std::string& folder, const Where& named_at, const Where& job) {
+/// Beside who names an entry and beside the job, and in their parents.
+std::vector<fs::path> folders_beside(const std::string& folder, const Where& named_at, const Where& job) {
   std::vector<fs::path> folders;
   std::error_code failure;
   for (const Where& origin : {named_at, job}) {
@@ -35,7 +32,6 @@ std::vector<fs::path> search_folders(const std::string& folder, const Where& nam
       if (here == here.root_path()) break;
     }
   }
-  folders.push_back(shipped_catalogue() / folder);
   return folders;
 }
 
@@ -229,13 +225,18 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
     return read_yaml((folder_of(named_at) / name).lexically_normal());
   std::vector<std::string> names;
-  for (const fs::path& place : search_folders(folder, named_at, job)) {
+  const auto found_in = [&](const fs::path& place) {
     std::error_code failure;
-    if (const fs::path file = place / (name + ".yaml"); fs::is_regular_file(file, failure))
-      return read_yaml(file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file));
+    const fs::path file = place / (name + ".yaml");
+    if (fs::is_regular_file(file, failure))
+      return file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file);
     for (const auto& item : fs::directory_iterator(place, failure))
       if (item.path().extension() == ".yaml") names.push_back(item.path().stem().string());
-  }
+    return fs::path();
+  };
+  for (const fs::path& place : folders_beside(folder, named_at, job))
+    if (const fs::path file = found_in(place); !file.empty()) return read_yaml(file);
+  if (const fs::path file = found_in(shipped_catalogue() / folder); !file.empty()) return read_yaml(file);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   throw InputError(named_at, fmt::format("'{}' is not in the catalogue (config/{})", name, folder),

@@ -35,7 +35,7 @@ constexpr int sign_of(Hand value) {
   return 0;
 }
 
-/// K equal parts on one helix, each of which may hold further layers of parts (physics.md 1).
+/// K equal parts on one helix, each of which may hold further layers of parts (strain/README.md).
 struct Component {
   std::string name;         ///< "signal cable"; parts are numbered "signal cable 1", ...
   std::string layer;        ///< set where several layers of parts share a name: "layer 1"; else empty

@@ -72,7 +72,7 @@ const Material& hose_material_of(const Job& job, const Dresspack& dresspack);
 /// Folders of the catalogue: "robots", "programs", "dresspacks", "materials". A name is looked up beside the
 /// file that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml; the working folder for
 /// --set), then in the same way beside the job (a study or --set may change a job of another place), then in
-/// the catalogue that comes with dresslife (the environment variable DRESSLIFE_CONFIG names another). Errors:
+/// the catalogue that comes with dresslife (installation.h: DRESSLIFE_CONFIG names another). Errors:
 /// InputError with the near names.
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
                      const Where& job);

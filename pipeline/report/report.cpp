@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "pipeline/errors.h"
+#include "pipeline/installation.h"
 #include "pipeline/job/document.h"
 #include "pipeline/readable.h"
 #include "pipeline/report/life_charts.h"
@@ -507,7 +508,7 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
   page += summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (detailed[i]) page += job_section(rows[i], i + 1);
-  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n</body>\n</html>\n", DRESSLIFE_VERSION);
+  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n</body>\n</html>\n", version());
 }
 
 void write_report(const std::filesystem::path& file, const std::string& study,

@@ -1,4 +1,4 @@
-// The hot loops, for one instruction set: included by kernels_*.cpp, each of which names it
+// The hot loops, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of which names it
 // (pipeline/simd.h). Needs every standard header it uses to be included before.
 #include "pipeline/simd.h"
 // simd.h declares what the templates below are used with

@@ -133,7 +133,7 @@ constexpr std::size_t part_state_rows(int order) { return 4 * (static_cast<std::
 /// Sixteen wires between two blocks of samples. Spare lanes repeat the first wire and write nothing.
 struct LaneState {
   alignas(64) float shape[waves_per_layer - 1][lanes];  ///< sin, cos, sin 2, cos 2 of each wire's angle
-  alignas(64) float edge[lanes];                        ///< of the hysteresis (kernels_turning.h)
+  alignas(64) float edge[lanes];                        ///< of the hysteresis (turning.h)
   alignas(64) float top_edge[lanes];  ///< the same, started from a peak, while wires are undecided
   alignas(64) float extreme[lanes];   ///< furthest strain since the last turn
   alignas(64) float top[lanes];       ///< highest strain of a wire that has not moved by the gate yet

@@ -1,5 +1,5 @@
 // Waves of layers that slide over their pitch without nodes (W27), for one instruction set: part of
-// kernels_body.h, which declares the state of a part before. Names as in sliding_layer.h.
+// body.h, which declares the state of a part before. Names as in sliding_layer.h.
 #pragma once
 
 #include "strain/sliding_layer.h"

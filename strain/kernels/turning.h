@@ -1,5 +1,5 @@
 // From strains to turning points, sixteen wires side by side (W14), for one instruction set: part of
-// kernels_body.h.
+// body.h.
 //
 // A wire that moves to and fro carries a slot of the gate's width g along, whose upper edge h only moves when
 // strain x pushes against one of its ends:

@@ -1,8 +1,88 @@
 // scripts/check guards the arrows between the rooms: a copy of the tree in which one is broken is refused.
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 
 #include "tests/cli/process.h"
 
-namespace fs = std::filesystem;
+using namespace dresslife::tests;
+
+namespace {
+
+const fs::path source = DRESSLIFE_SOURCE_DIR;
+
+/// Folders with code, and the pages, of the tree as it is.
+void copy_tree(const Scratch& scratch) {
+  for (const char* folder : {"sim", "strain", "fatigue", "pipeline", "config", "scripts", "tests", ".ci"})
+    fs::copy(source / folder, scratch / folder, fs::copy_options::recursive);
+  for (const auto& file : fs::directory_iterator(source))
+    if (file.is_regular_file()) fs::copy(file.path(), scratch / file.path().filename().string());
+}
+
+void add_line(const Scratch& scratch, const std::string& file, const std::string& line) {
+  REQUIRE(fs::exists(scratch / file));
+  scratch.write(file, content(scratch / file) + line + "\n");
+}
+
+Outcome check(const Scratch& scratch) {
+  const fs::path err = scratch / ".err";
+  const std::string command = "'" + (source / "scripts/check").string() + "' '" + scratch.folder().string() +
+                              "' >/dev/null 2>'" + err.string() + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", content(err)};
+}
+
+}  // namespace
+
+TEST_CASE("scripts/check passes on the tree as it is") {
+  Scratch scratch;
+  copy_tree(scratch);
+  const Outcome outcome = check(scratch);
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}
+
+TEST_CASE("scripts/check refuses what breaks an arrow, a home or a rule, and says where") {
+  struct Case {
+    std::string file, line, words;
+  };
+  const Case cases[] = {
+      {"strain/slip.cpp", "#include \"sim/rod/rod.h\"", "strain may include itself and: strain/kernels"},
+      {"sim/rod/rod.h", "#include \"sim/simulate.h\"", "sim/rod may include itself\n"},
+      {"sim/program/krl.cpp", "#include \"sim/robot/robot.h\"",
+       "sim/program may include itself and: sim/rod"},
+      {"fatigue/kernels/lockstep.h", "#include \"fatigue/damage.h\"",
+       "fatigue/kernels may include itself and: "},
+      {"pipeline/job/job.cpp", "#include \"pipeline/files/files.h\"",
+       "pipeline/job may include itself and: base"},
+      {"pipeline/threads.cpp", "#include \"pipeline/job/job.h\"",
+       "what every program shares includes a room"},
+      {"fatigue/damage.cpp", "#include <hdf5.h>", "'hdf5' is included outside its home"},
+      {"sim/simulate.cpp", "#include <ode/ode.h>", "'ode/' is included outside its home"},
+      {"strain/helix.h", "  printf(\"x\");", "printing or exiting outside a main"},
+      {"sim/README.md", "See [the rod](rod/gone.h).", "a page links to what is not there"},
+      {"README.md", "It lives in `sim/gone.cpp`.", "names a file that is not there"},
+  };
+  Scratch scratch;
+  copy_tree(scratch);
+  for (const Case& broken : cases) {
+    INFO(broken.file << ": " << broken.line);
+    const std::string before = content(scratch / broken.file);
+    add_line(scratch, broken.file, broken.line);
+    const Outcome outcome = check(scratch);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.rfind("scripts/check: error: ", 0) == 0);
+    INFO(outcome.err);
+    CHECK(outcome.err.find(broken.words) != std::string::npos);
+    CHECK(outcome.err.find(broken.file) != std::string::npos);
+    scratch.write(broken.file, before);
+  }
+  CHECK(check(scratch).status == 0);
+}
+
+TEST_CASE("scripts/check refuses a folder with code that it does not know") {
+  Scratch scratch;
+  copy_tree(scratch);
+  scratch.write("sim/attic/old.h", "#pragma once\n");
+  const Outcome outcome = check(scratch);
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find("sim/attic is no known room") != std::string::npos);
+}

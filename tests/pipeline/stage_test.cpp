@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "pipeline/files/digest.h"
+#include "pipeline/installation.h"
 #include "pipeline/job/job.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
@@ -111,7 +112,36 @@ TEST_CASE("stage: help and version go to standard output and end with 0") {
   CHECK(help.errors.empty());
   const Outcome version = run({"--version"});
   CHECK(version.status == 0);
-  CHECK(version.words == std::string("dresslife-sample ") + DRESSLIFE_VERSION + "\n");
+  CHECK(version.words == version_text("dresslife-sample") + "\n");
+}
+
+TEST_CASE(
+    "stage: the man page and the completions name every option, also of a stage alone, and need no input") {
+  StageInfo special = info;
+  special.options = {{"--assume", "LINE=then|else", "how a branch goes"}};
+  const auto manual = [&](const std::string& kind) {
+    const Outcome outcome = run(
+        {"--manual", kind}, [](const StageCall&) {}, special);
+    CHECK(outcome.status == 0);
+    CHECK_FALSE(outcome.ran);
+    CHECK(outcome.errors.empty());
+    return outcome.words;
+  };
+  const std::string man = manual("man"), bash = manual("bash"), zsh = manual("zsh");
+  for (const char* option : {"output", "job", "set", "assume", "quiet", "version", "manual", "help"}) {
+    INFO(option);
+    CHECK(man.find(std::string("\\-\\-") + option) != std::string::npos);
+    CHECK(bash.find(std::string(" --") + option) != std::string::npos);
+    CHECK(zsh.find(std::string("--") + option + "[") != std::string::npos);
+  }
+  CHECK(man.find(".SH NAME\ndresslife\\-sample \\- makes samples\n") != std::string::npos);
+  CHECK(man.find("\\fB\\-\\-assume\\fR \\fILINE=then|else\\fR\nhow a branch goes\n") != std::string::npos);
+  CHECK(man.find("dresslife\\-sample input.h5 \\-o output.h5\n.EE\n") != std::string::npos);
+  CHECK(zsh.find("'*--set[") != std::string::npos);            // may be given again
+  CHECK(zsh.find("'(--quiet)--quiet[") != std::string::npos);  // not again
+  const Outcome unknown = run({"--manual", "fish"});
+  CHECK(unknown.status == 2);
+  CHECK(unknown.errors.find("fish not in {man,bash,zsh}") != std::string::npos);
 }
 
 TEST_CASE("stage: the user's mistakes end with 1, ours with 3, each in one line") {
@@ -167,7 +197,7 @@ TEST_CASE(
   const FileReader reader(scratch / "out.h5", small_format());
   CHECK(reader.text_attribute("job") == job_text(job));
   CHECK(reader.text_attribute("history") ==
-        std::string("dresslife-sim 1: dresslife-sim job.yaml\ndresslife-sample ") + DRESSLIFE_VERSION +
+        std::string("dresslife-sim 1: dresslife-sim job.yaml\ndresslife-sample ") + pipeline::version() +
             ": dresslife-sample in.h5 --job j.yaml --set strain.gate=0.001");
   CHECK(reader.text_attribute("input_sha256") == sha256("abc"));
   write_stamped(scratch / "elsewhere.h5", call, job, "dresslife-sim 1: dresslife-sim job.yaml");

@@ -95,7 +95,7 @@ TEST_CASE("shipped programs: the dresspack goes through all of them on the IRB 6
                                   simulation.rod().bending_length(link));
     }});
     INFO(program);
-    CHECK(depth < 1e-3);   // what chain.md allows at 5 ms [m]
+    CHECK(depth < 1e-3);   // less than the hose's wall gives [m]
     CHECK(tension < 500);  // ten times the hose's weight [N]
     // Cells bend such hoses to radii of 250 to 600 mm; only the torture goes below, and it must not kink
     // [1/m].

@@ -10,7 +10,7 @@ namespace dresslife::sim {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// The deepest overlap that chain.md allows at 5 ms [m].
+/// [m] Contact holds speeds, so the hose may sink in a little: less than the wall of a real one gives.
 constexpr double deepest_overlap = 1e-3;
 
 struct Row {

@@ -167,7 +167,8 @@ std::vector<double> damage_of_sites(const Construction& construction, const Defo
 }  // namespace
 
 TEST_CASE("the damage of a wire is that of a plain reference in double precision without a gate") {
-  // The default gate, single precision, the waves' third harmonic and the tables together; asked for is 1e-3.
+  // The waves' third harmonic, 6e-5 of the range, to the ninth power as damage goes, and half as much again
+  // for the default gate, single precision and the tables.
   constexpr double damage_tolerance = 1e-3;
   Dresspack dresspack = thesis_dresspack();
   dresspack.components[0].count = 2;
@@ -199,7 +200,8 @@ TEST_CASE("the damage of a wire is that of a plain reference in double precision
 }
 
 TEST_CASE("the default gate changes no damage that counts by a thousandth") {
-  constexpr double asked = 1e-3, hardly_any_gate = 1e-6;
+  constexpr double unseen = 1e-3;  // of a life whose scatter from wire to wire is some tens of per cent
+  constexpr double hardly_any_gate = 1e-6;
   Dresspack dresspack = thesis_dresspack();
   dresspack.components[0].count = 2;
   const Construction construction(dresspack, Kinematics::exact);
@@ -220,7 +222,7 @@ TEST_CASE("the default gate changes no damage that counts by a thousandth") {
       if (all[k] > largest / 100) worst = std::max(worst, std::abs(gated[k] / all[k] - 1));
     CAPTURE(worst);
     CHECK(worst > 0);  // it does drop something
-    CHECK(worst < asked);
+    CHECK(worst < unseen);
   }
 }
 

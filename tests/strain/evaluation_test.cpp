@@ -133,7 +133,8 @@ double worst_difference(const Construction& construction, const SiteRows& rows, 
 
 constexpr std::size_t few_segments = 3, some_samples = 301;
 
-// The strain around a layer is kept to its second harmonic (W13); the issue allows 1e-3 of the range.
+// The strain around a layer is kept to its second harmonic (W13). The third, as a share of the range: 6e-5 in
+// the thesis' dresspack.
 constexpr double wave_tolerance = 1e-4;
 
 double centre(std::size_t segment) { return (segment + 0.5) * 2.0 / few_segments; }
@@ -171,7 +172,10 @@ TEST_CASE("the waves keep their accuracy at lay angles of 30 degrees and fat wir
       construction, results.sites, few_segments, [&](const auto& links, std::size_t segment, std::size_t t) {
         return glued_strain(construction, links, centre(segment), history, segment, t);
       });
-  CHECK(difference < 1e-3);  // what the issue allows; ordinary constructions stay below wave_tolerance
+  // The third harmonic grows with lay angle and thickness. A life goes with about the ninth power of strain,
+  // so this much is a hundredth of it: nothing beside the scatter from wire to wire.
+  constexpr double steep_tolerance = 1e-3;
+  CHECK(difference < steep_tolerance);
 }
 
 TEST_CASE("free components have the mean of their glued strain and keep their own bending") {

@@ -15,8 +15,10 @@ using Eigen::VectorXd;
 using pipeline::PathKind;
 
 constexpr double pi = std::numbers::pi;
-constexpr double limit_margin = 1e-9;  // what the issue asks: no limit exceeded by more than this
-constexpr double rounding = 1e-12;     // of a few products of numbers near 1
+/// [rad/s, rad/s2] Roundings of 1e-16 in angles of up to 10 rad, divided by the shortest times, some ms, once
+/// or twice.
+constexpr double limit_margin = 1e-9;
+constexpr double rounding = 1e-12;  // of a few products of numbers near 1
 
 pipeline::Robot arm(double speed = 2, double acceleration = 8) {
   pipeline::Robot robot = small_arm();

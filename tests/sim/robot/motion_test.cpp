@@ -9,7 +9,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// What the issue asks: no limit exceeded by more than this [rad/s, rad/s2].
+/// [rad/s, rad/s2] Roundings of 1e-16 in angles of up to 10 rad, divided by the shortest times, some ms, once
+/// or twice.
 constexpr double limit_margin = 1e-9;
 /// Times of up to 100 s and angles of up to 10 rad, some tens of roundings.
 constexpr double rounding = 1e-12;

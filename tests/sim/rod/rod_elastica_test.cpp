@@ -53,7 +53,7 @@ TEST_CASE("a heavy cantilever hangs as measured and computed by Romero et al.") 
   };
   for (const auto& [weight, expected] : cases) {
     CAPTURE(weight);
-    const double tolerance = 5e-4;  // chain.md's figure at 32; above third order from there on
+    const double tolerance = 5e-4;  // at 32, measured; falls with the third order at least
     CHECK(ratio(weight, 32) == Approx(expected).epsilon(tolerance));
     CHECK(ratio(weight, 64) == Approx(expected).epsilon(tolerance / 8));
   }
@@ -73,7 +73,7 @@ TEST_CASE("an end moment of 2 pi EI/L closes a circle with the same curvature at
     REQUIRE(e.status == EquilibriumStatus::converged);
     state = e.state;
   }
-  const double rounding = 1e-6;  // chain.md's figure; the links see the same moment, so only residuals remain
+  const double rounding = 1e-6;  // the links see the same moment, so only the search's residual is left
   for (int j = 0; j < 40; ++j) CHECK(curvature(rod, state, j) == Approx(2 * pi).epsilon(rounding));
   // n chords of turned segments: the polygon closes but for the free end's missing half link, of order l^2.
   CHECK(rod.tip(state).norm() < 2 * pi / (40.0 * 40.0));
@@ -94,7 +94,7 @@ TEST_CASE("uniform twist between clamps, three turns of it, is equal at every li
     REQUIRE(e.negative_pivots == 0);
     state = e.state;
   }
-  const double tolerance = 1e-6;  // chain.md
+  const double tolerance = 1e-6;  // what the search's residual, 1e-8 of the moment, may leave in one link
   double largest = 0, smallest = 1e9;
   for (int j = 0; j <= n; ++j) {
     const double twist = rod.link_state(state, j).turn.z() / rod.bending_length(j);
@@ -125,7 +125,7 @@ TEST_CASE("uniform bend between clamps is equal at every link") {
   const ClampFrames clamps{planar_frame(0, 0, 0), planar_frame(joint.x(), joint.z(), angle)};
   const Equilibrium e = find_equilibrium(rod, clamps);
   REQUIRE(e.status == EquilibriumStatus::converged);
-  const double tolerance = 1e-6;  // chain.md
+  const double tolerance = 1e-6;  // what the search's residual, 1e-8 of the moment, may leave in one link
   for (int j = 0; j <= n; ++j) CHECK(curvature(rod, e.state, j) == Approx(moment).epsilon(tolerance));
   // The true arc's clamps differ from these, and so do the curvatures, by an eighth of (kappa l)^2/12.
   const ClampFrames arc{planar_frame(0, 0, 0),
