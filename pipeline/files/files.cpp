@@ -213,10 +213,8 @@ struct FileWriter::Impl {
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_chunk(creation, static_cast<int>(shape.size()), chunk.data());
     H5Pset_obj_track_times(creation, false);
-    if (made.description->deflate || made.description->lists) {
-      H5Pset_shuffle(creation);
-      H5Pset_deflate(creation, 1);
-    }
+    if (made.description->deflate) H5Pset_shuffle(creation);
+    if (made.description->deflate || made.description->lists) H5Pset_deflate(creation, 1);
     if (made.description->decimals) {
       H5Pset_fill_value(creation, made.file_type, nullptr);  // a defined one would need a number of its own
       H5Pset_scaleoffset(creation, H5Z_SO_FLOAT_DSCALE, *made.description->decimals);
