@@ -1,5 +1,8 @@
 // Numbers in as few bits as a chunk of them needs, byte for byte as HDF5's scale-offset filter stores them:
-// every HDF5 library reads such a dataset as plain numbers, and this code does it many times faster.
+// every HDF5 library reads such a dataset as plain numbers, and this code does it many times faster. The 114
+// million turning points of a glued job of 0.8 G wire-samples, which takes 4.4 s in all: 0.25 s to write and
+// 0.1 s to read 258 MB; HDF5's own filter 3.2 and 1.9 s; libdeflate 3.3 s and 341 MB, or 2.6 s and 233 MB of
+// whole numbers, which the format does not have; as they are 454 MB (Xeon, one core, busy machine).
 //
 // A chunk is 21 bytes of header and a bit stream. Header: bits per number b (4 bytes), the number 8 (1 byte),
 // the smallest number m (8 bytes, a float in the first 4), 8 zeros; all little-endian. Stream: round((x - m)
