@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
       .purpose = "Tells how long every wire of a dresspack lives, and which breaks first.",
       .input = "strain.h5",
       .output = "life.h5",
-      .example = "dresslife-fatigue strain.h5 -o life.h5 --set fatigue.stress=elastic"};
+      .example = "dresslife-fatigue strain.h5 -o life.h5 --set fatigue.stress=elastic",
+      .part = pipeline::Part::fatigue};
   return pipeline::run_stage(
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
         const pipeline::FileReader strain(call.input, pipeline::strain_format());

@@ -1,16 +1,20 @@
 // dresslife: runs studies, tells how they stand, reports their results and prints the manual.
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
+#include <cstring>
 #include <thread>
 
 #include "pipeline/installation.h"
+#include "pipeline/limits.h"
 #include "pipeline/program_manual.h"
 #include "pipeline/progress.h"
 #include "pipeline/report/report.h"
@@ -29,24 +33,50 @@ struct Options {
   std::vector<std::string> sets;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool quiet = false;
+  StageLimits limits{24 * 3600, installed_memory_mb()};  // a day, and what the machine has
 };
 
-/// One run at a time in a study's folder; released when the program ends, however it ends.
+void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+/// One run at a time in a study's folder. The stages that a run starts hold the lock with it: while one of
+/// them lives nobody else writes there.
 class Lock {
  public:
   explicit Lock(const fs::path& folder) {
     fs::create_directories(folder);
     const fs::path file = folder / ".lock";
-    descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
-      throw InputError({folder.string()}, "is in use by another run, or cannot be written",
-                       "wait for it, or choose another folder with -o");
+    descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_NOFOLLOW, 0644);  // passes to the stages
+    if (descriptor_ < 0)
+      throw InputError({folder.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
+                       "mend its permissions, or choose another folder with -o");
+    wait(folder);
+    const std::string own = std::to_string(::getpid()) + "\n";
+    if (::ftruncate(descriptor_, 0) != 0 ||
+        ::pwrite(descriptor_, own.data(), own.size(), 0) != static_cast<ssize_t>(own.size()))
+      throw InputError({folder.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
+                       "free space on the disk, or choose another folder with -o");
   }
   ~Lock() { ::close(descriptor_); }
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
  private:
+  /// Stages of a run that was broken off end with it, a moment later.
+  void wait(const fs::path& folder) const {
+    constexpr auto most = std::chrono::milliseconds(10'000), pause = std::chrono::milliseconds(20);
+    for (auto waited = most - most;; waited += pause) {
+      if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+      char owner[32] = "";
+      const bool told = ::pread(descriptor_, owner, sizeof owner - 1, 0) > 0;
+      const long process = std::strtol(owner, nullptr, 10);
+      const bool lives =
+          !told || process <= 0 || ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
+      if (lives || waited >= most)
+        throw InputError({folder.string()}, fmt::format("is in use by another run (process {})", process),
+                         "wait for it, or choose another folder with -o");
+      std::this_thread::sleep_for(pause);
+    }
+  }
   int descriptor_ = -1;
 };
 
@@ -66,29 +96,28 @@ StudyPlaces places_of(const Study& study, const Options& options) {
   return {fs::path(options.out) / study.name, program_folder()};
 }
 
-std::vector<JobResult> results_of(const Study& study, const StudyPlaces& places,
-                                  const std::map<std::string, std::string>& failures) {
+/// Only what is done is read; of the others the ranking says how they stand.
+std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
+                                   const std::vector<JobState>& states) {
   std::vector<JobResult> results;
-  for (const StudyJob& job : study.jobs) {
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const StudyJob& job = study.jobs[k];
     JobResult result{job.name, places.life(job.name), job.failure};
-    if (const auto failed = failures.find(job.name); failed != failures.end())
-      result.failure = failed->second;
+    if (job.failure.empty() && !states[k].done())
+      result.failure = states[k].failure.empty() ? states[k].words() : states[k].failure;
     results.push_back(std::move(result));
   }
-  return results;
+  return read_ranking(results);
 }
 
-/// Writes ranking.csv and report.html and prints the table. Returns the number of failed jobs.
-int publish(const Study& study, const StudyPlaces& places,
-            const std::map<std::string, std::string>& failures) {
-  const std::vector<JobResult> results = results_of(study, places, failures);
-  const std::vector<RankingRow> rows = read_ranking(results);
-  write_text_if_changed(places.folder / "ranking.csv", ranking_csv(rows));
-  write_report(places.folder / "report.html", study.name, rows);
-  fmt::print("{}", ranking_table(rows));
-  fmt::print("\nReport: {}\n", (places.folder / "report.html").string());
+int count_failed(const std::vector<RankingRow>& rows) {
   return static_cast<int>(
       std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); }));
+}
+
+void write_results(const Study& study, const StudyPlaces& places, const std::vector<RankingRow>& rows) {
+  write_text_if_changed(places.folder / "ranking.csv", ranking_csv(rows));
+  write_report(places.folder / "report.html", study.name, rows);
 }
 
 /// A study with fewer jobs than cores lets each stage use several.
@@ -98,79 +127,105 @@ void share_cores(int at_a_time, std::size_t jobs) {
   ::setenv("DRESSLIFE_THREADS", std::to_string(std::max<std::size_t>(each, 1)).c_str(), keep);
 }
 
+/// Makes what is not up to date and brings `states` up to date. Returns how many stages were started.
+int make_rest(const Study& study, const StudyPlaces& places, const Options& options,
+              std::vector<JobState>& states) {
+  Progress progress(study.name, options.quiet);
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    if (!study.jobs[k].failure.empty()) continue;
+    left += !states[k].done();
+    if (!states[k].damaged.empty())
+      progress.note(fmt::format("{}: {}", places.job(study.jobs[k].name).string(), states[k].words()));
+  }
+  write_build_graph(study, places, states, options.limits);
+  if (left == 0) return 0;
+  share_cores(options.jobs, left);
+  const BuildResult built = run_build_graph(places, options.jobs, [&](const BuildEvent& event) {
+    progress.show(fmt::format("{}/{}  {}", event.finished, event.total, event.what));
+  });
+  progress.clear();
+  if (!built.words.empty())
+    tell(fmt::format("{}: error: {}; run again\n", places.folder.string(), built.words));
+  close_run(study, places, built, states);
+  return built.executed;
+}
+
 int run(const Options& options) {
   const Study study = read_study(named_file(options.study, "studies"), options.sets);
   const StudyPlaces places = places_of(study, options);
   const Lock lock(places.folder);
-  write_build_graph(study, places);
-  Progress progress(study.name, options.quiet);
-  share_cores(options.jobs, study.jobs.size());
-  const BuildResult built = run_build_graph(places, options.jobs, false, [&](const BuildEvent& event) {
-    progress.show(fmt::format("{}/{}  {}", event.finished, event.total, event.what));
-  });
-  progress.clear();
-  join_logs(study, places);
-  progress.note(built.executed ? fmt::format("{}: {} stages ran", study.name, built.executed)
-                               : fmt::format("{}: nothing to do", study.name));
-  const int failed = publish(study, places, built.failures);
+  std::vector<JobState> states = states_of(study, places);
+  const int executed = make_rest(study, places, options, states);
+  if (!options.quiet)
+    tell(executed ? fmt::format("{}: {} stages ran\n", study.name, executed)
+                  : fmt::format("{}: nothing to do\n", study.name));
+  const std::vector<RankingRow> rows = ranking_of(study, places, states);
+  write_results(study, places, rows);
+  print(
+      shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
+  const int failed = count_failed(rows);
   if (failed == 0) return 0;
-  fmt::print(
-      stderr,
+  tell(fmt::format(
       "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",
-      options.study, failed, study.jobs.size());
+      options.study, failed, study.jobs.size()));
   return 1;
-}
-
-/// Jobs whose results are not those of the study as it is now written, each with the reason.
-std::map<std::string, std::string> unfinished_jobs(const Study& study, const StudyPlaces& places) {
-  std::map<std::string, std::string> reasons;
-  const Lock lock(places.folder);
-  write_build_graph(study, places);
-  const std::vector<std::string> pending = run_build_graph(places, 1, true, {}).pending;
-  for (const StudyJob& job : study.jobs)
-    if (std::find(pending.begin(), pending.end(), job.name) != pending.end())
-      reasons[job.name] = pending_state(job, places);
-  return reasons;
 }
 
 int status(const Options& options) {
   const Study study = read_study(named_file(options.study, "studies"), options.sets);
-  const StudyPlaces places = places_of(study, options);
-  const bool begun = fs::is_directory(places.folder);
-  const auto unfinished = begun ? unfinished_jobs(study, places) : std::map<std::string, std::string>{};
+  const std::vector<JobState> states = states_of(study, places_of(study, options));
   std::size_t done = 0;
-  for (const StudyJob& job : study.jobs) {
-    std::string word = begun ? "done" : "to do";
-    if (!job.failure.empty())
-      word = "failed   " + job.failure;
-    else if (const auto reason = unfinished.find(job.name); reason != unfinished.end())
-      word = reason->second;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const StudyJob& job = study.jobs[k];
+    const std::string word = job.failure.empty() ? states[k].words() : "failed   " + job.failure;
     done += word == "done";
-    fmt::print("{:<40} {}\n", job.name, word);
+    print(shown(fmt::format("{:<40} {}\n", job.name, word)));
   }
-  fmt::print("{} of {} jobs done\n", done, study.jobs.size());
+  print(fmt::format("{} of {} jobs done\n", done, study.jobs.size()));
   return 0;
 }
 
+/// Prints the ranking of what is done. The files of the study's folder are brought up to date where they
+/// would hold what a run would write; with results of other settings among the jobs they stay those of the
+/// last run.
 int report(const Options& options) {
   const Study study = read_study(named_file(options.study, "studies"), options.sets);
   const StudyPlaces places = places_of(study, options);
   if (!fs::is_directory(places.folder))
     throw InputError({places.folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
-  return publish(study, places, unfinished_jobs(study, places)) ? 1 : 0;
+  const std::vector<JobState> states = states_of(study, places);
+  const std::vector<RankingRow> rows = ranking_of(study, places, states);
+  print(shown(ranking_table(rows)));
+  const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
+    return !state.done() && state.failure.empty() && !state.recipes[0].empty();
+  });
+  std::string kept;
+  if (open > 0)
+    kept = fmt::format("{} jobs are not done with these settings", open);
+  else if (::access(places.folder.c_str(), W_OK) != 0)
+    kept = "the folder cannot be written";
+  if (kept.empty()) {
+    write_results(study, places, rows);
+    print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
+  } else {
+    tell(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
+                     places.folder.string(), kept));
+  }
+  return count_failed(rows) ? 1 : 0;
 }
 
 int manual(const CLI::App& app, const Options& options) {
   if (options.what == "keys")
-    fmt::print("{}\n{}", study_manual(), job_manual());
+    print(study_manual() + "\n" + job_manual());
   else
-    fmt::print("{}", options.what == "files" ? file_manual() : program_manual(app, options.what));
+    print(options.what == "files" ? file_manual() : program_manual(app, options.what));
   return 0;
 }
 
 int show(const Options& options) {
-  fmt::print("{}", job_text(read_job(named_file(options.study, "jobs"), options.sets)));
+  print(job_text(read_job(named_file(options.study, "jobs"), options.sets)));
   return 0;
 }
 
@@ -193,6 +248,7 @@ void add_common(CLI::App* command, Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  settle_streams();
   Options options;
   CLI::App app(
       std::string("How long does a robot's dresspack live under its programs, which wire breaks, where, and "
@@ -208,6 +264,15 @@ int main(int argc, char** argv) {
   run_command->add_option("-j,--jobs", options.jobs, "stages at a time")
       ->check(CLI::Range(1, 1024))
       ->default_str("one per core");
+  run_command
+      ->add_option("--job-time", options.limits.seconds, "let no stage of a job take longer; 0: no limit")
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  run_command
+      ->add_option("--job-memory", options.limits.megabytes,
+                   "let no stage of a job take more memory; 0: no limit")
+      ->type_name("MB")
+      ->default_str("all of the machine's");
   run_command->add_flag("--quiet", options.quiet, "no progress, no notes");
   add_common(run_command, options);
   CLI::App* status_command =
@@ -241,13 +306,13 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
+    return finish_output(app.exit(problem) == 0 ? 0 : 2);
   }
-  return guarded("dresslife", [&] {
+  return finish_output(guarded("dresslife", [&] {
     if (run_command->parsed()) return run(options);
     if (status_command->parsed()) return status(options);
     if (report_command->parsed()) return report(options);
     if (show_command->parsed()) return show(options);
     return manual(app, options);
-  });
+  }));
 }

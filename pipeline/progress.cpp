@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "pipeline/limits.h"
+
 namespace dresslife::pipeline {
 
 Progress::Progress(std::string label, bool quiet)
@@ -24,7 +26,7 @@ void Progress::show(const std::string& words) { draw(words); }
 
 void Progress::draw(const std::string& words) {
   if (quiet_ || !terminal_) return;
-  fmt::print(stderr, "\r\033[K{}  {}", label_, words);
+  std::fputs(fmt::format("\r\033[K{}  {}", shown(label_), shown(words)).c_str(), stderr);
   std::fflush(stderr);
   drawn_ = true;
 }
@@ -32,12 +34,12 @@ void Progress::draw(const std::string& words) {
 void Progress::note(const std::string& line) {
   if (quiet_) return;
   clear();
-  fmt::print(stderr, "{}\n", line);
+  tell(line + "\n");
 }
 
 void Progress::clear() {
   if (!drawn_) return;
-  fmt::print(stderr, "\r\033[K");
+  std::fputs("\r\033[K", stderr);
   std::fflush(stderr);
   drawn_ = false;
 }

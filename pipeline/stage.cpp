@@ -1,11 +1,20 @@
 #include "pipeline/stage.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <chrono>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <system_error>
+#include <thread>
 
+#include "pipeline/files/checksum.h"
 #include "pipeline/files/digest.h"
+#include "pipeline/files/receipt.h"
 #include "pipeline/installation.h"
 #include "pipeline/job/job.h"
+#include "pipeline/limits.h"
 #include "pipeline/program_manual.h"
 #include "pipeline/threads.h"
 
@@ -24,35 +33,129 @@ const char* part_name(Part part) {
   return "";
 }
 
-void check_output(const StageCall& call) {
-  std::error_code failure;
+/// A result that a user can make again at any time: ours, or nothing yet.
+bool may_be_replaced(const StageCall& call) {
+  const FileState state = state_of(call.output);
+  if (!state.exists() || state.size == 0) return true;
+  if (call.info.part) return is_dresslife_file(call.output);
+  return read_text(call.output).find("source: imported from ") != std::string::npos;
+}
+
+void check_output(const StageCall& call, bool force) {
   if (call.info.may_lack_output && call.output.empty()) return;
-  if (std::filesystem::is_directory(call.output, failure))
-    throw InputError({call.output.string()}, "is a folder (the output must be a file)",
-                     "name a file after -o");
-  if (std::filesystem::equivalent(call.input, call.output, failure))
-    throw InputError({call.output.string()}, "is the input itself", "name another output after -o");
+  check_replaceable(call.output);
+  std::error_code failure;
+  for (const auto& [input, state] : call.inputs)
+    if (std::filesystem::equivalent(input, call.output, failure))
+      throw InputError({call.output.string()},
+                       input == call.input ? "is the input itself" : "is one of the files that are read",
+                       "name another output after -o");
   const auto folder = call.output.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder, failure))
     throw InputError({call.output.string()}, "lies in a folder that does not exist",
                      fmt::format("make {} first", folder.string()));
+  if (!force && !may_be_replaced(call))
+    throw InputError({call.output.string()},
+                     fmt::format("is there already and no {} of {}'s", call.info.output, call.info.program),
+                     "name another file after -o, or replace it with --force");
+}
+
+/// A change from now on shows in the state: the clock of file times has moved on since the last one.
+FileState settled_state(const std::filesystem::path& file) {
+  constexpr auto tick = std::chrono::milliseconds(10);  // of the slowest kernels
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t age = std::chrono::nanoseconds(now).count() - state_of(file).changed_ns;
+  if (age >= 0 && age < std::chrono::nanoseconds(tick).count()) std::this_thread::sleep_for(tick);
+  return state_of(file);
+}
+
+void check_inputs_unchanged(const StageCall& call) {
+  for (const auto& [file, before] : call.inputs)
+    if (state_of(file) != before)
+      throw InputError({file.string()}, fmt::format("has changed while {} ran", call.info.program),
+                       "run it again");
+}
+
+/// The settings that this stage's result depends on, and the files beside them.
+struct Settings {
+  std::string text;
+  std::vector<std::filesystem::path> files;
+};
+Settings settings_of(const StageCall& call) {
+  const Job job = read_job(call.info.input_is_job ? call.input : call.job_file, call.sets);
+  return {part_text(job, *call.info.part),
+          *call.info.part == Part::sim ? files_beside(job) : std::vector<std::filesystem::path>{}};
+}
+
+/// Runs the body unless the receipt says that the output is made already.
+void run_with_receipt(const StageCall& call, const std::filesystem::path& receipt_file,
+                      const Settings& settings, const std::function<void()>& body) {
+  Digests digests;
+  Receipt wanted;
+  wanted.recipe =
+      recipe_of(settings.text, settings.files, std::filesystem::read_symlink("/proc/self/exe"), digests);
+  wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
+  const std::optional<Receipt> known = read_receipt(receipt_file);
+  const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
+                    is_as_noted(*known, call.output);
+  if (made) {
+    wanted.output = known->output;
+  } else {
+    std::filesystem::remove(receipt_file);  // it tells of a file that is about to go
+    body();
+    wanted.output = told_checksum(call.output).value_or("damaged");
+  }
+  check_inputs_unchanged(call);
+  write_receipt(receipt_file, wanted, call.output);
+}
+
+/// What only the command line of a stage says.
+struct StageFlags {
+  bool force = false;
+  std::filesystem::path receipt;
+  std::uint64_t seconds = 0, megabytes = 0;
+};
+
+void run_body(StageCall& call, const StageFlags& flags,
+              const std::function<void(const StageCall&, Progress&)>& body) {
+  limit_time(call.info.program, flags.seconds);
+  limit_memory(flags.megabytes);
+  Progress progress(call.info.program, call.quiet);
+  const auto watch = [&](const std::filesystem::path& file) {
+    call.inputs.emplace_back(file, settled_state(file));
+  };
+  watch(call.input);
+  if (!call.job_file.empty()) watch(call.job_file);
+  std::optional<Settings> settings;
+  if (call.info.part && (call.info.input_is_job || !call.job_file.empty())) settings = settings_of(call);
+  if (settings)
+    for (const std::filesystem::path& file : settings->files) watch(file);
+  check_output(call, flags.force);
+  if (!call.info.input_is_job)  // jobs are short
+    call.input_sha256 = beside<std::string>([file = call.input] { return sha256_of_file(file); }).share();
+  if (flags.receipt.empty()) return body(call, progress);
+  run_with_receipt(call, flags.receipt, *settings, [&] { body(call, progress); });
 }
 
 }  // namespace
 
 int run_stage(const StageInfo& info, int argc, char** argv,
               const std::function<void(const StageCall&, Progress&)>& body) {
+  settle_streams();
+  end_with_parent();
   StageCall call;
+  StageFlags flags;
   call.info = info;
   CLI::App app(info.purpose + example_mark + info.example, info.program);
-  std::string input, output, job_file;
+  std::string input, output, job_file, receipt;
+  CLI::Option* job = nullptr;
   app.add_option("input", input, info.input)->required()->type_name("");
   app.add_option("-o,--output", output, "where to write " + info.output)
       ->required(!info.may_lack_output)
       ->type_name("FILE");
   if (!info.input_is_job)
-    app.add_option("--job", job_file, "take the settings from this job instead of the one in the input")
-        ->type_name("JOB.yaml");
+    job = app.add_option("--job", job_file, "take the settings from this job instead of the one in the input")
+              ->type_name("JOB.yaml");
   app.add_option("--set", call.sets,
                  "override a key of the job, for example simulation.segments=80; may be repeated")
       ->type_name("KEY.PATH=VALUE")
@@ -66,6 +169,16 @@ int run_stage(const StageInfo& info, int argc, char** argv,
       app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)
           ->type_name(info.options[i].value)
           ->allow_extra_args(false);
+  app.add_flag("--force", flags.force, "replace an output that is no " + info.output);
+  if (info.part) {
+    CLI::Option* noted =
+        app.add_option("--receipt", receipt,
+                       "note there from what the output is made, and make it only when that has changed")
+            ->type_name("FILE");
+    if (job) noted->needs(job);
+  }
+  app.add_option("--job-time", flags.seconds, "give up after so long")->type_name("SECONDS");
+  app.add_option("--job-memory", flags.megabytes, "take no more memory than this")->type_name("MB");
   app.add_flag("--quiet", call.quiet, "no progress, no notes");
   app.set_version_flag("--version", [&info] { return version_text(info.program); });
   app.add_option_function<std::string>(
@@ -81,40 +194,49 @@ int run_stage(const StageInfo& info, int argc, char** argv,
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
+    return finish_output(app.exit(problem) == 0 ? 0 : 2);
   }
   call.input = input;
   call.output = output;
   call.job_file = job_file;
-
+  flags.receipt = receipt;
   return guarded(info.program, [&] {
-    Progress progress(info.program, call.quiet);
-    check_output(call);
-    if (!info.input_is_job)  // jobs are short
-      call.input_sha256 = beside<std::string>([file = call.input] { return sha256_of_file(file); }).share();
-    body(call, progress);
+    run_body(call, flags, body);
     return 0;
   });
+}
+
+int finish_output(int status) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good()) return status;
+  tell(fmt::format("standard output: error: cannot be written ({}); free space or name another place\n",
+                   std::strerror(errno)));
+  return std::max(status, 1);
 }
 
 int guarded(const std::string& program, const std::function<int()>& body) {
   try {
     return body();
   } catch (const InputError& problem) {
-    fmt::print(stderr, "{}\n", problem.what());
+    tell(fmt::format("{}\n", problem.what()));
     return 1;
   } catch (const std::filesystem::filesystem_error& problem) {
-    fmt::print(stderr, "{}: error: {}; check the folder and its permissions\n", problem.path1().string(),
-               problem.code().message());
+    tell(fmt::format("{}: error: {}; check the folder and its permissions\n", problem.path1().string(),
+                     problem.code().message()));
     return 1;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "{}: error: out of memory; run fewer jobs at a time or ask for fewer segments or samples\n",
-               program);
+    tell(
+        fmt::format("{}: error: out of memory; run fewer jobs at a time, ask for fewer segments or samples, "
+                    "or allow more\n",
+                    program));
+    return 3;
+  } catch (const std::system_error& problem) {
+    tell(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits\n",
+                     program, problem.what()));
     return 3;
   } catch (const std::exception& problem) {
-    fmt::print(stderr, "{}: error: internal fault ({}); please report it with the job\n", program,
-               problem.what());
+    tell(fmt::format("{}: error: internal fault ({}); please report it with the job\n", program,
+                     problem.what()));
     return 3;
   }
 }
@@ -135,6 +257,7 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
 }
 
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier) {
+  check_inputs_unchanged(call);
   // The output's name stays out of the history: the same input gives the same bytes wherever they go.
   std::string line = fmt::format("{} {}: {} {}", call.info.program, version(), call.info.program,
                                  call.input.filename().string());

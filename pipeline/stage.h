@@ -7,11 +7,14 @@
 #include <filesystem>
 #include <functional>
 #include <future>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/files/files.h"
 #include "pipeline/progress.h"
+#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 
@@ -34,6 +37,7 @@ struct StageInfo {
   bool input_is_job = false;     ///< the input is the job itself; other stages take --job
   bool may_lack_output = false;  ///< without -o nothing is written
   std::vector<StageOption> options = {};
+  std::optional<Part> part = {};  ///< of the job, on which the result depends; nothing: no stage of a study
 };
 
 struct StageCall {
@@ -44,9 +48,11 @@ struct StageCall {
   std::vector<std::vector<std::string>> options;  ///< values given for each of info.options
   bool quiet = false;
   std::shared_future<std::string> input_sha256{};  ///< worked out beside the stage, for the stamp
+  std::vector<std::pair<std::filesystem::path, FileState>> inputs{};  ///< files that are read, as they began
 };
 
-/// Parses the command line, runs `body`, words what it throws. Returns the exit status.
+/// Parses the command line, runs `body`, words what it throws. Returns the exit status. With --receipt, the
+/// body is only run when the output is not yet what it would make (files/receipt.h).
 int run_stage(const StageInfo& info, int argc, char** argv,
               const std::function<void(const StageCall&, Progress&)>& body);
 
@@ -54,13 +60,17 @@ int run_stage(const StageInfo& info, int argc, char** argv,
 /// failure.
 int guarded(const std::string& program, const std::function<int()>& body);
 
+/// The exit status of a program that has printed to standard output: `status`, unless what it printed is
+/// lost.
+int finish_output(int status);
+
 /// The settings of a stage whose input is a file: of --job, else of the file's `job` attribute; then --set.
 /// Errors: InputError also when the job differs from the file's in a part of an earlier stage (`before`),
 /// because the file then does not hold what the job asks for.
 Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before);
 
 /// Writes the root attributes `job`, `history` and `input_sha256`. earlier: history of the input file, "" for
-/// none.
+/// none. Called last before commit(): Errors: InputError when an input has changed since the stage began.
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier);
 
 }  // namespace dresslife::pipeline

@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -39,8 +41,15 @@ void in_parallel(std::size_t parts, const std::function<void(std::size_t)>& work
     }
   };
   std::vector<std::thread> others;
-  for (std::size_t part = 1; part < parts; ++part) others.emplace_back(guarded, part);
+  std::size_t started = std::min<std::size_t>(parts, 1);
+  try {
+    others.reserve(parts);
+    for (; started < parts; ++started) others.emplace_back(guarded, started);
+  } catch (const std::system_error&) {  // no more threads here: this one does what is left
+  } catch (const std::bad_alloc&) {
+  }
   if (parts > 0) guarded(0);
+  for (; started < parts; ++started) guarded(started);
   for (std::thread& other : others) other.join();
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);

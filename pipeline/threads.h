@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <future>
+#include <system_error>
 
 namespace dresslife::pipeline {
 
@@ -14,7 +15,8 @@ namespace dresslife::pipeline {
 std::size_t thread_count();
 
 /// Calls work(part) for every part below `parts` at the same time, the first on the caller's own thread, and
-/// returns when all are done. An exception of a part is thrown here, of the lowest part that threw.
+/// returns when all are done. Parts for which the system has no thread are done on the caller's own, one
+/// after the other. An exception of a part is thrown here, of the lowest part that threw.
 void in_parallel(std::size_t parts, const std::function<void(std::size_t)>& work);
 
 /// Calls work(part, k) once for every k below `count`, on `threads` threads (part: which), and use(k) on the
@@ -29,7 +31,11 @@ void in_order(std::size_t threads, std::size_t count, std::size_t ahead,
 /// result is asked for.
 template <class T>
 std::future<T> beside(const std::function<T()>& work) {
-  return std::async(thread_count() > 1 ? std::launch::async : std::launch::deferred, work);
+  try {
+    if (thread_count() > 1) return std::async(std::launch::async, work);
+  } catch (const std::system_error&) {  // no more threads here
+  }
+  return std::async(std::launch::deferred, work);
 }
 
 }  // namespace dresslife::pipeline

@@ -4,7 +4,9 @@
 #include <charconv>
 #include <cstdio>
 
+#include "pipeline/limits.h"
 #include "pipeline/stage.h"
+#include "pipeline/whole_file.h"
 #include "sim/program/explain.h"
 #include "sim/program/import.h"
 
@@ -88,7 +90,7 @@ int main(int argc, char** argv) {
         if (!call.options[explain].empty())
           for (const std::string& line : sim::explanation(program)) fmt::print("{}\n", line);
         if (!call.quiet)
-          for (const std::string& line : sim::skipped_lines(program)) fmt::print(stderr, "{}\n", line);
+          for (const std::string& line : sim::skipped_lines(program)) pipeline::tell(line + "\n");
         if (call.output.empty()) return;
         pipeline::write_text_if_changed(call.output, pipeline::motion_text(sim::motion_of(program, asked)));
         progress.note(

@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
       .input = "JOB.yaml",
       .output = "motion.h5",
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
-      .input_is_job = true};
+      .input_is_job = true,
+      .part = pipeline::Part::sim};
   return pipeline::run_stage(info, argc, argv,
                              [](const pipeline::StageCall& call, pipeline::Progress& progress) {
                                const pipeline::Job job = pipeline::read_job(call.input, call.sets);

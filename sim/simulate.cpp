@@ -24,6 +24,26 @@ constexpr double exact_lead = 0.1;  // share of the repeat that leads in that ha
 /// one.
 int intervals(double duration, double rate) { return static_cast<int>(std::ceil(duration * rate - 1e-9)); }
 
+/// Before memory or time is spent on it. A repeat's liveliness is held step by step, 8 bytes each, its
+/// samples are written with 136 bytes a segment and more.
+void check_size(const pipeline::Job& job, double duration, int segments) {
+  constexpr double most_steps = 1e8, most_values = 1e9;  // 0.8 GB of memory, 140 GB of disk
+  const pipeline::Simulation& settings = job.simulation;
+  const double steps = duration / settings.time_step, values = duration * settings.sample_rate * segments;
+  if (!(steps <= most_steps))
+    throw InputError(
+        job.motion.where,
+        fmt::format("one repeat of the motion takes {:.6g} s, {:.3g} steps of {:.4g} ms (at most {:.0e})",
+                    duration, steps, 1e3 * settings.time_step, most_steps),
+        "look for a long dwell or many repeats, or choose a longer simulation.time_step_ms");
+  if (!(values <= most_values))
+    throw InputError(
+        job.motion.where,
+        fmt::format("one repeat of the motion takes {:.6g} s: {:.3g} samples of {} segments, {:.0f} GB",
+                    duration, duration * settings.sample_rate, segments, 136e-9 * values),
+        "choose a lower simulation.sample_rate_Hz or fewer segments, or split the motion");
+}
+
 std::vector<MotionLimits> limits_of(const pipeline::Job& job) {
   std::vector<MotionLimits> limits;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks)
@@ -36,6 +56,7 @@ std::vector<MotionLimits> limits_of(const pipeline::Job& job) {
 Simulation::Simulation(const pipeline::Job& job) : job_(job), rod_(rod_of(job_)), path_(path_of(job_)) {
   if (job_.simulation.choose_time_step) job_.simulation.time_step = first_step(job_.simulation.sample_rate);
   robot_ = dynamic_cast<RobotPath*>(path_.get());
+  check_size(job_, path_->duration(), rod_.segments());
   description_.samples = intervals(path_->duration(), job_.simulation.sample_rate) + 1;
   for (const pipeline::MountedDresspack& mounted : job_.dresspacks)
     description_.dresspacks.push_back(mounted.name);
@@ -167,8 +188,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
   summary.time_step = settings.time_step;
   bool choose = settings.choose_time_step;
   std::unique_ptr<World> world;
-  if (summary.returns && !choose && settings.most_repeats > 1)
-    world = led_in(sinks);
+  if (summary.returns && !choose && settings.most_repeats > 1) world = led_in(sinks);
   summary.repeats = world ? 2 : 1;
   if (!world) world = world_at(start_, path_->at(0), summary.time_step);
   for (bool first = true;; first = false, ++summary.repeats) {  // (R8)

@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
       .purpose = "Tells what every wire of a dresspack feels while the robot moves.",
       .input = "motion.h5",
       .output = "strain.h5",
-      .example = "dresslife-strain motion.h5 -o strain.h5 --set strain.slip=stick"};
+      .example = "dresslife-strain motion.h5 -o strain.h5 --set strain.slip=stick",
+      .part = pipeline::Part::strain};
   return pipeline::run_stage(
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
         const pipeline::FileReader motion(call.input, pipeline::motion_format());

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <xxhash.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <vector>
 
 #include "pipeline/errors.h"
+#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -40,16 +43,62 @@ std::string sha256(std::string_view bytes) {
   return digest.hex();
 }
 
-std::string sha256_of_file(const std::filesystem::path& file) {
+namespace {
+
+constexpr std::size_t block_bytes = 1 << 20;
+
+/// Gives a file's bytes to `digest`, block by block.
+template <class Digest>
+std::string digest_of_file(const std::filesystem::path& file, Digest&& digest) {
   std::ifstream in(file, std::ios::binary);
   // A folder opens like a file and fails on the first read.
   if (!in || (in.peek(), in.bad())) throw InputError({file.string()}, "cannot be read", "check the path");
   in.clear();
-  Sha256 digest;
-  std::vector<char> block(1 << 20);
+  std::vector<char> block(block_bytes);
   while (in) {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
     digest.add(block.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) throw InputError({file.string()}, "cannot be read to its end", "check the disk");
+  return digest.hex();
+}
+
+}  // namespace
+
+std::string sha256_of_file(const std::filesystem::path& file) { return digest_of_file(file, Sha256()); }
+
+struct Xxh3::State {
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> xxh{XXH3_createState(), XXH3_freeState};
+};
+
+Xxh3::Xxh3() : state_(std::make_unique<State>()) {
+  if (!state_->xxh || XXH3_128bits_reset(state_->xxh.get()) != XXH_OK) throw std::bad_alloc();
+}
+Xxh3::~Xxh3() = default;
+void Xxh3::add(const void* bytes, std::size_t count) {
+  if (count > 0) XXH3_128bits_update(state_->xxh.get(), bytes, count);
+}
+std::string Xxh3::hex() const {
+  const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh.get());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string xxh3(std::string_view bytes) {
+  Xxh3 digest;
+  digest.add(bytes.data(), bytes.size());
+  return digest.hex();
+}
+
+std::string xxh3_of_file(const std::filesystem::path& file) { return digest_of_file(file, Xxh3()); }
+
+std::string xxh3_of_range(int descriptor, std::uint64_t begin, std::uint64_t end) {
+  Xxh3 digest;
+  std::vector<char> block(block_bytes);
+  for (std::uint64_t at = begin; at < end;) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), end - at));
+    if (!read_at(descriptor, block.data(), count, at)) return "";
+    digest.add(block.data(), count);
+    at += count;
   }
   return digest.hex();
 }

@@ -1,16 +1,21 @@
 #include "pipeline/files/files.h"
 
+#include <fcntl.h>
 #include <hdf5.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <utility>
 
+#include "pipeline/files/checksum.h"
+#include "pipeline/files/file_driver.h"
 #include "pipeline/files/list_deflate.h"
 #include "pipeline/files/scale_offset.h"
-#include "pipeline/job/document.h"
+#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -19,6 +24,8 @@ constexpr std::size_t chunk_bytes = 1 << 16;  // one write call and one chunk: l
 constexpr std::size_t packed_chunk_rows =
     1 << 15;  // fewer calls; the range of values, hence their bits, hardly grows
 static_assert(packed_chunk_rows <= ListDeflater::most_numbers);
+constexpr std::size_t most_chunk_bytes = 64
+                                         << 20;  // one is held unpacked; other programs write 1 MB and less
 
 /// An HDF5 identifier that closes itself.
 class Handle {
@@ -46,7 +53,21 @@ class Handle {
   Close close_ = nullptr;
 };
 
-void silence_library() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void silence_library() {
+  H5dont_atexit();  // nothing is left open, and a library out of memory stumbles over itself
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// The library says of everything that it failed; too little memory is another matter than a damaged file.
+void throw_if_out_of_memory() {
+  const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
+    if (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) *static_cast<bool*>(found) = true;
+    return 0;
+  };
+  bool found = false;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &found);
+  if (found) throw std::bad_alloc();
+}
 
 std::size_t size_of(Type type) {
   switch (type) {
@@ -153,18 +174,29 @@ struct FileWriter::Impl {
     std::size_t row_values = 1, value_bytes = 0, rows = 0, chunk_rows = 1;
     std::vector<char> buffer;
   };
-  std::filesystem::path final_name, part;
+  WholeFile whole;
   const Format* format = nullptr;
   Handle file;
   std::map<std::string, Open> open;  // ordered: same calls, same bytes
   std::map<std::string, std::size_t> axes, text_widths;
   std::vector<char> packed;  // the chunk being written
   ListDeflater deflater;
-  bool committed = false;
+  std::string checksum;  // once committed
 
+  Impl(std::filesystem::path final_name, const Format& of) : whole(std::move(final_name)), format(&of) {}
+
+  /// Closes what the library holds before the file goes; where it is not wanted, nothing more is written.
+  ~Impl() {
+    whole.give_up();
+    open.clear();
+    file.reset();
+  }
+
+  /// The disk never lets a call of the library fail (file_driver.h): memory may, else the fault is ours.
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError({final_name.string()}, "cannot be written (" + what + ")",
-                     "check the folder and the space on the disk");
+    whole.check();
+    throw_if_out_of_memory();
+    throw std::logic_error(whole.final_name().string() + ": HDF5 refuses " + what);
   }
 
   std::size_t axis_length(const std::string& text) const {
@@ -240,6 +272,7 @@ struct FileWriter::Impl {
   }
 
   void put(Open& target, const void* bytes, std::size_t count) {
+    whole.check();  // an hour of work for a full disk would be lost
     const char* begin = static_cast<const char*>(bytes);
     target.buffer.insert(target.buffer.end(), begin, begin + count);
     if (target.description->packed())
@@ -365,33 +398,27 @@ struct FileWriter::Impl {
   }
 };
 
-FileWriter::FileWriter(std::filesystem::path file, const Format& format) : impl_(std::make_unique<Impl>()) {
+FileWriter::FileWriter(std::filesystem::path file, const Format& format) {
   silence_library();
-  impl_->final_name = std::move(file);
-  impl_->part = impl_->final_name;
-  impl_->part += ".part";
-  impl_->format = &format;
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  impl_ = std::make_unique<Impl>(std::move(file), format);
+  const Handle access(access_for_writing(impl_->whole), H5Pclose);
   // The 1.8 layout lets attributes (the job's text) exceed 64 KiB.
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false);
-  impl_->file = Handle(H5Fcreate(impl_->part.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
-  if (!impl_->file.valid()) impl_->fail("the file cannot be created");
+  H5Pset_userblock(creation, checksum_block_bytes);
+  impl_->file =
+      Handle(H5Fcreate(impl_->whole.final_name().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
+  if (!impl_->file.valid()) impl_->fail("a new file");
   attribute("format", format.name);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle version(
       H5Acreate2(impl_->file, "format_version", H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  H5Awrite(version, H5T_NATIVE_INT, &format.version);
+  if (!version.valid() || H5Awrite(version, H5T_NATIVE_INT, &format.version) < 0)
+    impl_->fail("attribute format_version");
 }
 
-FileWriter::~FileWriter() {
-  if (impl_->committed) return;
-  impl_->open.clear();
-  impl_->file.reset();
-  std::error_code ignored;
-  std::filesystem::remove(impl_->part, ignored);
-}
+FileWriter::~FileWriter() = default;
 
 void FileWriter::set_axis(const std::string& axis, std::size_t length) { impl_->axes[axis] = length; }
 void FileWriter::set_text_width(const std::string& dataset, std::size_t bytes) {
@@ -425,11 +452,16 @@ void FileWriter::dataset_attribute(const std::string& dataset, const std::string
 void FileWriter::commit() {
   for (auto& [path, target] : impl_->open) impl_->flush(target);
   impl_->check_whole();
+  for (auto& [path, target] : impl_->open)
+    if (target.id.reset() < 0) impl_->fail("dataset " + path);
   impl_->open.clear();
   if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0 || impl_->file.reset() < 0) impl_->fail("the last bytes");
-  keep_if_changed(impl_->part, impl_->final_name);
-  impl_->committed = true;
+  impl_->whole.check();
+  impl_->checksum = write_checksum(impl_->whole);
+  impl_->whole.commit();
 }
+
+const std::string& FileWriter::checksum() const { return impl_->checksum; }
 
 // ---- reading ----------------------------------------------------------------------------------------------
 
@@ -443,11 +475,14 @@ struct FileReader::Impl {
   };
   std::filesystem::path name;
   const Format* format = nullptr;
+  InputBytes bytes;  // closed after the library has let go of it
   Handle file;
   std::map<std::string, Open> open;
   std::map<std::string, std::size_t> axes;
+  std::string checksum;
 
   [[noreturn]] void fail(const std::string& what) const {
+    throw_if_out_of_memory();
     throw InputError({name.string()}, what, fmt::format("make the file anew with {}", format->made_by));
   }
 
@@ -499,6 +534,9 @@ struct FileReader::Impl {
         if (description.may_be_absent) return;
         fail(fmt::format("dataset {} is missing", description.path));
       }
+      H5L_info_t link{};
+      if (H5Lget_info(file, way.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
+        fail(fmt::format("{} is a link (the data must lie in the file itself)", way));
       if (slash == std::string::npos) break;
     }
     Open made;
@@ -507,6 +545,7 @@ struct FileReader::Impl {
     if (!made.id.valid()) fail(fmt::format("{} is not a dataset or is damaged", description.path));
     check_type(made);
     check_shape(made);
+    check_storage(made);
     if (description.decimals) made.packed_rows = packed_rows_of(made);
     open.emplace(description.path, std::move(made));
   }
@@ -534,7 +573,8 @@ struct FileReader::Impl {
     made.lengths.resize(shape.size());
     H5Sget_simple_extent_dims(space, made.lengths.data(), nullptr);
     for (std::size_t i = 0; i < shape.size(); ++i) {
-      if (i) made.row_values *= made.lengths[i];
+      if (i && __builtin_mul_overflow(made.row_values, made.lengths[i], &made.row_values))
+        fail(fmt::format("dataset {} is too large", made.description->path));
       const Axis axis(shape[i]);
       if (axis.fixed ? made.lengths[i] != axis.fixed : made.lengths[i] < axis.plus)
         fail(fmt::format("dataset {} has length {} (must be {})", made.description->path, made.lengths[i],
@@ -545,6 +585,37 @@ struct FileReader::Impl {
         fail(fmt::format("dataset {} has {} values along '{}' (others have {})", made.description->path,
                          made.lengths[i], shape[i], entry->second + axis.plus));
     }
+  }
+
+  /// All values are in the file. What its tables promise beyond that the library would make up, as zeros, in
+  /// as much memory as they say.
+  void check_storage(const Open& made) const {
+    const std::string& path = made.description->path;
+    const Handle creation(H5Dget_create_plist(made.id), H5Pclose);
+    const Handle type(H5Dget_type(made.id), H5Tclose);
+    const Handle space(H5Dget_space(made.id), H5Sclose);
+    hsize_t bytes = H5Tget_size(type);
+    for (const hsize_t length : made.lengths)
+      if (__builtin_mul_overflow(bytes, length, &bytes)) fail(fmt::format("dataset {} is too large", path));
+    const H5D_layout_t layout = H5Pget_layout(creation);
+    if (H5Pget_external_count(creation) != 0 || layout == H5D_VIRTUAL)
+      fail(fmt::format("dataset {} lies in other files (the data must lie in the file itself)", path));
+    if (bytes == 0) return;
+    if (layout != H5D_CHUNKED) {
+      if (H5Dget_storage_size(made.id) != bytes) fail(fmt::format("dataset {} was never filled", path));
+      return;
+    }
+    std::vector<hsize_t> chunk(made.lengths.size());
+    H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
+    hsize_t needed = 1, found = 0, chunk_size = H5Tget_size(type);
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      needed *= (made.lengths[i] + chunk[i] - 1) / chunk[i];
+      chunk_size *= chunk[i];
+    }
+    if (chunk_size > most_chunk_bytes)
+      fail(fmt::format("dataset {} has chunks of {} bytes", path, chunk_size));
+    if (H5Dget_num_chunks(made.id, space, &found) < 0 || found != needed)
+      fail(fmt::format("dataset {} has {} of its {} chunks (the file is damaged)", path, found, needed));
   }
 
   /// Rows of a chunk if it is packed as this program does it; other layouts of the same numbers go through
@@ -637,9 +708,11 @@ void FileWriter::copy(const FileReader& from, const std::string& dataset) {
       description.type != source.description->type || description.shape.size() != source.lengths.size())
     throw std::logic_error("dataset " + dataset + " cannot be copied");
   impl_->make_groups(dataset);
-  if (H5Ocopy(from.impl_->file, dataset.c_str(), impl_->file, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
-    from.impl_->fail(
-        fmt::format("dataset {} cannot be copied (the file is damaged, or the disk full)", dataset));
+  if (H5Ocopy(from.impl_->file, dataset.c_str(), impl_->file, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT) <
+      0) {
+    impl_->whole.check();
+    from.impl_->fail(fmt::format("dataset {} cannot be copied (the file is damaged)", dataset));
+  }
   Impl::Open& made = impl_->open[dataset];
   made.description = &description;
   made.rows = source.lengths[0];
@@ -656,7 +729,12 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
   if (!std::filesystem::is_regular_file(file, failure))
     throw InputError({file.string()}, "is not there",
                      fmt::format("check the path, or make it with {}", format.made_by));
-  impl_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const std::string remedy = fmt::format("make the file anew with {}", format.made_by);
+  impl_->bytes = InputBytes(file);
+  impl_->checksum = impl_->bytes.read_checksum(remedy);
+  if (scope == Scope::everything) impl_->bytes.check(impl_->checksum, remedy);
+  const Handle access(access_for_reading(impl_->bytes.descriptor()), H5Pclose);
+  impl_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("is not an HDF5 file, or is cut off");
   impl_->check_format();
   if (scope == Scope::everything)
@@ -744,5 +822,19 @@ std::string FileReader::dataset_attribute(const std::string& dataset, const std:
 }
 
 Where FileReader::where() const { return {impl_->name.string()}; }
+
+const std::string& FileReader::checksum() const { return impl_->checksum; }
+
+bool is_dresslife_file(const std::filesystem::path& file) {
+  silence_library();
+  if (begins_with_checksum(file)) return true;
+  const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!opened.valid() || H5Aexists(opened, "format") <= 0) return false;
+  const Handle attribute(H5Aopen(opened, "format", H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute), H5Tclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return false;
+  std::string format(H5Tget_size(type), '\0');
+  return H5Aread(attribute, type, format.data()) >= 0 && format.starts_with("dresslife-");
+}
 
 }  // namespace dresslife::pipeline

@@ -61,8 +61,9 @@ std::string file_manual();
 
 class FileReader;
 
-/// Writes FILE.part and, on commit(), makes it FILE; without commit() nothing stays behind.
-/// Errors: InputError when the file cannot be created or the disk is full.
+/// Writes a file that is whole or absent (pipeline/whole_file.h): on commit() it gets its name, without
+/// commit() nothing stays behind. Its first 512 bytes hold a checksum of all others (checksum.h). Errors:
+/// InputError when the file cannot be created or the disk is full, at the next call or in commit().
 class FileWriter {
  public:
   FileWriter(std::filesystem::path file, const Format& format);
@@ -92,18 +93,22 @@ class FileWriter {
   void dataset_attribute(const std::string& dataset, const std::string& name, const std::string& value);
 
   void commit();
+  const std::string& checksum() const;  ///< of the committed file (checksum.h)
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// Opens a file and checks it against its format: name, version, datasets, ranks, lengths and units. Reads
-/// check for non-finite values. Errors: InputError, one line.
+/// Opens a file and checks it: every byte against its checksum, then against its format: name, version,
+/// datasets, ranks, lengths and units, and that every value lies in the file. Reads check for non-finite
+/// values. Files without a checksum, of other programs or older versions, are read, too. Errors: InputError,
+/// one line.
 class FileReader {
  public:
   enum class Scope { everything, attributes };
-  /// attributes: leaves the datasets alone, for who gathers a few numbers from many files.
+  /// attributes: leaves the datasets and the checksum over all bytes alone, for who gathers a few numbers
+  /// from many files; the library has a checksum of its own for attributes.
   FileReader(const std::filesystem::path& file, const Format& format, Scope scope = Scope::everything);
   ~FileReader();
   FileReader(const FileReader&) = delete;
@@ -138,12 +143,16 @@ class FileReader {
   double number_attribute(const std::string& name) const;
   std::string dataset_attribute(const std::string& dataset, const std::string& name) const;
 
-  Where where() const;  ///< the file, for messages
+  Where where() const;                  ///< the file, for messages
+  const std::string& checksum() const;  ///< of the file (checksum.h); empty: it has none
 
  private:
   friend class FileWriter;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Whether a file was made by one of our stages, whole or not.
+bool is_dresslife_file(const std::filesystem::path& file);
 
 }  // namespace dresslife::pipeline

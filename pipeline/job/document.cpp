@@ -1,7 +1,5 @@
 #include "pipeline/job/document.h"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
@@ -10,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <unordered_set>
 
 namespace dresslife::pipeline {
 namespace {
@@ -41,19 +40,21 @@ class Converter {
       for (const auto& item : from) node.items.push_back(convert(item, depth + 1));
     } else if (from.IsMap()) {
       node.kind = Node::Kind::map;
-      for (const auto& pair : from) add_entry(node, pair.first, pair.second, depth);
+      std::unordered_set<std::string> keys;
+      for (const auto& pair : from) add_entry(node, keys, pair.first, pair.second, depth);
     }
     return node;
   }
 
  private:
-  void add_entry(Node& map, const YAML::Node& key, const YAML::Node& value, int depth) {
+  void add_entry(Node& map, std::unordered_set<std::string>& keys, const YAML::Node& key,
+                 const YAML::Node& value, int depth) {
     const Where where = place(key.Mark(), file_);
     if (!key.IsScalar()) throw InputError(where, "a key must be a word", "write 'key: value'");
     if (key.Scalar() == "<<")
       throw InputError(where, "merge keys (<<) are not supported",
                        "write 'from: NAME' to start from a catalogue entry");
-    if (map.find(key.Scalar()))
+    if (!keys.insert(key.Scalar()).second)
       throw InputError(where, fmt::format("duplicate key '{}'", key.Scalar()), "keep one of the two");
     Node converted = convert(value, depth + 1);
     // A value that is not there lies, for the library, where the next line begins.
@@ -143,28 +144,6 @@ void emit(YAML::Emitter& out, const Node& node) {
   }
 }
 
-void sync(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
-bool same_bytes(const std::filesystem::path& one, const std::filesystem::path& other) {
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(other, failure)) return false;
-  if (std::filesystem::file_size(one, failure) != std::filesystem::file_size(other, failure)) return false;
-  std::ifstream a(one, std::ios::binary), b(other, std::ios::binary);
-  std::vector<char> block_a(1 << 20), block_b(1 << 20);
-  while (a && b) {
-    a.read(block_a.data(), block_a.size());
-    b.read(block_b.data(), block_b.size());
-    if (a.gcount() != b.gcount() || std::memcmp(block_a.data(), block_b.data(), a.gcount()) != 0)
-      return false;
-  }
-  return a.eof() && b.eof();
-}
-
 }  // namespace
 
 const Node* Node::find(std::string_view key) const {
@@ -224,42 +203,23 @@ std::filesystem::path folder_of(const Where& where) {
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file))
+  constexpr std::uintmax_t longest = 256 << 20;  // [bytes]; a day of recorded poses takes 100 MB
+  const std::filesystem::file_status status = std::filesystem::status(file);
+  if (std::filesystem::is_directory(status))
     throw InputError({file.string()}, "is a folder, not a file", "name a file");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError({file.string()}, "is a device or a pipe, not a file", "save it as a file first");
   std::ifstream in(file, std::ios::binary);
   if (!in)
     throw InputError({file.string()}, fmt::format("cannot be read ({})", std::strerror(errno)),
                      "check the path");
+  if (const auto size = std::filesystem::file_size(file); size > longest)
+    throw InputError({file.string()}, fmt::format("has {} bytes (at most {} are read)", size, longest),
+                     "split it, or leave out what is not needed");
   std::ostringstream text;
   text << in.rdbuf();
+  if (in.bad()) throw InputError({file.string()}, "cannot be read to its end", "check the disk");
   return text.str();
-}
-
-void keep_if_changed(const std::filesystem::path& part, const std::filesystem::path& final_name, Sync when) {
-  if (same_bytes(part, final_name)) {
-    std::filesystem::remove(part);
-    return;
-  }
-  if (when == Sync::now) sync(part);
-  std::filesystem::rename(part, final_name);
-  if (when == Sync::never) return;
-  const auto folder = final_name.parent_path();
-  sync(folder.empty() ? "." : folder);
-}
-
-void write_text_if_changed(const std::filesystem::path& file, const std::string& text, Sync when) {
-  if (!file.parent_path().empty()) std::filesystem::create_directories(file.parent_path());
-  auto part = file;
-  part += ".part";
-  {
-    std::ofstream out(part, std::ios::binary | std::ios::trunc);
-    out << text;
-    out.close();
-    if (!out)
-      throw InputError({file.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
-                       "free space on the disk or choose another place");
-  }
-  keep_if_changed(part, file, when);
 }
 
 }  // namespace dresslife::pipeline

@@ -49,20 +49,8 @@ std::string to_yaml(const Node& node);
 /// The folder that file names written at a place are relative to: the file's, or the current one for `--set`.
 std::filesystem::path folder_of(const Where& where);
 
-/// The whole of a text file. Errors: InputError when it cannot be read.
+/// The whole of a text file. Errors: InputError when it cannot be read, is no plain file (a pipe may never
+/// end) or is longer than any text that a person or a controller writes.
 std::string read_text(const std::filesystem::path& file);
-
-/// Whether a file's bytes reach the disk before its final name does. What every run compares and mends anyway
-/// needs no sync, and ten thousand jobs have forty thousand such files.
-enum class Sync { now, never };
-
-/// Writes a whole text file under its final name or not at all; leaves it untouched when it holds just that
-/// text.
-void write_text_if_changed(const std::filesystem::path& file, const std::string& text, Sync when = Sync::now);
-
-/// Makes `.part` the final file: synced, then renamed; when the final file holds the same bytes, `.part`
-/// goes.
-void keep_if_changed(const std::filesystem::path& part, const std::filesystem::path& final_name,
-                     Sync when = Sync::now);
 
 }  // namespace dresslife::pipeline

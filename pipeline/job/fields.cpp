@@ -275,6 +275,12 @@ class FieldReader final : public Fields {
           node.where,
           fmt::format("{} is {} (must be {}{})", name_of(key), node.text, range.text(), unit_note(key)),
           fmt::format("give {}", meaning));
+    const Unit& unit = unit_of_key(key);
+    if (std::abs(*value) > unit.most || (range.low_excluded && range.low == 0 && *value < unit.least()))
+      throw InputError(node.where,
+                       fmt::format("{} is {} (its size must be {} .. {}{})", name_of(key), node.text,
+                                   range.low_excluded ? unit.least() : 0.0, unit.most, unit_note(key)),
+                       fmt::format("give {}", meaning));
     return *value;
   }
 

@@ -4,37 +4,38 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr Unit dimensionless{"", "", 1};
+constexpr Unit dimensionless{"", "", 1, 1e12};
 constexpr std::array units{
-    Unit{"m", "m", 1},
-    Unit{"mm", "mm", 1e-3},
-    Unit{"deg", "deg", degree},
-    Unit{"deg_per_s", "deg/s", degree},
-    Unit{"deg_per_s2", "deg/s2", degree},
-    Unit{"mm_per_s", "mm/s", 1e-3},
-    Unit{"mm_per_s2", "mm/s2", 1e-3},
-    Unit{"s", "s", 1},
-    Unit{"ms", "ms", 1e-3},
-    Unit{"Hz", "Hz", 1},
-    Unit{"m_per_s2", "m/s2", 1},
-    Unit{"1_per_m", "1/m", 1},
-    Unit{"deg_per_m", "deg/m", degree},
-    Unit{"kg", "kg", 1},
-    Unit{"kg_per_m", "kg/m", 1},
-    Unit{"N", "N", 1},
-    Unit{"N_per_m", "N/m", 1},
-    Unit{"Ns_per_m", "N s/m", 1},
-    Unit{"Nm2", "N m2", 1},
-    Unit{"MPa", "MPa", 1e6},
-    Unit{"GPa", "GPa", 1e9},
-    Unit{"percent", "%", 1},
-    Unit{"hours_per_week", "h/week", 1},
+    Unit{"m", "m", 1, 1e3},  // a hall
+    Unit{"mm", "mm", 1e-3, 1e6},
+    Unit{"deg", "deg", degree, 1e6},          // 2,800 turns of an endless axis
+    Unit{"deg_per_s", "deg/s", degree, 1e5},  // a grinding spindle
+    Unit{"deg_per_s2", "deg/s2", degree, 1e7},
+    Unit{"mm_per_s", "mm/s", 1e-3, 1e6},
+    Unit{"mm_per_s2", "mm/s2", 1e-3, 1e8},
+    Unit{"s", "s", 1, 1e6},  // twelve days of one repeat
+    Unit{"ms", "ms", 1e-3, 1e9},
+    Unit{"Hz", "Hz", 1, 1e5},
+    Unit{"m_per_s2", "m/s2", 1, 1e3},  // a hundred times the earth's
+    Unit{"1_per_m", "1/m", 1, 1e4},
+    Unit{"deg_per_m", "deg/m", degree, 1e6},
+    Unit{"kg", "kg", 1, 1e5},
+    Unit{"kg_per_m", "kg/m", 1, 1e4},
+    Unit{"N", "N", 1, 1e10},  // E A of a steel bar of 0.25 m
+    Unit{"N_per_m", "N/m", 1, 1e10},
+    Unit{"Ns_per_m", "N s/m", 1, 1e8},
+    Unit{"Nm2", "N m2", 1, 1e7},  // E I of the same bar
+    Unit{"MPa", "MPa", 1e6, 1e7},
+    Unit{"GPa", "GPa", 1e9, 1e4},  // diamond: 1e3
+    Unit{"percent", "%", 1, 1e6},
+    Unit{"hours_per_week", "h/week", 1, 168},
 };
 
 }  // namespace
@@ -61,7 +62,7 @@ std::string text_in_unit(double si, const Unit& unit) {
   const double near = si / unit.to_si;
   for (int digits = 1; digits <= 17; ++digits)
     for (const double x : {near, std::nextafter(near, INFINITY), std::nextafter(near, -INFINITY)}) {
-      const double rounded = std::stod(fmt::format("{:.{}g}", x, digits));
+      const double rounded = std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr);
       if (rounded * unit.to_si == si) return shortest_text(rounded);
     }
   return shortest_text(near);

@@ -10,9 +10,12 @@ struct Unit {
   std::string_view suffix;  ///< of the key, without the underscore
   std::string_view name;    ///< as people write it
   double to_si;             ///< factor from this unit to SI; percent stays percent
+  double most;              ///< no robot cell has more of it, in this unit; what is beyond is a mistake
+  /// No positive quantity that matters is below, in this unit.
+  double least() const { return most * 1e-15; }
 };
 
-/// The unit of a key; {"", "", 1} for a key without one. The longest suffix counts.
+/// The unit of a key; one without suffix and name for a key without one. The longest suffix counts.
 const Unit& unit_of_key(std::string_view key);
 
 /// The key without its unit: `radius_mm` -> `radius`.

@@ -10,6 +10,7 @@
 #include "pipeline/installation.h"
 #include "pipeline/job/document.h"
 #include "pipeline/readable.h"
+#include "pipeline/whole_file.h"
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/motion_checks.h"
 #include "pipeline/report/plot.h"

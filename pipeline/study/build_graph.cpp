@@ -1,179 +1,274 @@
 #include "pipeline/study/build_graph.h"
 
+#include <fcntl.h>
+#include <fmt/ranges.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
+#include <cstring>
 #include <sstream>
+#include <system_error>
 
-#include "pipeline/files/digest.h"
+#include "pipeline/files/receipt.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct StageEdge {
-  const char* stage;
+struct Stage {
+  const char* name;
   Part part;
   const char* input;  ///< in the job's folder
   const char* output;
 };
-constexpr std::array edges{StageEdge{"sim", Part::sim, "job.yaml", "motion.h5"},
-                           StageEdge{"strain", Part::strain, "motion.h5", "strain.h5"},
-                           StageEdge{"fatigue", Part::fatigue, "strain.h5", "life.h5"}};
+constexpr std::array<Stage, stage_count> stages{Stage{"sim", Part::sim, "job.yaml", "motion.h5"},
+                                                Stage{"strain", Part::strain, "motion.h5", "strain.h5"},
+                                                Stage{"fatigue", Part::fatigue, "strain.h5", "life.h5"}};
 
-fs::path settings_file(const StageEdge& edge) {
-  return fs::path(".stage") / (std::string(edge.stage) + ".yaml");
+/// In the job's folder: what is not for people.
+fs::path beside(const Stage& stage, const char* ending) {
+  return fs::path(".stage") / (std::string(stage.name) + ending);
 }
-fs::path log_file(const StageEdge& edge) { return fs::path(".stage") / (std::string(edge.stage) + ".log"); }
-std::string program_name(const StageEdge& edge) { return std::string("dresslife-") + edge.stage; }
-fs::path fingerprint(const StageEdge& edge) { return fs::path(".programs") / program_name(edge); }
+fs::path receipt_file(const Stage& stage) { return beside(stage, ".receipt"); }
+fs::path log_file(const Stage& stage) { return beside(stage, ".log"); }
+constexpr const char* failure_file = ".stage/failure";
+std::string program_name(const Stage& stage) { return std::string("dresslife-") + stage.name; }
 
-/// As a word of a Ninja path list.
-std::string ninja_word(const fs::path& path) {
-  std::string escaped;
-  for (char c : path.string()) {
-    if (c == '$' || c == ' ' || c == ':') escaped += '$';
-    escaped += c;
+void check_programs(const StudyPlaces& places) {
+  for (const Stage& stage : stages) {
+    const fs::path program = places.programs / program_name(stage);
+    if (::access(program.c_str(), X_OK) != 0)
+      throw InputError({program.string()}, "is not there (the stages stand beside dresslife)",
+                       "build it: scripts/build");
   }
-  return escaped;
 }
 
-/// As one word for the shell.
-std::string shell_word(const fs::path& path) {
-  std::string quoted = "'";
-  for (char c : path.string()) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+std::string recipe_of_stage(const Job& job, const Stage& stage, const StudyPlaces& places, Digests& digests) {
+  return recipe_of(part_text(job, stage.part),
+                   stage.part == Part::sim ? files_beside(job) : std::vector<fs::path>{},
+                   fs::canonical(places.programs / program_name(stage)), digests);
 }
 
-/// As part of a Ninja variable.
-std::string ninja_text(const std::string& text) {
-  std::string escaped;
-  for (char c : text) escaped += c == '$' ? std::string("$$") : std::string(1, c);
-  return escaped;
+std::string failure_key(const JobState& state) { return fmt::format("{}", fmt::join(state.recipes, " ")); }
+
+/// The reason of the last attempt, if it was one with these recipes.
+std::string noted_failure(const JobState& state, const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / failure_file, ignored)) return "";
+  std::istringstream lines(read_text(folder / failure_file));
+  std::string key, reason;
+  std::getline(lines, key);
+  std::getline(lines, reason);
+  return key == failure_key(state) ? reason : "";
 }
 
-std::string rules(const StudyPlaces& places) {
+/// Looks at the receipts of the recipes that the state holds already.
+void look_at(JobState& state, const fs::path& folder) {
+  state.damaged.clear();
+  state.compared.clear();
+  state.failure = noted_failure(state, folder);
+  state.has_results = std::any_of(stages.begin(), stages.end(), [&](const Stage& stage) {
+    return state_of(folder / stage.output).exists();
+  });
+  std::string made_before = "-";
+  for (state.next = 0; state.next < stage_count; ++state.next) {
+    const Stage& stage = stages[state.next];
+    std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
+    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != made_before) return;
+    // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
+    if (!state.failure.empty()) receipt->state = {};
+    const FileState now = state_of(folder / stage.output);
+    if (!is_as_noted(*receipt, folder / stage.output)) {
+      if (now.exists()) state.damaged = stage.output;
+      return;
+    }
+    if (now != receipt->state) state.compared.push_back(state.next);
+    made_before = receipt->output;
+  }
+}
+
+std::string rules(const StageLimits& limits) {
   std::string text = "ninja_required_version = 1.8\nbuilddir = .stage\n\n";
-  for (const StageEdge& edge : edges) {
+  for (const Stage& stage : stages) {
     // The stage before is checked against the same job, so the settings come from job.yaml at every stage.
-    const std::string job = edge.part == Part::sim ? "" : " --job $job/job.yaml";
+    const std::string job = stage.part == Part::sim ? "" : " --job $job/job.yaml";
+    // `exec`: the shell's process becomes the stage's, which then ends with Ninja.
     text += fmt::format(
-        "rule {}\n  command = {} $job/{}{} -o $out --quiet > $job/{} 2>&1\n  description = {} $job\n  restat "
-        "= 1\n\n",
-        edge.stage, ninja_text(shell_word(places.programs / program_name(edge))), edge.input, job,
-        log_file(edge).string(), edge.stage);
+        "rule {0}\n  command = exec \"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
+        "--force "
+        "--quiet --job-time {6} --job-memory {7} > $job/{8} 2>&1\n  description = {0} $job\n\n",
+        stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(),
+        limits.seconds, limits.megabytes, log_file(stage).string());
   }
   return text;
 }
 
-std::string job_edges(const StudyJob& job) {
-  std::string text;
-  for (const StageEdge& edge : edges) {
-    const fs::path folder = job.name;
-    std::string inputs = ninja_word(folder / settings_file(edge)) + " " + ninja_word(fingerprint(edge));
-    if (edge.part == Part::sim)
-      for (const fs::path& beside : files_beside(job.job)) inputs += " " + ninja_word(beside);
-    else
-      inputs = ninja_word(folder / edge.input) + " " + inputs;
-    text += fmt::format("build {}: {} {}\n  job = {}\n", ninja_word(folder / edge.output), edge.stage, inputs,
-                        job.name);
+/// The chain of a job from the first stage that is to run.
+std::string chain_of(const std::string& job, std::size_t first) {
+  std::string text, before;
+  for (std::size_t k = first; k < stage_count; ++k) {
+    const std::string target = job + "/" + beside(stages[k], ".ran").string();
+    text += fmt::format("build {}: {}{}\n  job = {}\n", target, stages[k].name, before, job);
+    before = " " + target;
   }
-  return text + "\n";
+  return text;
 }
 
-void write_job(const StudyJob& job, const StudyPlaces& places) {
-  const fs::path folder = places.job(job.name);
-  fs::create_directories(folder / ".stage");
-  write_text_if_changed(folder / "job.yaml", job_text(job.job), Sync::never);
-  for (const StageEdge& edge : edges) {
-    std::string settings = part_text(job.job, edge.part);
-    if (edge.part == Part::sim)  // a file that came or went in a program's folder is a change, too
-      for (const fs::path& beside : files_beside(job.job)) settings += "# " + beside.string() + "\n";
-    write_text_if_changed(folder / settings_file(edge), settings, Sync::never);
-  }
-}
-
-/// First line of a stage's log that tells an error, else its last line.
-std::string failure_line(const fs::path& log) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(log, ignored)) return "it left no log";
+/// The first line of a log that tells an error, else nothing.
+std::string error_line(const fs::path& log) {
   std::istringstream lines(read_text(log));
-  std::string last = "it ended without a word (killed?)";
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; std::getline(lines, line);)
     if (line.find(": error: ") != std::string::npos) return line;
-    if (!line.empty()) last = line;
+  return "";
+}
+
+/// Why a job is not done after a run.
+std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result) {
+  const Stage& stage = stages[state.next];
+  const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
+  if (receipt && receipt->recipe != state.recipes[state.next])
+    return fmt::format("{}: error: its files or programs changed while the study ran; run again",
+                       stage.output);
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / log_file(stage), ignored))
+    return result.words.empty() ? "it was not reached"
+                                : "it was not reached: " + result.words + "; run again";
+  const std::string line = error_line(folder / log_file(stage));
+  return line.empty()
+             ? fmt::format("{} ended without a word (killed, or out of memory?)", program_name(stage))
+             : line;
+}
+
+void join_logs(const fs::path& folder) {
+  std::string text;
+  for (const Stage& stage : stages) {
+    std::error_code ignored;
+    if (fs::is_regular_file(folder / log_file(stage), ignored))
+      text += fmt::format("== {}\n{}", program_name(stage), read_text(folder / log_file(stage)));
   }
-  // The shell's word for a stage that was ended from outside.
-  return last == "Killed" ? "it was killed (out of memory?)" : last;
+  write_text_if_changed(folder / "log", text, Sync::never);
 }
 
-/// The failed stage's word on a job, from Ninja's "FAILED: easy/motion.h5".
-void note_failure(const std::string& output, const StudyPlaces& places, BuildResult& result) {
-  const fs::path path(output);
-  for (const StageEdge& edge : edges)
-    if (path.filename() == edge.output)
-      result.failures[path.parent_path().string()] =
-          failure_line(places.folder / path.parent_path() / log_file(edge));
-}
-
-class LineReader {
+/// A Ninja process and what it says.
+class Ninja {
  public:
-  explicit LineReader(const std::string& command) : pipe_(::popen(command.c_str(), "r")) {
-    if (!pipe_) throw std::runtime_error("cannot start a shell");
+  Ninja(const StudyPlaces& places, int parallel) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+    std::fflush(nullptr);
+    process_ = ::fork();
+    if (process_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
+    if (process_ == 0) become_ninja(places, parallel, ends[1]);
+    ::close(ends[1]);
+    said_ = ::fdopen(ends[0], "r");
   }
-  ~LineReader() {
-    if (pipe_) ::pclose(pipe_);
+  ~Ninja() {
+    if (said_) std::fclose(said_);
+    if (process_ > 0) {  // this program gives up before Ninja is through
+      ::kill(process_, SIGKILL);
+      ::waitpid(process_, nullptr, 0);
+    }
   }
+  Ninja(const Ninja&) = delete;
+  Ninja& operator=(const Ninja&) = delete;
+
   bool next(std::string& line) {
     line.clear();
-    for (int c = std::fgetc(pipe_); c != EOF; c = std::fgetc(pipe_)) {
+    for (int c = std::fgetc(said_); c != EOF; c = std::fgetc(said_)) {
       if (c == '\n') return true;
       line += static_cast<char>(c);
     }
     return !line.empty();
   }
+  /// The status of waitpid().
   int finish() {
-    const int status = ::pclose(pipe_);
-    pipe_ = nullptr;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    int status = 0;
+    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    return status;
   }
 
  private:
-  std::FILE* pipe_;
+  static constexpr int not_installed = 127;
+
+  [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, int said) {
+    const pid_t runner = ::getppid();
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != runner) ::_exit(1);   // it died before that was said
+    ::setenv("NINJA_STATUS", "@%f/%t ", 1);  // a line "@finished/total description" per stage
+    // Through the environment goes whatever a folder may be named.
+    ::setenv("DRESSLIFE_PROGRAMS", fs::absolute(places.programs).c_str(), 1);
+    ::setenv("DRESSLIFE_PARENT", std::to_string(::getpid()).c_str(), 1);
+    ::dup2(said, STDOUT_FILENO);
+    ::dup2(said, STDERR_FILENO);
+    const std::string jobs = std::to_string(parallel);
+    if (::chdir(places.folder.c_str()) == 0)
+      ::execlp("ninja", "ninja", "-k", "0", "-j", jobs.c_str(), static_cast<char*>(nullptr));
+    ::_exit(not_installed);
+  }
+
+  pid_t process_ = -1;
+  std::FILE* said_ = nullptr;
 };
 
 }  // namespace
 
-void write_build_graph(const Study& study, const StudyPlaces& places) {
-  fs::create_directories(places.folder / ".stage");
-  for (const StageEdge& edge : edges) {
-    const fs::path program = places.programs / program_name(edge);
-    if (::access(program.c_str(), X_OK) != 0)
-      throw InputError({program.string()}, "is not there (the stages stand beside dresslife)",
-                       "build it: scripts/build");
-    write_text_if_changed(places.folder / fingerprint(edge), sha256_of_file(program) + "\n");
-  }
-  std::string graph = rules(places);
-  for (const StudyJob& job : study.jobs) {
+std::string JobState::words() const {
+  if (done()) return "done";
+  if (!failure.empty()) return "failed   " + failure;
+  if (!damaged.empty())
+    return fmt::format("damaged  {} is not what its stage wrote; run makes it anew", damaged);
+  return has_results ? "stale" : "to do";
+}
+
+std::vector<JobState> states_of(const Study& study, const StudyPlaces& places) {
+  check_programs(places);
+  Digests digests;
+  std::vector<JobState> states(study.jobs.size());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) continue;
-    write_job(job, places);
-    graph += job_edges(job);
+    for (std::size_t stage = 0; stage < stage_count; ++stage)
+      states[k].recipes[stage] = recipe_of_stage(job.job, stages[stage], places, digests);
+    look_at(states[k], places.job(job.name));
+  }
+  return states;
+}
+
+void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
+                       const StageLimits& limits) {
+  fs::create_directories(places.folder / ".stage");
+  for (const char* memory : {".ninja_log", ".ninja_deps"})  // of times, which decide nothing here
+    fs::remove_all(places.folder / ".stage" / memory);
+  std::string graph = rules(limits);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const StudyJob& job = study.jobs[k];
+    if (!job.failure.empty()) continue;
+    const fs::path folder = places.job(job.name);
+    fs::create_directories(folder / ".stage");
+    write_text_if_changed(folder / "job.yaml", job_text(job.job), Sync::never);
+    for (const std::size_t stage : states[k].compared)
+      renew_receipt(folder / receipt_file(stages[stage]), folder / stages[stage].output);
+    if (states[k].done()) continue;
+    for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
+      fs::remove(folder / log_file(stages[stage]));
+    graph += chain_of(job.name, states[k].next);
   }
   write_text_if_changed(places.folder / "build.ninja", graph);
 }
 
-BuildResult run_build_graph(const StudyPlaces& places, int parallel, bool dry,
+BuildResult run_build_graph(const StudyPlaces& places, int parallel,
                             const std::function<void(const BuildEvent&)>& on_event) {
-  // A line "@finished/total description" per edge, whatever the terminal.
-  const std::string command = fmt::format("NINJA_STATUS='@%f/%t ' ninja -C {} -k 0 -j {}{} 2>&1",
-                                          shell_word(places.folder), parallel, dry ? " -n" : "");
   BuildResult result;
-  LineReader ninja(command);
+  Ninja ninja(places, parallel);
   std::string said;
   for (std::string line; ninja.next(line);) {
     BuildEvent event;
@@ -181,50 +276,35 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel, bool dry,
     if (std::sscanf(line.c_str(), "@%d/%d %31s %511s", &event.finished, &event.total, stage, job) == 4) {
       event.what = fmt::format("{} {}", stage, job);
       ++result.executed;
-      if (result.pending.empty() || result.pending.back() != job) result.pending.emplace_back(job);
       if (on_event) on_event(event);
-    } else if (line.starts_with("FAILED: ")) {
-      note_failure(line.substr(8, line.find_last_not_of(' ') - 7), places, result);
-    } else if (line.find("error") != std::string::npos || line.find("not found") != std::string::npos) {
+    } else if (line.find("error") != std::string::npos) {
       said = line;
     }
   }
   const int status = ninja.finish();
-  if (status == 127)
+  if (WIFSIGNALED(status)) result.words = fmt::format("ninja was ended by signal {}", WTERMSIG(status));
+  if (!WIFEXITED(status)) return result;
+  constexpr int done = 0, some_failed = 1, not_installed = 127;
+  if (WEXITSTATUS(status) == not_installed)
     throw InputError({"ninja"}, "is not installed", "install it: apt-get install ninja-build");
-  if (status != 0 && result.failures.empty())
-    throw InputError({(places.folder / "build.ninja").string()},
-                     fmt::format("ninja stopped ({})", said.empty() ? "no reason told" : said), "run again");
+  if (WEXITSTATUS(status) != done && (WEXITSTATUS(status) != some_failed || result.executed == 0))
+    result.words = fmt::format("ninja stopped ({})", said.empty() ? "no reason told" : said);
   return result;
 }
 
-std::string pending_state(const StudyJob& job, const StudyPlaces& places) {
-  const fs::path folder = places.job(job.name);
-  std::error_code ignored;
-  for (const StageEdge& edge : edges) {
-    const fs::path log = folder / log_file(edge), settings = folder / settings_file(edge);
-    if (!fs::is_regular_file(log, ignored) ||
-        fs::last_write_time(log, ignored) < fs::last_write_time(settings, ignored))
-      continue;
-    const std::string line = failure_line(log);
-    if (line.find(": error: ") != std::string::npos) return "failed   " + line;
-  }
-  for (const StageEdge& edge : edges)
-    if (fs::is_regular_file(folder / edge.output, ignored)) return "stale";
-  return "to do";
-}
-
-void join_logs(const Study& study, const StudyPlaces& places) {
-  for (const StudyJob& job : study.jobs) {
-    if (!job.failure.empty()) continue;
-    std::string text;
-    for (const StageEdge& edge : edges) {
-      const fs::path log = places.job(job.name) / log_file(edge);
-      std::error_code ignored;
-      if (fs::is_regular_file(log, ignored))
-        text += fmt::format("== {}\n{}", program_name(edge), read_text(log));
-    }
-    write_text_if_changed(places.job(job.name) / "log", text, Sync::never);
+void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result,
+               std::vector<JobState>& states) {
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    if (!study.jobs[k].failure.empty() || states[k].done()) continue;
+    const fs::path folder = places.job(study.jobs[k].name);
+    fs::remove(folder / failure_file);
+    look_at(states[k], folder);
+    for (const Stage& stage : stages) remove_leftovers(folder / stage.output);
+    join_logs(folder);
+    if (states[k].done()) continue;
+    states[k].failure = reason_of(states[k], folder, result);
+    write_text_if_changed(folder / failure_file, failure_key(states[k]) + "\n" + states[k].failure + "\n",
+                          Sync::never);
   }
 }
 

@@ -1,18 +1,27 @@
-// The study as a Ninja build graph: per job sim -> strain -> fatigue, each edge depending on just those
-// settings that its result depends on, on the program that makes it and on the stage before. Content counts,
-// not time: settings and program fingerprints are written only when they differ, and stages leave an output
-// untouched that comes out the same.
+// What of a study is up to date, and how the rest is made.
+//
+// A result is up to date when the receipts of its stages say that they were made from what the study says now
+// (pipeline/files/receipt.h): same settings, same files beside the job, same programs, each from the file that the
+// stage before made. Times decide nothing. What is left is a Ninja graph: per job the chain sim -> strain ->
+// fatigue from the first stage that is not up to date. Its targets are no files; Ninja only keeps the cores
+// busy and carries on past failures. A stage whose recipe and input turn out as before leaves its output
+// alone.
+//
+// Whatever becomes of Ninja and the stages, a job is done only when its receipts say so afterwards.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {
+
+inline constexpr std::size_t stage_count = 3;
 
 struct StudyPlaces {
   std::filesystem::path folder;    ///< DIR/<study>
@@ -22,9 +31,32 @@ struct StudyPlaces {
   std::filesystem::path life(const std::string& name) const { return folder / name / "life.h5"; }
 };
 
-/// Writes job.yaml and the stage settings of every job that can run, the program fingerprints and
-/// build.ninja. Errors: InputError when a program or the folder is missing.
-void write_build_graph(const Study& study, const StudyPlaces& places);
+/// How a job stands.
+struct JobState {
+  std::array<std::string, stage_count> recipes;  ///< that its receipts must name
+  std::size_t next = 0;                          ///< the first stage to run; stage_count: the job is done
+  std::string damaged;                           ///< "life.h5": is not what its stage wrote
+  std::string failure;                           ///< why the last attempt with these recipes failed
+  bool has_results = false;                      ///< of any settings
+  std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared: their times have changed
+  bool done() const { return next == stage_count; }
+  /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings, "to do" without
+  /// any.
+  std::string words() const;
+};
+
+/// The state of every job that can run (others: an empty state), from what lies in the folder; nothing is
+/// written. Errors: InputError when a program is missing.
+std::vector<JobState> states_of(const Study& study, const StudyPlaces& places);
+
+/// Each stage of a job may take so much.
+struct StageLimits {
+  std::uint64_t seconds = 0, megabytes = 0;  ///< 0: no limit
+};
+
+/// Writes every job's job.yaml and build.ninja. Errors: InputError when the folder cannot be written.
+void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
+                       const StageLimits& limits = {});
 
 struct BuildEvent {
   int finished = 0, total = 0;
@@ -32,21 +64,18 @@ struct BuildEvent {
 };
 
 struct BuildResult {
-  std::map<std::string, std::string> failures;  ///< job -> the line that its failed stage wrote
-  std::vector<std::string> pending;             ///< of a dry run: jobs with something to do
-  int executed = 0;                             ///< edges that ran (or would run)
+  int executed = 0;   ///< stages that were started
+  std::string words;  ///< why Ninja ended before it was through; empty: it was
 };
 
-/// Runs Ninja on the graph. dry: only tells what would run. on_event: called for every finished edge.
-/// Errors: InputError when Ninja is not installed.
-BuildResult run_build_graph(const StudyPlaces& places, int parallel, bool dry,
+/// Runs Ninja on the graph. It and the stages end with this program, however that ends.
+/// on_event: called for every finished stage. Errors: InputError when Ninja is not installed.
+BuildResult run_build_graph(const StudyPlaces& places, int parallel,
                             const std::function<void(const BuildEvent&)>& on_event);
 
-/// How a job with something left to do stands: "failed   WHY" when its last attempt failed with the settings
-/// of now, "stale" when it has results of other settings, "to do" when it has none.
-std::string pending_state(const StudyJob& job, const StudyPlaces& places);
-
-/// Joins the stages' logs of each job into its `log`.
-void join_logs(const Study& study, const StudyPlaces& places);
+/// Brings `states` up to date after a run. A job that is still not done keeps the reason in its `failure`,
+/// here and in its folder; its logs are joined into `log`.
+void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result,
+               std::vector<JobState>& states);
 
 }  // namespace dresslife::pipeline

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 
 #include "pipeline/files/files.h"
 #include "pipeline/job/units.h"
+#include "pipeline/limits.h"
 #include "pipeline/readable.h"
 
 namespace dresslife::pipeline {
@@ -77,7 +80,19 @@ bool better(const RankingRow& one, const RankingRow& other) {
   return one.job < other.job;
 }
 
-std::string csv_cell(const std::string& text) {
+/// Text that a spreadsheet would take for a formula begins with an apostrophe, and no letter acts on a
+/// terminal.
+std::string harmless(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  const bool number = !text.empty() && *end == '\0';
+  const bool formula =
+      !number && !text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos;
+  return shown(formula ? "'" + text : text);
+}
+
+std::string csv_cell(const std::string& written) {
+  const std::string text = harmless(written);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char letter : text) {
@@ -176,7 +191,9 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack\n";
   for (const RankingRow& row : rows) {
     if (!row.done()) {
-      text += fmt::format("{},,,,,,,,,,,,failed,{},,,,,,,,,,,,\n", csv_cell(row.job), csv_cell(row.failure));
+      const bool waits = row.failure == "stale" || row.failure == "to do";
+      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,\n", csv_cell(row.job),
+                          waits ? row.failure : "failed", csv_cell(row.failure));
       continue;
     }
     const bool evaluated = row.worst_segment_from_tool > 0;

@@ -63,7 +63,9 @@ struct RankingRow {
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
 
 /// ranking.csv: a header and one row per job, quoted after RFC 4180 with line feeds; numbers read back
-/// exactly, "inf" where there is no damage, empty cells for a failed job.
+/// exactly, "inf" where there is no damage; empty cells for a job that is not done: its `status` is failed,
+/// stale (its results are of other settings) or "to do", its `message` the reason. Text that a spreadsheet
+/// would take for a formula begins with an apostrophe.
 std::string ranking_csv(const std::vector<RankingRow>& rows);
 
 /// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".

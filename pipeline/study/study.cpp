@@ -30,7 +30,8 @@ bool fits_a_folder(char c) {
 std::string folder_name(std::string text) {
   for (char& c : text)
     if (!fits_a_folder(c)) c = '_';
-  if (text.starts_with('.')) text[0] = '_';  // neither hidden nor a way out of the results
+  // Neither hidden nor a way out of the results, no option of a program and no formula of a spreadsheet.
+  if (!text.empty() && std::string_view(".-+=").find(text[0]) != std::string_view::npos) text[0] = '_';
   return text;
 }
 
@@ -137,6 +138,10 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
   for (const Variant& variant :
        all_combinations(named_changes(document.find("jobs")), document.find("vary"))) {
     study.jobs.push_back(make_job(base, variant, study.name, sets));
+    for (const char* own : {"build.ninja", "ranking.csv", "report.html"})
+      if (study.jobs.back().name == own)
+        throw InputError(document.where, fmt::format("a job is named '{}' (a file of the study itself)", own),
+                         "give it another name");
     if (!names.insert(study.jobs.back().name).second)
       throw InputError(document.where, fmt::format("two jobs are named '{}'", study.jobs.back().name),
                        "give each combination another name");

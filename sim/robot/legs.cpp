@@ -17,13 +17,14 @@ using pipeline::MotionStep;
 using pipeline::PathKind;
 
 constexpr double degree = std::numbers::pi / 180, millimetre = 1e-3;
-constexpr double limit_rounding = 1e-9;  // of written angles and positions [rad, m]
-constexpr double point_distance = 0.01;  // largest between points of a path [m]
-constexpr double point_turn = 0.035;     // [rad]
-constexpr double point_change = 0.1;     // of any joint [rad]
-constexpr double shortest = 1e-4;        // share of a path below which it is not cut further
-constexpr double jump = 0.5;             // of a joint between such points: no continuous path [rad]
-constexpr int samples = 24;              // of a joint move, for the tool's speed on it
+constexpr double limit_rounding = 1e-9;      // of written angles and positions [rad, m]
+constexpr double point_distance = 0.01;      // largest between points of a path [m]
+constexpr double point_turn = 0.035;         // [rad]
+constexpr double point_change = 0.1;         // of any joint [rad]
+constexpr double shortest = 1e-4;            // share of a path below which it is not cut further
+constexpr double jump = 0.5;                 // of a joint between such points: no continuous path [rad]
+constexpr std::size_t most_moves = 200'000;  // in one repeat: at ten a second five hours
+constexpr int samples = 24;                  // of a joint move, for the tool's speed on it
 
 /// A line of the program on its way to legs.
 struct Move {
@@ -104,6 +105,10 @@ class Layout {
         for (int k = 0; k < step.repeat; ++k) expand(step.steps, line = first);
         continue;
       }
+      if (moves_.size() >= most_moves)
+        throw pipeline::InputError(step.where,
+                                   fmt::format("the program runs more than {} moves and dwells", most_moves),
+                                   "give one cycle of it: life is counted in repeats");
       const int shown = numbers_[line++];
       if (step.is_move()) add_move(step, shown);
       if (step.dwell > 0) {

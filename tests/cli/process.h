@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -59,6 +60,15 @@ inline Outcome run(const Scratch& scratch, const std::string& program, const std
   const std::string command = "cd '" + scratch.folder().string() + "' && '" DRESSLIFE_BIN_DIR "/" + program +
                               "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() +
                               "' </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+}
+
+/// Runs a line of shell in the scratch folder.
+inline Outcome run_shell(const Scratch& scratch, const std::string& line) {
+  const fs::path out = scratch / ".out", err = scratch / ".err";
+  const std::string command = "cd '" + scratch.folder().string() + "' && { " + line + "\n} >'" +
+                              out.string() + "' 2>'" + err.string() + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }

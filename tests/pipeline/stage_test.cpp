@@ -158,8 +158,9 @@ TEST_CASE("stage: the user's mistakes end with 1, ours with 3, each in one line"
   const Outcome memory = run({"in.h5", "-o", "out.h5"}, [](const StageCall&) { throw std::bad_alloc(); });
   CHECK(memory.status == 3);
   CHECK(memory.errors ==
-        "dresslife-sample: error: out of memory; run fewer jobs at a time or ask for fewer segments or "
-        "samples\n");
+        "dresslife-sample: error: out of memory; run fewer jobs at a time, ask for fewer segments or "
+        "samples, or "
+        "allow more\n");
   const Outcome disk = run({"in.h5", "-o", "out.h5"}, [](const StageCall&) {
     throw std::filesystem::filesystem_error("rename", "out.h5.part",
                                             std::make_error_code(std::errc::permission_denied));
@@ -174,8 +175,9 @@ TEST_CASE("stage: an output that cannot be is refused before any work") {
   const Outcome folder = run({input, "-o", (scratch / ".").string()});
   CHECK(folder.status == 1);
   CHECK_FALSE(folder.ran);
-  CHECK(folder.errors == (scratch / ".").string() +
-                             ": error: is a folder (the output must be a file); name a file after -o\n");
+  CHECK(folder.errors ==
+        (scratch / ".").string() +
+            ": error: is a folder (a result only replaces a plain file); name a file of its own\n");
   const Outcome same = run({input, "-o", input});
   CHECK(same.errors == input.string() + ": error: is the input itself; name another output after -o\n");
   const std::string lost = (scratch / "none/out.h5").string();

@@ -306,7 +306,7 @@ TEST_CASE("files: nothing is left behind without commit, and an older file stays
   {
     FileWriter writer(scratch / "f.h5", format);
     writer.append("/time", std::span<const double>(Content().time));
-    CHECK(fs::exists(scratch / "f.h5.part"));
+    CHECK(scratch.entries() == 1);
     CHECK_FALSE(fs::exists(scratch / "f.h5"));
   }
   CHECK(scratch.entries() == 0);
@@ -415,19 +415,45 @@ TEST_CASE("files: what is absent, foreign or cut off is refused in one line with
   for (const double share : {0.1, 0.5, 0.9, 0.999}) {
     const fs::path cut =
         scratch.write("cut.h5", whole.substr(0, static_cast<std::size_t>(share * whole.size())));
-    CHECK(error(cut) == cut.string() + ": error: is not an HDF5 file, or is cut off" + remedy);
+    const std::size_t size = bytes_of(cut).size();
+    CHECK(error(cut) ==
+          (size < 512 ? cut.string() + ": error: is damaged (its first 512 bytes are no checksum)" + remedy
+                      : fmt::format("{}: error: is cut off or has grown (it has {} bytes and promises {}){}",
+                                    cut.string(), size, whole.size(), remedy)));
   }
+  const fs::path grown = scratch.write("grown.h5", whole + "x");
+  CHECK(error(grown).find("is cut off or has grown") != std::string::npos);
   CHECK(message_of([&] { FileReader reader(scratch / "whole.h5", motion_format()); }) ==
         (scratch / "whole.h5").string() +
             ": error: holds 'dresslife-sample' ('dresslife-motion' is expected); make the file anew with "
             "dresslife-sim");
 }
 
-TEST_CASE("files: bytes changed anywhere are refused or harmless, never a crash") {
+TEST_CASE("files: any bit that turns is noticed") {
   const Scratch scratch;
   const Format format = sample_format();
   write_sample(scratch / "whole.h5", format);
   const std::string whole = bytes_of(scratch / "whole.h5");
+  std::mt19937 random(6);
+  const auto notices = [&](std::size_t at, int bit) {
+    std::string turned = whole;
+    turned[at] = static_cast<char>(turned[at] ^ (1 << bit));
+    const fs::path file = scratch.write("turned.h5", turned);
+    return !message_of([&] { const FileReader reader(file, format); }).empty();
+  };
+  for (std::size_t at = 0; at < 530; ++at)
+    CHECK(notices(at, static_cast<int>(random() % 8)));  // what promises
+  for (int trial = 0; trial < 300; ++trial)
+    CHECK(notices(random() % whole.size(), static_cast<int>(random() % 8)));
+}
+
+TEST_CASE("files: bytes changed anywhere in a file without checksum are refused or harmless, never a crash") {
+  const Scratch scratch;
+  const Format format = sample_format();
+  write_sample(scratch / "whole.h5", format);
+  const std::string whole = bytes_of(scratch / "whole.h5").substr(512);  // as other programs write it
+  CHECK(FileReader(scratch.write("other.h5", whole), format).checksum().empty());
+  CHECK(FileReader(scratch / "other.h5", format).read<double>("/time") == Content().time);
   std::mt19937 random(5);
   int refused = 0;
   for (int trial = 0; trial < 400; ++trial) {
@@ -529,10 +555,11 @@ TEST_CASE("files: attributes of the wrong kind are refused") {
 TEST_CASE("files: a place that cannot be written is the user's to mend") {
   const Scratch scratch;
   const fs::path file = scratch / "no folder/f.h5";
-  CHECK(message_of([&] { FileWriter writer(file, sample_format()); }) ==
-        file.string() +
-            ": error: cannot be written (the file cannot be created); check the folder and the space on the "
-            "disk");
+  CHECK(
+      message_of([&] { FileWriter writer(file, sample_format()); }) ==
+      file.string() +
+          ": error: cannot be written (No such file or directory); check the folder, its permissions and the "
+          "disk");
 }
 
 TEST_CASE("files: the manual lists every dataset of every format") {

@@ -198,20 +198,5 @@ TEST_CASE("document: files that cannot be read say so") {
         (scratch / ".").string() + ": error: is a folder, not a file; name a file");
 }
 
-TEST_CASE("document: text is written whole, and left untouched when nothing changed") {
-  const Scratch scratch;
-  const auto file = scratch / "new folder/a.txt";
-  write_text_if_changed(file, "one");
-  CHECK(bytes_of(file) == "one");
-  const auto long_ago = std::filesystem::last_write_time(file) - std::chrono::hours(1);
-  std::filesystem::last_write_time(file, long_ago);
-  write_text_if_changed(file, "one");
-  CHECK(std::filesystem::last_write_time(file) == long_ago);
-  write_text_if_changed(file, "two");
-  CHECK(std::filesystem::last_write_time(file) != long_ago);
-  CHECK(bytes_of(file) == "two");
-  CHECK_FALSE(std::filesystem::exists(scratch / "new folder/a.txt.part"));
-}
-
 }  // namespace
 }  // namespace dresslife::pipeline

@@ -1,9 +1,11 @@
-// The build graph with stages that are shell scripts: what runs when, and what a failure does.
+// The build graph with stages that compute nothing: what runs when, what a failure does, what is believed.
 #include "pipeline/study/build_graph.h"
 
 #include <catch2/catch.hpp>
+#include <csignal>
 #include <thread>
 
+#include "pipeline/files/receipt.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -12,27 +14,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes its settings and its input into its output, leaves an equal output untouched, as the real stages
-/// do.
-const std::string fake_stage = R"(#!/bin/sh
-name=$(basename "$0"); stage=${name#dresslife-}
-input=$1
-while [ $# -gt 0 ]; do [ "$1" = -o ] && output=$2; shift; done
-folder=$(dirname "$output")
-echo "$stage" >> "$folder/calls"
-if [ -e "$folder/fail-$stage" ]; then echo "note first"; echo "job.yaml:1:1: error: $stage broke; mend it"; exit 1; fi
-{ cat "$folder/.stage/$stage.yaml"; [ "$stage" = sim ] || cat "$input"; } > "$output.part"
-if cmp -s "$output.part" "$output"; then rm "$output.part"; else mv "$output.part" "$output"; fi
-)";
-
 class Bench {
  public:
-  Bench() {
-    for (const char* stage : {"sim", "strain", "fatigue"}) write_stage(stage, fake_stage);
-    places_ = {scratch_ / "re sults $x 'y' a:b/study", scratch_ / "pro grams $x 'q'"};
+  explicit Bench(const std::string& folder = "re sults $x 'y' a:b|c\nd/study") {
+    places_ = {scratch_ / folder, scratch_ / "pro grams $x 'q'|r\ns"};
+    fs::create_directories(places_.programs);
+    for (const char* stage : {"sim", "strain", "fatigue"}) write_stage(stage);
   }
-  void write_stage(const std::string& stage, const std::string& text) {
-    const auto file = scratch_.write("pro grams $x 'q'/dresslife-" + stage, text);
+  /// A copy of the program with `more` bytes at its end, which do not matter to it.
+  void write_stage(const std::string& stage, const std::string& more = "") {
+    const fs::path file = places_.programs / ("dresslife-" + stage);
+    fs::copy_file(DRESSLIFE_FAKE_STAGE, file, fs::copy_options::overwrite_existing);
+    std::ofstream(file, std::ios::app | std::ios::binary) << more;
+  }
+  void write_script(const std::string& stage, const std::string& text) {
+    const fs::path file = places_.programs / ("dresslife-" + stage);
+    fs::remove(file);
+    std::ofstream(file) << text;
     fs::permissions(file, fs::perms::owner_all);
   }
   Study study(const std::vector<std::pair<std::string, std::string>>& jobs) const {
@@ -42,34 +40,51 @@ class Bench {
       made.jobs.push_back({name, job_from(parse_yaml(sample_job, "job.yaml"), {set}), ""});
     return made;
   }
-  BuildResult run(const Study& of, bool dry = false) {
-    // File times are the graph's clock; a change within the same tick of it would not be seen.
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    write_build_graph(of, places_);
-    return run_build_graph(places_, 2, dry,
-                           [this](const BuildEvent& event) { events_.push_back(event.what); });
+  BuildResult run(const Study& of) {
+    states_ = states_of(of, places_);
+    write_build_graph(of, places_, states_);
+    const BuildResult result =
+        run_build_graph(places_, 2, [this](const BuildEvent& event) { events_.push_back(event.what); });
+    close_run(of, places_, result, states_);
+    return result;
   }
+  std::vector<std::string> words(const Study& of) const {
+    std::vector<std::string> said;
+    for (const JobState& state : states_of(of, places_)) said.push_back(state.words());
+    return said;
+  }
+  /// What the stages of a job did, one after the other.
   std::string calls(const std::string& job) const {
     std::string text = bytes_of(places_.job(job) / "calls");
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
   }
+  void tell_stage(const std::string& job, const std::string& order) const {
+    fs::create_directories(places_.job(job));
+    std::ofstream(places_.job(job) / order) << "";
+  }
   const StudyPlaces& places() const { return places_; }
   const std::vector<std::string>& events() const { return events_; }
   const Scratch& scratch() const { return scratch_; }
+  const std::vector<JobState>& states() const { return states_; }
 
  private:
   Scratch scratch_;
   StudyPlaces places_;
   std::vector<std::string> events_;
+  std::vector<JobState> states_;
 };
+
+using Words = std::vector<std::string>;
 
 TEST_CASE("build graph: every stage of every job runs once, in folders of any name") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}});
+  CHECK(bench.words(study) == Words{"to do", "to do"});
   const BuildResult result = bench.run(study);
   CHECK(result.executed == 6);
-  CHECK(result.failures.empty());
+  CHECK(result.words == "");
+  CHECK(bench.words(study) == Words{"done", "done"});
   CHECK(bench.calls("one") == "sim strain fatigue ");
   CHECK(bench.calls("two") == "sim strain fatigue ");
   CHECK(bytes_of(bench.places().job("two") / "job.yaml") == job_text(study.jobs[1].job));
@@ -81,14 +96,14 @@ TEST_CASE("build graph: every stage of every job runs once, in folders of any na
 TEST_CASE("build graph: a changed setting reruns what depends on it and nothing else") {
   Bench bench;
   bench.run(bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}}));
-  CHECK(bench.run(bench.study({{"one", "fatigue.stress=elastic"}, {"two", "simulation.segments=40"}}))
-            .executed == 1);
+  const auto run = [&](const std::string& set) {
+    return bench.run(bench.study({{"one", set}, {"two", "simulation.segments=40"}})).executed;
+  };
+  CHECK(run("fatigue.stress=elastic") == 1);
   CHECK(bench.calls("one") == "sim strain fatigue fatigue ");
   CHECK(bench.calls("two") == "sim strain fatigue ");
-  CHECK(bench.run(bench.study({{"one", "strain.gate=0.01"}, {"two", "simulation.segments=40"}})).executed ==
-        2);
-  CHECK(bench.run(bench.study({{"one", "motion.zone_deg=3"}, {"two", "simulation.segments=40"}})).executed ==
-        3);
+  CHECK(run("strain.gate=0.01") == 2);
+  CHECK(run("motion.zone_deg=3") == 3);
   CHECK(bench.calls("two") == "sim strain fatigue ");
 }
 
@@ -98,67 +113,188 @@ TEST_CASE("build graph: an output that comes out the same ends the chain") {
   bench.run(study);
   fs::remove(bench.places().job("one") / "motion.h5");
   bench.run(study);
-  // The motion is new to the graph's clock, the strain made from it is not.
-  CHECK(bench.calls("one") == "sim strain fatigue sim strain ");
+  CHECK(bench.calls("one") == "sim strain fatigue sim ");
+  CHECK(bench.words(study) == Words{"done"});
 }
 
-TEST_CASE(
-    "build graph: a program built anew with other bytes reruns its stage, with the same bytes nothing") {
+TEST_CASE("build graph: a program with other bytes reruns its stage, one that was only touched nothing") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}});
   bench.run(study);
-  bench.write_stage("strain", fake_stage);
+  bench.write_stage("strain");
   CHECK(bench.run(study).executed == 0);
-  bench.write_stage("strain", fake_stage + "# newer\n");
-  CHECK(bench.run(study).executed == 1);
-  CHECK(bench.calls("one") == "sim strain fatigue strain ");
+  bench.write_stage("strain", "newer");
+  bench.run(study);
+  CHECK(bench.calls("one") == "sim strain fatigue strain ");  // what comes out is the same: no fatigue
+  CHECK(bench.words(study) == Words{"done"});
+}
+
+TEST_CASE("build graph: no time decides, only content") {
+  Bench bench;
+  const Study study = bench.study({{"one", "simulation.segments=20"}});
+  bench.run(study);
+  using namespace std::chrono_literals;
+  for (const auto shift : {-24h * 365, 24h, 24h * 365 * 20}) {
+    for (const auto& entry : fs::recursive_directory_iterator(bench.places().folder))
+      if (entry.is_regular_file()) fs::last_write_time(entry, entry.last_write_time() + shift);
+    CHECK(bench.words(study) == Words{"done"});
+    CHECK(bench.run(study).executed == 0);
+    // Whatever the times: a change is seen.
+    CHECK(bench.words(bench.study({{"one", "simulation.segments=24"}})) == Words{"stale"});
+  }
+}
+
+TEST_CASE("build graph: a file beside the job counts by its content") {
+  Bench bench;
+  const fs::path poses = bench.scratch().write("poses.csv", "0, 1\n");
+  Study study = bench.study({{"one", "simulation.segments=20"}});
+  study.jobs[0].job.motion.steps.clear();
+  study.jobs[0].job.motion.clamp_poses = poses;
+  study.jobs[0].job.robot = {};
+  study.jobs[0].job.dresspacks[0].routing.base_clamp.reset();
+  study.jobs[0].job.dresspacks[0].routing.tool_clamp.reset();
+  study.jobs[0].job.dresspacks[0].routing.mounting_pose.clear();
+  bench.run(study);
+  REQUIRE(bench.words(study) == Words{"done"});
+  const auto before = fs::last_write_time(poses);
+  fs::last_write_time(poses, before + std::chrono::hours(1));
+  CHECK(bench.words(study) == Words{"done"});
+  bench.scratch().write("poses.csv", "0, 2\n");  // as long, and by the clock older than all results
+  fs::last_write_time(poses, before - std::chrono::hours(24 * 365));
+  CHECK(bench.words(study) == Words{"stale"});
+  bench.run(study);
+  CHECK(bench.calls("one") == "sim strain fatigue sim strain fatigue ");
+  // Edited while the simulation runs.
+  bench.scratch().write("poses.csv", "0, 3\n");
+  bench.tell_stage("one", "wait-sim");
+  std::thread editor([&] {
+    while (bench.calls("one").size() < std::string("sim strain fatigue sim strain fatigue sim ").size())
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    bench.scratch().write("poses.csv", "0, 4\n");
+    fs::remove(bench.places().job("one") / "wait-sim");
+  });
+  bench.run(study);
+  editor.join();
+  CHECK_FALSE(bench.states()[0].done());
+  CHECK(bench.states()[0].failure.find(
+            "poses.csv: error: has changed while dresslife-sim ran; run it again") != std::string::npos);
+  bench.run(study);
+  CHECK(bench.words(study) == Words{"done"});
 }
 
 TEST_CASE("build graph: a failed stage stops its job only, is told with its reason and tried again") {
   Bench bench;
   const Study study = bench.study({{"bad", "simulation.segments=20"}, {"good", "simulation.segments=40"}});
-  bench.scratch().write(
-      fs::relative(bench.places().job("bad"), bench.scratch() / ".").string() + "/fail-strain", "");
-  const BuildResult result = bench.run(study);
-  CHECK(result.failures ==
-        std::map<std::string, std::string>{{"bad", "job.yaml:1:1: error: strain broke; mend it"}});
+  bench.tell_stage("bad", "fail-strain");
+  bench.run(study);
+  CHECK(bench.states()[0].failure == "job.yaml:1:1: error: strain broke; mend it");
+  CHECK(bench.states()[1].done());
   CHECK(bench.calls("bad") == "sim strain ");
   CHECK(bench.calls("good") == "sim strain fatigue ");
-  CHECK(pending_state(study.jobs[0], bench.places()) ==
-        "failed   job.yaml:1:1: error: strain broke; mend it");
-  join_logs(study, bench.places());
-  CHECK(bytes_of(bench.places().job("bad") / "log").find("== dresslife-strain\nnote first\n") !=
-        std::string::npos);
+  CHECK(bench.words(study) == Words{"failed   job.yaml:1:1: error: strain broke; mend it", "done"});
+  const Study other = bench.study({{"bad", "simulation.segments=21"}, {"good", "simulation.segments=40"}});
+  CHECK(bench.words(other) == Words{"stale", "done"});  // those settings have not failed
+  CHECK(
+      bytes_of(bench.places().job("bad") / "log").find("== dresslife-strain\njob.yaml:1:1: error: strain") !=
+      std::string::npos);
   fs::remove(bench.places().job("bad") / "fail-strain");
-  const BuildResult again = bench.run(study);
-  CHECK(again.failures.empty());
+  bench.run(study);
+  CHECK(bench.words(study) == Words{"done", "done"});
   CHECK(bench.calls("bad") == "sim strain strain fatigue ");
 }
 
-TEST_CASE("build graph: a stage that is killed is told") {
+TEST_CASE("build graph: a stage that is killed or ends without a word is told") {
   Bench bench;
-  bench.write_stage("sim", "#!/bin/sh\nkill -9 $$\n");
-  const BuildResult result = bench.run(bench.study({{"one", "simulation.segments=20"}}));
-  REQUIRE(result.failures.count("one") == 1);
-  CHECK(result.failures.at("one") == "it was killed (out of memory?)");
+  const Study study = bench.study({{"one", "simulation.segments=20"}});
+  bench.write_script("sim", "#!/bin/sh\nkill -9 $$\n");
+  bench.run(study);
+  CHECK(bench.states()[0].failure == "dresslife-sim ended without a word (killed, or out of memory?)");
+  bench.write_stage("sim");
+  bench.tell_stage("one", "silent-sim");
+  bench.run(study);
+  CHECK(bench.states()[0].failure == "dresslife-sim ended without a word (killed, or out of memory?)");
 }
 
-TEST_CASE("build graph: a stage that fails without a word is told") {
+TEST_CASE("build graph: a stage that claims success and makes nothing is not believed") {
   Bench bench;
-  bench.write_stage("sim", "#!/bin/sh\nexit 3\n");
-  CHECK(bench.run(bench.study({{"one", "simulation.segments=20"}})).failures.at("one") ==
-        "it ended without a word (killed?)");
+  bench.write_script("sim", "#!/bin/sh\nexit 0\n");
+  bench.run(bench.study({{"one", "simulation.segments=20"}}));
+  CHECK_FALSE(bench.states()[0].done());
 }
 
-TEST_CASE("build graph: a dry run tells what is pending and runs nothing") {
+TEST_CASE("build graph: when ninja dies, what it did not reach is not done") {
+  Bench bench;
+  bench.run(bench.study({{"a", "simulation.segments=20"}, {"b", "simulation.segments=20"}}));
+  const Study changed = bench.study({{"a", "simulation.segments=24"}, {"b", "simulation.segments=24"}});
+  bench.tell_stage("a", "fail-sim");
+  bench.tell_stage("b", "wait-sim");
+  std::thread killer([&] {
+    while (bench.calls("b").size() < std::string("sim strain fatigue sim ").size())
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::system(("pkill -KILL -P " + std::to_string(::getpid()) + " ninja").c_str());
+  });
+  const BuildResult result = bench.run(changed);
+  killer.join();
+  CHECK(result.words == "ninja was ended by signal 9");
+  for (const JobState& state : bench.states()) CHECK_FALSE(state.done());
+  CHECK(bench.states()[0].failure == "job.yaml:1:1: error: sim broke; mend it");
+  fs::remove(bench.places().job("a") / "fail-sim");
+  fs::remove(bench.places().job("b") / "wait-sim");
+  bench.run(changed);
+  CHECK(bench.words(changed) == Words{"done", "done"});
+}
+
+TEST_CASE("build graph: looking changes nothing, and needs no right to write") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}});
   bench.run(study);
-  const Study changed = bench.study({{"one", "fatigue.stress=elastic"}, {"two", "simulation.segments=40"}});
-  const BuildResult result = bench.run(changed, true);
-  CHECK(result.pending == std::vector<std::string>{"one"});
-  CHECK(bench.calls("one") == "sim strain fatigue ");
-  CHECK(pending_state(changed.jobs[0], bench.places()) == "stale");
+  const auto listing = [&] {
+    std::string text;
+    for (const auto& entry : fs::recursive_directory_iterator(bench.places().folder)) {
+      const FileState state = state_of(entry.path());
+      text += fmt::format("{} {} {}\n", entry.path().string(), state.changed_ns, state.inode);
+    }
+    return text;
+  };
+  const std::string before = listing();
+  CHECK(bench.words(bench.study({{"one", "fatigue.stress=elastic"}, {"two", "simulation.segments=40"}})) ==
+        Words{"stale", "done"});
+  CHECK(listing() == before);
+  CHECK(bench.run(study).executed == 0);
+}
+
+TEST_CASE("build graph: a damaged or foreign result is named and made anew") {
+  Bench bench;
+  const Study study = bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}});
+  bench.run(study);
+  const auto file = [&](const std::string& job, const std::string& name) {
+    return bench.places().job(job) / name;
+  };
+  for (const char* name : {"motion.h5", "strain.h5", "life.h5"}) {
+    const std::string whole = bytes_of(file("one", name));
+    const auto time = fs::last_write_time(file("one", name));
+    std::string damaged = whole;
+    damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 4);
+    for (const std::string& other : {damaged, whole.substr(0, whole.size() / 2), std::string("garbage"),
+                                     bytes_of(file("two", name)), std::string()}) {
+      std::ofstream(file("one", name), std::ios::binary | std::ios::trunc) << other;
+      fs::last_write_time(file("one", name), time);  // as if nothing had happened
+      CHECK(bench.words(study)[0] ==
+            fmt::format("damaged  {} is not what its stage wrote; run makes it anew", name));
+      bench.run(study);
+      CHECK(bench.words(study) == Words{"done", "done"});
+      CHECK(bytes_of(file("one", name)) == whole);
+    }
+  }
+  // A copy of all is as good as the original.
+  fs::copy(bench.places().folder, bench.scratch() / "copy", fs::copy_options::recursive);
+  const StudyPlaces copied{bench.scratch() / "copy", bench.places().programs};
+  CHECK(states_of(study, copied)[0].done());
+  CHECK(states_of(study, copied)[0].compared.size() == stage_count);
+  write_build_graph(study, copied, states_of(study, copied));
+  CHECK(states_of(study, copied)[0].compared.empty());
 }
 
 TEST_CASE("build graph: jobs that cannot be run are left out, programs that are not there refused") {
@@ -169,9 +305,36 @@ TEST_CASE("build graph: jobs that cannot be run are left out, programs that are 
   CHECK_FALSE(fs::exists(bench.places().job("broken")));
   StudyPlaces nowhere = bench.places();
   nowhere.programs = bench.scratch() / "nowhere";
-  CHECK(message_of([&] { write_build_graph(study, nowhere); }) ==
+  CHECK(message_of([&] { states_of(study, nowhere); }) ==
         (nowhere.programs / "dresslife-sim").string() +
             ": error: is not there (the stages stand beside dresslife); build it: scripts/build");
+}
+
+TEST_CASE("receipts: an unsettled state is compared by bytes, a damaged receipt is none") {
+  const Scratch scratch;
+  const fs::path output = scratch.write("out.h5", "content");
+  write_receipt(scratch / "receipt", {"r", "-", "o", {}}, output);
+  const std::optional<Receipt> receipt = read_receipt(scratch / "receipt");
+  REQUIRE(receipt);
+  CHECK(receipt->recipe == "r");
+  CHECK(receipt->state == state_of(output));
+  CHECK(is_as_noted(*receipt, output));  // by its state: "o" is no checksum
+  Receipt unsettled = *receipt;
+  unsettled.state = {};
+  CHECK_FALSE(is_as_noted(unsettled, output));
+  const std::string text = bytes_of(scratch / "receipt");
+  for (std::size_t length = 0; length + 1 < text.size(); ++length) {
+    scratch.write("cut", text.substr(0, length));
+    CHECK_FALSE(read_receipt(scratch / "cut"));
+  }
+  // A change in the very moment after the receipt shows.
+  for (int k = 0; k < 50; ++k) {
+    write_receipt(scratch / "receipt", {"r", "-", "o", {}}, output);
+    const fs::file_time_type time = fs::last_write_time(output);
+    scratch.write("out.h5", k % 2 ? "content" : "contEnt");
+    fs::last_write_time(output, time);
+    CHECK_FALSE(is_as_noted(*read_receipt(scratch / "receipt"), output));
+  }
 }
 
 }  // namespace

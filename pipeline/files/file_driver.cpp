@@ -1,0 +1,122 @@
+#include "pipeline/files/file_driver.h"
+
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <new>
+
+#include "pipeline/whole_file.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+/// What the access list carries to open_file().
+struct Target {
+  WholeFile* written = nullptr;  ///< null: only read
+  int descriptor = -1;
+};
+
+/// The library's idea of an open file: its own part first.
+struct OpenFile {
+  H5FD_t library{};
+  Target target;
+  haddr_t end_of_use = 0;   ///< bytes that the library has given away
+  haddr_t end_of_file = 0;  ///< bytes that have been written
+};
+
+OpenFile& opened(H5FD_t* file) { return *reinterpret_cast<OpenFile*>(file); }
+const OpenFile& opened(const H5FD_t* file) { return *reinterpret_cast<const OpenFile*>(file); }
+
+H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
+  const void* info = H5Pget_driver_info(access);
+  if (!info) return nullptr;
+  auto* made = new (std::nothrow) OpenFile;
+  if (!made) return nullptr;
+  made->target = *static_cast<const Target*>(info);
+  if (!made->target.written)
+    made->end_of_file =
+        static_cast<haddr_t>(std::max<std::int64_t>(0, state_of(made->target.descriptor).size));
+  return &made->library;
+}
+
+herr_t close_file(H5FD_t* file) {
+  delete &opened(file);
+  return 0;
+}
+
+/// As the library's own driver: it gathers small pieces before it calls.
+herr_t tell_abilities(const H5FD_t*, unsigned long* flags) {
+  if (flags)
+    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+             H5FD_FEAT_AGGREGATE_SMALLDATA;
+  return 0;
+}
+
+haddr_t get_end_of_use(const H5FD_t* file, H5FD_mem_t) { return opened(file).end_of_use; }
+herr_t set_end_of_use(H5FD_t* file, H5FD_mem_t, haddr_t address) {
+  opened(file).end_of_use = address;
+  return 0;
+}
+haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) { return opened(file).end_of_file; }
+
+herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t count, void* bytes) {
+  return read_at(opened(file).target.descriptor, bytes, count, address) ? 0 : -1;
+}
+
+herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t count, const void* bytes) {
+  OpenFile& to = opened(file);
+  if (!to.target.written) return -1;
+  to.target.written->write_at(bytes, count, address);
+  to.end_of_file = std::max<haddr_t>(to.end_of_file, address + count);
+  return 0;
+}
+
+herr_t cut_file(H5FD_t* file, hid_t, hbool_t) {
+  OpenFile& of = opened(file);
+  if (of.target.written && of.end_of_file != of.end_of_use) {
+    of.target.written->set_length(of.end_of_use);
+    of.end_of_file = of.end_of_use;
+  }
+  return 0;
+}
+
+H5FD_class_t driver_table() {
+  H5FD_class_t table{};
+  table.name = "dresslife";
+  table.maxaddr = HADDR_MAX;
+  table.fc_degree = H5F_CLOSE_WEAK;
+  table.fapl_size = sizeof(Target);
+  table.open = open_file;
+  table.close = close_file;
+  table.query = tell_abilities;
+  table.get_eoa = get_end_of_use;
+  table.set_eoa = set_end_of_use;
+  table.get_eof = get_end_of_file;
+  table.read = read_bytes;
+  table.write = write_bytes;
+  table.truncate = cut_file;
+  const H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;  // the library's own: raw data apart from its tables
+  std::copy(std::begin(map), std::end(map), table.fl_map);
+  return table;
+}
+
+hid_t access_for(const Target& target) {
+  static const H5FD_class_t table = driver_table();
+  static const hid_t driver = H5FDregister(&table);
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  if (access >= 0 && H5Pset_driver(access, driver, &target) < 0) {
+    H5Pclose(access);
+    return -1;
+  }
+  return access;
+}
+
+}  // namespace
+
+std::int64_t access_for_writing(WholeFile& file) { return access_for({&file, file.descriptor()}); }
+std::int64_t access_for_reading(int descriptor) { return access_for({nullptr, descriptor}); }
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,57 @@
+// What a stage notes beside its output: from what it made it. Results are up to date when their receipts say
+// so; no time of day and no order of times decides.
+//
+//   recipe: digest of the settings that the result depends on, of the files beside the job (robot programs,
+//   meshes,
+//           recorded poses) and of the stage's program;
+//   input:  checksum of the file of the stage before ("-" for a job);
+//   output: checksum of the file that was made;
+//   state:  of the output as the stage left it. While size, inode and the two times are what they were then
+//   to the
+//           nanosecond, the checksum need not be compared again: a later change shows in one of them
+//           (FileState). A state that could not be waited for is noted as none, and the bytes are compared
+//           each time.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/whole_file.h"
+
+namespace dresslife::pipeline {
+
+struct Receipt {
+  std::string recipe, input, output;
+  FileState state;
+};
+
+/// Digests of files by name, each worked out once.
+class Digests {
+ public:
+  /// XXH3; "absent" for a file that cannot be read: whoever needs it will say so.
+  const std::string& of(const std::filesystem::path& file);
+
+ private:
+  std::map<std::filesystem::path, std::string> known_;
+};
+
+std::string recipe_of(std::string_view settings, const std::vector<std::filesystem::path>& files,
+                      const std::filesystem::path& program, Digests& digests);
+
+/// Nothing when there is none or it cannot be understood.
+std::optional<Receipt> read_receipt(const std::filesystem::path& file);
+
+/// Errors: InputError when it cannot be written.
+void write_receipt(const std::filesystem::path& file, Receipt receipt, const std::filesystem::path& output);
+
+/// Notes the state of an output whose bytes are as noted, so that they need no look the next time.
+void renew_receipt(const std::filesystem::path& file, const std::filesystem::path& output);
+
+/// Whether `output` is the file that the receipt tells of.
+bool is_as_noted(const Receipt& receipt, const std::filesystem::path& output);
+
+}  // namespace dresslife::pipeline

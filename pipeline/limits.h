@@ -1,0 +1,31 @@
+// What a program of ours holds itself to, and how it meets the world: streams that are closed, a parent that
+// dies, time and memory that end.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace dresslife::pipeline {
+
+/// Opens what of standard input, output and error is closed: a file opened later would take its number, and
+/// what is said would go into it. A file that may not grow any more fails its write instead of ending the
+/// program.
+void settle_streams();
+
+/// A program ends with the process that the environment variable DRESSLIFE_PARENT names as its parent,
+/// however that ends.
+void end_with_parent();
+
+/// Says on standard error that this program's job took too long, and ends it with exit status 1. 0: no limit.
+void limit_time(const std::string& program, std::uint64_t seconds);
+/// Memory beyond what the program began with; more is std::bad_alloc. 0: no limit.
+void limit_memory(std::uint64_t megabytes);
+std::uint64_t installed_memory_mb();
+
+/// Text as it is shown: control characters but line feeds and tabs as \x1b, so that none acts on a terminal.
+std::string shown(const std::string& text);
+
+/// Writes to standard error; nothing is thrown where it is full or gone.
+void tell(const std::string& text);
+
+}  // namespace dresslife::pipeline

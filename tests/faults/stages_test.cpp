@@ -1,0 +1,266 @@
+// What a stage leaves behind when the disk, the memory or another writer fails it: its file whole, or none.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <iostream>
+#include <map>
+#include <random>
+
+#include "pipeline/files/files.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+using dresslife::pipeline::FileReader;
+
+namespace {
+
+struct Stage {
+  std::string program, input, output;
+  std::string command(const std::string& to) const { return input + " -o " + to + " --quiet"; }
+};
+const std::vector<Stage> stages{{"dresslife-sim", "job.yaml", "motion.h5"},
+                                {"dresslife-strain", "motion.h5", "strain.h5"},
+                                {"dresslife-fatigue", "strain.h5", "life.h5"}};
+
+/// A small job and the files of its stages.
+class Chain {
+ public:
+  Chain() {
+    write_small_job(scratch);
+    for (const Stage& stage : stages) {
+      const Outcome outcome = run(scratch, stage.program, stage.command(stage.output));
+      INFO(outcome.err);
+      REQUIRE(outcome.status == 0);
+      files[stage.output] = content(scratch / stage.output);
+    }
+  }
+  Scratch scratch;
+  std::map<std::string, std::string> files;  ///< the bytes of each
+};
+
+int entries(const fs::path& folder) {
+  return static_cast<int>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+/// A file that a sanitized program lets be preloaded.
+std::string preload(const std::string& environment) {
+  return "env ASAN_OPTIONS=verify_asan_link_order=0 " + environment +
+         " LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' ";
+}
+
+/// Runs with words before the program; run() quotes the program alone.
+Outcome run_with(const Scratch& scratch, const std::string& before, const std::string& program,
+                 const std::string& arguments) {
+  scratch.write("call.sh", before + " '" DRESSLIFE_BIN_DIR "/" + program + "' " + arguments + "\n");
+  return run_shell(scratch, "sh ./call.sh");
+}
+
+constexpr int out_of_range = 128;  // a shell's status for a program that was ended by a signal
+
+}  // namespace
+
+TEST_CASE("each write, sync, close, cut and rename that fails fails the stage, or does no harm") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  fs::create_directories(scratch / "out");
+  const std::string place = scratch.folder().string();
+  for (const Stage& stage : stages)
+    for (const std::string call : {"write", "sync", "close", "cut", "rename"}) {
+      int total = 1, failed = 0, whole = 0;
+      for (int at = 0; at <= total; ++at) {
+        const Outcome outcome = run_with(scratch,
+                                         preload("FAULT_CALL=" + call + " FAULT_AT=" + std::to_string(at) +
+                                                 " FAULT_COUNT='" + place + "/count'"),
+                                         stage.program, stage.command("out/" + stage.output));
+        INFO(stage.program << " " << call << " " << at << " of " << total << ": " << outcome.err);
+        if (at == 0) {
+          REQUIRE(outcome.status == 0);
+          total = std::stoi(content(scratch / "count"));
+          fs::remove(scratch / "out" / stage.output);
+          continue;
+        }
+        REQUIRE(outcome.status < out_of_range);
+        if (outcome.status == 0) {  // closed after it had its name, or nothing to cut
+          REQUIRE(content(scratch / "out" / stage.output) == chain.files.at(stage.output));
+          REQUIRE(call != "write");
+          ++whole;
+        } else {
+          REQUIRE(outcome.status == 1);
+          REQUIRE(outcome.err.find("out/" + stage.output + ": error: cannot be written (") == 0);
+          ++failed;
+        }
+        fs::remove(scratch / "out" / stage.output);
+        REQUIRE(entries(scratch / "out") == 0);
+      }
+      std::cout << stage.program << ": " << call << " failed at each of " << total << " places: " << failed
+                << " refused, " << whole << " whole, 0 false\n";
+      if (call == "write" || call == "sync" || call == "rename") CHECK((failed == total && total > 0));
+    }
+}
+
+TEST_CASE("a file that may not grow ends no stage with a signal, and leaves nothing") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  fs::create_directories(scratch / "out");
+  int tried = 0;
+  for (const Stage& stage : stages) {
+    const auto blocks = static_cast<int>(chain.files.at(stage.output).size() / 512);  // of ulimit -f
+    for (int size = 0; size < blocks; size += std::max(1, blocks / 12)) {
+      const Outcome outcome = run_with(scratch, "ulimit -f " + std::to_string(size) + ";", stage.program,
+                                       stage.command("out/" + stage.output) + " 2>&1 | cat >&2; exit 0");
+      INFO(stage.program << " " << size << ": " << outcome.err);
+      CHECK(outcome.err.find("cannot be written (File too large); free space on the disk") !=
+            std::string::npos);
+      CHECK(outcome.err.find("egmentation") == std::string::npos);
+      CHECK(entries(scratch / "out") == 0);
+      ++tried;
+    }
+  }
+  std::cout << "files that may not grow: " << tried << " sizes, all refused\n";
+}
+
+TEST_CASE("two writers of one output: both end well, and the file is whole") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  fs::create_directories(scratch / "out");
+  constexpr int rounds = 6;
+  for (const Stage& stage : stages)
+    for (int round = 0; round < rounds; ++round) {
+      const std::string call =
+          "'" DRESSLIFE_BIN_DIR "/" + stage.program + "' " + stage.command("out/" + stage.output);
+      const Outcome outcome =
+          run_shell(scratch, call + " & first=$!; " + call + "; second=$?; wait $first && exit $second");
+      INFO(stage.program << ": " << outcome.err);
+      REQUIRE(outcome.status == 0);
+      REQUIRE(content(scratch / "out" / stage.output) == chain.files.at(stage.output));
+      fs::remove(scratch / "out" / stage.output);
+      REQUIRE(entries(scratch / "out") == 0);
+    }
+}
+
+TEST_CASE("no bit of a file can turn without a word") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  constexpr int flips = 100;
+  const unsigned seed = std::random_device{}();
+  std::mt19937_64 random(seed);
+  std::cout << "bits turned with seed " << seed;
+  const std::map<std::string, const dresslife::pipeline::Format*> formats{
+      {"motion.h5", &dresslife::pipeline::motion_format()},
+      {"strain.h5", &dresslife::pipeline::strain_format()},
+      {"life.h5", &dresslife::pipeline::life_format()}};
+  for (const auto& [name, format] : formats) {
+    int noticed = 0;
+    for (int flip = 0; flip < flips; ++flip) {
+      std::string bytes = chain.files.at(name);
+      // The lines at the beginning are few bytes among many; each gets its share.
+      const std::size_t at = flip % 5 == 0 ? random() % 600 : random() % bytes.size();
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
+      const fs::path file = scratch.write("flipped.h5", bytes);
+      try {
+        const FileReader reader(file, *format);
+      } catch (const dresslife::pipeline::InputError&) {
+        ++noticed;
+      }
+    }
+    CHECK(noticed == flips);
+    std::cout << "; " << name << " " << noticed << " of " << flips << " noticed";
+  }
+  std::cout << '\n';
+  // And as a user meets it.
+  std::string bytes = chain.files.at("motion.h5");
+  bytes[bytes.size() / 2] ^= 1;
+  scratch.write("flipped.h5", bytes);
+  const Outcome outcome = run(scratch, "dresslife-strain", "flipped.h5 -o out.h5");
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err ==
+        "flipped.h5: error: is damaged or was edited (its bytes are not those of its checksum); make the "
+        "file anew "
+        "with dresslife-sim\n");
+  CHECK_FALSE(fs::exists(scratch / "out.h5"));
+}
+
+TEST_CASE("an output replaces a result and nothing else") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const Outcome outcome = run(scratch, "dresslife-strain", "motion.h5 " + arguments);
+    INFO(arguments << ": " << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find(words) != std::string::npos);
+  };
+  const std::string job = content(scratch / "job.yaml");
+  refused("--job job.yaml -o job.yaml", "is one of the files that are read");
+  refused("--job job.yaml -o job.yaml --force", "is one of the files that are read");
+  CHECK(content(scratch / "job.yaml") == job);
+  refused("-o motion.h5 --force", "is the input itself");
+  const std::string poses = content(scratch / "poses.csv");
+  refused("-o poses.csv",
+          "is there already and no strain.h5 of dresslife-strain's; name another file after -o, or");
+  CHECK(content(scratch / "poses.csv") == poses);
+  CHECK(run(scratch, "dresslife-sim", "job.yaml -o poses.csv --force").status == 1);  // the job reads it
+  CHECK(content(scratch / "poses.csv") == poses);
+  scratch.write("mine.txt", "mine");
+  fs::create_symlink("mine.txt", scratch / "link.h5");
+  refused("-o link.h5 --force", "is a link to another file");
+  CHECK(content(scratch / "mine.txt") == "mine");
+  REQUIRE(run_shell(scratch, "mkfifo pipe.h5").status == 0);
+  refused("-o pipe.h5 --force", "is a device or a pipe");
+  refused("-o /dev/null", "is a device or a pipe");
+  CHECK(fs::is_character_file("/dev/null"));
+  refused("-o .", "is a folder");
+  CHECK(run(scratch, "dresslife-strain", "motion.h5 -o mine.txt --force").status == 0);
+  CHECK(content(scratch / "mine.txt") == chain.files.at("strain.h5"));
+  CHECK(run(scratch, "dresslife-strain", "motion.h5 -o strain.h5").status ==
+        0);                       // a result goes without a word
+  scratch.write("empty.h5", "");  // as mktemp makes it
+  CHECK(run(scratch, "dresslife-strain", "motion.h5 -o empty.h5").status == 0);
+}
+
+TEST_CASE("what killed writers left is cleared away, what lives is not") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  scratch.write("motion.h5.99999-0.part", "left behind");
+  scratch.write("motion.h5.part", "not ours");
+  CHECK(run(scratch, "dresslife-sim", "job.yaml -o motion.h5").status == 0);
+  CHECK_FALSE(fs::exists(scratch / "motion.h5.99999-0.part"));
+  CHECK(content(scratch / "motion.h5.part") == "not ours");
+}
+
+TEST_CASE("closed and full streams are survived and told by the status") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  const std::string bin = "'" DRESSLIFE_BIN_DIR "/dresslife";
+  CHECK(run_shell(scratch, bin + "-sim' absent.yaml -o m.h5 2>&-").status == 1);
+  const Outcome closed = run_shell(scratch, bin + "-strain' motion.h5 -o s.h5 <&- >&- 2>&-");
+  CHECK(closed.status == 0);
+  CHECK(content(scratch / "s.h5") == chain.files.at("strain.h5"));  // nothing that was said went into it
+  scratch.write("study.yaml", "base: job.yaml\n");
+  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  for (const std::string what :
+       {"run study.yaml", "status study.yaml", "report study.yaml", "manual keys", "--help"}) {
+    const Outcome full = run_shell(scratch, bin + "' " + what + " > /dev/full");
+    INFO(what << full.err);
+    CHECK(full.status == 1);
+    CHECK(full.err.find("standard output: error: cannot be written (No space left on device)") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("with too few threads a stage does the work on those that it has") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  // Each thread wants 8 MB of stack: with this much address space some get none.
+  for (const int kilobytes : {70000, 76500, 90000, 120000, 200000}) {
+    const Outcome outcome =
+        run_with(scratch, "ulimit -v " + std::to_string(kilobytes) + "; DRESSLIFE_THREADS=8",
+                 "dresslife-fatigue", "strain.h5 -o few.h5");
+    INFO(kilobytes << ": " << outcome.status << outcome.err);
+    CHECK(outcome.status < out_of_range);
+    if (outcome.status == 0)
+      CHECK(content(scratch / "few.h5") == chain.files.at("life.h5"));
+    else
+      CHECK(outcome.err.find("damaged") == std::string::npos);
+    fs::remove(scratch / "few.h5");
+  }
+}

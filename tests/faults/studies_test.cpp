@@ -1,0 +1,264 @@
+// What a study believes after its runner, its stages or its files have come to harm.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+const char* study_text = R"(base: job.yaml
+vary: {dresspack.bending_stiffness_Nm2: [2, 3, 4]}
+)";
+
+/// A study's results: every file's bytes but those of the runner's own bookkeeping.
+std::map<std::string, std::string> results(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    const bool own = name.find(".stage") != std::string::npos || name == ".lock" || name == "build.ninja" ||
+                     entry.path().filename() == "log";
+    if (entry.is_regular_file() && !own) files[name] = content(entry.path());
+  }
+  return files;
+}
+
+/// Starts a program in the scratch folder and leaves it alone.
+pid_t start(const Scratch& scratch, const std::string& program, const std::vector<std::string>& arguments) {
+  const pid_t process = ::fork();
+  if (process != 0) return process;
+  ::chdir(scratch.folder().c_str());
+  const int quiet = ::open("/dev/null", O_RDWR);
+  for (int stream = 0; stream < 3; ++stream) ::dup2(quiet, stream);
+  const std::string path = DRESSLIFE_BIN_DIR "/" + program;
+  std::vector<char*> words{const_cast<char*>(path.c_str())};
+  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  ::execv(path.c_str(), words.data());
+  ::_exit(127);
+}
+
+/// Processes below `process`, the nearest first.
+std::vector<pid_t> descendants(pid_t process) {
+  std::vector<pid_t> found{process};
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    std::ifstream in("/proc/" + std::to_string(found[k]) + "/task/" + std::to_string(found[k]) + "/children");
+    for (pid_t child; in >> child;) found.push_back(child);
+  }
+  return found;
+}
+
+Outcome run_study(const Scratch& scratch, const std::string& more = "") {
+  return run(scratch, "dresslife", "run study.yaml " + more);
+}
+
+}  // namespace
+
+TEST_CASE("whatever is killed when, a resumed study has the results of an undisturbed one") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  const auto begin = std::chrono::steady_clock::now();
+  REQUIRE(run_study(scratch, "-o whole").status == 0);
+  const auto takes = std::chrono::steady_clock::now() - begin;
+  auto whole = results(scratch / "whole/study");
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  std::map<std::string, int> killed;
+  constexpr int rounds = 24;
+  for (int round = 0; round < rounds; ++round) {
+    fs::remove_all(scratch / "runs");
+    const pid_t runner = start(scratch, "dresslife", {"run", "study.yaml", "--quiet"});
+    std::this_thread::sleep_for(takes * std::uniform_real_distribution<double>(0, 1.1)(random));
+    // The runner, Ninja or a stage; by a signal that can be heard or not.
+    const std::vector<pid_t> all = descendants(runner);
+    const std::size_t victim = std::min<std::size_t>(random() % 3, all.size() - 1);
+    ::kill(all[victim], std::array{SIGKILL, SIGTERM, SIGHUP}[random() % 3]);
+    ::waitpid(runner, nullptr, 0);
+    ++killed[victim == 0 ? "runner" : victim == 1 ? "ninja" : "stage"];
+    const Outcome resumed = run_study(scratch);
+    INFO("seed " << seed << " round " << round << " victim " << victim << ": " << resumed.out << resumed.err);
+    REQUIRE(resumed.status == 0);
+    auto again = results(scratch / "runs/study");
+    REQUIRE(again.size() == whole.size());
+    for (const auto& [name, bytes] : whole) {
+      INFO(name);
+      if (name != "report.html") REQUIRE((again.count(name) == 1 && again[name] == bytes));
+    }
+    // Nothing that was begun lives on.
+    for (std::size_t k = 1; k < all.size(); ++k) CHECK((::kill(all[k], 0) != 0 && errno == ESRCH));
+  }
+  std::cout << "killed with seed " << seed << ":";
+  for (const auto& [what, times] : killed) std::cout << ' ' << what << ' ' << times;
+  std::cout << "; " << rounds << " resumed at once to the same bytes\n";
+}
+
+TEST_CASE("a runner that is killed takes its stages along") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", "base: job.yaml\n");
+  // A minute of work.
+  const pid_t runner = start(
+      scratch, "dresslife",
+      {"run", "study.yaml", "--set", "simulation.time_step_ms=0.01", "--set", "simulation.segments=400"});
+  std::vector<pid_t> all;
+  for (int k = 0; k < 1000 && all.size() < 3; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    all = descendants(runner);
+  }
+  REQUIRE(all.size() >= 3);
+  ::kill(runner, SIGKILL);
+  ::waitpid(runner, nullptr, 0);
+  bool lives = true;
+  for (int k = 0; k < 1000 && lives; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    lives = false;
+    for (std::size_t other = 1; other < all.size(); ++other) lives = lives || ::kill(all[other], 0) == 0;
+  }
+  CHECK_FALSE(lives);
+  CHECK(run_study(scratch).status == 0);
+}
+
+TEST_CASE("a job that takes too long or too much is told, and the others are ranked") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", R"(base: job.yaml
+jobs:
+  good: {}
+  endless: {simulation.time_step_ms: 0.01, simulation.segments: 400}
+)");
+  const Outcome slow = run_study(scratch, "--job-time 3 -j 2");
+  CHECK(slow.status == 1);
+  CHECK(
+      slow.out.find("dresslife-sim: error: took longer than 3 s (--job-time); look for an endless motion") !=
+      std::string::npos);
+  const std::string ranking = content(scratch / "runs/study/ranking.csv");
+  CHECK(ranking.find("\ngood,") != std::string::npos);
+  CHECK(ranking.find("\nendless,,,,,,,,,,,,failed,") != std::string::npos);
+#ifndef __SANITIZE_ADDRESS__
+  scratch.write("study.yaml", "base: job.yaml\n");
+  const Outcome large = run_study(scratch, "--job-memory 1");
+  CHECK(large.status == 1);
+  CHECK(large.out.find("out of memory") != std::string::npos);
+#endif
+}
+
+TEST_CASE("status and report work beside a run and where nothing may be written, and change nothing") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  REQUIRE(run_study(scratch).status == 0);
+  const auto before = results(scratch / "runs/study");
+  // Other settings: the ranking of the last run stays.
+  const Outcome changed = run(scratch, "dresslife", "report study.yaml --set fatigue.stress=elastic");
+  CHECK(changed.status == 1);
+  CHECK(changed.out.find("stale") != std::string::npos);
+  CHECK(changed.err.find("ranking.csv and report.html stay as the last run left them (3 jobs are not done") !=
+        std::string::npos);
+  CHECK(run(scratch, "dresslife", "status study.yaml --set fatigue.stress=elastic")
+            .out.find("0 of 3 jobs done") != std::string::npos);
+  CHECK(results(scratch / "runs/study") == before);
+  CHECK(run_study(scratch).err.find("nothing to do") != std::string::npos);
+  // Somebody else holds the folder.
+  const int lock = ::open((scratch / "runs/study/.lock").c_str(), O_RDWR | O_CLOEXEC);
+  REQUIRE(lock >= 0);
+  REQUIRE(::pwrite(lock, (std::to_string(::getpid()) + "\n").c_str(), std::to_string(::getpid()).size() + 1,
+                   0) > 0);
+  REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);
+  CHECK(run_study(scratch).err.find("is in use by another run (process " + std::to_string(::getpid()) +
+                                    ")") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "status study.yaml").out.find("3 of 3 jobs done") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "report study.yaml").status == 0);
+  ::close(lock);
+  CHECK(results(scratch / "runs/study") == before);
+}
+
+TEST_CASE("a changed input counts whatever its date, a damaged or foreign result is made anew") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  REQUIRE(run_study(scratch).status == 0);
+  const auto before = results(scratch / "runs/study");
+  const std::string poses = content(scratch / "poses.csv");
+  const fs::file_time_type time = fs::last_write_time(scratch / "poses.csv");
+  std::string moved = poses;
+  moved.replace(moved.find("0.8,"), 4, "0.7,");
+  scratch.write("poses.csv", moved);
+  fs::last_write_time(scratch / "poses.csv", time - std::chrono::hours(24 * 365 * 20));
+  CHECK(run(scratch, "dresslife", "status study.yaml").out.find("0 of 3 jobs done") != std::string::npos);
+  REQUIRE(run_study(scratch).status == 0);
+  CHECK(content(scratch / "runs/study/ranking.csv") != before.at("ranking.csv"));
+  scratch.write("poses.csv", poses);
+  fs::last_write_time(scratch / "poses.csv", time);
+  REQUIRE(run_study(scratch).status == 0);
+  CHECK(results(scratch / "runs/study") == before);
+
+  const std::string one = "runs/study/bending_stiffness_Nm2=2/", two = "runs/study/bending_stiffness_Nm2=3/";
+  fs::copy_file(scratch / (one + "life.h5"), scratch / (two + "life.h5"),
+                fs::copy_options::overwrite_existing);
+  const Outcome status = run(scratch, "dresslife", "status study.yaml");
+  CHECK(status.out.find("damaged  life.h5 is not what its stage wrote; run makes it anew") !=
+        std::string::npos);
+  const Outcome report = run(scratch, "dresslife", "report study.yaml");
+  CHECK(report.status == 1);  // the copy is nobody's life
+  const Outcome mended = run_study(scratch);
+  CHECK(mended.err.find("life.h5 is not what its stage wrote") != std::string::npos);
+  CHECK(results(scratch / "runs/study") == before);
+}
+
+TEST_CASE("names and texts are text, wherever they go") {
+  Scratch scratch;
+  write_small_job(scratch);
+  for (const std::string name : {"build.ninja", "ranking.csv", "report.html"}) {
+    scratch.write("study.yaml", "base: job.yaml\njobs: {" + name + ": {}}\n");
+    const Outcome outcome = run_study(scratch);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("a job is named '" + name + "' (a file of the study itself)") !=
+          std::string::npos);
+  }
+  scratch.write("study.yaml",
+                "base: job.yaml\njobs: {-x: {}, --help: {}, '=1+1': {}, \"e\\e[31mred\": {}}\n");
+  const Outcome odd = run_study(scratch, "-o 'odd | folder\n $x'");
+  INFO(odd.out << odd.err);
+  CHECK(odd.status == 0);
+  CHECK(odd.out.find('\x1b') == std::string::npos);
+  CHECK(content(scratch / "odd | folder\n $x/study/ranking.csv").find("\n=") == std::string::npos);
+  CHECK(fs::exists(scratch / "odd | folder\n $x/study/_x/life.h5"));
+  REQUIRE(run_shell(scratch, "mkfifo pipe.yaml").status == 0);
+  scratch.write("study.yaml", "base: pipe.yaml\n");
+  CHECK(run_study(scratch).err.find("pipe.yaml: error: is a device or a pipe, not a file") == 0);
+}
+
+TEST_CASE("absurd values are refused where they are read, by their keys") {
+  Scratch scratch;
+  write_small_job(scratch);
+  const auto refused = [&](const std::string& set, const std::string& words) {
+    const Outcome outcome = run(scratch, "dresslife-sim", "job.yaml -o m.h5 --set " + set);
+    INFO(set << ": " << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find(words) != std::string::npos);
+    CHECK_FALSE(fs::exists(scratch / "m.h5"));
+  };
+  refused("dresspack.bending_stiffness_Nm2=1e20",
+          "dresspack.bending_stiffness_Nm2 is 1e20 (its size must be 1e-08 .. 10000000 N m2)");
+  refused("routing.free_length_m=1e200", "routing.free_length_m is 1e200 (its size must be 1e-12 .. 1000 m)");
+  refused("routing.free_length_m=1e-320", "(its size must be 1e-12 .. 1000 m)");
+  refused("simulation.gravity_m_per_s2=[0,0,-1e308]", "(its size must be 0 .. 1000 m/s2)");
+  refused("'cell={capsules: [{from_m: [0,0,0], to_m: [0,0,1e300], radius_mm: 1}]}'",
+          "(its size must be 0 .. 1000 m)");
+  // As long as the keys allow, and longer than anybody can hold.
+  scratch.write("long.csv", "0,0,0,1,1,0,0,0,0.8,0,1,1,0,0,0\n9e9,0,0,1,1,0,0,0,0.8,0,1,1,0,0,0\n");
+  refused("motion.clamp_poses=long.csv", "(at most 1e+08)");
+}
