@@ -13,6 +13,7 @@
 
 namespace dresslife::strain {
 
+constexpr int no_ring = -1;
 constexpr double without_limit = std::numeric_limits<double>::infinity();
 
 struct LooseCable {
@@ -21,17 +22,17 @@ struct LooseCable {
   double axial_stiffness = 0;     ///< E A, of its wires [N]
   double bending_stiffness = 0;   ///< E I, as its wires slide [N m2]
   double mass_per_length = 0;     ///< [kg/m]
-  double slack = 0;  ///< length between the clamps beyond the path on which it was laid in, over it
-  double play = without_limit;  ///< c: how far it can move from its place, whatever else stops it [m]
-  double wall_stiffness = 1e8;  ///< k_w, of what it lies against, force per length and depth [N/m2]
-  double friction = 0;          ///< mu, Coulomb, against what it lies on
-  double grip = without_limit;  ///< force at which a clamp lets it slip [N]
-};
+  double slack = 0;               ///< length beyond the path on which it was laid in, over it
+  double wall_stiffness = 1e7;    ///< k_w, of what it lies against, force per length and depth [N/m2]
+  double friction = 0;            ///< mu, Coulomb, against what it lies on
+  double grip = without_limit;    ///< force at which a clamp lets it slip [N]
 
-/// What of the hose the cables can meet.
-struct HoseSection {
-  double inner_radius = without_limit;  ///< of the wall [m]
-  double core_radius = 0;               ///< of what fills the middle [m]; 0: nothing
+  // How far it can go; fit_in_hose() finds all but the first.
+  double play = without_limit;      ///< c: from its place, whatever else stops it [m]
+  double farthest = without_limit;  ///< from the hose's axis: the wall, or what lies in between [m]
+  double nearest = 0;               ///< to the hose's axis: what lies there [m]
+  int ring = no_ring;               ///< of cables around the hose's axis, which turn as one
+  double gap = without_limit;       ///< along its ring either way, by what its neighbours leave [m]
 };
 
 /// One cable at one sample. Nodes are evenly spaced from the base clamp (0) to the tool clamp (last);

@@ -1,0 +1,50 @@
+// Where all cables of one hose lie, sample by sample (README W30 to W35): first each ring turns, then each
+// cable goes to the minimum of its energy about its place there.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "strain/loose/cable_line.h"
+#include "strain/loose/ring.h"
+
+namespace dresslife::strain {
+
+struct LooseSettings {
+  double length = 0;          ///< of the hose's axis between the clamps [m]
+  std::size_t elements = 64;  ///< of equal length
+  double rest_curvature = 0;  ///< about d2, of the hose in which the cables were laid [1/m]
+  /// Force per length and sideways speed that holds a cable [N s/m2] (README W34): at 50 mm/s friction of 0.3
+  /// under a cable of 0.2 kg/m. It only decides which way a cable goes where several are open.
+  double drag = 12;
+};
+
+class LooseCables {
+ public:
+  /// cables: of one hose; those that meet each other as fit_in_hose() leaves them (strain/loose/rings.h).
+  LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings);
+
+  std::size_t nodes() const { return hose_.nodes(); }
+  std::size_t cables() const { return lines_.size(); }
+
+  /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].
+  void advance(std::span<const HoseNode> hose, double step);
+
+  const CableState& state(std::size_t cable) const { return states_[cable]; }
+  /// Samples at which a ring or a cable was still moving when the work was cut short.
+  std::size_t restless() const { return restless_; }
+  std::size_t iterations() const { return iterations_; }  ///< of all cables so far
+
+ private:
+  LooseSettings settings_;
+  HoseLine hose_;
+  std::vector<CableLine> lines_;
+  std::vector<int> ring_of_;
+  std::vector<Ring> rings_;
+  std::vector<CableState> states_;
+  std::size_t restless_ = 0, iterations_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace dresslife::strain

@@ -1,0 +1,44 @@
+// Cables around the axis of a hose that turn as one (README W33).
+//
+// With every cable at its place in the ring, A = e^(i (phi + psi(s))) a0, the turn psi is where the sum of
+// their energies (strain/loose/cable_line.h) is least; psi = psi' = 0 at the clamps. A turn takes all cables
+// along, so no contact stands in its way. With t = J A, a cable's way when its ring turns, the slope of the
+// sum is that of slope . t, its matrix that of bending, tension and drag between these ways, less slope . A
+// on the diagonal since places go along circles; each cable's stretch adds a matrix of rank one (Woodbury).
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "strain/loose/cable_line.h"
+
+namespace dresslife::strain {
+
+class Ring {
+ public:
+  Ring(const HoseLine& hose, double rest_curvature);
+  void add(const LooseCable& cable, const HoseLine& hose);
+  std::size_t cables() const { return lines_.size(); }
+
+  /// Turns to the minimum at the next sample. drag: eta of each cable [N/m2]. step: since the sample before
+  /// [s]; 0: from where it is. Returns whether it has come to rest.
+  bool advance(const HoseLine& hose, double drag, double step);
+  /// (node) cosine and sine of phi + psi: the frame in which its cables' places stay.
+  const std::vector<Eigen::Vector2d>& frame() const { return frame_; }
+
+ private:
+  void place(const HoseLine& hose);
+  void assemble(const HoseLine& hose);
+  Eigen::VectorXd newton_turn(const HoseLine& hose, const Eigen::VectorXd& right);
+  double step(const HoseLine& hose);
+  Eigen::VectorXd slope() const;
+
+  double rest_curvature_;
+  std::vector<CableLine> lines_;        ///< as they lie when each keeps to its place
+  std::vector<double> psi_, velocity_;  ///< (node) against the hose [rad], [rad/s]
+  std::vector<Eigen::Vector2d> frame_;
+  std::vector<double> bands_;  ///< (row, 3) diagonal and the two beside it, then its factors
+  std::vector<double> table_;  ///< (row, 1 + cable) right-hand sides, then solutions
+};
+
+}  // namespace dresslife::strain

@@ -1,0 +1,28 @@
+// What stops cables that lie around the axis of a hose: its wall, its core, and each other.
+//
+// Cables whose distances from the axis overlap form a ring. Its neighbours keep their order: a ring can turn
+// as a whole, and each cable in it can move along it by half of what is free between it and its nearest
+// neighbour, so that no two ever overlap. Toward and away from the axis a cable reaches what fills the middle
+// or the next ring inside, and the wall or the next ring outside.
+//
+// It is a reduced model on purpose: see README W33 for what contact between all discs gives instead.
+#pragma once
+
+#include <vector>
+
+#include "strain/loose/cable.h"
+
+namespace dresslife::strain {
+
+/// What of the hose cables can meet.
+struct HoseSection {
+  double inner_radius = without_limit;  ///< of the wall [m]
+  double core_radius = 0;               ///< of what fills the middle and is no cable [m]
+};
+
+/// Fills in `farthest`, `nearest`, `ring` and `gap` of cables at their places. Where places overlap with one
+/// another, the wall or the core, there is no room, and the cable can only leave the other way. A cable with
+/// a play of its own keeps to that alone.
+void fit_in_hose(std::vector<LooseCable>& cables, const HoseSection& section);
+
+}  // namespace dresslife::strain
