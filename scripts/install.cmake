@@ -71,10 +71,11 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "life of the cables that an industrial robot carries outside
- Predicts from a robot's programs when a wire in its dresspack breaks, which
- one, where along the hose, and which motion does it: simulates the hose,
- works out the strain of every wire, counts cycles and sums up damage.")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "life of the cables that an industrial robot carries outside")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+"Predicts from a robot's programs when a wire in its dresspack breaks, which
+one, where along the hose, and which motion does it: simulates the hose,
+works out the strain of every wire, counts cycles and sums up damage.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "ninja-build")  # runs the stages of a study
 include(CPack)
