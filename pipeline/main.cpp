@@ -1,16 +1,10 @@
 // dresslife: runs studies, tells how they stand, reports their results and prints the manual.
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <thread>
 
 #include "pipeline/installation.h"
@@ -20,6 +14,7 @@
 #include "pipeline/report/report.h"
 #include "pipeline/stage.h"
 #include "pipeline/study/build_graph.h"
+#include "pipeline/study/folder_lock.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/study.h"
 
@@ -37,48 +32,6 @@ struct Options {
 };
 
 void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
-
-/// One run at a time in a study's folder. The stages that a run starts hold the lock with it: while one of
-/// them lives nobody else writes there.
-class Lock {
- public:
-  explicit Lock(const fs::path& folder) {
-    fs::create_directories(folder);
-    const fs::path file = folder / ".lock";
-    descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_NOFOLLOW, 0644);  // passes to the stages
-    if (descriptor_ < 0)
-      throw InputError({folder.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
-                       "mend its permissions, or choose another folder with -o");
-    wait(folder);
-    const std::string own = std::to_string(::getpid()) + "\n";
-    if (::ftruncate(descriptor_, 0) != 0 ||
-        ::pwrite(descriptor_, own.data(), own.size(), 0) != static_cast<ssize_t>(own.size()))
-      throw InputError({folder.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
-                       "free space on the disk, or choose another folder with -o");
-  }
-  ~Lock() { ::close(descriptor_); }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
- private:
-  /// Stages of a run that was broken off end with it, a moment later.
-  void wait(const fs::path& folder) const {
-    constexpr auto most = std::chrono::milliseconds(10'000), pause = std::chrono::milliseconds(20);
-    for (auto waited = most - most;; waited += pause) {
-      if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-      char owner[32] = "";
-      const bool told = ::pread(descriptor_, owner, sizeof owner - 1, 0) > 0;
-      const long process = std::strtol(owner, nullptr, 10);
-      const bool lives =
-          !told || process <= 0 || ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
-      if (lives || waited >= most)
-        throw InputError({folder.string()}, fmt::format("is in use by another run (process {})", process),
-                         "wait for it, or choose another folder with -o");
-      std::this_thread::sleep_for(pause);
-    }
-  }
-  int descriptor_ = -1;
-};
 
 /// What a user names: a file, or an entry of the catalogue ("two_robots" of studies).
 fs::path named_file(const std::string& name, const char* shelf) {
@@ -154,7 +107,7 @@ int make_rest(const Study& study, const StudyPlaces& places, const Options& opti
 int run(const Options& options) {
   const Study study = read_study(named_file(options.study, "studies"), options.sets);
   const StudyPlaces places = places_of(study, options);
-  const Lock lock(places.folder);
+  const FolderLock lock(places.folder);
   std::vector<JobState> states = states_of(study, places);
   const int executed = make_rest(study, places, options, states);
   if (!options.quiet)

@@ -60,18 +60,25 @@ void check_output(const StageCall& call, bool force) {
                      "name another file after -o, or replace it with --force");
 }
 
+/// Of the file behind links: inputs may lie anywhere.
+FileState input_state(const std::filesystem::path& file) {
+  std::error_code failure;
+  const std::filesystem::path target = std::filesystem::canonical(file, failure);
+  return failure ? FileState{} : state_of(target);
+}
+
 /// A change from now on shows in the state: the clock of file times has moved on since the last one.
 FileState settled_state(const std::filesystem::path& file) {
   constexpr auto tick = std::chrono::milliseconds(10);  // of the slowest kernels
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const std::int64_t age = std::chrono::nanoseconds(now).count() - state_of(file).changed_ns;
+  const std::int64_t age = std::chrono::nanoseconds(now).count() - input_state(file).changed_ns;
   if (age >= 0 && age < std::chrono::nanoseconds(tick).count()) std::this_thread::sleep_for(tick);
-  return state_of(file);
+  return input_state(file);
 }
 
 void check_inputs_unchanged(const StageCall& call) {
   for (const auto& [file, before] : call.inputs)
-    if (state_of(file) != before)
+    if (input_state(file) != before)
       throw InputError({file.string()}, fmt::format("has changed while {} ran", call.info.program),
                        "run it again");
 }

@@ -219,8 +219,7 @@ bool settle(const fs::path& file, FileState& state) {
   constexpr auto most_wait = std::chrono::milliseconds(60),
                  pause = std::chrono::milliseconds(1);  // ticks are 1 .. 10 ms
   state = state_of(file);
-  std::string probe = (folder_of(file) / ".clock-XXXXXX").string();
-  const int made = ::mkostemp(probe.data(), O_CLOEXEC);
+  const auto [made, probe] = make_part(file);
   if (made < 0) return false;
   bool settled = false;
   for (auto waited = most_wait - most_wait; waited < most_wait && !settled; waited += pause) {

@@ -114,9 +114,9 @@ void InputBytes::check(const std::string& checksum, const std::string& remedy) c
 namespace {
 
 std::optional<std::string> checksum(const std::filesystem::path& file, bool compare) {
-  if (!state_of(file).exists()) return std::nullopt;
   try {
     const InputBytes bytes(file);
+    if (!state_of(bytes.descriptor()).exists()) return std::nullopt;  // no plain file
     const std::string told = bytes.read_checksum("");
     if (told.empty()) return xxh3_of_range(bytes.descriptor(), 0, size_of(bytes.descriptor()));
     if (compare) bytes.check(told, "");

@@ -475,7 +475,7 @@ struct FileReader::Impl {
   };
   std::filesystem::path name;
   const Format* format = nullptr;
-  InputBytes bytes;  // closed after the library has let go of it
+  InputBytes input;  // closed after the library has let go of it
   Handle file;
   std::map<std::string, Open> open;
   std::map<std::string, std::size_t> axes;
@@ -730,10 +730,10 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
     throw InputError({file.string()}, "is not there",
                      fmt::format("check the path, or make it with {}", format.made_by));
   const std::string remedy = fmt::format("make the file anew with {}", format.made_by);
-  impl_->bytes = InputBytes(file);
-  impl_->checksum = impl_->bytes.read_checksum(remedy);
-  if (scope == Scope::everything) impl_->bytes.check(impl_->checksum, remedy);
-  const Handle access(access_for_reading(impl_->bytes.descriptor()), H5Pclose);
+  impl_->input = InputBytes(file);
+  impl_->checksum = impl_->input.read_checksum(remedy);
+  if (scope == Scope::everything) impl_->input.check(impl_->checksum, remedy);
+  const Handle access(access_for_reading(impl_->input.descriptor()), H5Pclose);
   impl_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("is not an HDF5 file, or is cut off");
   impl_->check_format();

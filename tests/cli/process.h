@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -62,6 +63,13 @@ inline Outcome run(const Scratch& scratch, const std::string& program, const std
                               "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+}
+
+/// How often a test repeats what it draws by lot: `times`, or more in the long form of the faults
+/// (scripts/faults).
+inline int rounds(int times) {
+  const char* const factor = std::getenv("DRESSLIFE_FAULTS");
+  return times * (factor ? std::max(1, std::atoi(factor)) : 1);
 }
 
 /// Runs a line of shell in the scratch folder.

@@ -124,9 +124,8 @@ TEST_CASE("two writers of one output: both end well, and the file is whole") {
   const Chain chain;
   const Scratch& scratch = chain.scratch;
   fs::create_directories(scratch / "out");
-  constexpr int rounds = 6;
   for (const Stage& stage : stages)
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < rounds(6); ++round) {
       const std::string call =
           "'" DRESSLIFE_BIN_DIR "/" + stage.program + "' " + stage.command("out/" + stage.output);
       const Outcome outcome =
@@ -142,7 +141,7 @@ TEST_CASE("two writers of one output: both end well, and the file is whole") {
 TEST_CASE("no bit of a file can turn without a word") {
   const Chain chain;
   const Scratch& scratch = chain.scratch;
-  constexpr int flips = 100;
+  const int flips = rounds(100);
   const unsigned seed = std::random_device{}();
   std::mt19937_64 random(seed);
   std::cout << "bits turned with seed " << seed;

@@ -87,8 +87,8 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
   const unsigned seed = std::random_device{}();
   std::mt19937 random(seed);
   std::map<std::string, int> killed;
-  constexpr int rounds = 24;
-  for (int round = 0; round < rounds; ++round) {
+  const int kills = rounds(24);
+  for (int round = 0; round < kills; ++round) {
     fs::remove_all(scratch / "runs");
     const pid_t runner = start(scratch, "dresslife", {"run", "study.yaml", "--quiet"});
     std::this_thread::sleep_for(takes * std::uniform_real_distribution<double>(0, 1.1)(random));
@@ -112,7 +112,7 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
   }
   std::cout << "killed with seed " << seed << ":";
   for (const auto& [what, times] : killed) std::cout << ' ' << what << ' ' << times;
-  std::cout << "; " << rounds << " resumed at once to the same bytes\n";
+  std::cout << "; " << kills << " resumed at once to the same bytes\n";
 }
 
 TEST_CASE("a runner that is killed takes its stages along") {

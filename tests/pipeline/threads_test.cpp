@@ -1,8 +1,15 @@
 #include "pipeline/threads.h"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <fstream>
+#include <mutex>
 #include <numeric>
 #include <vector>
 
@@ -102,6 +109,36 @@ TEST_CASE("threads: in order, a failure is thrown when its turn comes") {
     CHECK_THROWS_WITH(in_order(threads, 50, 4, fail_from(99), refuse), Catch::Contains("use 3"));
   }
 }
+
+#ifndef __SANITIZE_ADDRESS__  // which takes more address space than a limit would leave
+TEST_CASE("threads: where the system gives none, the caller's own does all the work") {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t room = 20 << 20;  // two stacks of 8 MB
+    const struct rlimit limit { pages * 4096 + room, pages * 4096 + room };
+    ::setrlimit(RLIMIT_AS, &limit);
+    std::vector<std::atomic<int>> calls(40);
+    std::mutex gate;
+    gate.lock();  // no thread ends and makes room for the next
+    in_parallel(calls.size(), [&](std::size_t part) {
+      if (part == 0) gate.unlock();
+      gate.lock();
+      gate.unlock();
+      ++calls[part];
+    });
+    std::size_t used = 0;
+    in_order(
+        40, 100, 8, [](std::size_t, std::size_t) {}, [&](std::size_t k) { used += k == used; });
+    const bool all = std::all_of(calls.begin(), calls.end(), [](const auto& count) { return count == 1; });
+    ::_exit(all && used == 100 && beside<int>([] { return 7; }).get() == 7 ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  CHECK(status == 0);
+}
+#endif
 
 TEST_CASE("threads: work beside gives its result and its failure") {
   for (const char* threads : {"1", "2"}) {

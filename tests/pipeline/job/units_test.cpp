@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -47,6 +48,11 @@ TEST_CASE("units: what was read in any unit is written so that it reads back exa
         FAIL_CHECK(key << " " << shortest_text(written) << " came back as " << text);
     }
   }
+}
+
+TEST_CASE("units: the least of all numbers reads back, too") {
+  for (const double least : {1e-320, 5e-324, -1e-310})
+    CHECK(std::strtod(text_in_unit(least, unit_of_key("x_m")).c_str(), nullptr) == least);
 }
 
 TEST_CASE("units: short numbers stay as short as they were written") {

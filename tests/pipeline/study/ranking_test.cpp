@@ -134,6 +134,20 @@ TEST_CASE("ranking: the CSV has the contract's columns first and reads back exac
   CHECK(ranking_csv({}) == ranking_csv(rows).substr(0, ranking_csv(rows).find('\n') + 1));
 }
 
+TEST_CASE(
+    "ranking: no text of the CSV is a formula or acts on a terminal, and a job that waits has not failed") {
+  const Scratch scratch;
+  SampleLife awkward = living(12000);
+  awkward.worst_component = "=HYPERLINK(\"x\")";
+  const auto table = read_csv(ranking_csv(read_ranking(
+      {job_with(scratch, "a", awkward), {"@b", "", "+1\x1b[31m"}, {"c", "", "stale"}, {"d", "", "to do"}})));
+  CHECK(table[1][4] == "'=HYPERLINK(\"x\")");
+  CHECK(table[2][0] == "'@b");
+  CHECK(table[2][13] == "'+1\\x1b[31m");
+  CHECK(table[3][12] == "stale");
+  CHECK(table[4][12] == "to do");
+}
+
 TEST_CASE("ranking: the hose's wall has columns and a line of its own and does not rank its job") {
   const Scratch scratch;
   SampleLife with_hose = living(12000);
