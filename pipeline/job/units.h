@@ -12,7 +12,7 @@ struct Unit {
   double to_si;             ///< factor from this unit to SI; percent stays percent
   double most;              ///< no robot cell has more of it, in this unit; what is beyond is a mistake
   /// No positive quantity that matters is below, in this unit.
-  double least() const { return most * 1e-15; }
+  double least() const { return most / 1e15; }
 };
 
 /// The unit of a key; one without suffix and name for a key without one. The longest suffix counts.

@@ -1,9 +1,11 @@
 // What a stage leaves behind when the disk, the memory or another writer fails it: its file whole, or none.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <iostream>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include "pipeline/files/files.h"
@@ -55,7 +57,18 @@ Outcome run_with(const Scratch& scratch, const std::string& before, const std::s
   return run_shell(scratch, "sh ./call.sh");
 }
 
-constexpr int out_of_range = 128;  // a shell's status for a program that was ended by a signal
+constexpr int ended_by_signal = 128;  // a shell's status from there on
+
+/// At most `count` of 1 .. total, the first and the last among them.
+std::vector<int> some_of(int total, int count, std::mt19937& random) {
+  std::vector<int> all(static_cast<std::size_t>(total));
+  std::iota(all.begin(), all.end(), 1);
+  if (total <= count) return all;
+  std::shuffle(all.begin() + 1, all.end() - 1, random);
+  std::swap(all[static_cast<std::size_t>(count) - 1], all.back());
+  all.resize(static_cast<std::size_t>(count));
+  return all;
+}
 
 }  // namespace
 
@@ -63,26 +76,28 @@ TEST_CASE("each write, sync, close, cut and rename that fails fails the stage, o
   const Chain chain;
   const Scratch& scratch = chain.scratch;
   fs::create_directories(scratch / "out");
-  const std::string place = scratch.folder().string();
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  std::cout << "failing calls with seed " << seed << '\n';
   for (const Stage& stage : stages)
     for (const std::string call : {"write", "sync", "close", "cut", "rename"}) {
-      int total = 1, failed = 0, whole = 0;
-      for (int at = 0; at <= total; ++at) {
-        const Outcome outcome = run_with(scratch,
-                                         preload("FAULT_CALL=" + call + " FAULT_AT=" + std::to_string(at) +
-                                                 " FAULT_COUNT='" + place + "/count'"),
-                                         stage.program, stage.command("out/" + stage.output));
+      const auto fail_at = [&](int at) {
+        return run_with(scratch,
+                        preload("FAULT_CALL=" + call + " FAULT_AT=" + std::to_string(at) + " FAULT_COUNT='" +
+                                (scratch / "count").string() + "'"),
+                        stage.program, stage.command("out/" + stage.output));
+      };
+      REQUIRE(fail_at(0).status == 0);
+      const int total = std::stoi(content(scratch / "count"));
+      REQUIRE(total > 0);
+      fs::remove(scratch / "out" / stage.output);
+      int failed = 0, whole = 0;
+      for (const int at : some_of(total, rounds(16), random)) {
+        const Outcome outcome = fail_at(at);
         INFO(stage.program << " " << call << " " << at << " of " << total << ": " << outcome.err);
-        if (at == 0) {
-          REQUIRE(outcome.status == 0);
-          total = std::stoi(content(scratch / "count"));
-          fs::remove(scratch / "out" / stage.output);
-          continue;
-        }
-        REQUIRE(outcome.status < out_of_range);
-        if (outcome.status == 0) {  // closed after it had its name, or nothing to cut
+        REQUIRE(outcome.status < ended_by_signal);
+        if (outcome.status == 0) {
           REQUIRE(content(scratch / "out" / stage.output) == chain.files.at(stage.output));
-          REQUIRE(call != "write");
           ++whole;
         } else {
           REQUIRE(outcome.status == 1);
@@ -92,9 +107,10 @@ TEST_CASE("each write, sync, close, cut and rename that fails fails the stage, o
         fs::remove(scratch / "out" / stage.output);
         REQUIRE(entries(scratch / "out") == 0);
       }
-      std::cout << stage.program << ": " << call << " failed at each of " << total << " places: " << failed
-                << " refused, " << whole << " whole, 0 false\n";
-      if (call == "write" || call == "sync" || call == "rename") CHECK((failed == total && total > 0));
+      std::cout << stage.program << ": " << call << " failed at " << failed + whole << " of " << total
+                << " places: " << failed << " refused, " << whole << " whole, 0 false\n";
+      // A descriptor is closed once more after the file has its name, and by then all is on the disk.
+      CHECK(whole <= (call == "close" ? 1 : 0));
     }
 }
 
@@ -106,7 +122,7 @@ TEST_CASE("a file that may not grow ends no stage with a signal, and leaves noth
   for (const Stage& stage : stages) {
     const auto blocks = static_cast<int>(chain.files.at(stage.output).size() / 512);  // of ulimit -f
     // From 1: what the stage says goes to a file, too.
-    for (int size = 1; size < blocks; size += std::max(1, blocks / 12)) {
+    for (int size = 1; size < blocks; size += std::max(1, blocks / 6)) {
       const Outcome outcome = run_with(scratch, "ulimit -f " + std::to_string(size) + ";", stage.program,
                                        stage.command("out/" + stage.output) + " 2>&1 | cat >&2; exit 0");
       INFO(stage.program << " " << size << ": " << outcome.err);
@@ -247,6 +263,7 @@ TEST_CASE("closed and full streams are survived and told by the status") {
   }
 }
 
+#ifndef __SANITIZE_ADDRESS__  // which takes more address space than these limits leave
 TEST_CASE("with too few threads a stage does the work on those that it has") {
   const Chain chain;
   const Scratch& scratch = chain.scratch;
@@ -256,7 +273,7 @@ TEST_CASE("with too few threads a stage does the work on those that it has") {
         run_with(scratch, "ulimit -v " + std::to_string(kilobytes) + "; DRESSLIFE_THREADS=8",
                  "dresslife-fatigue", "strain.h5 -o few.h5");
     INFO(kilobytes << ": " << outcome.status << outcome.err);
-    CHECK(outcome.status < out_of_range);
+    CHECK(outcome.status < ended_by_signal);
     if (outcome.status == 0)
       CHECK(content(scratch / "few.h5") == chain.files.at("life.h5"));
     else
@@ -264,3 +281,4 @@ TEST_CASE("with too few threads a stage does the work on those that it has") {
     fs::remove(scratch / "few.h5");
   }
 }
+#endif

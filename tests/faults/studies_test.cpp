@@ -87,7 +87,7 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
   const unsigned seed = std::random_device{}();
   std::mt19937 random(seed);
   std::map<std::string, int> killed;
-  const int kills = rounds(24);
+  const int kills = rounds(12);
   for (int round = 0; round < kills; ++round) {
     fs::remove_all(scratch / "runs");
     const pid_t runner = start(scratch, "dresslife", {"run", "study.yaml", "--quiet"});
