@@ -185,17 +185,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower_extension(const fs::path& file) {
-  std::string end = file.extension().string();
-  for (char& c : end)
+std::string lower(const fs::path& name) {
+  std::string text = name.string();
+  for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return end;
+  return text;
 }
+
+std::string lower_extension(const fs::path& file) { return lower(file.extension()); }
 
 bool ends_like_a_program(const fs::path& file) {
   static const std::set<std::string> ends{".mod", ".modx", ".prg", ".sys", ".sysx", ".pgf",
                                           ".src", ".dat",  ".sub", ".ls",  ".va"};
-  return ends.contains(lower_extension(file));
+  return ends.contains(lower_extension(file)) || lower(file.filename()) == "backinfo.txt";  // ABB's contents
 }
 
 constexpr std::size_t most_files = 20'000;  // of a folder: many times a controller's backup

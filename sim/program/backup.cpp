@@ -19,6 +19,9 @@ bool holds_moves(const fs::path& file) {
   return among({".mod", ".modx", ".prg", ".sys", ".sysx", ".src", ".ls"});
 }
 
+/// ABB's list of what a backup holds.
+bool is_contents(const fs::path& file) { return lower_case(file.filename().string()) == "backinfo.txt"; }
+
 }  // namespace
 
 bool is_backup(const fs::path& program) {
@@ -31,11 +34,12 @@ Backup backup_of(const fs::path& program, const std::string& routine) {
   const bool listed = !fs::is_directory(program, failure);
   const fs::path folder = listed ? (program.has_parent_path() ? program.parent_path() : ".") : program;
   std::map<Language, std::vector<fs::path>> files;
-  for (const fs::path& file : pipeline::program_files(folder)) files[language_of(file)].push_back(file);
+  for (const fs::path& file : pipeline::program_files(folder))
+    files[is_contents(file) ? Language::rapid : language_of(file)].push_back(file);
   if (listed) {
     std::vector<fs::path> own{program};
     for (const fs::path& file : files[Language::rapid])
-      if (lower_case(file.extension().string()) != ".pgf") own.push_back(file);
+      if (lower_case(file.extension().string()) != ".pgf" && !is_contents(file)) own.push_back(file);
     return rapid_backup(folder, own, routine);
   }
   std::erase_if(files, [](const auto& of_language) {  // settings alone make no program

@@ -14,6 +14,7 @@ struct Backup {
   Language language = Language::rapid;
   std::vector<std::filesystem::path> files;  ///< the first one gives the program its name
   std::string routine;                       ///< where it begins; empty: the language's own start
+  std::vector<std::string> missing;  ///< files that the folder's own list names and that are not there
 };
 
 /// Whether a program is given as a folder or as a list of files.

@@ -150,10 +150,10 @@ Value* Interpreter::ready(Variable& variable) {
   }
   const Statement& statement = variable.datum->statement;
   if (variable.rival)
-    complain(statement.place,
-             fmt::format("gives '{}' another value than {} does", statement.name,
-                         where(variable.rival->statement.place).text()),
-             "leave one of the two files out, or make the names those of their modules alone (LOCAL)");
+    miss(rivals(statement.place, variable.rival->statement.place), statement.place,
+         fmt::format("gives '{}' another value than {} does", statement.name,
+                     where(variable.rival->statement.place).text()),
+         "leave one of the two files out, or make the names those of their modules alone (LOCAL)");
   variable.state = State::being_read;
   const int module = std::exchange(module_, variable.datum->module);
   locals_.emplace_back();  // a declaration outside of routines sees no routine's variables
@@ -371,7 +371,8 @@ void Interpreter::make_unknown(const Expression& target, const std::string& why)
 
 std::string Interpreter::because(const Value& unknown) const {
   const Cause* cause = unknown.first_cause();
-  return cause ? fmt::format(": '{}' {}", cause->name, cause->why) : "";
+  if (!cause) return "";
+  return cause->name.empty() ? ": " + cause->why : fmt::format(": '{}' {}", cause->name, cause->why);
 }
 
 std::string Interpreter::remedy_for(const Value& unknown) const {

@@ -134,6 +134,34 @@ void parse_files(Code& code, Language language, Problems& problems) {
 
 }  // namespace
 
+namespace {
+
+constexpr int listed_reasons = 5;
+
+/// A program without a move: what it ran and what it left out may tell why.
+void tell_nothing(const Program& program, const ImportOptions& options, Problems& problems) {
+  std::string left_out;
+  int listed = 0;
+  for (const bool may_move : {true, false})
+    for (const Skipped& skipped : program.skipped)
+      if (skipped.may_move == may_move && ++listed <= listed_reasons)
+        left_out +=
+            fmt::format("{}{} ({}:{})", left_out.empty() ? "" : ", ", skipped.what,
+                        std::filesystem::path(skipped.where.file).filename().string(), skipped.where.line);
+  const std::string routine =
+      options.routine.empty() ? "the routine that it starts with" : "'" + options.routine + "'";
+  problems.add(
+      program.start.file.empty() ? pipeline::Where{program.name} : program.start,
+      fmt::format("moves the robot nowhere: {} runs to its end{}", routine,
+                  left_out.empty() ? ""
+                                   : fmt::format("; {} lines were left out: {}{}", listed, left_out,
+                                                 listed > listed_reasons ? ", ..." : "")),
+      "name the routine that moves it with --routine, or give what it asks for with --value, --assume or "
+      "--module");
+}
+
+}  // namespace
+
 Program read_program(Language language, std::deque<SourceFile> files, const ImportOptions& options,
                      const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects,
                      Problems& problems) {
@@ -171,9 +199,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       read_ros_trajectory(files[0], options, program, problems);
       break;
   }
-  if (problems.empty() && program.instructions.empty())
-    problems.add({files.empty() ? program.name : files[0].name()}, "moves the robot nowhere",
-                 "name the routine that does");
+  if (problems.empty() && program.instructions.empty()) tell_nothing(program, options, problems);
   return program;
 }
 
@@ -196,11 +222,13 @@ Program read_program(const pipeline::Motion& motion) {
   ImportOptions options = options_of(motion);
   Language language = Language::rapid;
   std::deque<SourceFile> files;
+  std::vector<std::string> missing;
   if (is_backup(motion.program)) {
     const Backup backup = backup_of(motion.program, motion.routine);
     language = backup.language;
     options.routine = backup.routine;
     for (const std::filesystem::path& file : backup.files) files.push_back(source_of(file));
+    missing = backup.missing;
   } else {
     language = language_of(motion.program);
     files.push_back(source_of(motion.program));
@@ -235,6 +263,11 @@ Program read_program(const pipeline::Motion& motion) {
   Program program = read_program(language, std::move(files), options, frames_of(motion.tools),
                                  frames_of(motion.work_objects), problems);
   problems.throw_if_any();
+  for (const std::string& file : missing)
+    program.skipped.push_back(
+        {{motion.program.string()}, file + ": the list of modules names it, it is not there", true});
+  if (is_backup(motion.program))
+    program.name = std::filesystem::absolute(motion.program).lexically_normal().stem().string();
   return program;
 }
 

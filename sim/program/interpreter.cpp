@@ -82,6 +82,7 @@ void Interpreter::run(const Routine& routine) {
 }
 
 void Interpreter::start(const Routine& routine) {
+  program_.start = where(routine.place);
   if (const Routine* rival = code_.rival(routine))
     complain(
         routine.place,
@@ -646,15 +647,20 @@ void Interpreter::forget_arguments(const std::string& name, const std::vector<Ex
   }
 }
 
+/// What two files have in common is told once for the two.
+std::string Interpreter::rivals(const Place& a, const Place& b) const {
+  return fmt::format("{} and {}", code_.files[a.file].name(), code_.files[b.file].name());
+}
+
 /// The routine of a name, at its use; null: there is none.
 const Routine* Interpreter::routine_named(const std::string& name, const Place& place) {
   const Routine* routine = code_.find(name, module_);
   if (!routine) return nullptr;
   if (const Routine* rival = code_.rival(*routine))
-    complain(place,
-             fmt::format("runs '{}', which stands both in {} and in {}", routine->written,
-                         where(routine->place).text(), where(rival->place).text()),
-             "leave one of the two files out");
+    miss(rivals(routine->place, rival->place), place,
+         fmt::format("runs '{}', which stands both in {} and in {}", routine->written,
+                     where(routine->place).text(), where(rival->place).text()),
+         "leave one of the two files out");
   return routine;
 }
 

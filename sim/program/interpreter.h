@@ -152,6 +152,7 @@ class Interpreter {
   void start(const Routine& routine);
   Flow execute(const std::vector<Statement>& body);
   Flow execute_routine(const Routine& routine);
+  std::string rivals(const Place& a, const Place& b) const;
   const Routine* routine_named(const std::string& name, const Place& place);
   Flow execute(const Statement& statement);
   Flow run_branch(const Statement& statement);

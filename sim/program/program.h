@@ -100,6 +100,7 @@ struct Program {
   std::vector<Instruction> instructions;
   std::vector<NamedFrame> tools, work_objects;
   std::vector<Skipped> skipped;
+  pipeline::Where start;  ///< the routine that was run
 };
 
 struct Problem {

@@ -1,6 +1,7 @@
 // ABB: BACKUP/RAPID/TASK1/{PROGMOD,SYSMOD}/*.mod, one folder for each task, all of whose modules are loaded;
 // or a program's folder with its list of modules (.pgf) and the system modules beside it.
 #include <set>
+#include <sstream>
 
 #include "pipeline/job/document.h"
 #include "sim/program/backup.h"
@@ -13,6 +14,9 @@ namespace fs = std::filesystem;
 
 std::string extension_of(const fs::path& file) { return lower_case(file.extension().string()); }
 std::string name_of(const fs::path& file) { return lower_case(file.filename().string()); }
+bool is_module(const fs::path& file) {
+  return extension_of(file) != ".pgf" && name_of(file) != "backinfo.txt";
+}
 
 /// Folder of the task that a file of a backup belongs to, "…/RAPID/TASK1"; empty: it lies in no such folder.
 fs::path task_of(const fs::path& file) {
@@ -64,6 +68,36 @@ std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& 
   return modules;
 }
 
+/// Of backinfo.txt: the modules of a task, "PROGMOD/main.mod @ ..." below ">>TASK1: (T_ROB1,...)"; in lower
+/// case.
+std::vector<std::string> contents_of(const fs::path& backinfo, const std::string& task) {
+  std::istringstream lines(lower_case(pipeline::read_text(backinfo)));
+  std::vector<std::string> modules;
+  bool within = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(">>")) within = line.starts_with(">>" + lower_case(task) + ":");
+    const std::size_t end = line.find(" @");
+    if (within && end != std::string::npos) modules.push_back(line.substr(0, end));
+  }
+  return modules;
+}
+
+/// The modules of a task's folder: those that the backup's contents name, else all.
+void add_task(const fs::path& task, const std::vector<fs::path>& files, Backup& backup) {
+  std::vector<std::string> named;
+  for (const fs::path& file : files)
+    if (name_of(file) == "backinfo.txt" &&
+        file.parent_path().parent_path() == task.parent_path().parent_path())
+      named = contents_of(file, task.filename().string());
+  const bool all = named.empty();
+  for (const fs::path& file : files) {
+    if (!is_module(file) || task_of(file) != task) continue;
+    const std::string name = lower_case(file.lexically_relative(task).generic_string());
+    if (all || std::erase(named, name) > 0) backup.files.push_back(file);
+  }
+  backup.missing = named;
+}
+
 std::string names_of(const std::set<fs::path>& paths) {
   std::string names;
   for (const fs::path& path : paths) names += (names.empty() ? "" : ", ") + path.string();
@@ -81,15 +115,14 @@ Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, 
     if (task.empty() || !tasks.insert(task).second) continue;
   }
   for (const fs::path& file : files)  // those without moves run beside the robot's
-    if (const fs::path task = task_of(file); !task.empty() && extension_of(file) != ".pgf" &&
-                                             !moving.contains(task) && (tasks.size() == 1 || moves(file)))
+    if (const fs::path task = task_of(file);
+        !task.empty() && is_module(file) && !moving.contains(task) && (tasks.size() == 1 || moves(file)))
       moving.insert(task);
   if (moving.size() > 1)
     throw pipeline::InputError({folder.string()}, "holds several tasks that move a robot",
                                "name the folder of one: " + names_of(moving));
   if (!moving.empty()) {  // all modules of the task are loaded
-    for (const fs::path& file : files)
-      if (extension_of(file) != ".pgf" && task_of(file) == *moving.begin()) backup.files.push_back(file);
+    add_task(*moving.begin(), files, backup);
     return backup;
   }
   if (lists.size() > 1)
@@ -97,7 +130,7 @@ Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, 
                                "name one: " + names_of(lists));
   if (!lists.empty()) backup.files = listed(*lists.begin(), files);
   for (const fs::path& file : files)
-    if (extension_of(file) != ".pgf" && (lists.empty() || extension_of(file).starts_with(".sys")) &&
+    if (is_module(file) && (lists.empty() || extension_of(file).starts_with(".sys")) &&
         std::find(backup.files.begin(), backup.files.end(), file) == backup.files.end())
       backup.files.push_back(file);
   return backup;
