@@ -7,8 +7,8 @@
 //   group 1;
 //                $MNUFRAMENUM, $MNUTOOLNUM  [1] = 2                               UFRAME_NUM, UTOOL_NUM
 //   sysmacro.va  [*SYSTEM*]$MACROTABLE  $MACRO_NAME, $PROG_NAME                   macros
-// A folder becomes a Backup by fanuc_backup() of backup.h. The values are those of the moment at which the backup was made. Other variables are not read. Source:
-// backups.
+// A folder becomes a Backup by fanuc_backup() of backup.h. The values are those of the moment at which the
+// backup was made. Other variables are not read. Source: backups.
 #pragma once
 
 #include <filesystem>

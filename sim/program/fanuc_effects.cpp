@@ -50,6 +50,7 @@ std::optional<int> constant_index(FanucCursor& at) {
 
 void FanucEffects::add(const FanucEffects& other) {
   moves |= other.moves;
+  waits |= other.waits;
   leaves |= other.leaves;
   any_register |= other.any_register;
   registers.insert(other.registers.begin(), other.registers.end());
@@ -199,9 +200,9 @@ FanucEffects FanucOutlook::effects(const std::string& action) {
     if (text.find("lpos") != std::string::npos) made.any_register = true;
   } else if (word == "wait") {
     const auto time = at.number();
-    made.moves = time.value_or(0) > 0;
+    made.waits = time.value_or(0) > 0;
   } else if (word == "spot") {
-    made.moves = true;
+    made.waits = true;
   } else if (word == "r" || word == "pr") {
     if (const auto index = constant_index(at))
       (word == "r" ? made.registers : made.positions).insert(*index);

@@ -13,7 +13,8 @@
 namespace dresslife::sim {
 
 struct FanucEffects {
-  bool moves = false;         ///< the robot, or makes it wait for a time
+  bool moves = false;         ///< the robot
+  bool waits = false;         ///< for a time
   bool leaves = false;        ///< a jump may lead out of the statements looked at
   bool any_register = false;  ///< writes registers and position registers that cannot be told beforehand
   std::set<int> registers, positions;

@@ -226,7 +226,8 @@ class ListingParser {
           continue;
         }
         if (!at_.take_sign(':') && !at_.take_sign('=')) continue;
-        const std::string problem = name == "config" ? configuration() : field(name);
+        const bool letters = name == "config" || name == "konfig";  // a German listing's
+        const std::string problem = letters ? configuration() : field(name);
         if (!problem.empty()) return problem;
       }
       const bool pose = std::all_of(std::begin(seen_), std::end(seen_), [](bool s) { return s; });
@@ -235,6 +236,10 @@ class ListingParser {
         read_.form = FanucPosition::Form::joints;
         read_.values = joints_;
       } else if (pose) {
+        const bool taught =
+            std::any_of(std::begin(pose_), std::end(pose_), [](double v) { return std::isfinite(v); });
+        if (taught && read_.configuration.kind == ArmConfiguration::Kind::any)
+          return "has a pose without CONFIG";
         read_.form = FanucPosition::Form::pose;
         read_.values.assign(std::begin(pose_), std::end(pose_));
       } else if (any) {

@@ -431,7 +431,10 @@ void FanucRun::ask(const std::string& what) {
 /// Whether leaving statements out changes nothing but values, which are unknown from here on.
 bool FanucRun::no_matter(const FanucEffects& effects) {
   if (effects.moves || effects.leaves) return false;
-  note("IF, SELECT, FOR: a branch on what is known only while the robot runs, without moves");
+  if (effects.waits)
+    note("IF, SELECT, FOR: waits for a time on what is known only while the robot runs; left out", true);
+  else
+    note("IF, SELECT, FOR: a branch on what is known only while the robot runs, without moves");
   if (effects.any_register) values_.forget_registers();
   for (int number : effects.registers) values_.forget_register(number);
   for (int number : effects.positions) values_.forget_position(number);

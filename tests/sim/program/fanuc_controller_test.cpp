@@ -45,6 +45,12 @@ P[5]{
 	X = ********  mm,	Y = ********  mm,	Z = ********  mm,
 	W = ******** deg,	P = ******** deg,	R = ******** deg
 };
+P[7]{
+   GP1:
+	UF : 3, UT : 2,	KONFIG : 'F U T, 0, 1, 0',
+	X = 1000.0 mm,	Y = 0.0 mm,	Z = 300.0 mm,
+	W = 180.0 deg,	P = 0.0 deg,	R = 0.0 deg
+};
 P[6]{
    GP2:
 	UF : 0, UT : 1,
@@ -140,6 +146,7 @@ TEST_CASE("fanuc lines: German listings are the same program") {
   CHECK(r.move(2).speed.tool.value() == Approx(0.5).epsilon(rounding));
   CHECK(r.program.work_objects.at(r.move(2).work_object).name == "UFRAME[3]");
   CHECK(r.move(4).dwell == 0.5);
+  CHECK(run("   1:J P[7] 100% FINE ;\n").move(0).target.configuration.text() == "fanuc FUT 0 1 0");
 }
 
 TEST_CASE("fanuc positions: what is not taught matters only where a move needs it") {
@@ -253,6 +260,13 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
       "GI[1]=1,JMP LBL[3] ;\n  10:         =2,JMP LBL[3] ;\n  11:  LBL[3] ;\n  12:  IF (DI[9])R[5]=(1) ;\n");
   CHECK(logic.problem() == "no such problem");
   CHECK(stops(logic) == std::vector<int>{1, 2});
+  // A time that passes moves nothing; it is named.
+  const Reading wait =
+      run("   1:J P[1] 100% FINE ;\n   2:  IF (!F[59]),JMP LBL[1] ;\n   3:  WAIT   1.00(sec) ;\n   4:  "
+          "LBL[1] ;\n   5:J P[2] 100% FINE ;\n");
+  CHECK(wait.problem() == "no such problem");
+  CHECK(stops(wait) == std::vector<int>{1, 2});
+  CHECK(warnings(wait).size() == 1);
   // What the arms may write is unknown behind them.
   CHECK(
       run("   1:  R[5]=20 ;\n   2:  IF (DI[9])R[5]=(1) ;\n   3:J P[1] R[5]% FINE ;\n").problems.at(0).what ==

@@ -35,6 +35,7 @@ inline const char* name_of(sim::Language language) {
 inline std::string fault_of_reading(sim::Language language, const std::string& text) {
   std::deque<sim::SourceFile> files;
   files.emplace_back(name_of(language), text);
+  if (language == sim::Language::fanuc) files.emplace_back("p.va", text);  // also as the backup's variables
   sim::ImportOptions options;
   options.assume["3"] = sim::Assumption::then_branch;
   sim::Problems problems;
