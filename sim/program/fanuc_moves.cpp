@@ -468,7 +468,8 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   if (joints ? !place_joints(*target, options, move) : !place(*target, options, move, move.target.pose))
     return;
   move.target.external_axes = target->external_axes;
-  if (options.coordinated && (!last_ || last_->external_axes != target->external_axes))
+  const bool stood = last_ && last_->external_axes == target->external_axes;
+  if (options.coordinated && !program_.instructions.empty() && !stood)
     note("COORD: the tool follows a positioner that turns; read as if it stood still", true);
   emit(move);
   remember(move, *target);

@@ -51,6 +51,15 @@ P[7]{
 	X = 1000.0 mm,	Y = 0.0 mm,	Z = 300.0 mm,
 	W = 180.0 deg,	P = 0.0 deg,	R = 0.0 deg
 };
+P[8]{
+   GP1:
+	UF : 3, UT : 2,	CONFIG : 'N U T, 0, 0, 0',
+	X = 1000.0 mm,	Y = 0.0 mm,	Z = 400.0 mm,
+	W = 180.0 deg,	P = 0.0 deg,	R = 0.0 deg
+   GP2:
+	UF : 3, UT : 2,
+	J1= 90.0 deg
+};
 P[6]{
    GP2:
 	UF : 0, UT : 1,
@@ -349,7 +358,12 @@ TEST_CASE("fanuc moves: what changes a target is followed, or named") {
   CHECK(run("   1:L P[3] 100mm/sec FINE Offset,PR[8] ;\n", known).problems.at(0).what ==
         "is offset by PR[8], which is known only while the robot runs");
   CHECK(run("   1:L P[3] 100mm/sec FINE VOFFSET,VR[1] ;\n").problems.size() == 1);
-  CHECK(warnings(run("   1:L P[3] 100mm/sec CNT100 COORD ;\n")).at(0).starts_with("COORD: "));
+  CHECK(
+      warnings(run("   1:L P[3] 100mm/sec CNT100 COORD ;\n   2:L P[3] 100mm/sec CNT100 COORD ;\n")).empty());
+  CHECK(warnings(run("   1:L P[3] 100mm/sec CNT100 COORD ;\n   2:J P[1] 5% FINE ;\n   3:L P[8] 9mm/sec FINE "
+                     "COORD ;\n"))
+            .at(0)
+            .starts_with("COORD: "));
   CHECK(warnings(run("   1:  Weave Sine[1] ;\n   2:J P[1] 100% FINE ;\n")).at(0).starts_with("weave: "));
   CHECK(
       run("   1:L P[3] WELD_SPEED FINE ;\n").problem() ==
