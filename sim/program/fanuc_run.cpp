@@ -215,6 +215,9 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
   if (word == "uframe" || word == "utool") return assign_frame(word, at);
   const std::string text = statement().text;
   const std::string left = plain_fanuc_name(std::string_view(text).substr(0, text.find('=')));
+  if (const std::size_t group = left.find("[gp");
+      group != std::string::npos && left.substr(group, 4) != "[gp1")
+    return note(word + ": of another group than the robot");
   if (word == "override" || word == "uframe_num" || word == "utool_num" || left == "$mcr.$genoverride" ||
       left == "$prgoverride") {
     at.skip_to('=');
@@ -224,8 +227,12 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
                                                          : word,
                              number);
   }
-  if (left.starts_with("$mnuframe[") || left.starts_with("$mnutool[")) {
-    frames_.clear();
+  if (left.starts_with("$mnuframe[") || left.starts_with("$mnutool[")) {  // [group,number]
+    const bool tool = left.starts_with("$mnutool[");
+    FanucCursor of(std::string_view(left).substr(left.find('[') + 1));
+    const FanucNumber group = of.number(), number = of.take_sign(',') ? of.number() : FanucNumber{};
+    at.skip_to('=');
+    if (group == FanucNumber(1) && number) return set_frame(tool, whole(*number), position_sum(at));
     return note(word + ": changes a frame of the controller", true);
   }
   switch (fanuc_word(word)) {
@@ -412,11 +419,15 @@ void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
   at.skip_to('=');
   if (!index || !index->number || index->group != 1)
     return note(word + ": a frame of another group or number", true);
-  const auto read = position_sum(at);
-  auto& frame = frames_[{word == "utool", whole(*index->number)}];
+  set_frame(word == "utool", whole(*index->number), position_sum(at));
+}
+
+/// Six components that a program wrote are a pose here; what is not known makes the frame unknown.
+void FanucRun::set_frame(bool tool, int number, const std::optional<FanucPosition>& read) {
+  auto& frame = frames_[{tool, number}];
   frame.reset();
   if (read && read->form != FanucPosition::Form::joints && read->known() && read->values.size() == 6)
-    frame = frame_of_fanuc(read->values);  // six components that a program wrote are a pose here
+    frame = frame_of_fanuc(read->values);
 }
 
 // ---- branches and loops ----------------------------------------------------------------------------------

@@ -74,6 +74,7 @@ class FanucRun {
   void assign_position(FanucCursor& at);
   std::optional<FanucPosition> position_sum(FanucCursor& at);
   void assign_frame(const std::string& word, FanucCursor& at);
+  void set_frame(bool tool, int number, const std::optional<FanucPosition>& read);
   void if_statement(FanucCursor& at);
   void undecided(const std::string& action);
   bool no_matter(const FanucEffects& effects);

@@ -228,6 +228,18 @@ TEST_CASE("fanuc values: components of position registers, with names and in sum
     INFO(i);
     CHECK((r.move(i).target.pose.position - Vector3(x[i], y[i], z[i])).norm() < rounding);
   }
+  CHECK(run("   1:  UTOOL_NUM[GP2]=5 ;\n   2:L PR[1] 100mm/sec FINE ;\n", known)
+            .problems.empty());  // the positioner's
+  Asked jig = known;
+  jig.values["UFRAME_NUM"] = "4";
+  const Reading frame =
+      run("   1:  UFRAME[4:jig]=PR[1] ;\n   2:L PR[1] 100mm/sec FINE ;\n   3:  $MNUFRAME[1,4]=PR[5] ;\n   "
+          "4:L PR[1] "
+          "100mm/sec FINE ;\n",
+          jig);
+  CHECK(frame.program.work_objects.at(0).frame.position.x() == Approx(0.5).epsilon(rounding));
+  REQUIRE(frame.problems.size() == 1);  // PR[5] is not known, and the frame is what it was no more
+  CHECK(frame.problems[0].what == "uses UFRAME[4], which lies in the controller");
   // One component of a register that nobody knows makes no position of zeros.
   const Reading unknown = run("   1:  PR[9,3]=50 ;\n   2:L PR[9] 100mm/sec FINE ;\n", known);
   CHECK(unknown.problems.at(0).what == "moves to PR[9], which is known only while the robot runs");
