@@ -332,7 +332,7 @@ std::string main_of(const FanucFolder& found, const fs::path& folder) {
 
 Backup fanuc_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
   const FanucFolder found = fanuc_folder(folder_of_listings(folder, files));
-  Backup backup{Language::fanuc, {}, routine.empty() ? main_of(found, folder) : routine};
+  Backup backup{Language::fanuc, {}, routine.empty() ? main_of(found, folder) : routine, {}};
   const std::string start = lower_case(backup.routine.substr(0, backup.routine.find('(')));
   for (const auto* list : {&found.listings, &found.variables})
     for (const fs::path& file : *list) {

@@ -553,10 +553,9 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
     if (const auto told = around_.options.choose.find(key); told != around_.options.choose.end()) {
       FanucCursor at(told->second);  // --assume FILE:LINE=2
       value = at.number();
-      if (!value)
-        for (std::size_t i = 0; i < cases.size(); ++i)
-          if (cases[i].otherwise) return i;
     }
+  if (assumed(where().line) == std::optional(false))  // FILE:LINE=else, of the whole SELECT
+    return cases.empty() || !cases.back().otherwise ? cases.size() : cases.size() - 1;
   std::vector<std::optional<bool>> told;  // --assume FILE:LINE=then of one case
   for (const Case& one : cases) told.push_back(assumed(routine().listing->statements[one.statement].line));
   if (const auto taken = std::find(told.begin(), told.end(), true); taken != told.end())

@@ -306,7 +306,7 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
         "cell.ls:5=VALUE (1, 2, else; motion.assume in a job)");
   CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "1"}}})) == std::vector<int>{1, 2});
   CHECK(stops(run(choice, {.choose = {{"5", "2"}}})) == std::vector<int>{1, 1});
-  CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "else"}}})) == std::vector<int>{1});
+  CHECK(stops(run(choice, {.assume = {{"cell.ls:5", Assumption::else_branch}}})) == std::vector<int>{1});
   CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "7"}}})) == std::vector<int>{1});
   CHECK(stops(run(choice, {.values = {{"R[1]", "1"}}})) == std::vector<int>{1, 2});
   CHECK(stops(run(choice, {.assume = {{"cell.ls:6", Assumption::then_branch}}})) == std::vector<int>{1, 1});
