@@ -265,7 +265,10 @@ std::vector<std::filesystem::path> files_beside(const Job& job) {
   std::error_code failure;
   for (const auto& file : {job.motion.clamp_poses, job.motion.program})
     if (!file.empty() && !std::filesystem::is_directory(file, failure)) files.push_back(file);
-  for (const ProgramFile& module : job.motion.modules) files.push_back(module.file);
+  for (const ProgramFile& module : job.motion.modules) {
+    files.push_back(module.file);
+    for (const auto& file : program_files(module.file)) files.push_back(file);
+  }
   for (const auto& file : program_files(job.motion.program)) files.push_back(file);
   for (const Link& link : job.robot.links)
     for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);

@@ -202,6 +202,31 @@ bool ends_like_a_program(const fs::path& file) {
 
 constexpr std::size_t most_files = 20'000;  // of a folder: many times a controller's backup
 
+bool is_krl(const fs::path& file) { return lower_extension(file) == ".src" || lower_extension(file) == ".dat"; }
+
+/// The folder R1 of the KUKA backup that a file lies in; empty: none.
+fs::path krl_robot_of(const fs::path& file) {
+  for (fs::path at = file.parent_path(); !at.empty() && at != at.parent_path(); at = at.parent_path())
+    if (at.filename() == "R1" || at.filename() == "r1") return at;
+  return {};
+}
+
+/// What the controller sees beside a program: in a backup all of the robot, else its folder.
+std::vector<fs::path> krl_files_beside(const fs::path& program) {
+  std::vector<fs::path> files;
+  std::error_code failure;
+  const fs::path robot = krl_robot_of(program);
+  const fs::path folder = !robot.empty() ? robot : program.has_parent_path() ? program.parent_path() : ".";
+  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failure), end;
+       !failure && at != end && files.size() < most_files; at.increment(failure)) {
+    if (robot.empty() && at->is_directory(failure)) at.disable_recursion_pending();
+    if (!at->is_regular_file(failure) || !is_krl(at->path())) continue;
+    const fs::path file = folder == "." ? at->path().filename() : at->path();
+    if (!fs::equivalent(file, program, failure)) files.push_back(file);
+  }
+  return files;
+}
+
 }  // namespace
 
 std::vector<fs::path> program_files(const fs::path& program) {
@@ -219,10 +244,8 @@ std::vector<fs::path> program_files(const fs::path& program) {
         throw InputError({program.string()}, fmt::format("holds more than {} program files", most_files),
                          "name the folder of one controller");
     }
-  } else if (lower_extension(program) == ".src") {
-    for (const char* end : {".dat", ".DAT"})
-      if (const fs::path data = fs::path(program).replace_extension(end); fs::is_regular_file(data, failure))
-        files.push_back(data);
+  } else if (is_krl(program)) {
+    files = krl_files_beside(program);
   }
   if (lower_extension(program) == ".ls" &&
       !fs::is_directory(program, failure))  // what it calls, and its registers

@@ -32,6 +32,7 @@ struct Expression {
   Kind kind = Kind::none;
   std::string text;  ///< lower case, but for texts
   double number = 0;
+  bool whole = false;  ///< of a number: written as an INT of KRL
   std::vector<Expression> items;
   std::vector<std::string> keys;  ///< lower case
   std::string option;             ///< of an argument given by name (\WObj:=...); lower case
@@ -96,6 +97,7 @@ struct Routine {
 struct Module {
   std::string name, written;  ///< lower case, as written
   Place place;
+  bool whole = true;  ///< no file of it is missing: what it does not declare, another module does
 };
 
 /// A declaration or assignment outside of routines.
@@ -113,7 +115,9 @@ struct RecordType {
   std::string name;
   std::vector<std::string> fields;
   std::vector<const RecordType*> types;
-  int optional_from = 1'000'000;  ///< fields from here on may be left out
+  std::vector<std::string> field_types{};  ///< of a KRL structure, in lower case; else empty
+  std::vector<int> sizes{};                ///< likewise: of fields that are lists, else 0
+  int optional_from = 1'000'000;           ///< fields from here on may be left out
 };
 
 struct Code {

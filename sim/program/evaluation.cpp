@@ -34,8 +34,11 @@ Value Interpreter::evaluate_inner(const Expression& expression) {
   switch (expression.kind) {
     case Kind::none:
       return {};
-    case Kind::number:
-      return number_value(expression.number);
+    case Kind::number: {
+      Value value = number_value(expression.number);
+      if (expression.whole) value.numeric = Value::Numeric::integer;
+      return value;
+    }
     case Kind::text:
       return text_value(expression.text);
     case Kind::truth:
@@ -288,7 +291,8 @@ Value Interpreter::name_value(const Expression& expression) {
   }
   if (const Value* value = locate(expression)) {
     charge(value->weight());
-    return *value;
+    const bool unnamed = value->kind == Value::Kind::unknown && value->cause && value->cause->name.empty();
+    return unnamed ? unknown_value(path_of(expression), value->cause->why) : *value;
   }
   if (expression.kind == Kind::name)
     if (std::optional<Value> value = dialect_.constant(expression.text)) return *value;
@@ -326,7 +330,7 @@ void Interpreter::assign(const Expression& target, Value value) {
   if (Value* place = locate(target)) {
     if (place->type && value.kind == Value::Kind::list && !value.type) shape(value, place->type);
     if (value.kind == Value::Kind::unknown) value = forgotten(*place, value.cause);
-    *place = std::move(value);
+    dialect_.store(*place, std::move(value));
     if (Variable* variable = base_of(target)) {
       variable->written = target.place;
       variable->assigned = true;
@@ -339,11 +343,26 @@ void Interpreter::assign(const Expression& target, Value value) {
     complain(target.place, "is one variable too many", "mend the loop that makes them");
     throw Stop{};
   }
-  if (value.kind == Value::Kind::list && value.type)  // $VEL = {CP 1, ...} is $VEL.CP = 1, ...
-    for (std::size_t i = 0; i < value.items.size(); ++i)
-      set(path + "." + value.type->fields[i], value.items[i]);
-  set(path, std::move(value));
-  globals_[path].written = target.place;
+  Scope& scope = scope_of(path);
+  for (const char* part : {".", "["}) {  // parts that were kept by their own paths
+    const auto begin = scope.lower_bound(path + part);
+    auto end = begin;
+    while (end != scope.end() && end->first.starts_with(path + part)) ++end;
+    scope.erase(begin, end);
+  }
+  scope.insert_or_assign(path, Variable{.state = Variable::State::ready,
+                                        .value = std::move(value),
+                                        .written = target.place,
+                                        .assigned = true});
+}
+
+/// Where a path is kept: beside the variable that it begins with.
+Interpreter::Scope& Interpreter::scope_of(const std::string& path) {
+  const std::string base = path.substr(0, path.find_first_of(".["));
+  if (!locals_.empty() && locals_.back().contains(base)) return locals_.back();
+  if (module_ >= 0 && module_data_[module_].contains(base)) return module_data_[module_];
+  if (globals_.contains(base) || module_ < 0 || dialect_.shares(base, module_)) return globals_;
+  return module_data_[module_];
 }
 
 Interpreter::Variable* Interpreter::base_of(const Expression& expression) {
@@ -388,8 +407,9 @@ Value Interpreter::aggregate(const Expression& expression) {
   for (const std::string& key : expression.keys) name += key + " ";
   const RecordType*& type = record_of_[name];
   if (!type) {
-    records_.push_back(
-        {name, expression.keys, std::vector<const RecordType*>(expression.keys.size(), nullptr)});
+    records_.push_back({.name = name,
+                        .fields = expression.keys,
+                        .types = std::vector<const RecordType*>(expression.keys.size(), nullptr)});
     type = &records_.back();
   }
   Value value = list_value(std::move(items), type);
@@ -401,7 +421,11 @@ Value Interpreter::aggregate(const Expression& expression) {
 Value Interpreter::unary(const Expression& expression) {
   const Value value = evaluate(expression.items[0]);
   if (expression.text == "not" && value.kind == Value::Kind::truth) return truth_value(value.number == 0);
-  if (expression.text == "-" && value.is_number()) return number_value(-value.number);
+  if (expression.text == "-" && value.is_number()) {
+    Value negative = value;
+    negative.number = -value.number;
+    return negative;
+  }
   if (expression.text == "-" && value.kind == Value::Kind::list && value.depth() == 1) {
     Value negative = value;
     for (Value& item : negative.items) item.number = -item.number;
@@ -425,15 +449,22 @@ Value compared(const std::string& op, const Value& a, const Value& b) {
   return {};
 }
 
-Value computed(const std::string& op, double a, double b) {
+Value computed(const std::string& op, const Value& first, const Value& second) {
+  using Numeric = Value::Numeric;
+  const double a = first.number, b = second.number;
+  const bool whole = first.numeric == Numeric::integer && second.numeric == Numeric::integer;
   double value = NAN;
   if (op == "+") value = a + b;
   if (op == "-") value = a - b;
   if (op == "*") value = a * b;
-  if (op == "/") value = a / b;
+  if (op == "/") value = whole ? std::trunc(a / b) : a / b;
   if (op == "div") value = std::trunc(a / b);
   if (op == "mod") value = std::fmod(a, b);
-  return std::isfinite(value) ? number_value(value) : Value{};
+  if (!std::isfinite(value)) return {};
+  Value result = number_value(value);
+  const bool typed = first.numeric != Numeric::any && second.numeric != Numeric::any;
+  if (typed) result.numeric = whole ? Numeric::integer : Numeric::real;
+  return result;
 }
 
 /// pos + pos, pos - pos, pos * number, number * pos, pos * pos (vector product).
@@ -493,7 +524,7 @@ Value Interpreter::binary(const Expression& expression) {
     return {};
   }
   if (const Value relation = compared(op, a, b); relation.known()) return relation;
-  return a.is_number() ? computed(op, a.number, b.number) : Value{};
+  return a.is_number() ? computed(op, a, b) : Value{};
 }
 
 }  // namespace dresslife::sim

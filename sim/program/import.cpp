@@ -1,6 +1,7 @@
 #include "sim/program/import.h"
 
 #include <algorithm>
+#include <set>
 
 #include "pipeline/job/document.h"
 #include "sim/program/backup.h"
@@ -160,6 +161,11 @@ void tell_nothing(const Program& program, const ImportOptions& options, Problems
       "--module");
 }
 
+bool moves_anywhere(const Program& program) {
+  return std::any_of(program.instructions.begin(), program.instructions.end(),
+                     [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
+}
+
 }  // namespace
 
 Program read_program(Language language, std::deque<SourceFile> files, const ImportOptions& options,
@@ -173,7 +179,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
     case Language::krl: {
       Code code;
       code.files = std::move(files);
-      if (language == Language::rapid) add_rapid_types(code);
+      language == Language::rapid ? add_rapid_types(code) : add_krl_types(code);
       parse_files(code, language, problems);
       add_requests(code, options, language == Language::krl, problems);
       code.index();
@@ -199,7 +205,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       read_ros_trajectory(files[0], options, program, problems);
       break;
   }
-  if (problems.empty() && program.instructions.empty()) tell_nothing(program, options, problems);
+  if (problems.empty() && !moves_anywhere(program)) tell_nothing(program, options, problems);
   return program;
 }
 
@@ -218,6 +224,35 @@ ImportOptions options_of(const pipeline::Motion& motion) {
   return options;
 }
 
+namespace {
+
+std::vector<std::filesystem::path> add_all(std::vector<std::filesystem::path> list,
+                                           const std::vector<std::filesystem::path>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+/// The modules, each once; a KRL program sees what lies beside it and beside its modules, as on the
+/// controller.
+void add_modules(const pipeline::Motion& motion, bool beside, std::deque<SourceFile>& files) {
+  std::vector<std::filesystem::path> wanted;
+  for (const pipeline::ProgramFile& module : motion.modules) wanted.push_back(module.file);
+  const std::size_t modules = wanted.size();
+  if (beside) {
+    wanted = add_all(std::move(wanted), pipeline::program_files(motion.program));
+    for (std::size_t i = 0; i < modules; ++i)
+      wanted = add_all(std::move(wanted), pipeline::program_files(wanted[i]));
+  }
+  std::set<std::filesystem::path> known;
+  std::error_code failure;
+  known.insert(std::filesystem::weakly_canonical(motion.program, failure));
+  for (const std::filesystem::path& file : wanted)
+    if (known.insert(std::filesystem::weakly_canonical(file, failure)).second)
+      files.push_back(source_of(file));
+}
+
+}  // namespace
+
 Program read_program(const pipeline::Motion& motion) {
   ImportOptions options = options_of(motion);
   Language language = Language::rapid;
@@ -233,22 +268,7 @@ Program read_program(const pipeline::Motion& motion) {
     language = language_of(motion.program);
     files.push_back(source_of(motion.program));
   }
-  for (const pipeline::ProgramFile& module : motion.modules) files.push_back(source_of(module.file));
-  if (language == Language::krl &&
-      !is_backup(motion.program)) {  // the data list of the same name belongs to the program
-    for (const char* end : {".dat", ".DAT"}) {
-      std::filesystem::path data = motion.program;
-      std::error_code failure;
-      const bool listed = std::any_of(motion.modules.begin(), motion.modules.end(), [&](const auto& m) {
-        return lower_case(m.file.extension().string()) == ".dat";
-      });
-      if (data.replace_extension(end) != motion.program && !listed &&
-          std::filesystem::is_regular_file(data, failure)) {
-        files.push_back(source_of(data));
-        break;
-      }
-    }
-  }
+  add_modules(motion, language == Language::krl && !is_backup(motion.program), files);
   if (language == Language::fanuc &&
       !is_backup(motion.program))  // programs that it calls and the registers of its backup lie beside it
     for (const std::filesystem::path& beside : fanuc_files_beside(motion.program)) {

@@ -395,11 +395,19 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   Round round(*this, statement.place);
   Flow flow = Flow::next;
   double value = first;
-  for (long k = 0; flow == Flow::next && (by > 0 ? value <= last : value >= last);
-       value = first + static_cast<double>(++k) * by) {
+  for (long k = 0; flow == Flow::next && (by > 0 ? value <= last : value >= last);) {
     round.again();
     count(value);
     flow = execute(statement.branches[0].body);
+    value = first + static_cast<double>(++k) * by;
+    if (!statement.keeps_counter || flow != Flow::next) continue;
+    const Value counter = evaluate(counter_of(statement));  // the body may have changed it
+    if (!counter.is_number()) {
+      ask(statement.place, "counts with a variable that is known only while the robot runs", counter,
+          "then or =else");
+      break;
+    }
+    value = counter.number + by;
   }
   if (statement.keeps_counter) {
     if (flow == Flow::next) count(value);
@@ -666,12 +674,20 @@ const Routine* Interpreter::routine_named(const std::string& name, const Place& 
 
 void Interpreter::declare(const Statement& statement) {
   if (statement.arguments[0].kind == Expression::Kind::none)
-    for (const Parameter& parameter :
-         routines_.back()->parameters)  // KRL declares its parameters' types inside
-      if (parameter.name == statement.name) return;
+    for (const Parameter& parameter : routines_.back()->parameters)
+      if (parameter.name == statement.name) return declare_parameter(statement);
   locals_.back().insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
                                                            .value = declared_value(statement),
                                                            .written = statement.place});
+}
+
+/// KRL declares its parameters' types inside the routine.
+void Interpreter::declare_parameter(const Statement& statement) {
+  const auto given = locals_.back().find(statement.name);
+  if (given == locals_.back().end() || statement.arguments.size() > 1) return;
+  Value typed = dialect_.initial(statement.text);
+  dialect_.store(typed, std::move(given->second.value));
+  given->second.value = std::move(typed);
 }
 
 Value Interpreter::declared_value(const Statement& statement) {
@@ -683,7 +699,10 @@ Value Interpreter::declared_value(const Statement& statement) {
       complain(written.place,
                fmt::format("has not the {} components of a {}", type->fields.size(), type->name),
                "write all of them");
-    return value;
+    if (statement.arguments.size() > 1) return value;
+    Value stored = dialect_.initial(statement.text);
+    dialect_.store(stored, std::move(value));
+    return stored;
   }
   Value value = dialect_.initial(statement.text);
   double count = 1;
@@ -790,6 +809,13 @@ void Interpreter::forget_assigned(const std::vector<Statement>& body, const std:
     if (statement.kind == Kind::instruction) forget_written(statement, why, done);
     for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
   }
+}
+
+void Interpreter::forget_writes_of(const Statement& call, int module, const std::string& why) {
+  std::set<const Routine*> done;
+  const int here = std::exchange(module_, module);
+  forget_written(call, why, done);
+  module_ = here;
 }
 
 /// Of a call: what the routine assigns to data outside of it, and the arguments that it gives back.

@@ -33,7 +33,10 @@ struct Cause {
 
 struct Value {
   enum class Kind { unknown, number, truth, text, list };
+  /// Of KRL's numbers, and of the variables that hold them: INT counts in whole numbers, also when it divides.
+  enum class Numeric : unsigned char { any, integer, real };
   Kind kind = Kind::unknown;
+  Numeric numeric = Numeric::any;
   double number = 0;
   std::string text;
   std::vector<Value> items;
@@ -83,6 +86,14 @@ class Dialect {
   virtual const RecordType* type_of(const std::string& name) const = 0;
   /// Value of a declared variable without one.
   virtual Value initial(const std::string& type) const = 0;
+  /// Assigns a value to a variable or to a part of one.
+  virtual void store(Value& place, Value value) const { place = std::move(value); }
+  /// Whether a name that a module uses and no file read declares belongs to all modules, not to it alone.
+  virtual bool shares(const std::string& name, int module) const {
+    static_cast<void>(name);
+    static_cast<void>(module);
+    return true;
+  }
 };
 
 class Interpreter {
@@ -109,6 +120,8 @@ class Interpreter {
   bool present(const Expression& argument);
   /// The variable becomes unknown, or what the user gives for it, because of `who`.
   void make_unknown(const Expression& target, const std::string& why);
+  /// The same for all that a call of a routine may write to, as it stands in a module.
+  void forget_writes_of(const Statement& call, int module, const std::string& why);
   void set(const std::string& name, Value value);  ///< of the module
   void forget(const std::string& name);
   void assign(const Expression& target, Value value);
@@ -127,6 +140,7 @@ class Interpreter {
   pipeline::Where where(const Place& place) const;
   std::string short_place(const Place& place) const;  ///< "main.mod:12"
   const ImportOptions& options() const { return options_; }
+  int module() const { return module_; }  ///< whose names are seen; -1: none's
   Program& program() { return program_; }
   /// Index of the frame in the list; added when it is new.
   int frame_index(std::vector<NamedFrame>& list, const NamedFrame& frame);
@@ -198,10 +212,12 @@ class Interpreter {
   Value aggregate(const Expression& expression);
   Value* locate(const Expression& expression);
   Variable* find(const std::string& name);
+  Scope& scope_of(const std::string& path);
   Variable* base_of(const Expression& expression);
   Value* ready(Variable& variable);
   void assign_somewhere(const Expression& target);
   Value declared_value(const Statement& statement);
+  void declare_parameter(const Statement& statement);
   void index_data();
   std::optional<Value> given_for(const Datum& datum);
   bool same_declaration(const Datum& a, const Datum& b) const;

@@ -3,519 +3,581 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 
-#include "sim/program/tokens.h"
+#include "sim/program/krl_dialect.h"
+#include "sim/program/krl_spline.h"
 
 namespace dresslife::sim {
+
+using namespace krl;
+
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double millimetre = 1e-3;
+constexpr const char* standing_names[] = {"$axis_act", "$pos_act",  "$axis_int",
+                                          "$pos_int",  "$axis_ret", "$pos_ret"};
 
-constexpr const char* axis_names[] = {"a1", "a2", "a3", "a4", "a5", "a6"};
-constexpr const char* frame_names[] = {"x", "y", "z", "a", "b", "c"};
-constexpr const char* harmless_names[] = {"wait",   "halt",    "interrupt", "trigger",   "pulse",   "signal",
-                                          "ext",    "extfct",  "extp",      "extfctp",   "import",  "enum",
-                                          "struc",  "channel", "anin",      "anout",     "brake",   "resume",
-                                          "cwrite", "cread",   "gripper",   "err_raise", "eb_test", "sync"};
-
-/// Axes of the target, or the position and angles of its frame, of which a program may give some only.
-struct Coordinates {
-  std::array<double, 6> numbers{};
-  std::array<bool, 6> given{};
-  bool any() const {
-    return std::any_of(given.begin(), given.end(), [](bool g) { return g; });
-  }
-};
-
-/// Absent: one of them is unknown.
-std::optional<Coordinates> coordinates(const Value& record, const char* const (&names)[6]) {
-  Coordinates read;
-  for (int i = 0; i < 6; ++i) {
-    const Value* part = record.field(names[i]);
-    if (!part || part->kind == Value::Kind::unknown) continue;
-    if (!part->is_number()) return {};
-    read.numbers[i] = part->number;
-    read.given[i] = true;
-  }
-  return read;
+bool is_standing(const std::string& name) {
+  return std::find(std::begin(standing_names), std::end(standing_names), name) != std::end(standing_names);
 }
 
-Frame frame_from(const std::array<double, 6>& n) {
-  return {
-      millimetre * Vector3(n[0], n[1], n[2]),
-      rotation({0, 0, n[3] * degree}) * rotation({0, n[4] * degree, 0}) * rotation({n[5] * degree, 0, 0})};
+/// Whether a move carries a word: C_DIS, #TOOL, in_spline.
+bool has(const Statement& statement, const char* word) {
+  return (" " + statement.text + " ").find(fmt::format(" {} ", word)) != std::string::npos;
 }
 
-std::array<double, 6> numbers_of(const Frame& frame) {
-  const Matrix3 r = frame.orientation.toRotationMatrix();
-  const double b = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
-  const bool pole = std::abs(std::cos(b)) < 1e-9;
-  const double a = pole ? std::atan2(-r(0, 1), r(1, 1)) : std::atan2(r(1, 0), r(0, 0));
-  const double c = pole ? 0 : std::atan2(r(2, 1), r(2, 2));
-  const Vector3 p = frame.position / millimetre;
-  return {p.x(), p.y(), p.z(), a / degree, b / degree, c / degree};
+/// A distance of SAPO_PTP that stands for "the percentage counts alone" [mm].
+constexpr double no_distance = 1e5;
+
+}  // namespace
+
+Krl::Krl(const Code& code, const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects)
+    : code_(code), tools_(tools), work_objects_(work_objects) {}
+
+std::optional<Instruction::Kind> Krl::kind_of(const std::string& name) {
+  std::string plain = name.starts_with("s") ? name.substr(1) : name;
+  if (plain.ends_with("_rel")) plain.resize(plain.size() - 4);
+  if (plain == "ptp") return Instruction::Kind::joint;
+  if (plain == "lin" || plain == "pl") return Instruction::Kind::linear;
+  if (plain == "circ") return Instruction::Kind::circular;
+  return {};
 }
 
-class Krl final : public Dialect {
- public:
-  Krl(const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects)
-      : tools_(tools), work_objects_(work_objects) {
-    frame_type_ = {"frame", {frame_names, frame_names + 6}, std::vector<const RecordType*>(6, nullptr)};
-    axis_type_ = {"axis", {axis_names, axis_names + 6}, std::vector<const RecordType*>(6, nullptr)};
-  }
+bool Krl::matters(const std::string& name) const { return kind_of(name).has_value() || name == "bas"; }
 
-  std::optional<Value> constant(const std::string& name) override {
-    if (name.starts_with("#")) return text_value(name);
-    if (name == "$nullframe" || name == "$world" || name == "$robroot") return frame_value(Frame{});
-    if (name == "xhome") return record({0, -90, 90, 0, 0, 0}, &axis_type_);
-    if (name == "$pos_act") return last_pose_ ? std::optional(frame_value(*last_pose_)) : Value{};
-    return {};
-  }
-  std::optional<Value> function(const Expression& call, Interpreter& run) override;
-  bool instruction(const Statement& statement, Interpreter& run) override;
-  bool matters(const std::string& name) const override {
-    return kind_of(name).has_value() || name == "wait_sec" || name == "bas";
-  }
-  bool harmless(const std::string& name) const override {
-    return std::find(std::begin(harmless_names), std::end(harmless_names), name) != std::end(harmless_names);
-  }
-  const RecordType* type_of(const std::string&) const override { return nullptr; }
-  Value initial(const std::string&) const override { return {}; }
-
-  /// Indices of the instructions that are SPL points of spline blocks.
-  const std::set<std::size_t>& spline_points() const { return spline_points_; }
-
- private:
-  static std::optional<Instruction::Kind> kind_of(const std::string& name) {
-    std::string plain = name.starts_with("s") ? name.substr(1) : name;
-    if (plain.ends_with("_rel")) plain.resize(plain.size() - 4);
-    if (plain == "ptp") return Instruction::Kind::joint;
-    if (plain == "lin" || plain == "pl") return Instruction::Kind::linear;
-    if (plain == "circ") return Instruction::Kind::circular;
-    return {};
-  }
-
-  Value record(const std::array<double, 6>& numbers, const RecordType* type) const {
-    std::vector<Value> items;
-    for (double number : numbers) items.push_back(number_value(number));
-    return list_value(std::move(items), type);
-  }
-  Value frame_value(const Frame& frame) const { return record(numbers_of(frame), &frame_type_); }
-
-  bool move(Instruction::Kind kind, const Statement& statement, Interpreter& run);
-  static bool has(const Statement& statement, const char* word) {
-    return (" " + statement.text + " ").find(fmt::format(" {} ", word)) != std::string::npos;
-  }
-  bool read_target(const Expression& written, bool relative, Instruction& move, Interpreter& run);
-  bool read_frames(const Statement& statement, Instruction& move, Interpreter& run);
-  bool read_speed(const Statement& statement, Instruction& move, Interpreter& run);
-  void read_zone(const Statement& statement, Instruction& move, Interpreter& run);
-  void basics(const Statement& statement, Interpreter& run);
-  void parameters(bool joint, std::optional<double> speed, Interpreter& run);
-  std::optional<double> setting(const std::string& name, Interpreter& run) const;
-  Value numbered(const char* list, double number, Interpreter& run);
-  std::optional<Frame> current(const char* variable, const std::vector<NamedFrame>& given, std::string& name,
-                               const Statement& statement, Interpreter& run);
-
-  const std::vector<NamedFrame>& tools_;
-  const std::vector<NamedFrame>& work_objects_;
-  RecordType frame_type_, axis_type_;
-  std::array<double, 6> last_axes_{}, last_numbers_{};
-  bool has_axes_ = false;
-  std::optional<Frame> last_pose_;
-  std::string tool_name_ = "$TOOL", base_name_ = "$BASE";
-  std::set<std::size_t> spline_points_;
-};
-
-/// A number that a variable or an assigned part of one holds.
-std::optional<double> Krl::setting(const std::string& name, Interpreter& run) const {
-  const Value* value = run.variable(name);
-  return value && value->is_number() ? std::optional(value->number) : std::nullopt;
+std::optional<Value> Krl::constant(const std::string& name) {
+  if (name.starts_with("#")) return text_value(name);
+  if (name == "$nullframe" || name == "$world") return frame_value(Frame{});
+  if (name == "$num_ax") return number_value(6);
+  if (name == "$t1" || name == "$t2") return truth_value(false);  // what wears cables is automatic operation
+  const bool axes = name == "$axis_act" || name == "$axis_int";
+  if (!axes && name != "$pos_act" && name != "$pos_int") return named_frame(name);
+  const auto numbers = axes ? axes_ : place_before(current_frames(*run_));
+  if (numbers) return record(*numbers, axes ? "axis" : "frame");
+  if (std::optional<Value> given = run_->given(name)) return given;
+  return unknown_value(name, "is where the robot stands");
 }
 
-bool Krl::read_target(const Expression& written, bool relative, Instruction& move, Interpreter& run) {
-  const Value value = run.evaluate(written);
-  const auto axes = value.kind == Value::Kind::list ? coordinates(value, axis_names) : std::nullopt;
-  const auto frame = value.kind == Value::Kind::list ? coordinates(value, frame_names) : std::nullopt;
-  const bool joint = axes && axes->any();
-  if (!joint && !(frame && frame->any())) {
-    const bool named = written.kind == Expression::Kind::name;
-    run.complain(written.place,
-                 named ? fmt::format("moves to '{}', which no file read declares", written.text)
-                       : "moves to a place that is known only while the robot runs",
-                 "give the .dat file that declares it, or write the target as a constant");
+// ---- targets ----------------------------------------------------------------------------------------------
+
+void Krl::ask_for_target(const Expression& written, const Value& value, Interpreter& run) {
+  const std::string path = run.path_of(written);
+  const std::string name = path.empty() ? std::string("a position") : fmt::format("'{}'", path);
+  const Cause* cause = value.first_cause();
+  if (is_unset(value)) {
+    run.miss(name, written.place, fmt::format("moves to {}, which has no value yet", name),
+             "assign it before the move, or give the file that holds its value (.dat)");
+  } else if (!path.empty() && cause && cause->name == path) {
+    run.miss(name, written.place, fmt::format("moves to {}, which no file read declares", name),
+             fmt::format("give the .dat file that declares it, write the target as a constant, or {}",
+                         fmt::format("--value '{}={{X ...}}'", path)));
+  } else {
+    ask_for_part(written, value, run);
+  }
+}
+
+void Krl::ask_for_part(const Expression& written, const Value& unknown, Interpreter& run) {
+  const std::string remedy = run.remedy_for(unknown);
+  run.complain(written.place,
+               "moves to a place that is known only while the robot runs" + run.because(unknown),
+               remedy.empty() ? "write the target as a constant" : "give it with " + remedy);
+}
+
+/// The numbers of the last target, in other frames where they have changed since.
+std::optional<std::array<double, 6>> Krl::place_before(const Frames& frames) const {
+  if (!numbers_ || frames.same(numbers_in_)) return numbers_;
+  if (!frames.unknown.known() || !numbers_in_.unknown.known()) return numbers_;  // they are asked for
+  return numbers_of(frames.pose(numbers_in_.flange(frame_from(*numbers_))));
+}
+
+bool Krl::read_external(const Expression& written, const Value& value, bool relative, Instruction& move,
+                        Interpreter& run) {
+  const Coordinates read = coordinates(value, external_names);
+  if (!read.unknown.known()) {
+    ask_for_part(written, read.unknown, run);
     return false;
   }
-  const Coordinates& read = joint ? *axes : *frame;
-  std::array<double, 6>& numbers = joint ? last_axes_ : last_numbers_;
-  const bool whole = std::all_of(read.given.begin(), read.given.end(), [](bool g) { return g; });
-  if ((!whole || relative) && (joint ? !has_axes_ : !last_pose_)) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (read.given[i]) external_[i] = read.numbers[i] + (relative ? external_[i].value_or(0) : 0);
+    if (external_[i]) count = i + 1;
+  }
+  for (std::size_t i = 0; i < count; ++i) move.target.external_axes.push_back(external_[i].value_or(0));
+  return true;
+}
+
+namespace {
+
+/// A place in the frame of the move, from what is written and the place before; absent: it cannot be told.
+std::optional<std::array<double, 6>> moved(const Coordinates& read, Krl::From from,
+                                           const std::optional<std::array<double, 6>>& before) {
+  if (read.all() && from == Krl::From::origin) return read.numbers;
+  if (!before) return {};
+  std::array<double, 6> numbers = *before;
+  if (from == Krl::From::origin) {
+    for (int i = 0; i < 6; ++i)
+      if (read.given[i]) numbers[i] = read.numbers[i];
+  } else if (from == Krl::From::tool) {
+    numbers = numbers_of(frame_from(*before) * frame_from(read.numbers));
+  } else {
+    for (int i = 0; i < 6; ++i) numbers[i] += read.numbers[i];
+  }
+  return numbers;
+}
+
+}  // namespace
+
+bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instruction& move,
+                   Interpreter& run) {
+  const Value value = run.evaluate(via);
+  const Coordinates read = coordinates(value, frame_names);
+  if (coordinates(value, axis_names).any()) {
+    run.complain(via.place, "CIRC goes by axis angles", "write a frame");
+    return false;
+  }
+  if (!read.unknown.known() || !read.any()) {
+    read.unknown.known() ? ask_for_target(via, value, run) : ask_for_part(via, read.unknown, run);
+    return false;
+  }
+  const auto numbers = moved(read, from, place_before(frames));
+  if (!numbers) {
+    run.complain(via.place, "gives some coordinates only (the others of the place before are not known)",
+                 "write all six");
+    return false;
+  }
+  move.via = frame_from(*numbers);
+  return true;
+}
+
+bool Krl::read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
+                      Interpreter& run) {
+  const Value value = run.evaluate(written);
+  const Coordinates axes = coordinates(value, axis_names), frame = coordinates(value, frame_names);
+  for (const Value* unknown : {&axes.unknown, &frame.unknown})
+    if (!unknown->known()) {
+      ask_for_part(written, *unknown, run);
+      return false;
+    }
+  const bool joint = axes.any();
+  if (!joint && !frame.any()) {
+    ask_for_target(written, value, run);
+    return false;
+  }
+  if (joint && move.kind != Instruction::Kind::joint) {
+    run.complain(written.place, "goes along a path to axis angles (the controller stops here)",
+                 "write a frame");
+    return false;
+  }
+  if (from == From::place && !joint && (frame.numbers[4] != 0 || frame.numbers[5] != 0)) {
+    run.complain(written.place, "turns about B or C by a relative amount (in $BASE the law is not public)",
+                 "write the target's angles, or #TOOL");
+    return false;
+  }
+  const auto numbers = joint ? moved(axes, from, axes_) : moved(frame, from, place_before(frames));
+  if (!numbers) {
     run.complain(written.place, "gives some coordinates only (the others of the place before are not known)",
                  "write all six");
     return false;
   }
-  for (int i = 0; i < 6; ++i)
-    if (read.given[i]) numbers[i] = read.numbers[i] + (relative ? numbers[i] : 0);
+  if (!read_external(written, value, from != From::origin, move, run)) return false;
   if (joint) {
-    for (double number : numbers) move.target.joints.push_back(number * degree);
-    has_axes_ = true;
-    last_pose_.reset();
-  } else {
-    move.target.pose = frame_from(numbers);
-    last_pose_ = move.target.pose;
-    has_axes_ = false;
-    const Value *status = value.field("s"), *turn = value.field("t");
-    if (move.kind == Instruction::Kind::joint && status && turn && status->is_number() && turn->is_number())
-      move.target.configuration = {ArmConfiguration::Kind::kuka,
-                                   {static_cast<int>(std::clamp(status->number, 0.0, 63.0)),
-                                    static_cast<int>(std::clamp(turn->number, 0.0, 63.0))}};
+    for (double number : *numbers) move.target.joints.push_back(number * degree);
+    axes_ = numbers;
+    numbers_.reset();
+    return true;
   }
-  for (const char* name : {"e1", "e2", "e3", "e4", "e5", "e6"})
-    if (const Value* axis = value.field(name); axis && axis->is_number())
-      move.target.external_axes.push_back(axis->number);
+  move.target.pose = frame_from(*numbers);
+  numbers_ = numbers;
+  numbers_in_ = frames;
+  axes_.reset();
+  const Value *status = value.field("s"), *turn = value.field("t");
+  if (move.kind == Instruction::Kind::joint && status && turn && status->is_number() && turn->is_number())
+    move.target.configuration = {ArmConfiguration::Kind::kuka,
+                                 {static_cast<int>(std::clamp(status->number, 0.0, 63.0)),
+                                  static_cast<int>(std::clamp(turn->number, 0.0, 63.0))}};
   return true;
 }
 
-/// Contents of $TOOL or $BASE; the null frame before anything is assigned, as after a start of the
-/// controller.
-std::optional<Frame> Krl::current(const char* variable, const std::vector<NamedFrame>& given,
-                                  std::string& name, const Statement& statement, Interpreter& run) {
-  const Value* value = run.variable(variable);
-  if (!value) return Frame{};
-  const auto read = value->kind == Value::Kind::list ? coordinates(*value, frame_names) : std::nullopt;
-  if (read && std::all_of(read->given.begin(), read->given.end(), [](bool g) { return g; }))
-    return frame_from(read->numbers);
-  if (value->kind == Value::Kind::text) {  // the name of one that the files do not hold
-    name = value->text;
-    for (const NamedFrame& frame : given)
-      if (lower_case(frame.name) == lower_case(name)) return frame.frame;
-    run.complain(statement.place, fmt::format("moves with {}, which no file read declares", name),
-                 fmt::format("give the file that declares it ($config.dat), or motion.{} with the name '{}'",
-                             std::string(variable) == "$tool" ? "tools" : "work_objects", name));
-    return {};
-  }
-  run.complain(statement.place,
-               fmt::format("moves with {} that is known only while the robot runs", variable),
-               "assign a constant frame");
-  return {};
+// ---- speed and zone ---------------------------------------------------------------------------------------
+
+/// A number that a system variable or a part of one holds.
+std::optional<double> Krl::setting(const std::string& name, const char* field, Interpreter& run) {
+  const Value* value = run.variable(name);
+  if (value && *field) value = value->field(field);
+  return value && value->is_number() ? std::optional(value->number) : std::nullopt;
 }
 
-bool Krl::read_frames(const Statement& statement, Instruction& move, Interpreter& run) {
-  tool_name_ = "$TOOL", base_name_ = "$BASE";
-  const auto tool = current("$tool", tools_, tool_name_, statement, run);
-  const auto base = current("$base", work_objects_, base_name_, statement, run);
-  if (!tool || !base) return false;
-  const Value* mode = run.variable("$ipo_mode");
-  const bool stationary = mode && mode->kind == Value::Kind::text && mode->text == "#tcp";
-  const auto trivial = [](const Frame& f) { return f.position.isZero(0) && f.orientation.vec().isZero(0); };
-  // #TCP: the tool stands in $BASE, the work is held at $TOOL.
-  const Frame& tool_frame = stationary ? *base : *tool;
-  const Frame& object_frame = stationary ? *tool : *base;
-  if (stationary || !trivial(tool_frame))
-    move.tool =
-        run.frame_index(run.program().tools, {stationary ? base_name_ : tool_name_, tool_frame, stationary});
-  if (stationary || !trivial(object_frame))
-    move.work_object = run.frame_index(run.program().work_objects,
-                                       {stationary ? tool_name_ : base_name_, object_frame, stationary});
+bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpreter& run) {
+  const auto slowest = [&](const char* list) -> std::optional<double> {  // axes move together
+    double percent = 100;
+    const Value* values = run.variable(list);
+    for (std::size_t axis = 0; values && axis < 6 && axis < values->items.size(); ++axis) {
+      const Value& value = values->items[axis];
+      if (is_unset(value)) continue;
+      if (!value.is_number() || !(value.number > 0)) {
+        const std::string remedy = run.remedy_for(value);
+        const Cause* cause = value.first_cause();
+        run.miss(cause ? cause->name : list, statement.place,
+                 fmt::format("moves with {}[{}] that is not a known number above 0{}", list, axis + 1,
+                             run.because(value)),
+                 remedy.empty()
+                     ? "assign a constant"
+                     : "give the file that holds it (PDEFAULT and its like: $CONFIG.DAT), or " + remedy);
+        return {};
+      }
+      percent = std::min(percent, value.number);
+    }
+    return percent;
+  };
+  const auto speed = slowest("$vel_axis"), acceleration = slowest("$acc_axis");
+  if (!speed || !acceleration) return false;
+  move.speed.axis_percent = *speed;
+  move.acceleration_percent = std::max(1.0, *acceleration);
+  return true;
+}
+
+bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpreter& run) {
+  const Value* velocity = run.variable("$vel");
+  const Value* speed = velocity ? velocity->field("cp") : nullptr;
+  if (!speed || is_unset(*speed)) {
+    run.miss("$vel.cp", statement.place,
+             "moves along a path before $VEL.CP is assigned (its value lies in the controller)",
+             "assign $VEL.CP in m/s");
+    return false;
+  }
+  if (!speed->is_number() || !(speed->number > 0)) {
+    const std::string remedy = run.remedy_for(*speed);
+    run.miss("$vel.cp", statement.place,
+             "moves along a path at a $VEL.CP that is not a known number above 0" + run.because(*speed),
+             remedy.empty() ? "assign a constant in m/s" : "give $config.dat, or " + remedy + " in m/s");
+    return false;
+  }
+  move.speed.tool = speed->number;
+  if (const auto turn = setting("$vel", "ori1", run); turn && *turn > 0)
+    move.speed.orientation = *turn * degree;
+  const auto acceleration = setting("$acc", "cp", run), whole = setting("def_acc_cp", "", run);
+  if (acceleration && *acceleration > 0)
+    move.acceleration_percent =
+        std::clamp(100 * *acceleration / whole.value_or(standard_path_acceleration), 1.0, 100.0);
+  return true;
+}
+
+/// $OV_PRO slows every move down.
+bool Krl::read_override(const Statement& statement, Instruction& move, Interpreter& run) {
+  const Value* value = run.variable("$ov_pro");
+  if (!value || is_unset(*value)) return true;
+  if (!value->is_number() || !(value->number > 0)) {
+    run.miss("$ov_pro", statement.place,
+             "moves at an override $OV_PRO that is not a known number above 0" + run.because(*value),
+             "assign a constant in %");
+    return false;
+  }
+  const double share = std::min(value->number, 100.0) / 100;
+  for (std::optional<double>* speed : {&move.speed.axis_percent, &move.speed.tool, &move.speed.orientation})
+    if (*speed) **speed *= share;
   return true;
 }
 
 bool Krl::read_speed(const Statement& statement, Instruction& move, Interpreter& run) {
-  const auto above_zero = [&](const std::string& name) -> std::optional<double> {
-    const Value* value = run.variable(name);
-    if (!value) return {};
-    if (value->is_number() && value->number > 0) return value->number;
-    run.complain(statement.place, fmt::format("moves with {} that is not a known number above 0", name),
-                 "assign a constant");
-    return {};
-  };
-  if (move.kind == Instruction::Kind::joint) {
-    double speed = 100, acceleration = 100;
-    for (int axis = 1; axis <= 6; ++axis) {  // the slowest counts: axes move together
-      if (const auto percent = above_zero(fmt::format("$vel_axis[{}]", axis)))
-        speed = std::min(speed, *percent);
-      if (const auto percent = above_zero(fmt::format("$acc_axis[{}]", axis)))
-        acceleration = std::min(acceleration, *percent);
-    }
-    move.speed.axis_percent = speed;
-    move.acceleration_percent = std::max(1.0, acceleration);
-    return true;
-  }
-  move.speed.tool = above_zero("$vel.cp");
-  if (const auto turn = above_zero("$vel.ori1")) move.speed.orientation = *turn * degree;
-  if (move.speed.tool) return true;
-  if (!run.variable("$vel.cp"))
-    run.complain(statement.place,
-                 "moves along a path before $VEL.CP is assigned (its value lies in the controller)",
-                 "assign $VEL.CP in m/s");
-  return false;
+  const bool read = move.kind == Instruction::Kind::joint ? read_axis_speed(statement, move, run)
+                                                          : read_path_speed(statement, move, run);
+  return read && read_override(statement, move, run);
 }
 
 void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& run) {
-  const auto has = [&](const char* word) { return Krl::has(statement, word); };
-  if (has("in_spline") && !has("last")) {
+  const auto known = [&](const char* field, const char* written) {
+    const auto number = setting("$apo", field, run);
+    if (!number)
+      run.note(statement.place,
+               fmt::format("approximates without a known {}: the robot stops at the target", written), true);
+    return number;
+  };
+  if (has(statement, "in_spline") && !has(statement, "last")) {
     move.zone.percent = 100;  // a spline does not stop between its points
     return;
   }
-  if (has("c_dis") || has("c_ori") || has("c_spl")) {
-    move.zone.distance = std::max(0.0, setting("$apo.cdis", run).value_or(0)) * millimetre;
-    if (move.zone.distance == 0)
-      run.note(statement.place, "approximates without $APO.CDIS: the robot stops at the target");
-  } else if (has("c_ptp")) {
-    move.zone.percent = std::clamp(setting("$apo.cptp", run).value_or(0), 0.0, 100.0);
-  } else if (has("c_vel")) {
-    move.zone.percent = std::clamp(setting("$apo.cvel", run).value_or(100), 0.0, 100.0);
+  const bool joint = move.kind == Instruction::Kind::joint,
+             by_distance = has(statement, "c_dis") || has(statement, "c_spl");
+  const auto distance = setting("$apo", "cdis", run);
+  if (has(statement, "c_ptp") || (joint && by_distance && distance && *distance >= no_distance)) {
+    move.zone.percent = std::clamp(known("cptp", "$APO.CPTP").value_or(0), 0.0, 100.0);
+  } else if (by_distance) {
+    move.zone.distance = std::max(0.0, known("cdis", "$APO.CDIS").value_or(0)) * millimetre;
+  } else if (has(statement, "c_vel")) {
+    // From v % of the speed V on: (v V)^2 / 2a of the way V^2 / 2a in which the robot would stop.
+    const double share = std::clamp(known("cvel", "$APO.CVEL").value_or(0), 0.0, 100.0) / 100;
+    move.zone.percent = 100 * share * share;
+  } else if (has(statement, "c_ori")) {
+    run.note(statement.place, "approximates by an angle (C_ORI): the robot stops at the target", true);
   }
 }
 
-bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
-  std::vector<std::pair<std::string, std::optional<Value>>> before;  // WITH counts for this move only
-  for (const Branch& settings : statement.branches)
-    for (const Statement& s : settings.body) {
-      const Expression& target = s.arguments[0];
-      const std::string path = run.path_of(target);
-      if (!path.empty()) {
-        const Value* old = run.variable(path);
-        before.emplace_back(path, old ? std::optional(*old) : std::nullopt);
-      }
-      run.assign(target, run.evaluate(s.arguments[1]));
-    }
+/// Where the parts of a move come from, for whoever asks.
+void Krl::add_origins(const Expression& target, const Frames& frames, Instruction& move, Interpreter& run) {
+  const auto add = [&](const char* part, const std::string& written, const Expression& from) {
+    const Place place = run.origin(from);
+    move.origins.push_back({part, written, place.line ? run.where(place) : pipeline::Where{}});
+  };
+  const bool joint = move.kind == Instruction::Kind::joint;
+  add("target", run.written(target), target);
+  if (move.tool >= 0)
+    add("tool", frames.stationary ? frames.base_name : frames.tool_name, name_at("$tool", {}));
+  if (move.work_object >= 0)
+    add("work object", frames.stationary ? frames.tool_name : frames.base_name, name_at("$base", {}));
+  add("speed", joint ? "$VEL_AXIS" : "$VEL.CP", name_at(joint ? "$vel_axis" : "$vel", {}));
+  if (move.zone.distance > 0 || move.zone.percent > 0) add("zone", "$APO", name_at("$apo", {}));
+}
+
+// ---- moves ------------------------------------------------------------------------------------------------
+
+bool Krl::stands_still(const Expression& target) const {
+  return target.kind == Expression::Kind::name && is_standing(target.text);
+}
+
+void Krl::set_frames(const Frames& frames, Instruction& move, Interpreter& run) {
+  const auto trivial = [](const Frame& f) { return f.position.isZero(0) && f.orientation.vec().isZero(0); };
+  // #TCP: the tool stands in $BASE, the work is held at $TOOL.
+  const bool turned = frames.stationary;
+  const NamedFrame tool{turned ? frames.base_name : frames.tool_name, turned ? frames.base : frames.tool,
+                        turned};
+  const NamedFrame object{turned ? frames.tool_name : frames.base_name, turned ? frames.tool : frames.base,
+                          turned};
+  if (turned || !trivial(tool.frame)) move.tool = run.frame_index(run.program().tools, tool);
+  if (turned || !trivial(object.frame))
+    move.work_object = run.frame_index(run.program().work_objects, object);
+}
+
+bool Krl::ask_for_frames(const Frames& frames, const Statement& statement, Interpreter& run) {
+  if (frames.unknown.known()) return false;
+  const Cause* cause = frames.unknown.first_cause();
+  const bool listed =
+      cause && (cause->name.starts_with("TOOL_DATA[") || cause->name.starts_with("BASE_DATA["));
+  if (listed) {
+    const bool tool = cause->name[0] == 'T';
+    run.miss(cause->name, statement.place,
+             fmt::format("moves with {}, which no file read declares", cause->name),
+             fmt::format(
+                 "give the file that declares it ($config.dat), or --frames FILE.yaml (motion.{} in a job) "
+                 "with the name '{}'",
+                 tool ? "tools" : "work_objects", cause->name));
+  } else {
+    run.miss(
+        cause ? cause->name : "frame", statement.place,
+        "moves with a $TOOL or $BASE that is known only while the robot runs" + run.because(frames.unknown),
+        "assign a constant frame");
+  }
+  return true;
+}
+
+void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
   Instruction move;
   move.kind = kind;
-  const bool relative = statement.name.ends_with("_rel");
+  const From from = !statement.name.ends_with("_rel") ? From::origin
+                    : has(statement, "#tool")         ? From::tool
+                                                      : From::place;
   const Expression* target = nullptr;
   const Expression* via = nullptr;
   for (const Expression& argument : statement.arguments) {
     if (argument.option == "ca") {
       run.complain(argument.place, "CIRC with CA ends elsewhere than at its target",
                    "write the end of the arc as the target, without CA");
-    } else {
-      via = target;
-      target = &argument;
+      return;
     }
+    via = target;
+    target = &argument;
   }
-  bool whole = target != nullptr;
-  if (kind == Instruction::Kind::circular && !via) {
+  if (!target || (kind == Instruction::Kind::circular && !via)) {
     run.complain(statement.place, "CIRC needs a point on the way and a target", "write both");
-    whole = false;
+    return;
   }
-  if (whole && via && kind == Instruction::Kind::circular) {
-    Instruction way = move;
-    whole &= read_target(*via, relative, way, run);
-    if (whole && !way.target.joints.empty()) {
-      run.complain(via->place, "CIRC goes by axis angles", "write a frame");
-      whole = false;
+  if (stands_still(*target)) {
+    run.note(statement.place, "the robot stands there already: no move");
+    return;
+  }
+  const Frames frames = current_frames(run);
+  if (kind == Instruction::Kind::circular && !read_via(*via, from, frames, move, run)) return;
+  const bool whole = read_target(*target, from, frames, move, run);
+  if (!read_speed(statement, move, run) || !whole) return;
+  read_zone(statement, move, run);
+  // Axis angles need no frames, unless the tool's way decides where blending begins.
+  const bool free = !move.target.joints.empty() && move.zone.distance == 0;
+  if (frames.unknown.known() && frames.held && move.target.joints.empty() && !frames_told_) {
+    run.note(statement.place,
+             "moves before $TOOL and $BASE are both assigned (the controller holds the last ones): the "
+             "flange or the "
+             "world is taken",
+             true);
+    frames_told_ = true;
+  }
+  if (frames.unknown.known())
+    set_frames(frames, move, run);
+  else if (!free && ask_for_frames(frames, statement, run))
+    return;
+  if (statement.name.starts_with("spl") && has(statement, "in_spline"))
+    spline_points_.insert(run.program().instructions.size());
+  add_origins(*target, frames, move, run);
+  run.emit(move, statement);
+  for (const long number : braking_) handlers_happen(number, run);
+}
+
+// ---- interrupts -------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Whether a routine, or one that it calls, stops the robot's move.
+bool brakes(const Code& code, const std::vector<Statement>& body, int module, int depth) {
+  constexpr int deepest = 4;  // calls in handlers
+  return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
+           if (statement.name == "brake" || statement.name == "resume") return true;
+           for (const Branch& branch : statement.branches)
+             if (brakes(code, branch.body, module, depth)) return true;
+           const Routine* called =
+               statement.kind == Statement::Kind::instruction ? code.find(statement.name, module) : nullptr;
+           return called && brakes(code, called->body, called->module, depth + 1);
+         });
+}
+
+}  // namespace
+
+/// What a handler writes to is unknown: nobody tells whether it has run.
+void Krl::handlers_happen(long number, Interpreter& run) {
+  const auto handler = handlers_.find(number);
+  if (handler == handlers_.end()) return;
+  const Statement& call = *handler->second.call;
+  run.forget_writes_of(call, handler->second.module,
+                       fmt::format("may be written by the interrupt {} (declared in {})", call.text,
+                                   run.short_place(call.place)));
+}
+
+/// An interrupt is taken not to happen. Where it would stop moves, that is told.
+void Krl::interrupt(const Statement& statement, Interpreter& run) {
+  const Value number = statement.arguments.empty() ? number_value(0) : run.evaluate(statement.arguments[0]);
+  const long key = number.is_number() ? static_cast<long>(std::clamp(number.number, -1e6, 1e6)) : -1;
+  if (statement.name == "interrupt_decl") {
+    const Statement& call = statement.branches[0].body[0];
+    if (call.name == "ir_stopm") return;  // after a stop by the operator
+    handlers_[key] = {&call, run.module()};
+  } else if (statement.name == "interrupt_off") {
+    statement.arguments.empty() ? braking_.clear() : static_cast<void>(braking_.erase(key));
+  } else if (const auto handler = handlers_.find(key); handler != handlers_.end()) {
+    handlers_happen(key, run);
+    if (!brakes(code_, {*handler->second.call}, handler->second.module, 0)) return;
+    braking_.insert(key);
+    run.note(statement.place,
+             fmt::format("an interrupt that may stop a move ({}): it is taken not to happen",
+                         handler->second.call->text),
+             true);
+  }
+}
+
+/// What WITH sets counts for this move only.
+bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
+  std::map<std::string, Value> before;
+  const auto keep = [&](const std::string& name) {
+    if (const Value* value = run.variable(name)) before.emplace(name, *value);
+  };
+  for (const Branch& settings : statement.branches)
+    for (const Statement& s : settings.body) {
+      for (const char* list : {"$vel_axis", "$acc_axis"})
+        keep(list);  // SVEL_JOINT and its like set all of them
+      const Expression* base = &s.arguments[0];
+      while (base->kind != Expression::Kind::name) base = &base->items[0];
+      keep(base->text);
+      Value value = run.evaluate(s.arguments[1]);
+      if (s.arguments[0].kind == Expression::Kind::field)  // $VEL.CP = SVEL_CP(...)
+        if (const Value* part = value.field(s.arguments[0].text)) value = Value(*part);
+      run.assign(s.arguments[0], std::move(value));
     }
-    move.via = way.target.pose;
-  }
-  whole = whole && read_target(*target, relative, move, run);
-  whole = whole && read_frames(statement, move, run) && read_speed(statement, move, run);
-  if (whole) {
-    read_zone(statement, move, run);
-    if (statement.name.starts_with("spl") && has(statement, "in_spline"))
-      spline_points_.insert(run.program().instructions.size());
-    run.emit(move, statement);
-  }
-  for (auto& [path, value] : before) value ? run.set(path, *value) : run.forget(path);
+  move_now(kind, statement, run);
+  for (auto& [name, value] : before) run.set(name, std::move(value));
   return true;
 }
 
-// ---- BAS and the forms that the controller's editor writes
-// ---------------------------------------------------
-
-/// TOOL_DATA[n] or BASE_DATA[n]; its name where no file holds it.
-Value Krl::numbered(const char* list, double number, Interpreter& run) {
-  if (number == 0) return frame_value(Frame{});
-  Expression element, name, index;
-  name.kind = Expression::Kind::name;
-  name.text = lower_case(list);
-  index.kind = Expression::Kind::number;
-  index.number = std::clamp(number, 0.0, 1e6);
-  element.kind = Expression::Kind::element;
-  element.items = {name, index};
-  const Value known = run.evaluate(element);
-  if (known.kind != Value::Kind::unknown) return known;
-  return text_value(fmt::format("{}[{}]", list, static_cast<long>(index.number)));
-}
-
-/// BAS(#PTP_PARAMS, v), BAS(#CP_PARAMS, v): what PDAT_ACT or LDAT_ACT and FDAT_ACT hold, at the speed v.
-void Krl::parameters(bool joint, std::optional<double> speed, Interpreter& run) {
-  const char* data = joint ? "pdat_act" : "ldat_act";
-  if (joint) {
-    for (int axis = 1; axis <= 6; ++axis) {
-      if (speed) run.set(fmt::format("$vel_axis[{}]", axis), number_value(*speed));
-      if (const auto acc = setting(fmt::format("{}.acc", data), run))
-        run.set(fmt::format("$acc_axis[{}]", axis), number_value(*acc));
-    }
-  } else if (speed) {
-    run.set("$vel.cp", number_value(*speed));
-  }
-  if (const auto distance = setting(fmt::format("{}.apo_dist", data), run)) {
-    run.set("$apo.cdis", number_value(*distance));
-    run.set("$apo.cptp", number_value(*distance));
-  }
-}
-
-void Krl::basics(const Statement& statement, Interpreter& run) {
-  if (statement.arguments.empty()) return;
-  const Value what = run.evaluate(statement.arguments[0]);
-  std::optional<double> number;
-  if (statement.arguments.size() > 1) number = run.number(statement.arguments[1]);
-  const auto axes = [&](const char* name) {
-    for (int axis = 1; axis <= 6 && number; ++axis)
-      run.set(fmt::format("{}[{}]", name, axis), number_value(*number));
-  };
-  const auto frames = [&](const char* variable, const char* list, double index) {
-    run.set(variable, numbered(list, index, run));
-  };
-  if (what.text == "#vel_ptp")
-    axes("$vel_axis");
-  else if (what.text == "#acc_ptp")
-    axes("$acc_axis");
-  else if (what.text == "#vel_cp" && number)
-    run.set("$vel.cp", number_value(*number));
-  else if (what.text == "#acc_cp" && number)
-    run.set("$acc.cp", number_value(*number));
-  else if (what.text == "#tool" && number)
-    frames("$tool", "TOOL_DATA", *number);
-  else if (what.text == "#base" && number)
-    frames("$base", "BASE_DATA", *number);
-  else if (what.text == "#ptp_params" || what.text == "#cp_params")
-    parameters(what.text == "#ptp_params", number, run);
-  if (what.text == "#ptp_params" || what.text == "#cp_params" || what.text == "#frames") {
-    if (const auto tool = setting("fdat_act.tool_no", run)) frames("$tool", "TOOL_DATA", *tool);
-    if (const auto base = setting("fdat_act.base_no", run)) frames("$base", "BASE_DATA", *base);
-  }
-}
-
-bool Krl::instruction(const Statement& statement, Interpreter& run) {
-  if (const auto kind = kind_of(statement.name)) return move(*kind, statement, run);
-  if (statement.name == "bas") {
-    basics(statement, run);
-    return true;
-  }
-  if (statement.name != "wait_sec") return false;
-  const auto time = run.number(statement.arguments[0]);
-  if (!time || !(*time >= 0)) {
-    run.complain(statement.place, "waits for a time that is known only while the robot runs",
-                 "write it as a constant");
-  } else if (*time > 0) {
+bool Krl::wait(const Statement& statement, Interpreter& run) {
+  const Value time = run.evaluate(statement.arguments[0]);
+  if (!time.is_number()) {
+    const std::string remedy = run.remedy_for(time);
+    run.complain(
+        statement.place, "waits for a time that is known only while the robot runs" + run.because(time),
+        remedy.empty() ? "write it as a constant" : "write it as a constant, or give it with " + remedy);
+  } else if (time.number > 0) {  // the controller does not wait for 0 and less
     Instruction wait;
     wait.kind = Instruction::Kind::dwell;
-    wait.dwell = *time;
+    wait.dwell = time.number;
     run.emit(wait, statement);
   }
   return true;
 }
 
-std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
-  std::vector<Value> values;
-  for (const Expression& argument : call.items) values.push_back(run.evaluate(argument));
-  const auto part = [&](const char* field) {
-    const Value* value = values.empty() ? nullptr : values[0].field(field);
-    return value ? *value : Value{};
-  };
-  if (call.text == ":" && values.size() == 2) {  // the second frame, given in the first
-    std::array<Frame, 2> frames;
-    for (int i = 0; i < 2; ++i) {
-      const auto read = coordinates(values[i], frame_names);
-      if (!read || !read->any()) return Value{};
-      frames[i] = frame_from(read->numbers);
-    }
-    return frame_value(frames[0] * frames[1]);
+bool Krl::instruction(const Statement& statement, Interpreter& run) {
+  if (const auto kind = kind_of(statement.name)) return move(*kind, statement, run);
+  if (statement.name == "wait_sec") return wait(statement, run);
+  if (statement.name == "bas") {
+    basics(statement, run);
+    return true;
   }
-  const double x = values.size() == 1 && values[0].is_number() ? values[0].number : NAN;
-  const auto finite = [](double y) { return std::isfinite(y) ? number_value(y) : Value{}; };
-  if (call.text == "abs") return finite(std::abs(x));
-  if (call.text == "sqrt") return finite(std::sqrt(x));
-  if (call.text == "sin") return finite(std::sin(x * degree));
-  if (call.text == "cos") return finite(std::cos(x * degree));
-  if (call.text == "tan") return finite(std::tan(x * degree));
-  if (call.text == "acos") return finite(std::acos(x) / degree);
-  if (call.text == "atan2" && values.size() == 2 && values[0].is_number() && values[1].is_number())
-    return finite(std::atan2(values[0].number, values[1].number) / degree);
-  // What the editor writes behind WITH.
-  if (call.text == "svel_joint" || call.text == "svel_cp") return values.empty() ? Value{} : values[0];
-  if (call.text == "sacc_joint" || call.text == "sacc_cp") return part("acc");
-  if (call.text == "sapo" || call.text == "sapo_ptp") return part("apo_dist");
-  const auto frame = [&](const char* list, const Value& number) {
-    return number.is_number() ? numbered(list, number.number, run) : Value{};
-  };
-  if (call.text == "stool2") return frame("TOOL_DATA", part("tool_no"));
-  if (call.text == "sbase") return frame("BASE_DATA", values.empty() ? Value{} : values[0]);
-  if (call.text == "sipo_mode") return part("ipo_frame");
-  return {};
+  if (statement.name.starts_with("interrupt_")) {
+    interrupt(statement, run);
+    return true;
+  }
+  if (statement.name == "trigger") {  // it happens during a move, before or behind the statements that follow
+    const Statement& inner = statement.branches[0].body[0];
+    const std::string why = fmt::format("is written by the TRIGGER in {}", run.short_place(statement.place));
+    if (inner.kind == Statement::Kind::assign)
+      run.make_unknown(inner.arguments[0], why);
+    else
+      run.forget_writes_of(inner, run.module(), why);
+    run.note(statement.place, "TRIGGER: input, output or logic");
+    return true;
+  }
+  if (statement.name == "p00") {  // talks to the line's controller, which answers with a program's number
+    run.make_unknown(name_at("pgno", statement.place),
+                     "is the program's number that the line's controller sends");
+    run.note(statement.place, "P00: input, output or logic");
+    return true;
+  }
+  return false;
 }
 
-// ---- spline blocks
-// ---------------------------------------------------
+// ---- the program ------------------------------------------------------------------------------------------
 
-constexpr double spline_step = 0.02;  // between points that stand for the curve [m]
-constexpr int most_steps = 50;        // from one SPL point to the next
+namespace {
 
-/// Unit slope at point k of the curve through the points, of the parabola through three of them over the
-/// length of the chords.
-Vector3 slope_at(const std::vector<Frame>& points, std::size_t k) {
-  const auto chord = [&](std::size_t i) { return Vector3(points[i + 1].position - points[i].position); };
-  const auto along = [&](std::size_t i) { return Vector3(chord(i) / std::max(chord(i).norm(), 1e-12)); };
-  if (points.size() < 3) return along(0);
-  const auto mirrored = [](const Vector3& slope, const Vector3& across) {
-    return Vector3(2 * across.dot(slope) * across - slope);
+/// KUKA writes zeros for axes that are not there.
+void leave_out_unused_axes(Program& program) {
+  const auto unused = [](const Instruction& i) {
+    return std::all_of(i.target.external_axes.begin(), i.target.external_axes.end(),
+                       [](double e) { return e == 0; });
   };
-  if (k == 0) return mirrored(slope_at(points, 1), along(0));
-  if (k + 1 == points.size()) return mirrored(slope_at(points, k - 1), along(k - 1));
-  const double before = chord(k - 1).norm(), behind = chord(k).norm();
-  return (behind * along(k - 1) + before * along(k)).normalized();
+  if (std::all_of(program.instructions.begin(), program.instructions.end(), unused))
+    for (Instruction& instruction : program.instructions) instruction.target.external_axes.clear();
 }
 
-/// KUKA does not tell its splines' law; here: cubics between the points, smooth where they meet. Each becomes
-/// lines.
-void bend_splines(const std::set<std::size_t>& spline_points, Program& program) {
-  std::vector<Instruction> bent;
-  for (std::size_t i = 0; i < program.instructions.size(); ++i) {
-    std::size_t end = i;
-    while (spline_points.contains(end)) ++end;
-    std::vector<Frame> points;  // from the one before the first SPL on
-    if (end > i && i > 0 && program.instructions[i - 1].target.joints.empty()) {
-      for (std::size_t k = i - 1; k < end; ++k) points.push_back(program.instructions[k].target.pose);
-      for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-        const Frame &from = points[k], &to = points[k + 1];
-        const double length = (to.position - from.position).norm();
-        const int steps =
-            points.size() < 3 ? 1 : std::clamp(static_cast<int>(length / spline_step), 1, most_steps);
-        const Vector3 begin = length * slope_at(points, k), finish = length * slope_at(points, k + 1);
-        for (int step = 1; step <= steps; ++step) {
-          const double u = static_cast<double>(step) / steps, v = 1 - u;
-          Instruction part = program.instructions[i + k];
-          if (step < steps) {
-            part.zone = {0, 100};
-            part.target.pose = {v * v * (1 + 2 * u) * from.position + u * u * (1 + 2 * v) * to.position +
-                                    u * v * (v * begin - u * finish),
-                                from.orientation.slerp(u, to.orientation)};
-          }
-          bent.push_back(std::move(part));
-        }
-      }
-      i = end - 1;
-      continue;
+}  // namespace
+
+namespace {
+
+/// The routine to start with: the one that is asked for, else the first of the first file or of its module.
+const Routine* start_of(const Code& code) {
+  if (code.start.empty()) {
+    const Routine* of_module = nullptr;
+    for (const Routine& routine : code.routines) {
+      if (routine.place.file == 0) return &routine;
+      if (!of_module && routine.module == 0) of_module = &routine;
     }
-    bent.push_back(program.instructions[i]);
+    return of_module;
   }
-  program.instructions = std::move(bent);
+  if (const Routine* routine = code.find(code.start, -1)) return routine;
+  for (const Routine& routine : code.routines)  // a local one is meant where there is no other
+    if (routine.name == code.start) return &routine;
+  return nullptr;
 }
 
 }  // namespace
 
 void run_krl(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
              const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems) {
-  const Routine* routine = nullptr;
-  if (!options.routine.empty())
-    routine = code.find(code.start, -1);
-  else if (!code.routines.empty())
-    routine = &code.routines[0];
+  const Routine* routine = start_of(code);
   if (!routine) {
     std::vector<std::string> names;
     for (const Routine& other : code.routines)
@@ -527,16 +589,12 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
         names.empty() ? "give the .src file too" : fmt::format("name one of: {}", fmt::join(names, ", ")));
     return;
   }
-  Krl krl(tools, work_objects);
-  Interpreter(code, krl, options, program, problems).run(*routine);
+  Krl krl(code, tools, work_objects);
+  Interpreter interpreter(code, krl, options, program, problems);
+  krl.attach(interpreter);
+  interpreter.run(*routine);
   bend_splines(krl.spline_points(), program);
-  // KUKA writes zeros for axes that are not there.
-  const auto at_zero = [](double e) { return e == 0; };
-  const auto unused = [&](const Instruction& i) {
-    return std::all_of(i.target.external_axes.begin(), i.target.external_axes.end(), at_zero);
-  };
-  if (std::all_of(program.instructions.begin(), program.instructions.end(), unused))
-    for (Instruction& instruction : program.instructions) instruction.target.external_axes.clear();
+  leave_out_unused_axes(program);
 }
 
 }  // namespace dresslife::sim

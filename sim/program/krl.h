@@ -1,17 +1,23 @@
 // KUKA KRL: .src files with the .dat files that declare their data, run from the first routine unless told
 // otherwise.
 //
-// Read: DEF, DEFFCT, DEFDAT, declarations, assignment, IF, FOR, WHILE, REPEAT, LOOP, SWITCH, RETURN; PTP,
-// LIN, CIRC with CA, PTP_REL, LIN_REL, SPTP, SLIN, SCIRC, SPL and SPLINE blocks with WITH, C_PTP, C_DIS,
-// C_VEL, C_ORI; BAS; $VEL, $ACC, $VEL_AXIS, $ACC_AXIS, $APO, $TOOL, $BASE; WAIT SEC. FOLD lines are comments.
-// Everything else is listed as skipped. SPL points of a block are joined by a smooth curve of cubics, cut into lines.
-// Angles A, B, C turn about z, y', x''. Source: KUKA System Software, operating and programming instructions
-// for system integrators.
+// A program and the data list of its name are one module: the first DEF and what says GLOBAL is everybody's,
+// the rest its own; the data lists of the system ($CONFIG.DAT, Mada) are everybody's.
+//
+// Read: DEF, DEFFCT, DEFDAT, STRUC, declarations, assignment, IF, FOR, WHILE, REPEAT, LOOP, SWITCH, RETURN;
+// PTP, LIN, CIRC, PTP_REL, LIN_REL, SPTP, SLIN, SCIRC, SPL and SPLINE blocks with WITH, C_PTP, C_DIS, C_VEL;
+// BAS; $VEL, $ACC, $VEL_AXIS, $ACC_AXIS, $APO, $OV_PRO, $TOOL, $BASE, $ROBROOT; WAIT SEC. FOLD lines are
+// comments. Everything else is listed as skipped. SPL points of a block are joined by a smooth curve of
+// cubics, cut into lines. Angles A, B, C turn about z, y', x''. Source: KUKA System Software, operating and
+// programming instructions for system integrators.
 #pragma once
 
 #include "sim/program/interpreter.h"
 
 namespace dresslife::sim {
+
+/// The structures and system variables of every controller, as a last file; to be called before parsing.
+void add_krl_types(Code& code);
 
 void parse_krl(Code& code, int file, Problems& problems);
 

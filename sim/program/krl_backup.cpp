@@ -1,21 +1,165 @@
+// Folders with KUKA programs: a whole backup (KRC/R1 with Program, System, TP and Mada) or programs beside
+// each other. Left out: STEU (the controller's own data), templates and submit programs (.sub; they move no
+// robot).
+//
+// Where it begins, unless a routine is asked for: in what CELL.SRC calls, else in the program that no other
+// one calls, of those that move the robot.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "pipeline/job/document.h"
 #include "sim/program/backup.h"
+#include "sim/program/encoding.h"
 #include "sim/program/tokens.h"
 
 namespace dresslife::sim {
 
 namespace fs = std::filesystem;
 
-Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
-  Backup backup{Language::krl, {}, routine};
-  for (const fs::path& file : files)  // the program first
-    if (lower_case(file.extension().string()) == ".src") {
-      if (!backup.files.empty() && routine.empty())
-        throw pipeline::InputError({folder.string()}, "holds more than one KRL program",
-                                   "name one: its .src file, or --routine");
-      backup.files.push_back(file);
-    }
+namespace {
+
+constexpr std::size_t listed_programs = 20;
+
+std::string stem_of(const fs::path& file) { return lower_case(file.stem().string()); }
+bool is_program(const fs::path& file) { return lower_case(file.extension().string()) == ".src"; }
+
+/// Whether a file lies, below `folder`, in a folder of one of these names.
+bool lies_in(const fs::path& file, const fs::path& folder, const std::set<std::string>& names) {
+  const fs::path below = file.lexically_relative(folder).parent_path();
+  return std::any_of(below.begin(), below.end(),
+                     [&](const fs::path& part) { return names.contains(lower_case(part.string())); });
+}
+
+/// The folder R1 of the backup that a file lies in; empty: none.
+fs::path robot_of(const fs::path& file) {
+  for (fs::path at = file.parent_path(); !at.empty() && at != at.parent_path(); at = at.parent_path())
+    if (lower_case(at.filename().string()) == "r1") return at;
+  return {};
+}
+
+struct Calls {
+  std::string name;             ///< of the file's first routine
+  std::set<std::string> names;  ///< words before an opening bracket
+  bool moves = false;
+};
+
+Calls calls_of(const fs::path& file) {
+  static const std::set<std::string> moves{"ptp",   "lin",    "circ",    "sptp",   "slin",
+                                           "scirc", "spline", "ptp_rel", "lin_rel"};
+  Calls calls;
+  const SourceFile source(file.string(), decoded_text(pipeline::read_text(file)));
+  Problems ignored;  // the parser tells them
+  const std::vector<Token> tokens = tokens_of(source, {';', "$#", true, true}, ignored);
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+    if (tokens[i].kind != Token::Kind::word) continue;
+    const std::string word = lower_case(tokens[i].text);
+    calls.moves |= moves.contains(word);
+    if (calls.name.empty() && word == "def") calls.name = lower_case(tokens[i + 1].text);
+    if (tokens[i + 1].text == "(") calls.names.insert(word);
+  }
+  return calls;
+}
+
+using Graph = std::map<std::string, Calls>;  // by the programs' names
+
+/// Programs that a program calls, itself or through others.
+std::set<std::string> reached_from(const std::string& program, const Graph& graph) {
+  std::set<std::string> reached;
+  std::vector<std::string> open{program};
+  while (!open.empty()) {
+    const auto at = graph.find(open.back());
+    open.pop_back();
+    if (at == graph.end()) continue;
+    for (const std::string& name : at->second.names)
+      if (graph.contains(name) && reached.insert(name).second) open.push_back(name);
+  }
+  return reached;
+}
+
+bool moves(const std::string& program, const Graph& graph) {
+  std::set<std::string> reached = reached_from(program, graph);
+  reached.insert(program);
+  return std::any_of(reached.begin(), reached.end(),
+                     [&](const std::string& name) { return graph.at(name).moves; });
+}
+
+/// Programs that could be meant: those that CELL calls by their numbers, else those that nobody calls, of
+/// which one may have the name that mains have.
+std::vector<std::string> starts(const Graph& graph) {
+  std::vector<std::string> found;
+  if (const auto cell = graph.find("cell"); cell != graph.end())
+    for (const std::string& name : cell->second.names)
+      if (name != "cell" && graph.contains(name) && moves(name, graph)) found.push_back(name);
+  if (!found.empty()) return found;
+  std::set<std::string> called;
+  for (const auto& [name, calls] : graph)
+    for (const std::string& other : calls.names)
+      if (other != name) called.insert(other);
+  std::vector<std::string> mains;
+  for (const auto& [name, calls] : graph) {
+    if (name == "cell" || called.contains(name) || !moves(name, graph)) continue;
+    found.push_back(name);
+    if (name.starts_with("main")) mains.push_back(name);
+  }
+  return mains.size() == 1 ? mains : found;
+}
+
+void check_one_robot(const fs::path& folder, const std::vector<fs::path>& files) {
+  std::set<std::string> robots;
   for (const fs::path& file : files)
-    if (lower_case(file.extension().string()) != ".src") backup.files.push_back(file);
+    if (const fs::path robot = robot_of(file); is_program(file) && !robot.empty())
+      robots.insert(robot.string());
+  if (robots.size() < 2) return;
+  throw pipeline::InputError({folder.string()}, fmt::format("holds the programs of {} robots", robots.size()),
+                             fmt::format("name one of: {}", fmt::join(robots, ", ")));
+}
+
+}  // namespace
+
+Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
+  static const std::set<std::string> foreign{"steu", "template", "templates"};
+  // What KUKA installs, and what it calls by itself.
+  static const std::set<std::string> system_folders{"system", "tp", "mada"};
+  static const std::set<std::string> system_programs{"masref_user", "tm_useraction", "colldetect_useraction"};
+  Backup backup;
+  backup.language = Language::krl;
+  backup.routine = routine;
+  Graph graph;
+  std::map<std::string, fs::path> file_of;
+  for (const fs::path& file : files) {
+    const std::string end = lower_case(file.extension().string());
+    if ((end != ".src" && end != ".dat") || lies_in(file, folder, foreign)) continue;
+    backup.files.push_back(file);
+    if (end == ".src" && !lies_in(file, folder, system_folders) && !system_programs.contains(stem_of(file)))
+      if (Calls calls = calls_of(file); !calls.name.empty()) {
+        file_of.emplace(calls.name, file);
+        graph[calls.name] = std::move(calls);
+      }
+  }
+  check_one_robot(folder, backup.files);
+  const auto put_first = [&](const std::string& name) {  // it names the motion
+    std::stable_partition(backup.files.begin(), backup.files.end(),
+                          [&](const fs::path& file) { return is_program(file) && file_of[name] == file; });
+  };
+  if (!routine.empty()) {
+    put_first(lower_case(routine.substr(0, routine.find_first_of("( "))));
+    return backup;
+  }
+  std::vector<std::string> choices = starts(graph);
+  if (choices.empty())
+    throw pipeline::InputError({folder.string()}, "holds no KUKA program that moves the robot",
+                               "name the routine to run with --routine (motion.routine in a job)");
+  if (choices.size() > 1) {
+    const std::size_t more = choices.size() - std::min(choices.size(), listed_programs);
+    choices.resize(choices.size() - more);
+    throw pipeline::InputError(
+        {folder.string()}, "holds several programs, and none that calls them",
+        fmt::format("name one with --routine (motion.routine in a job): {}{}", fmt::join(choices, ", "),
+                    more ? fmt::format(" and {} more", more) : ""));
+  }
+  backup.routine = choices[0];
+  put_first(choices[0]);
   return backup;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "sim/program/krl.h"
 #include "sim/program/parser.h"
@@ -15,15 +16,20 @@ constexpr const char* ends[] = {"end",      "endfct",    "enddat",    "endif", "
                                 "endwhile", "endloop",   "else",      "case",  "default",
                                 "until",    "endswitch", "endspline", "def",   "deffct"};
 
+/// Statements of which the robot's motion knows nothing.
+constexpr const char* left_out_words[] = {"signal", "enum",    "ext",        "extfct",   "extp",  "extfctp",
+                                          "import", "channel", "anin",       "anout",    "pulse", "brake",
+                                          "resume", "halt",    "time_block", "const_vel"};
+/// System variables that change by themselves: what a program writes to them tells nothing later.
+constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$in", "$anin", "$err"};
+
 class KrlParser : StatementParser {
  public:
   KrlParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
       : StatementParser(code, file, tokens, problems, true) {}
 
   void run() {
-    module_ = static_cast<int>(code_.modules.size());
-    const std::string stem = std::filesystem::path(code_.files[file_].name()).stem().string();
-    code_.modules.push_back({lower_case(stem), stem, at_.place()});
+    module_ = module_of_file();
     skip_line_ends();
     while (!at_.at_end() && !problems_.full()) {
       guarded([&] { member(); });
@@ -33,6 +39,42 @@ class KrlParser : StatementParser {
 
  private:
   int module_ = -1;
+  bool shared_ = false;  ///< in a data list of the system, whose names are everybody's
+  bool global_ = false;  ///< the declaration at hand says GLOBAL
+  bool first_ = true;    ///< no routine of this file was read: the next one is everybody's
+
+  /// A program and the data list of its name are one module; where names repeat, the folder decides.
+  int module_of_file() {
+    const std::filesystem::path path = code_.files[file_].name();
+    const std::string stem = lower_case(path.stem().string());
+    const bool list = lower_case(path.extension().string()) == ".dat";
+    int alike = -1, count = 0;
+    for (int k = 0; k < static_cast<int>(code_.modules.size()); ++k) {
+      const Module& other = code_.modules[k];
+      const std::filesystem::path other_path = code_.files[other.place.file].name();
+      if (other.name != stem || (lower_case(other_path.extension().string()) == ".dat") == list) continue;
+      alike = k;
+      ++count;
+      if (other_path.parent_path() != path.parent_path()) continue;
+      count = 1;
+      break;
+    }
+    if (count != 1) {
+      alike = static_cast<int>(code_.modules.size());
+      code_.modules.push_back({stem, path.stem().string(), {file_, 1, 1}, false});
+    } else {
+      code_.modules[alike].whole = true;
+    }
+    return alike;
+  }
+
+  /// $krl.dat is read last: what the controller's files declare counts.
+  bool is_declared_already(const std::string& name) const {
+    return code_.files[file_].name() == "$krl.dat" &&
+           std::any_of(code_.data.begin(), code_.data.end(), [&](const Datum& datum) {
+             return datum.statement.kind == Kind::declare && !datum.local && datum.statement.name == name;
+           });
+  }
 
   void skip_line_ends() {
     while (at_.peek().kind == Token::Kind::line_end) at_.next();
@@ -60,17 +102,21 @@ class KrlParser : StatementParser {
 
   void member() {
     if (at_.at_sign("&")) return skip_line();  // &ACCESS, &REL: of the file system
-    if (at_.at_word("global") && (at_.at_word("def", 1) || at_.at_word("deffct", 1))) at_.next();
-    if (at_.at_word("def") || at_.at_word("deffct")) return routine();
+    const bool global = at_.at_word("global") && (at_.at_word("def", 1) || at_.at_word("deffct", 1));
+    if (global) at_.next();
+    if (at_.at_word("def") || at_.at_word("deffct")) return routine(global);
+    if (at_.at_word("defdat")) shared_ = at_.peek(1).text.starts_with("$");
     if (at_.at_word("defdat") || at_.at_word("enddat")) return skip_line();
     std::vector<Statement> statements;
     statement(statements);
     for (Statement& s : statements)
-      if (s.kind == Kind::declare || s.kind == Kind::assign)
-        code_.data.push_back({std::move(s), module_, false});
+      if (s.kind == Kind::declare || s.kind == Kind::assign) {
+        const bool local = s.kind == Kind::declare && !shared_ && !global_;
+        code_.data.push_back({std::move(s), module_, local});
+      }
   }
 
-  void routine() {
+  void routine(bool global) {
     Routine routine;
     const bool function = at_.at_word("deffct");
     at_.next();
@@ -79,24 +125,45 @@ class KrlParser : StatementParser {
     routine.place = at_.place();
     routine.written = std::string(at_.peek().text);
     routine.name = at_.word("the routine's name");
-    if (at_.take_sign("("))
-      while (!at_.take_sign(")")) {
-        if (at_.take_sign(",") || at_.take_sign(":")) continue;
-        if (line_done()) at_.fail("ends in a list of parameters", "close it");
-        const std::string name = at_.word("a parameter");
-        if (at_.at_sign("[")) skip_index();
-        if ((name == "in" || name == "out") && !routine.parameters.empty())
-          routine.parameters.back().given_back = name == "out";
-        else
-          routine.parameters.push_back({name, false, false});
-      }
-    need_line_end();
-    const char* end = function ? "endfct" : "end";
-    routine.body = body({end});
-    at_.need_word(end);
     routine.module = module_;
+    routine.local = !global && !first_;
+    first_ = false;
+    parameters(routine);
+    const char* end = function ? "endfct" : "end";
+    // What is wrong with its blocks is the routine's own problem: the rest of the file is read.
+    const bool whole = attempt([&] {
+      need_line_end();
+      read_body({end}, routine.body);
+      at_.need_word(end);
+    });
+    if (!whole) skip_to_end_of_routine(end);
     routine.last_line = at_.place().line;
+    at_.take_word(end);
     code_.routines.push_back(std::move(routine));
+  }
+
+  void skip_to_end_of_routine(const char* end) {
+    const auto next_begins = [&] {
+      return at_.at_word("def") || at_.at_word("deffct") || at_.at_word("global");
+    };
+    while (!at_.at_end() && !next_begins() &&
+           !(at_.at_word(end) && at_.peek(1).kind == Token::Kind::line_end))
+      at_.next();
+  }
+
+  /// (a :IN, b[] :OUT, c): what is not said to go in alone comes back to the caller.
+  void parameters(Routine& routine) {
+    if (!at_.take_sign("(")) return;
+    while (!at_.take_sign(")")) {
+      if (at_.take_sign(",") || at_.take_sign(":")) continue;
+      if (line_done()) at_.fail("ends in a list of parameters", "close it");
+      const std::string name = at_.word("a parameter");
+      if (at_.at_sign("[")) skip_index();
+      if ((name == "in" || name == "out") && !routine.parameters.empty())
+        routine.parameters.back().given_back = name == "out";
+      else
+        routine.parameters.push_back({name, false, true});
+    }
   }
 
   void skip_index() {
@@ -107,8 +174,14 @@ class KrlParser : StatementParser {
   }
 
   std::vector<Statement> body(const std::vector<const char*>& until) {
+    std::vector<Statement> statements;
+    read_body(until, statements);
+    return statements;
+  }
+
+  void read_body(const std::vector<const char*>& until, std::vector<Statement>& into) {
     skip_line_ends();
-    return block(
+    into = block(
         until,
         [&] {
           return at_any({std::begin(ends), std::end(ends)});
@@ -123,16 +196,24 @@ class KrlParser : StatementParser {
     Statement s;
     s.place = at_.place();
     s.text = std::string(at_.peek().text);
-    if (at_.take_word("global") || at_.take_word("decl") || at_.take_word("const")) {
-      while (at_.take_word("global") || at_.take_word("decl") || at_.take_word("const")) {
+    global_ = false;
+    if (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
+      while (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
+        global_ |= at_.at_word("global");
+        at_.next();
       }
-      if (at_.at_word("interrupt") || at_.at_word("struc") || at_.at_word("enum")) return skip_line();
-      return declaration(into);
+      if (at_.at_word("enum")) return skip_line();
+      if (!at_.at_word("struc") && !at_.at_word("signal") && !at_.at_word("interrupt"))
+        return declaration(into);
     }
-    for (const char* word :
-         {"signal", "enum", "struc", "ext", "extfct", "extp", "extfctp", "import", "interrupt", "trigger",
-          "channel", "anin", "anout", "pulse", "brake", "resume", "cwrite", "cread"})
+    if (at_.take_word("struc")) return structure();
+    if (at_.at_word("signal")) return signal(into);
+    if (at_.at_word("interrupt")) return interrupt(s, into);
+    if (at_.at_word("trigger")) return trigger(s, into);
+    for (const char* word : left_out_words)
       if (at_.at_word(word)) return left_out(s, into);
+    for (const char* name : living_names)
+      if (at_.at_word(name)) return left_out(s, into);
     if (at_.peek().kind != Token::Kind::word)
       at_.fail(fmt::format("has {} where a statement is expected", at_.seen()), "mend the line");
     if (at_.take_word("if"))
@@ -157,8 +238,6 @@ class KrlParser : StatementParser {
       return;
     else if (at_.at_word("wait"))
       wait_statement(s);
-    else if (at_.at_word("halt"))
-      return left_out(s, into);
     else if (at_.take_word("goto"))
       s = labelled(Kind::jump);
     else if (is_move())
@@ -197,6 +276,73 @@ class KrlParser : StatementParser {
     left_out(s, into);
   }
 
+  /// STRUC name INT a, b[3], FRAME c
+  void structure() {
+    RecordType type;
+    type.name = at_.word("the structure's name");
+    std::string kind;
+    do {
+      if (at_.peek(1).kind == Token::Kind::word) kind = at_.word("a type");
+      if (kind.empty()) at_.fail("has a component without a type", "write its type before it");
+      type.fields.push_back(at_.word("a component"));
+      type.types.push_back(nullptr);
+      type.field_types.push_back(kind);
+      type.sizes.push_back(0);
+      if (!at_.take_sign("[")) continue;
+      if (at_.peek().kind == Token::Kind::number)
+        type.sizes.back() = static_cast<int>(std::clamp(at_.next().number, 0.0, 1e6));
+      while (!at_.take_sign("]")) {
+        if (line_done()) at_.fail("ends in an index", "close it with ]");
+        at_.next();
+      }
+    } while (at_.take_sign(","));
+    need_line_end();
+    code_.records.push_back(std::move(type));
+  }
+
+  /// INTERRUPT DECL n WHEN condition DO call: the call in a branch; INTERRUPT ON n, INTERRUPT OFF n.
+  void interrupt(Statement& s, std::vector<Statement>& into) {
+    at_.next();
+    const bool off = at_.at_word("off") || at_.at_word("disable");
+    s.name = at_.at_word("decl") ? "interrupt_decl" : off ? "interrupt_off" : "interrupt_on";
+    at_.next();
+    if (!line_done()) s.arguments.push_back(at_.expression());
+    if (s.name == "interrupt_decl") what_happens(s);
+    skip_line();
+    into.push_back(std::move(s));
+  }
+
+  /// TRIGGER WHEN ... DO call or assignment
+  void trigger(Statement& s, std::vector<Statement>& into) {
+    s.name = lower_case(at_.next().text);
+    what_happens(s);
+    skip_line();
+    into.push_back(std::move(s));
+  }
+
+  /// Behind DO: a call or an assignment, in a branch of its own.
+  void what_happens(Statement& s) {
+    while (!line_done() && !at_.at_word("do")) at_.next();
+    at_.need_word("do");
+    Statement inner;
+    inner.place = at_.place();
+    assignment_or_call(inner);
+    s.branches.emplace_back();
+    s.branches[0].body.push_back(std::move(inner));
+  }
+
+  /// SIGNAL name $IN[1] TO $IN[8]: a variable that others write.
+  void signal(std::vector<Statement>& into) {
+    Statement s;
+    s.kind = Kind::declare;
+    s.text = at_.word("a type");
+    s.place = at_.place();
+    s.name = at_.word("a name");
+    s.arguments.emplace_back();
+    skip_line();
+    into.push_back(std::move(s));
+  }
+
   void declaration(std::vector<Statement>& into) {
     const std::string type = at_.word("a type");
     do {
@@ -213,7 +359,7 @@ class KrlParser : StatementParser {
         }
       }
       if (at_.take_sign("=")) s.arguments[0] = at_.expression(4);
-      into.push_back(std::move(s));
+      if (!is_declared_already(s.name)) into.push_back(std::move(s));
     } while (at_.take_sign(","));
     need_line_end();
   }
@@ -287,9 +433,10 @@ class KrlParser : StatementParser {
     }
   }
 
-  /// The moves of the block with the mark "in_spline"; what WITH sets for the block comes before.
+  /// The moves of the block with the mark "in_spline", and with what WITH sets for all of them.
   void spline(std::vector<Statement>& into) {
-    if (at_.take_word("with")) with(into);
+    Branch settings;
+    if (at_.take_word("with")) with(settings.body);
     skip_line_ends();
     std::vector<Statement> inside = body({"endspline"});
     at_.need_word("endspline");
@@ -298,11 +445,12 @@ class KrlParser : StatementParser {
     skip_line();
     Statement* last = nullptr;
     for (Statement& s : inside) {
-      if (s.kind != Kind::instruction) continue;
+      if (s.kind != Kind::instruction || s.arguments.empty()) continue;
       s.text += " in_spline";
+      if (!settings.body.empty()) s.branches.insert(s.branches.begin(), settings);
       last = &s;
     }
-    if (last && end_zone.empty()) last->text += " last";
+    if (last) last->text += " last " + end_zone;
     for (Statement& s : inside) into.push_back(std::move(s));
   }
 
@@ -354,8 +502,10 @@ class KrlParser : StatementParser {
         with(settings.body);
         s.branches.push_back(std::move(settings));
       } else {
+        const bool apart = at_.at_word("#") && at_.peek(1).kind == Token::Kind::word;  // # TOOL
+        if (apart) at_.next();
         const std::string word = at_.word("an approximation (C_PTP, C_DIS, ...)");
-        s.text += " " + word;
+        s.text += (apart ? " #" : " ") + word;
       }
     }
   }
@@ -378,7 +528,40 @@ class KrlParser : StatementParser {
 
 }  // namespace
 
+void add_krl_types(Code& code) {
+  // What every controller has: structures of positions and settings, and the system's variables of them.
+  code.files.emplace_back("$krl.dat",
+                          "DEFDAT $KRL\n"
+                          "STRUC FRAME REAL X,Y,Z,A,B,C\n"
+                          "STRUC POS REAL X,Y,Z,A,B,C,INT S,T\n"
+                          "STRUC E3POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3\n"
+                          "STRUC E6POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3,E4,E5,E6\n"
+                          "STRUC AXIS REAL A1,A2,A3,A4,A5,A6\n"
+                          "STRUC E3AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3\n"
+                          "STRUC E6AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3,E4,E5,E6\n"
+                          "STRUC CP REAL CP,ORI1,ORI2\n"
+                          "STRUC CONT REAL CPTP,CDIS,CORI,CVEL\n"
+                          "STRUC INERTIA REAL X,Y,Z\n"
+                          "STRUC LOAD REAL M,FRAME CM,INERTIA J\n"
+                          "STRUC FDAT INT TOOL_NO,BASE_NO,IPO_MODE IPO_FRAME,CHAR POINT2[24]\n"
+                          "STRUC PDAT REAL VEL,ACC,APO_DIST,APO_MODE_T APO_MODE\n"
+                          "STRUC LDAT REAL VEL,ACC,APO_DIST,APO_FAC,AXIS_VEL,AXIS_ACC,ORI_TYPE ORI_TYP\n"
+                          "CP $VEL,$ACC\n"
+                          "CONT $APO\n"
+                          "REAL $VEL_AXIS[12],$ACC_AXIS[12]\n"
+                          "FRAME $TOOL,$BASE\n"
+                          "LOAD $LOAD\n"
+                          "IPO_MODE $IPO_MODE\n"
+                          "INT $ACT_TOOL,$ACT_BASE,$OV_PRO,$ADVANCE\n"
+                          "FDAT FDAT_ACT\n"
+                          "PDAT PDAT_ACT\n"
+                          "LDAT LDAT_ACT\n"
+                          "ENDDAT\n");
+}
+
 void parse_krl(Code& code, int file, Problems& problems) {
+  const std::string stem = lower_case(std::filesystem::path(code.files[file].name()).stem().string());
+  if (stem == "bas" || stem == "p00") return;  // krl_basics.cpp knows what they do
   const std::vector<Token> tokens = tokens_of(code.files[file], {';', "$#", true, true}, problems);
   KrlParser(code, file, tokens, problems).run();
 }

@@ -140,6 +140,7 @@ Expression Cursor::primary() {
   switch (token.kind) {
     case Token::Kind::number:
       e.kind = Kind::number;
+      e.whole = krl_ && (token.text[0] == '\'' || token.text.find_first_of(".eE") == std::string_view::npos);
       e.number = next().number;
       return e;
     case Token::Kind::text:
@@ -228,6 +229,7 @@ Expression Cursor::reference() {
       outer.kind = Kind::element;
       outer.items.push_back(std::move(e));
       while (!at_sign(close)) {
+        if (krl_ && take_sign(",")) continue;  // NAME[,]: a whole array of two dimensions
         if (at_sign("*"))
           next();  // the open dimension of a parameter
         else

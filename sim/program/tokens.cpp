@@ -21,10 +21,10 @@ bool is_latin_letter(std::string_view text, std::size_t at) {
 
 /// As lower(char), and U+00C0 .. U+00DE: the small letter is 0x20 further on.
 char lower(std::string_view text, std::size_t at) {
-  const char c = text[at];
-  if (at > 0 && text[at - 1] == '\xC3' && c >= '\x80' && c <= '\x9E' && c != '\x97')
+  const auto c = static_cast<unsigned char>(text[at]);
+  if (at > 0 && text[at - 1] == '\xC3' && c >= 0x80 && c <= 0x9E && c != 0x97)
     return static_cast<char>(c + 0x20);
-  return lower(c);
+  return lower(text[at]);
 }
 
 class Cutter {
@@ -137,6 +137,11 @@ class Cutter {
         add(Token::Kind::number, begin, at_).number = value;
         return;
       }
+    }
+    if (close < text_.find('\n', at_)) {  // 'A': a text
+      add(Token::Kind::text, begin + 1, close);
+      at_ = close + 1;
+      return;
     }
     complain(begin, "opens no number of the form 'H1F' or 'B0110'", "mend or remove it");
     ++at_;

@@ -122,8 +122,8 @@ TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one 
   const Reading endless = run(start + "again:\nLIN {X 1}\nLIN {X 2}\nGOTO again\nLIN {X 9}");
   REQUIRE(endless.problem() == "no such problem");
   CHECK(endless.program.instructions.size() == 3);
-  REQUIRE(endless.program.skipped.size() == 1);
-  CHECK(endless.program.skipped[0].what == "an endless loop, of which the motion is one pass");
+  REQUIRE(endless.program.skipped.size() == 2);  // the frames are the controller's
+  CHECK(endless.program.skipped[1].what == "an endless loop, of which the motion is one pass");
   CHECK(run(start + "GOTO nowhere").problem() ==
         "cell.src:6:6: error: jumps to 'nowhere', which is no label in a block around it; mend the label, or "
         "write a loop");
@@ -146,11 +146,10 @@ TEST_CASE("krl: problems name what is missing and where") {
   const Reading r =
       run("PTP XP7\nLIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\nBAS(#TOOL,3)\n$VEL.CP=1\nLIN {X 1,Y 0,Z 0,A 0,B 0,C "
           "0}\nIF $IN[1] THEN\nPTP {A1 0,A2 0,A3 0,A4 0,A5 0,A6 0}\nENDIF");
-  REQUIRE(r.problems.size() == 5);  // the arm behind the IF is looked through as well
+  REQUIRE(r.problems.size() == 4);
   CHECK(r.problem(0) ==
         "cell.src:3:5: error: moves to 'xp7', which no file read declares; give the .dat file that declares "
-        "it, or write "
-        "the target as a constant");
+        "it, write the target as a constant, or --value 'xp7={X ...}'");
   CHECK(r.problems[1].what ==
         "moves along a path before $VEL.CP is assigned (its value lies in the controller)");
   CHECK(r.problems[2].what == "moves with TOOL_DATA[3], which no file read declares");

@@ -1,0 +1,444 @@
+// What a KUKA controller makes of programs as they lie on it: each case says what it does and why.
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "tests/sim/program/reading.h"
+
+using namespace dresslife;
+using namespace dresslife::sim;
+using dresslife::tests::Reader;
+using dresslife::tests::Reading;
+
+namespace {
+
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+
+const std::string config =
+    "DEFDAT $CONFIG\nREAL DEF_VEL_CP=2.0\nREAL DEF_VEL_FACT=1.0\nINT DEF_VEL_PTP=100\nREAL DEF_ACC_CP=2.3\n"
+    "REAL DEF_VEL_ORI1=200.0\nREAL DEF_VEL_ORIS=180.0\nINT DEF_APO_CPTP=50\nREAL DEF_APO_CDIS=3.0\nINT "
+    "DEF_APO_CVEL=50\nDECL FDAT FDAT_ACT\nDECL PDAT PDAT_ACT\nDECL LDAT LDAT_ACT\nDECL FRAME "
+    "TOOL_DATA[16]\nTOOL_DATA[1]={X 0.0,Y 0.0,Z 775.0,A 0.0,B 0.0,C 0.0}\nTOOL_DATA[2]={X 0.0,Y 0.0,Z "
+    "100.0,A "
+    "0.0,B 0.0,C 0.0}\nDECL FRAME BASE_DATA[32]\nBASE_DATA[1]={X 10.0,Y 20.0,Z 30.0,A 0.0,B 0.0,C "
+    "0.0}\nENDDAT\n";
+
+Reading run(const std::string& body, const std::string& data = "", const Files& more = {},
+            const Reader& reader = {Language::krl}) {
+  Files files{{"p.src", "DEF p()\n" + body + "\nEND\n"}};
+  if (!data.empty()) files.push_back({"p.dat", "DEFDAT p\n" + data + "\nENDDAT\n"});
+  files.insert(files.end(), more.begin(), more.end());
+  return reader(files);
+}
+
+std::string axes(double first) { return fmt::format("{{A1 {},A2 -90,A3 90,A4 0,A5 30,A6 0}}", first); }
+const std::string pose = "{X 1000,Y 0,Z 1000,A 0,B 90,C 0}";
+
+/// Angles of axis 1 over the moves [deg].
+std::vector<double> first_axes(const Reading& reading) {
+  std::vector<double> angles;
+  for (const Instruction& move : reading.program.instructions)
+    if (!move.target.joints.empty()) angles.push_back(std::round(move.target.joints[0] / degree));
+  return angles;
+}
+
+double tool_length(const Reading& reading, std::size_t move) {
+  const int tool = reading.move(move).tool;
+  return tool < 0 ? 0 : reading.program.tools.at(tool).frame.position.norm();
+}
+
+}  // namespace
+
+TEST_CASE("krl: inline forms reach FDAT_ACT, PDAT_ACT and LDAT_ACT that $CONFIG.DAT declares") {
+  // BAS(#PTP_PARAMS, v): acceleration and approximation of PDAT_ACT, frames of FDAT_ACT, v % of the speed.
+  const Reading r =
+      run("PDAT_ACT=PP1\nFDAT_ACT=FP1\nBAS(#PTP_PARAMS,60)\nPTP " + pose +
+              " C_PTP\nLDAT_ACT=LP1\nFDAT_ACT=FP1\nBAS(#CP_PARAMS,0.5)\nLIN {X 900} C_DIS",
+          "DECL FDAT FP1={TOOL_NO 1,BASE_NO 1,IPO_FRAME #BASE,POINT2[] \" \"}\nDECL PDAT PP1={VEL 100.0,ACC "
+          "40.0,APO_DIST 70.0}\nDECL LDAT LP1={VEL 2.0,ACC 50.0,APO_DIST 12.0}",
+          {{"$config.dat", config}});
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 2);
+  CHECK(r.move(0).speed.axis_percent.value() == 60);
+  CHECK(r.move(0).acceleration_percent == 40);
+  CHECK(r.move(0).zone.percent == 70);
+  CHECK(r.program.tools.at(r.move(0).tool).name == "TOOL_DATA[1]");
+  CHECK(tool_length(r, 0) == Approx(0.775).epsilon(rounding));
+  CHECK(r.program.work_objects.at(r.move(0).work_object).name == "BASE_DATA[1]");
+  CHECK(r.move(1).speed.tool.value() == 0.5);
+  CHECK(r.move(1).zone.distance == Approx(0.012).epsilon(rounding));
+  CHECK(r.move(1).acceleration_percent == Approx(50).epsilon(rounding));
+}
+
+TEST_CASE("krl: a data list's names are its program's own") {
+  // Both lists declare XP1; the controller gives each program its own. Without kb's list, XP1 is not known
+  // there.
+  const std::pair<std::string, std::string> ka{"ka.src", "DEF ka()\nPTP XP1\nkb()\nPTP XP1\nEND\n"},
+      kb{"kb.src", "DEF kb()\nPTP XP1\nEND\n"},
+      ka_list{"ka.dat", "DEFDAT ka\nDECL E6AXIS XP1=" + axes(1) + "\nENDDAT\n"},
+      kb_list{"KB.DAT", "DEFDAT kb\nDECL E6AXIS XP1=" + axes(11) + "\nENDDAT\n"};
+  const Reading both = Reader{Language::krl}({ka, kb, ka_list, kb_list});
+  REQUIRE(both.problem() == "no such problem");
+  CHECK(first_axes(both) == std::vector<double>{1, 11, 1});
+  const Reading one = Reader{Language::krl}({ka, kb, ka_list});
+  REQUIRE(one.problems.size() == 1);
+  CHECK(one.problem().starts_with("kb.src:2:5: error: moves to 'xp1', which no file read declares"));
+}
+
+TEST_CASE("krl: what says GLOBAL, and the system's lists, are everybody's") {
+  const Files others{{"vars.dat", "DEFDAT vars PUBLIC\nDECL GLOBAL E6AXIS G1=" + axes(5) +
+                                      "\nDECL E6AXIS L1=" + axes(6) + "\nENDDAT\n"}};
+  const Reading global = run("PTP G1", "", others);
+  REQUIRE(global.problem() == "no such problem");
+  CHECK(first_axes(global) == std::vector<double>{5});
+  CHECK(run("PTP L1", "", others).problems.size() == 1);
+}
+
+TEST_CASE("krl: routines behind the first of a file are its own unless they say GLOBAL") {
+  const Reading r = run("a()\nb()\nhelp()\nEND\nDEF help()\nPTP " + axes(0), "",
+                        {{"a.src", "DEF a()\nhelp()\nEND\nDEF help()\nPTP " + axes(1) + "\nEND\n"},
+                         {"b.src", "DEF b()\nhelp()\nEND\nDEF help()\nPTP " + axes(2) + "\nEND\n"}});
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(first_axes(r) == std::vector<double>{1, 2, 0});
+  const Reading missing =
+      run("help()\nPTP " + axes(0), "", {{"a.src", "DEF a()\nEND\nDEF help()\nPTP " + axes(1) + "\nEND\n"}});
+  REQUIRE(missing.program.skipped.size() == 1);
+  CHECK(missing.program.skipped[0].may_move);
+}
+
+TEST_CASE("krl: one program twice is refused where it runs, two values of one name where they are used") {
+  const std::string sub = "DEF sub()\nPTP " + axes(1) + "\nEND\n";
+  const Files twice{{"x/sub.src", sub}, {"y/sub.src", sub}};
+  CHECK(run("PTP " + axes(0), "", twice).problems.empty());
+  CHECK(run("sub()", "", twice).problem().starts_with("p.src:2:1: error: runs 'sub', which stands both in"));
+  const Files lists{{"$a.dat", "DEFDAT $A\nE6AXIS G=" + axes(1) + "\nENDDAT\n"},
+                    {"$b.dat", "DEFDAT $B\nE6AXIS G=" + axes(2) + "\nENDDAT\n"}};
+  CHECK(run("PTP " + axes(0), "", lists).problems.empty());
+  CHECK_FALSE(run("PTP G", "", lists).problems.empty());
+}
+
+TEST_CASE("krl: what a program writes to an undeclared name stays in it while its data list is missing") {
+  // The name may be the list's own, so another program's use of it tells nothing.
+  const Reading r =
+      run("n=1\nsub()", "", {{"sub.src", "DEF sub()\nIF n==1 THEN\nPTP " + axes(1) + "\nENDIF\nEND\n"}});
+  REQUIRE(r.problems.size() == 1);
+  CHECK(r.problems[0].what.find("'n' is a name that no file read declares") != std::string::npos);
+}
+
+TEST_CASE("krl: INT divides in whole numbers, REAL does not, and INT takes REAL rounded") {
+  // 7/2 of INT is 3; one REAL makes it 3.5; an INT takes 2.5 as 3 (to the nearest, half upwards).
+  const Reading r =
+      run("INT a,b\nREAL x\na=1\nb=a-(3*(a/3))\nPTP {A1 b,A2 0,A3 0,A4 0,A5 0,A6 0}\nPTP {A1 "
+          "7/2}\nx=7\nPTP {A1 10*(x/2)}\na=2.5\nPTP {A1 a}\na=-7\nPTP {A1 a/2}\nPTP {A1 7.0/2*2}");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(first_axes(r) == std::vector<double>{1, 3, 35, 3, -3, 7});
+}
+
+TEST_CASE("krl: parameters take the types of their declarations, and come back unless they only go in") {
+  const Reading r =
+      run("INT n\nn=1\nup(n)\nPTP {A1 n,A2 0,A3 0,A4 0,A5 0,A6 0}\nkeep(n)\nPTP {A1 n}\nhalf(3)\nEND\nDEF "
+          "up(k)\nINT k\nk=k+1\nEND\nDEF keep(k:IN)\nINT k\nk=k+5\nEND\nDEF half(x:IN)\nREAL x\nPTP {A1 "
+          "20*(x/2)}");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(first_axes(r) == std::vector<double>{2, 2, 30});
+}
+
+TEST_CASE("krl: FOR goes on from what its body makes of the counter") {
+  const Reading r =
+      run("INT n\nFOR n=1 TO 6\nPTP {A1 n,A2 0,A3 0,A4 0,A5 0,A6 0}\nn=n+1\nENDFOR\nPTP {A1 n}");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(first_axes(r) == std::vector<double>{1, 3, 5, 7});
+}
+
+TEST_CASE("krl: WITH sets speed, approximation, tool and base for its move alone") {
+  const Reading r = run(
+      "$VEL.CP=1.5\nSPTP " + pose +
+          " WITH $VEL_AXIS[1]=SVEL_JOINT(40.0),$ACC_AXIS[1]=SACC_JOINT(PP1),$APO=SAPO_PTP(PP1) C_SPL\nSLIN "
+          "{X 900} "
+          "WITH $VEL=SVEL_CP(0.1, "
+          ",LP1),$TOOL=STOOL2(FP1),$BASE=SBASE(FP1.BASE_NO),$IPO_MODE=SIPO_MODE(FP1.IPO_FRAME),"
+          "$ACC=SACC_CP(LP1),$APO=SAPO(LP1) C_SPL\nSLIN {X 800}\nSLIN {X 700} WITH $VEL=SVEL_CP(9.0, ,LP1)",
+      "DECL FDAT FP1={TOOL_NO 1,BASE_NO 1,IPO_FRAME #BASE}\nDECL PDAT PP1={VEL 100.0,ACC 30.0,APO_DIST "
+      "60.0,APO_MODE #CPTP}\nDECL LDAT LP1={VEL 2.0,ACC 25.0,APO_DIST 8.0,APO_FAC 50.0}",
+      {{"$config.dat", config}});
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 4);
+  CHECK(r.move(0).speed.axis_percent.value() == 40);
+  CHECK(r.move(0).acceleration_percent == 30);
+  CHECK(r.move(0).zone.percent == 60);
+  CHECK(r.move(1).speed.tool.value() == 0.1);
+  CHECK(r.move(1).speed.orientation.value() == Approx(180 * degree).epsilon(rounding));
+  CHECK(r.move(1).zone.distance == Approx(0.008).epsilon(rounding));
+  CHECK(r.move(1).acceleration_percent == Approx(25).epsilon(rounding));
+  CHECK(tool_length(r, 1) == Approx(0.775).epsilon(rounding));
+  CHECK(r.move(2).speed.tool.value() == 1.5);
+  CHECK(r.move(2).tool == -1);
+  CHECK(r.move(2).zone.distance == 0);
+  CHECK(r.move(3).speed.tool.value() == 2.0);  // DEF_VEL_CP is the most
+}
+
+TEST_CASE("krl: what a SPLINE block sets WITH ends with the block") {
+  const Reading r = run("$VEL.CP=1\nLIN " + pose +
+                        "\nSPLINE WITH $VEL.CP=0.2\nSLIN {X 900}\nSLIN {X 800} WITH "
+                        "$VEL.CP=0.1\nENDSPLINE\nLIN {X 700}");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 4);
+  CHECK(r.move(1).speed.tool.value() == 0.2);
+  CHECK(r.move(2).speed.tool.value() == 0.1);
+  CHECK(r.move(3).speed.tool.value() == 1);
+}
+
+TEST_CASE("krl: every case of BAS") {
+  const std::string data =
+      "DECL PDAT PP1={VEL 50.0,ACC 40.0,APO_DIST 150.0}\nDECL LDAT LP1={VEL 0.4,ACC "
+      "100.0,APO_DIST 9.0}\nDECL FDAT FP1={TOOL_NO 2,BASE_NO 0,IPO_FRAME #BASE}";
+  const Files system{{"$config.dat", config}};
+  // PTP_DAT takes the speed of the data, too; approximation is 100 % at most.
+  const Reading joint = run("PDAT_ACT=PP1\nBAS(#PTP_DAT)\nFDAT_ACT=FP1\nBAS(#FRAMES)\nPTP " + pose +
+                                " C_PTP\n"
+                                "BAS(#VEL_PTP,60)\nBAS(#ACC_PTP,20)\nPTP {X 900}",
+                            data, system);
+  REQUIRE(joint.problem() == "no such problem");
+  CHECK(joint.move(0).speed.axis_percent.value() == 50);
+  CHECK(joint.move(0).acceleration_percent == 40);
+  CHECK(joint.move(0).zone.percent == 100);
+  CHECK(tool_length(joint, 0) == Approx(0.1).epsilon(rounding));
+  CHECK(joint.move(1).speed.axis_percent.value() == 60);
+  CHECK(joint.move(1).acceleration_percent == 20);
+  const Reading path =
+      run("LDAT_ACT=LP1\nBAS(#CP_DAT)\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN " + pose +
+              " C_DIS\nBAS(#VEL_CP,0.7)\nBAS(#ACC_CP,10)\nBAS(#TOOL,0)\nBAS(#BASE,0)\nLIN {X 900}",
+          data, system);
+  REQUIRE(path.problem() == "no such problem");
+  CHECK(path.move(0).speed.tool.value() == 0.4);
+  CHECK(path.move(0).zone.distance == Approx(0.009).epsilon(rounding));
+  CHECK(tool_length(path, 0) == Approx(0.775).epsilon(rounding));
+  CHECK(path.move(1).speed.tool.value() == 0.7);
+  CHECK(path.move(1).acceleration_percent == Approx(10).epsilon(rounding));
+  CHECK(path.move(1).tool == -1);
+  CHECK(path.move(1).work_object == -1);
+}
+
+TEST_CASE("krl: BAS(#INITMOV,0) starts with the values of $CONFIG.DAT") {
+  // Speed, approximation, the first tool and the world.
+  const std::string body = "BAS(#INITMOV,0)\nPTP " + pose + " C_PTP\nLIN {X 900} C_DIS\nLIN {X 800} C_VEL";
+  const Reading r = run(body, "", {{"$config.dat", config}});
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 3);
+  CHECK(r.move(0).zone.percent == 50);
+  CHECK(tool_length(r, 0) == Approx(0.775).epsilon(rounding));
+  CHECK(r.move(1).speed.tool.value() == 2);
+  CHECK(r.move(1).speed.orientation.value() == Approx(200 * degree).epsilon(rounding));
+  CHECK(r.move(1).zone.distance == Approx(0.003).epsilon(rounding));
+  CHECK(r.move(2).zone.percent == 25);  // from half the speed on: a quarter of the way in which it would stop
+  const Reading without = run(body);
+  REQUIRE(without.problems.size() == 2);
+  CHECK(without.problems[0].what == "moves with TOOL_DATA[1], which no file read declares");
+  CHECK(without.problems[1].what.find("'def_vel_cp' is a name that no file read declares") !=
+        std::string::npos);
+}
+
+TEST_CASE("krl: a move to where the robot stands is none") {
+  // PTP $AXIS_ACT and PTP $POS_ACT: the block coincidence run of hand-written programs.
+  for (const char* here : {"PTP $AXIS_ACT", "PTP $POS_ACT", "SPTP $AXIS_ACT", "LIN $POS_ACT"}) {
+    const Reading r = run(std::string("$VEL.CP=1\n") + here + "\nPTP " + axes(3));
+    REQUIRE(r.problem() == "no such problem");
+    CHECK(first_axes(r) == std::vector<double>{3});
+  }
+  const Reading known = run("DECL E6AXIS h\nPTP " + axes(3) + "\nh=$AXIS_ACT\nh.A1=h.A1+4\nPTP h");
+  REQUIRE(known.problem() == "no such problem");
+  CHECK(first_axes(known) == std::vector<double>{3, 7});
+  CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nh.A1=h.A1+4\nPTP h").problems.size() == 1);
+}
+
+TEST_CASE("krl: what a target leaves out comes from where the robot stands, in the frames in use") {
+  // At z 1000 in the world, the new base lies 30 mm higher: there the robot stands at 970.
+  const Reading r =
+      run("$VEL.CP=1\nPTP {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n$BASE={X 0,Y 0,Z 30,A 0,B 0,C 0}\nLIN {X "
+          "900}\n$TOOL={X 0,Y 0,Z 50,A 0,B 0,C 0}\nLIN_REL {X 10}");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK((r.move(1).target.pose.position - Vector3(0.9, 0, 0.97)).norm() < rounding);
+  CHECK((r.move(2).target.pose.position - Vector3(0.91, 0, 1.02)).norm() < rounding);
+}
+
+TEST_CASE("krl: relative moves along the tool, and those whose law is not public") {
+  const Reading tool = run("$VEL.CP=1\nPTP " + pose + "\nLIN_REL {Z 100} #TOOL\nLIN_REL {C 90} #TOOL");
+  REQUIRE(tool.problem() == "no such problem");  // the tool's z points along the base's x
+  CHECK((tool.move(1).target.pose.position - Vector3(1.1, 0, 1)).norm() < rounding);
+  const Quaternion turned = rotation({0, 90 * degree, 0}) * rotation({90 * degree, 0, 0});
+  CHECK(tool.move(2).target.pose.orientation.angularDistance(turned) < 1e-9);  // acos near 1: half the digits
+  CHECK(run("$VEL.CP=1\nPTP " + pose + "\nLIN_REL {C 90}").problems.size() == 1);
+}
+
+TEST_CASE("krl: the robot's own place in the world counts") {
+  // $ROBROOT of Mada/$MACHINE.DAT: targets are given in the world, 500 mm below the robot's foot.
+  const Reading r = run("PTP " + pose, "",
+                        {{"$machine.dat",
+                          "DEFDAT $MACHINE\nFRAME $ROBROOT={X 0.0,Y 0.0,Z 500.0,A 0.0,B 0.0,C "
+                          "0.0}\nENDDAT\n"}});
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.program.work_objects.at(r.move(0).work_object).frame.position.z() ==
+        Approx(-0.5).epsilon(rounding));
+}
+
+TEST_CASE("krl: bases and tools that only the user has") {
+  const std::vector<NamedFrame> bases{{"BASE_DATA[1]", {Vector3(1, 2, 3), Quaternion::Identity()}, false}};
+  for (const char* body :
+       {"$BASE=BASE_DATA[1]", "FDAT_ACT={TOOL_NO 0,BASE_NO 1,IPO_FRAME #BASE}\nBAS(#FRAMES)", "BAS(#BASE,1)",
+        "$BASE=$NULLFRAME:BASE_DATA[1]"}) {
+    const std::string program = std::string(body) + "\nPTP " + pose;
+    const Reading given = run(program, "", {}, {Language::krl, {}, {}, bases});
+    REQUIRE(given.problem() == "no such problem");
+    CHECK(
+        (given.program.work_objects.at(given.move(0).work_object).frame.position - Vector3(1, 2, 3)).norm() <
+        rounding);
+    const Reading missing = run(program);
+    REQUIRE(missing.problems.size() == 1);
+    CHECK(missing.problems[0].what == "moves with BASE_DATA[1], which no file read declares");
+    CHECK(missing.problems[0].remedy.find("--frames") != std::string::npos);
+    // A list that is declared without the element does not hold it, either.
+    const Reading declared = run(program, "", {{"$c.dat", "DEFDAT $C\nDECL FRAME BASE_DATA[9]\nENDDAT\n"}},
+                                 {Language::krl, {}, {}, bases});
+    CHECK(declared.problem() == "no such problem");
+    // Axis angles need no base.
+    CHECK(run(std::string(body) + "\nPTP " + axes(1)).problems.empty());
+  }
+}
+
+TEST_CASE("krl: a target without a value is told apart from one that nobody declares") {
+  CHECK(run("DECL E6POS pa\nPTP pa").problem() ==
+        "p.src:3:5: error: moves to 'pa', which has no value yet; assign it before the move, or give the "
+        "file that "
+        "holds its value (.dat)");
+  // One line for all uses of a missing name.
+  const Reading missing = run("PTP xa\nPTP xa\nPTP xb\nPTP xa");
+  CHECK(missing.problems.size() == 2);
+}
+
+TEST_CASE("krl: a coordinate that input decides asks, also beside known ones") {
+  const Reading r =
+      run("DECL POS p1\n$VEL.CP=1\nPTP " + pose + "\np1={X 1,Y 2,Z 3,A 0,B 0,C 0}\np1.X=$ANIN[1]\nLIN p1");
+  REQUIRE(r.problems.size() == 1);
+  CHECK(r.problems[0].what.starts_with("moves to a place that is known only while the robot runs"));
+  const Reading written =
+      run("REAL x\n$VEL.CP=1\nx=5\nEKI_GetReal(\"a\",\"b\",x)\nPTP " + pose + "\nLIN {X x}");
+  CHECK(written.problems.size() == 1);
+}
+
+TEST_CASE("krl: an assignment by aggregate leaves nothing of the value before") {
+  // E1 was known and is left out: nobody tells what the controller keeps of it.
+  const Reading r =
+      run("DECL E6POS p1\np1={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\np1={X 1,Y 2,Z 4,A 0,B 0,C 0}\nPTP p1");
+  CHECK(r.problems.size() == 1);
+  const Reading unset =
+      run("DECL E6POS p1\np1={X 1,Y 2,Z 3,A 0,B 0,C 0}\np1={X 1,Y 2,Z 4,A 0,B 0,C 0}\nPTP p1");
+  CHECK(unset.problem() == "no such problem");
+}
+
+TEST_CASE("krl: the override of the program slows its moves down") {
+  const Reading r = run("$OV_PRO=50\n$VEL.CP=1\nPTP " + pose + "\nLIN {X 900}");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.move(0).speed.axis_percent.value() == 50);
+  CHECK(r.move(1).speed.tool.value() == 0.5);
+}
+
+TEST_CASE("krl: arrays are handed over, and mistakes count where they run") {
+  const Reading r = run("DECL REAL lr[2,2]\nlr[1,1]=5\nPTP " + axes(0) +
+                        "\nsub(lr[,])\nEND\nDEF sub(x[,]:OUT)\nDECL "
+                        "REAL x[,]\nPTP {A1 x[1,1]}\nEND\nDEF never()\nPTP ((\nIF TRUE THEN\n");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(first_axes(r) == std::vector<double>{0, 5});
+  CHECK_FALSE(run("never()\nEND\nDEF never()\nPTP ((").problems.empty());
+}
+
+TEST_CASE("krl: a program's number from the line's controller is asked for") {
+  const std::string cell = "INT PGNO\nLOOP\nP00(#EXT_PGNO,#PGNO_GET,DMY[],0)\nSWITCH PGNO\nCASE 1\nPTP " +
+                           axes(1) + "\nCASE 2\nPTP " + axes(2) + "\nENDSWITCH\nENDLOOP";
+  const Reading asked = run(cell);
+  REQUIRE(asked.problems.size() == 1);
+  CHECK(asked.problems[0].what.find("program's number") != std::string::npos);
+  Reader with{Language::krl};
+  with.options.values["PGNO"] = "2";
+  const Reading given = run(cell, "", {}, with);
+  REQUIRE(given.problem() == "no such problem");
+  CHECK(first_axes(given) == std::vector<double>{2});
+}
+
+TEST_CASE("krl: structures of the program's own") {
+  const Reading r =
+      run("DECL place q\nq.at={A1 4,A2 0,A3 0,A4 0,A5 0,A6 0}\nq.n=2.6\nPTP q.at\nPTP {A1 q.n}\nPTP {A1 "
+          "q.list[2]}",
+          "STRUC place AXIS at,INT n,list[3]\nDECL place r", {});
+  CHECK(first_axes(r) == std::vector<double>{4, 3});
+  CHECK(r.problems.size() == 1);  // list[2] has no value
+}
+
+TEST_CASE("krl: signals and what has no value are named where a branch hangs on them") {
+  const Reading signal = run("IF ready THEN\nPTP " + axes(1) + "\nENDIF", "SIGNAL ready $IN[5]");
+  REQUIRE(signal.problems.size() == 1);
+  CHECK(signal.problems[0].what.find("'ready' is a signal") != std::string::npos);
+  const Reading unset = run("BOOL b\nIF b THEN\nPTP " + axes(1) + "\nENDIF");
+  REQUIRE(unset.problems.size() == 1);
+  CHECK(unset.problems[0].what.find("'b' has no value yet") != std::string::npos);
+}
+
+TEST_CASE("krl: automatic operation, waiting loops and the states of variables ask nothing") {
+  const Reading r = run("INT n\nIF $T1 THEN\nPTP " + axes(1) +
+                        "\nENDIF\nWHILE NOT $IN[1]\nWAIT SEC 0.1\nENDWHILE\n"
+                        "IF VARSTATE(\"n\")==#DECLARED THEN\nPTP " +
+                        axes(2) + "\nENDIF\nn='H1E'/4\nPTP {A1 n}");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(first_axes(r) == std::vector<double>{2, 7});
+}
+
+TEST_CASE("krl: structures that would fill the memory are left without values") {
+  std::string list;
+  for (int level = 0; level < 6; ++level)
+    list += fmt::format("STRUC s{} s{} a[30],b[30],c[30]\n", level, level + 1);
+  CHECK(run("PTP " + axes(1) + "\nPTP big.a[1]", list + "STRUC s6 REAL x[30]\nDECL s0 big").problems.size() ==
+        1);
+}
+
+TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a search is told") {
+  const std::string handler = "\nEND\nDEF found()\nBRAKE\nhit=TRUE\nRESUME";
+  const std::string start = "INTERRUPT DECL 21 WHEN $IN[1] DO found()\n$VEL.CP=1\nPTP " + pose +
+                            "\nINTERRUPT ON 21\nhit=FALSE\nLIN {X 900}\nINTERRUPT OFF 21\n";
+  const Reading asked = run(start + "IF hit THEN\nLIN {X 800}\nENDIF" + handler, "BOOL hit=FALSE");
+  REQUIRE(asked.problems.size() == 1);
+  CHECK(asked.problems[0].what.find("'hit' may be written by the interrupt found") != std::string::npos);
+  const Reading told = run(start + "hit=FALSE\nIF hit THEN\nLIN {X 800}\nENDIF" + handler, "BOOL hit=FALSE");
+  REQUIRE(told.problem() == "no such problem");
+  REQUIRE(told.program.skipped.size() == 2);  // the frames are the controller's
+  CHECK(told.program.skipped[1].may_move);
+  CHECK(told.program.instructions.size() == 2);
+  // The handler is that of the module that declares the interrupt, wherever it is put on.
+  const Reading elsewhere =
+      run("search()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler, "GLOBAL BOOL hit=FALSE",
+          {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
+  CHECK(first_axes(elsewhere) == std::vector<double>{2});
+  const Reading other = run(
+      "INTERRUPT DECL 21 WHEN $IN[1] DO found()\nsearch()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler,
+      "GLOBAL BOOL hit=FALSE", {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
+  CHECK(other.problems.size() == 1);
+}
+
+TEST_CASE("krl: what a TRIGGER sets is unknown behind it") {
+  // It happens on the way of a move, before or behind the statements that follow.
+  const Reading r = run("BOOL b\nb=FALSE\n$VEL.CP=1\nPTP " + pose +
+                        "\nTRIGGER WHEN DISTANCE=0 DELAY=20 DO b=TRUE PRIO=-1\n"
+                        "LIN {X 900}\nIF b THEN\nLIN {X 800}\nENDIF");
+  REQUIRE(r.problems.size() == 1);
+  CHECK(r.problems[0].what.find("'b' is written by the TRIGGER in p.src:6") != std::string::npos);
+}
+
+TEST_CASE("krl: frames that the controller holds are told, and waiting alone is no motion") {
+  const Reading held = run("PTP " + pose);
+  REQUIRE(held.problem() == "no such problem");
+  REQUIRE(held.program.skipped.size() == 1);
+  CHECK(held.program.skipped[0].may_move);
+  CHECK(run("$TOOL=$NULLFRAME\n$BASE=$WORLD\nPTP " + pose).program.skipped.empty());
+  CHECK(run("PTP " + axes(1)).program.skipped.empty());
+  CHECK(run("WAIT SEC 2").problem().find("moves the robot nowhere") != std::string::npos);
+}
