@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -20,12 +21,17 @@ struct LooseCable {
   std::array<double, 2> place{};  ///< a0, from the hose's axis toward d1 and d2 [m]
   double radius = 0;              ///< [m]
   double axial_stiffness = 0;     ///< E A, of its wires [N]
-  double bending_stiffness = 0;   ///< E I, as its wires slide [N m2]
-  double mass_per_length = 0;     ///< [kg/m]
-  double slack = 0;               ///< length beyond the path on which it was laid in, over it
-  double wall_stiffness = 1e7;    ///< k_w, of what it lies against, force per length and depth [N/m2]
-  double friction = 0;            ///< mu, Coulomb, against what it lies on
-  double grip = without_limit;    ///< force at which a clamp lets it slip [N]
+  /// Force over strain where it is not E A times it, rising [N].
+  std::function<double(double strain)> force{};
+  double bending_stiffness = 0;  ///< E I, as its wires slide [N m2]
+  double mass_per_length = 0;    ///< [kg/m]
+  double slack = 0;              ///< length beyond the path on which it was laid in, over it
+  double wall_stiffness = 1e7;   ///< k_w, of what it lies against, force per length and depth [N/m2]
+  double friction = 0;           ///< mu, Coulomb, against what it lies on
+  double grip = without_limit;   ///< force at which a clamp lets it slip [N]
+  /// Force per length and sideways speed that holds it [N s/m2] (README W34): at 50 mm/s friction of 0.3
+  /// under 0.2 kg/m. It only decides which way the cable goes where several are open.
+  double drag = 12;
 
   // How far it can go; fit_in_hose() finds all but the first.
   double play = without_limit;      ///< c: from its place, whatever else stops it [m]

@@ -21,9 +21,7 @@ double squared(double x) { return x * x; }
 }  // namespace
 
 CableLine::CableLine(const LooseCable& cable, const HoseLine& hose, double rest_curvature)
-    : cable_(cable),
-      rest_curvature_(rest_curvature),
-      tension_(cable, hose.length, hose.nodes() - 1, -rest_curvature * cable.place[0]) {
+    : cable_(cable), rest_curvature_(rest_curvature), tension_(cable, -rest_curvature * cable.place[0]) {
   const std::size_t nodes = hose.nodes();
   for (auto* field :
        {&path_, &before_, &velocity_, &place_, &bent_, &slope_, &gained_, &step_, &soft_, &from_, &going_})
@@ -35,8 +33,9 @@ CableLine::CableLine(const LooseCable& cable, const HoseLine& hose, double rest_
   factors_.resize(nodes);
 }
 
-void CableLine::begin(const HoseLine& hose, const std::vector<Vector2d>& frame, double drag, double step) {
-  drag_ = drag;
+void CableLine::begin(const HoseLine& hose, const std::vector<Vector2d>& frame, double step, bool goes_on) {
+  drag_ = cable_.drag / step;
+  if (!goes_on) step = 0;
   const Vector2d a0(cable_.place[0], cable_.place[1]);
   const std::size_t last = hose.nodes() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
@@ -62,7 +61,7 @@ void CableLine::measure(const HoseLine& hose) {
     if (i > 0) gain_[i - 1] = (before + bent) / 2 + (path_[i] - path_[i - 1]).squaredNorm() / (2 * h * h);
     before = bent;
   }
-  tension_.answer(gain_, press_, pull_);
+  tension_.answer(gain_, pull_);
 }
 
 void CableLine::smooth_slope(const HoseLine& hose) {
@@ -277,7 +276,7 @@ int CableLine::relax(const HoseLine& hose, int most) {
 
 void CableLine::end(const HoseLine& hose, const std::vector<Vector2d>& frame, double step,
                     CableState& state) {
-  tension_.settle(gain_, press_, pull_);
+  tension_.settle(gain_, pull_);
   const std::size_t nodes = hose.nodes();
   state.strain = pull_.strain;
   state.tension = pull_.tension;

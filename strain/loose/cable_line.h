@@ -29,12 +29,12 @@ class CableLine {
   const std::vector<Eigen::Vector2d>& path() const { return path_; }  ///< A [m]
 
   /// The next sample. frame: (node) the directions in which its place stays, cosine and sine against the
-  /// untwisted frame: the hose's, or those of its ring. The path goes on in it as it did. drag: eta [N/m2].
-  /// step: since the sample before [s]; 0: the path stays as it was in the frame.
-  void begin(const HoseLine& hose, const std::vector<Eigen::Vector2d>& frame, double drag, double step);
+  /// untwisted frame: the hose's, or those of its ring. step: since the
+  /// sample before [s]. goes_on: moves in the frame as it did then, else it stays as it was there.
+  void begin(const HoseLine& hose, const std::vector<Eigen::Vector2d>& frame, double step, bool goes_on);
   /// Moves to the minimum of the energy. Returns the iterations, at most `most`.
   int relax(const HoseLine& hose, int most);
-  /// The sample is over. frame, step: as in begin().
+  /// The sample is over. frame: as in begin(). step: since the sample before [s]; 0: there was none.
   void end(const HoseLine& hose, const std::vector<Eigen::Vector2d>& frame, double step, CableState& state);
 
   // What a ring needs of a cable that it takes along (strain/loose/ring.h).

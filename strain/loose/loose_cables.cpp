@@ -20,16 +20,15 @@ LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSetti
 
 void LooseCables::advance(std::span<const HoseNode> hose, double step) {
   hose_.take(hose, settings_.rest_curvature);
-  const double drag = settings_.drag / step, since = started_ ? step : 0;
   const int most = started_ ? CableLine::most_iterations : CableLine::most_iterations_at_start;
   bool rest = true;
   for (Ring& ring : rings_)
-    if (ring.cables() > 0) rest &= ring.advance(hose_, drag, since);
+    if (ring.cables() > 0) rest &= ring.advance(hose_, step, started_);
   for (std::size_t k = 0; k < lines_.size(); ++k) {
     const auto& frame = ring_of_[k] == no_ring ? hose_.turn : rings_[ring_of_[k]].frame();
-    lines_[k].begin(hose_, frame, drag, since);
+    lines_[k].begin(hose_, frame, step, started_);
     const int took = lines_[k].relax(hose_, most);
-    lines_[k].end(hose_, frame, since, states_[k]);
+    lines_[k].end(hose_, frame, started_ ? step : 0, states_[k]);
     iterations_ += static_cast<std::size_t>(took);
     rest &= took < most;
   }

@@ -15,9 +15,6 @@ struct LooseSettings {
   double length = 0;          ///< of the hose's axis between the clamps [m]
   std::size_t elements = 64;  ///< of equal length
   double rest_curvature = 0;  ///< about d2, of the hose in which the cables were laid [1/m]
-  /// Force per length and sideways speed that holds a cable [N s/m2] (README W34): at 50 mm/s friction of 0.3
-  /// under a cable of 0.2 kg/m. It only decides which way a cable goes where several are open.
-  double drag = 12;
 };
 
 class LooseCables {
@@ -27,9 +24,13 @@ class LooseCables {
 
   std::size_t nodes() const { return hose_.nodes(); }
   std::size_t cables() const { return lines_.size(); }
+  const LooseCable& cable(std::size_t k) const { return lines_[k].cable(); }
 
   /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].
   void advance(std::span<const HoseNode> hose, double step);
+
+  /// The next sample follows on none: cables start from where they are, at rest.
+  void start_again() { started_ = false; }
 
   const CableState& state(std::size_t cable) const { return states_[cable]; }
   /// Samples at which a ring or a cable was still moving when the work was cut short.

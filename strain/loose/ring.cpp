@@ -159,16 +159,16 @@ Eigen::VectorXd Ring::slope() const {
   return sum;
 }
 
-bool Ring::advance(const HoseLine& hose, double drag, double time) {
+bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
   const std::vector<double> before = psi_;
-  for (CableLine& line : lines_) line.begin(hose, hose.turn, drag, 0);
-  for (std::size_t i = 0; i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
+  for (CableLine& line : lines_) line.begin(hose, hose.turn, time, false);
+  for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   frame_ = hose.turn;
   place(hose);
   bool rests = false;
-  const int most = time > 0 ? most_iterations : 10 * most_iterations;
+  const int most = goes_on ? most_iterations : 10 * most_iterations;
   for (int k = 0; k < most && !rests; ++k) rests = step(hose) < at_rest;
-  for (std::size_t i = 0; time > 0 && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;
+  for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;
   CableState ignored;
   for (CableLine& line : lines_) line.end(hose, hose.turn, 0, ignored);
   return rests;

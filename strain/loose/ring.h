@@ -20,9 +20,9 @@ class Ring {
   void add(const LooseCable& cable, const HoseLine& hose);
   std::size_t cables() const { return lines_.size(); }
 
-  /// Turns to the minimum at the next sample. drag: eta of each cable [N/m2]. step: since the sample before
-  /// [s]; 0: from where it is. Returns whether it has come to rest.
-  bool advance(const HoseLine& hose, double drag, double step);
+  /// Turns to the minimum at the next sample. time: since the sample before [s]. goes_on: as it turned then.
+  /// Returns whether it has come to rest.
+  bool advance(const HoseLine& hose, double time, bool goes_on);
   /// (node) cosine and sine of phi + psi: the frame in which its cables' places stay.
   const std::vector<Eigen::Vector2d>& frame() const { return frame_; }
 

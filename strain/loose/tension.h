@@ -1,9 +1,10 @@
-// The tension of a cable between two clamps from the stretch of its path, with what clamps and friction keep
-// in memory (README W31).
+// The tension of a cable between two clamps from the stretch of its path, with what its clamps let through
+// (README W31).
 //
 // The cable is gripped at both ends and slides along its path in between:
-//     T = E A ((1 + g) / ((1 + slack) (1 + g0)) - 1 - slipped),  |T| <= grip at the clamps,
-// g the path's gain, g0 that of the path on which it was laid in.
+//     strain = (1 + g) / ((1 + slack) (1 + g0)) - 1 - slipped,   T = force(strain),   |T| <= grip,
+// g the mean gain of its path, g0 that of the path on which it was laid in. Where T would exceed the grip,
+// the cable slips: it has another free length from then on.
 #pragma once
 
 #include <span>
@@ -23,21 +24,26 @@ struct Pull {
 
 class CableTension {
  public:
-  /// length: of the hose's axis between the clamps [m]. elements: of equal length. laid_in: mean gain of the
-  /// path on which the cable was laid in.
-  CableTension(const LooseCable& cable, double length, std::size_t elements, double laid_in = 0);
+  /// laid_in: mean gain of the path on which the cable was laid in.
+  explicit CableTension(const LooseCable& cable, double laid_in = 0);
 
-  /// gain: of the path per element. press: on what the cable lies against, per node [N/m]. Changes nothing,
-  /// so that a solver can ask as often as it likes.
-  void answer(std::span<const double> gain, std::span<const double> press, Pull& pull) const;
+  /// gain: of the path per element, all of equal length. Changes nothing, so that a solver can ask as often
+  /// as it likes.
+  void answer(std::span<const double> gain, Pull& pull) const;
 
   /// The same, and remembers what slipped: the sample is over.
-  void settle(std::span<const double> gain, std::span<const double> press, Pull& pull);
+  void settle(std::span<const double> gain, Pull& pull);
 
   double slipped() const { return slipped_; }  ///< through the clamps, over the cable's length; > 0: let out
 
  private:
-  double stiffness_, free_length_rate_, grip_;
+  double force(double strain) const;
+  double strain_of(double force) const;
+  double stretch(std::span<const double> gain) const;
+
+  double axial_stiffness_, free_length_rate_, grip_;
+  std::function<double(double)> force_;
+  double most_ = without_limit, least_ = -without_limit;  ///< strains at the grip, pulled and pressed
   double slipped_ = 0;
 };
 

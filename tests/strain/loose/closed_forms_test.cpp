@@ -1,0 +1,146 @@
+// A loose cable against what is known in closed form.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "tests/strain/loose/hoses.h"
+
+using namespace dresslife::strain;
+using dresslife::strain::test::hose;
+using dresslife::strain::test::signal_cable;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double step = 0.04;  // between samples [s]
+
+double largest_offset(const CableState& state, int direction) {
+  double largest = 0;
+  for (std::size_t p = direction; p < state.offset.size(); p += 2)
+    largest = std::max(largest, std::abs(state.offset[p]));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("without play a loose cable has the strain of one that is held") {
+  // clamp to clamp, in whatever bends and twists: mean of |v| of (W5)
+  LooseCable cable = signal_cable(0.012, -0.014);
+  cable.play = 0;
+  cable.wall_stiffness = 1e11;  // 30 kN/m of contact press it in by 0.3 um
+  const LooseSettings settings{2, 128};
+  LooseCables cables({cable}, settings);
+  const auto at = [](double z) {
+    return HoseNode{3 * std::sin(2 * pi * z) + 1, 2 * std::cos(5 * z), 3 + 4 * z, 1e-3 * z, {0, -9.81}};
+  };
+  cables.advance(hose(128, at), step);
+  double path = 0;
+  constexpr int fine = 100000;
+  for (int k = 0; k < fine; ++k) {
+    const HoseNode node = at((k + 0.5) / fine);
+    const double y = 1 + node.elongation + node.curvature1 * -0.014 - node.curvature2 * 0.012;
+    path += std::sqrt(y * y + std::pow(std::hypot(0.012, -0.014) * node.twist, 2)) / fine;
+  }
+  // |a'|^2 / 2 instead of the root leaves out |a'|^2 / 2 times the bending strain, 1e-3 of 1e-2
+  CHECK(cables.state(0).strain == Approx(path - 1).epsilon(0.01));
+  CHECK(largest_offset(cables.state(0), 0) < 1e-6);
+}
+
+TEST_CASE("a cable on the outside of a bend moves in by its play and pulls for the rest") {
+  LooseCable cable = signal_cable(-0.01845);
+  cable.play = 0.005;
+  cable.wall_stiffness = 1e9;
+  LooseCables cables({cable}, {2.035, 128});
+  cables.advance(hose(128, [](double) { return HoseNode{.curvature2 = 1}; }), step);
+  // From a clamp it runs straight, as seen from the side, until it touches, sqrt(2 c / kappa) on; each of the
+  // two ends is longer by kappa^2 (2 c / kappa)^1.5 / 3. What bending rounds off there is 0.1 %.
+  const double ends = 2.0 / 3 * std::pow(2 * 0.005, 1.5) / 2.035;
+  CHECK(cables.state(0).strain == Approx((0.01845 - 0.005) * 1 + ends).epsilon(0.002));
+}
+
+TEST_CASE("a cable pressed together in a straight tube lies in it as a helix") {
+  // slope^2 / 2 = delta for a helix of radius c; from its energy, E I k^4 c^2 / 2 per length: 4 E I delta /
+  // c^2
+  LooseCable cable = signal_cable(0);
+  cable.play = 0.004;
+  cable.wall_stiffness = 1e9;
+  cable.axial_stiffness = 1e8;            // so that all of the shortening goes into the helix
+  constexpr std::size_t elements = 1536;  // 16 in a wave: 0.7 %; the ends: 1.2 %
+  LooseCables cables({cable}, {12, elements});
+  constexpr double most = 0.02;
+  for (int t = 1; t <= 200; ++t) {
+    // the weight turns along the tube while the cable buckles, which makes one helix instead of two
+    const double weight = t < 30 ? 5 : 0;
+    cables.advance(hose(elements,
+                        [&](double z) {
+                          return HoseNode{.elongation = -most * t / 200,
+                                          .pull = {weight * std::cos(300 * z), weight * std::sin(300 * z)}};
+                        }),
+                   step);
+  }
+  CHECK(-cables.state(0).tension[0] == Approx(4 * 0.2 * most / std::pow(0.004, 2)).epsilon(0.02));
+}
+
+TEST_CASE("a cable tied to an elastic wall buckles at the root of its stiffnesses") {
+  LooseCable cable = signal_cable(0);
+  cable.play = 0;  // springs in every direction
+  cable.wall_stiffness = 1e8;
+  cable.axial_stiffness = 1e7;
+  constexpr std::size_t elements = 512;  // waves of 42 mm
+  LooseCables cables({cable}, {1.6, elements});
+  double highest = 0;
+  for (int t = 1; t <= 200; ++t) {
+    cables.advance(hose(elements,
+                        [&](double z) {
+                          return HoseNode{.elongation = -2e-3 * t / 200, .pull = {std::sin(230 * z), 0}};
+                        }),
+                   step);
+    highest = std::max(highest, -cables.state(0).tension[0]);
+  }
+  // the clamps hold the outermost waves, and the tied cable carries a little more beyond
+  CHECK(highest == Approx(2 * std::sqrt(0.2 * 1e8)).epsilon(0.05));
+}
+
+TEST_CASE("a cable lying in a straight tube goes in waves, then in coils") {
+  // Waves from 2 sqrt(E I w / c) on (Dawson and Paslay 1984). From sqrt(2) times that on a coil has less
+  // energy than waves (Chen, Lin and Cheatham 1990): a cable pressed slowly goes over later, and one let go
+  // slowly falls back earlier.
+  LooseCable cable = signal_cable(0);
+  cable.play = 0.005;
+  cable.wall_stiffness = 1e8;
+  cable.drag = 0.3;
+  const double weight = 0.19 * 9.81, waves = 2 * std::sqrt(0.2 * weight / 0.005);
+  constexpr std::size_t elements = 512;
+  LooseCables cables({cable}, {12, elements});
+  const auto pressed = [&](double shortened) {
+    cables.advance(
+        hose(elements,
+             [&](double z) {
+               return HoseNode{.elongation = -shortened, .pull = {0.002 * std::sin(97 * z), -9.81}};
+             }),
+        step);
+    return -cables.state(0).tension[0];
+  };
+  const auto highest = [&] {
+    double height = -1;  // away from the clamps, which hold it in the middle
+    for (std::size_t i = elements / 8; i < 7 * elements / 8; ++i)
+      height = std::max(height, cables.state(0).offset[2 * i + 1]);
+    return height;
+  };
+  double shortened = 0, at_waves = 0, at_coils = 0, at_fall = 0;
+  for (; at_coils == 0 && shortened < 3e-3; shortened += 8e-7) {
+    const double force = pressed(shortened);
+    if (at_waves == 0 && largest_offset(cables.state(0), 0) > 0.1 * 0.005) at_waves = force;
+    if (highest() > 0.9 * 0.005) at_coils = force;
+  }
+  for (int t = 0; t < 100; ++t) pressed(shortened);
+  for (; at_fall == 0 && shortened > 0; shortened -= 8e-7) {
+    const double force = pressed(shortened);
+    if (highest() < 0) at_fall = force;
+  }
+  INFO(waves << " N: waves at " << at_waves << ", coils at " << at_coils << ", down at " << at_fall);
+  CHECK(at_waves == Approx(waves).epsilon(0.05));  // a tenth of the play shows them a little later
+  CHECK(at_coils > std::sqrt(2) * waves);
+  CHECK(at_fall < std::sqrt(2) * waves);
+  CHECK(at_fall == Approx(std::sqrt(2) * waves).epsilon(0.1));  // the weight pulls its ends down first
+}

@@ -1,0 +1,30 @@
+// Hoses for tests: nodes of one sample.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "strain/loose/loose_cables.h"
+
+namespace dresslife::strain::test {
+
+/// make: of the share of the length from the base clamp.
+inline std::vector<HoseNode> hose(std::size_t elements, const std::function<HoseNode(double)>& make) {
+  std::vector<HoseNode> nodes;
+  for (std::size_t i = 0; i <= elements; ++i)
+    nodes.push_back(make(static_cast<double>(i) / static_cast<double>(elements)));
+  return nodes;
+}
+
+/// The signal cable of the thesis' dresspack at a place in the hose [m].
+inline LooseCable signal_cable(double place1, double place2 = 0) {
+  LooseCable cable;
+  cable.place = {place1, place2};
+  cable.radius = 5.3e-3;
+  cable.axial_stiffness = 1e6;
+  cable.bending_stiffness = 0.2;
+  cable.mass_per_length = 0.19;
+  return cable;
+}
+
+}  // namespace dresslife::strain::test

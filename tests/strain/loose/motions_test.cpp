@@ -1,0 +1,180 @@
+// Loose cables over motions: meshes, closed loops, clamps that let go, rings, and whatever a user may ask
+// for.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "strain/loose/rings.h"
+#include "tests/strain/loose/hoses.h"
+
+using namespace dresslife::strain;
+using dresslife::strain::test::hose;
+using dresslife::strain::test::signal_cable;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double step = 0.04;  // between samples [s]
+
+/// A hose on a robot's arm, `turn` of its cycle on: an arch that leans over and twists.
+HoseNode arm(double z, double turn) {
+  const double w = 2 * pi * turn;
+  return {(1.5 + 0.5 * std::sin(w)) * std::sin(pi * z),
+          0.8 * std::cos(w) * std::cos(2 * pi * z),
+          1.2 * std::sin(w),
+          1e-4 * std::cos(w),
+          {9.81 * std::sin(pi * z), -9.81 * std::cos(pi * z)}};
+}
+
+std::vector<LooseCable> ring_of_ten(double slack) {
+  std::vector<LooseCable> cables;
+  for (int k = 0; k < 10; ++k) {
+    cables.push_back(signal_cable(0.01845 * std::cos(2 * pi * k / 10), 0.01845 * std::sin(2 * pi * k / 10)));
+    cables.back().slack = slack;
+  }
+  fit_in_hose(cables, {0.0255, 0.013});
+  return cables;
+}
+
+void check_finite(const CableState& state) {
+  REQUIRE(std::isfinite(state.strain));
+  for (const std::vector<double>* of : {&state.tension, &state.press, &state.offset, &state.curvature})
+    for (const double value : *of) REQUIRE(std::isfinite(value));
+}
+
+}  // namespace
+
+TEST_CASE("a closed motion without friction closes") {
+  std::vector<LooseCable> all = ring_of_ten(0.003);
+  for (std::vector<LooseCable> cables : {std::vector{all}, std::vector{all[3]}}) {
+    LooseCables loose(cables, {2.035, 64});
+    std::vector<double> first;
+    double worst = 0;
+    constexpr int cycle = 100;
+    for (int t = 0; t <= 4 * cycle; ++t) {
+      loose.advance(hose(64, [&](double z) { return arm(z, static_cast<double>(t) / cycle); }), step);
+      if (t % cycle != 0 || t < 3 * cycle) continue;
+      std::vector<double> strain;
+      for (std::size_t k = 0; k < loose.cables(); ++k) strain.push_back(loose.state(k).strain);
+      if (!first.empty())
+        for (std::size_t k = 0; k < strain.size(); ++k)
+          worst = std::max(worst, std::abs(strain[k] - first[k]));
+      first = strain;
+    }
+    CHECK(worst < 1e-6);  // of strain
+  }
+}
+
+TEST_CASE("a clamp that lets go keeps what it has let through, and takes energy") {
+  LooseCable cable = signal_cable(0.01845);
+  cable.play = 0.003;
+  cable.grip = 500;
+  LooseCables loose({cable}, {2.035, 64});
+  double work = 0, before = 0, gain_before = 0, highest = 0, after = 0;
+  for (int t = 0; t <= 400; ++t) {
+    const auto nodes = hose(64, [&](double z) { return arm(z, t / 100.0); });
+    loose.advance(nodes, step);
+    const CableState& state = loose.state(0);
+    highest = std::max(highest, std::abs(state.tension[0]));
+    // the path's gain, from place and offset: what the hose does against the tension
+    double gain = 0;
+    for (std::size_t i = 0; i <= 64; ++i) {
+      const double a1 = 0.01845 + state.offset[2 * i], a2 = state.offset[2 * i + 1];
+      double rate = nodes[i].elongation + nodes[i].curvature1 * a2 - nodes[i].curvature2 * a1;
+      gain += (i == 0 || i == 64 ? 0.5 : 1) * rate / 64;
+      if (i == 0) continue;
+      const double tau = (nodes[i].twist + nodes[i - 1].twist) / 2, h = 2.035 / 64;
+      const double m1 = a1 - (state.offset[2 * i] - state.offset[2 * i - 2]) / 2;
+      const double m2 = a2 - (state.offset[2 * i + 1] - state.offset[2 * i - 1]) / 2;
+      const double d1 = (state.offset[2 * i] - state.offset[2 * i - 2]) / h - tau * m2;
+      const double d2 = (state.offset[2 * i + 1] - state.offset[2 * i - 1]) / h + tau * m1;
+      gain += (d1 * d1 + d2 * d2) / 2 / 64;
+    }
+    if (t > 300) work += (state.tension[0] + before) / 2 * (gain - gain_before) * 2.035;
+    if (t == 300) after = state.tension[0];
+    before = state.tension[0];
+    gain_before = gain;
+  }
+  CHECK(highest <= 500 * (1 + 1e-9));
+  CHECK(loose.state(0).tension[0] == Approx(after).margin(1e-3 * 500));  // the slip has settled
+  CHECK(work > -1e-3);  // [J] of one closed cycle: friction in the clamps takes, never gives
+}
+
+TEST_CASE("cables of a ring never overlap, and stay between core and wall") {
+  std::vector<LooseCable> cables = ring_of_ten(0.01);
+  CHECK(cables[0].farthest == Approx(0.0255 - 0.0053));
+  CHECK(cables[0].nearest == Approx(0.013 + 0.0053));
+  CHECK(cables[0].gap == Approx(0.01845 * std::sin(pi / 10) - 0.0053));
+  LooseCables loose(cables, {2.035, 64});
+  double deepest = 0;
+  for (int t = 0; t <= 150; ++t) {
+    loose.advance(hose(64, [&](double z) { return arm(z, t / 100.0); }), step);
+    for (std::size_t i = 0; i <= 64; ++i)
+      for (std::size_t k = 0; k < 10; ++k) {
+        const auto at = [&](std::size_t cable) {
+          const CableState& state = loose.state(cable);
+          return std::array{cables[cable].place[0] + state.offset[2 * i],
+                            cables[cable].place[1] + state.offset[2 * i + 1]};
+        };
+        const auto a = at(k), b = at((k + 1) % 10);
+        deepest = std::max(deepest, 2 * 0.0053 - std::hypot(a[0] - b[0], a[1] - b[1]));
+        deepest = std::max(deepest, std::hypot(a[0], a[1]) + 0.0053 - 0.0255);
+        deepest = std::max(deepest, 0.013 + 0.0053 - std::hypot(a[0], a[1]));
+      }
+  }
+  CHECK(deepest < 2e-4);  // 2 kN/m at 1e7 N/m2
+}
+
+TEST_CASE("cables meet what lies around them") {
+  // two rings around a cable on the axis; one cable alone
+  std::vector<LooseCable> cables{signal_cable(0), signal_cable(0.012), signal_cable(-0.012),
+                                 signal_cable(0.03)};
+  for (LooseCable& cable : cables) cable.radius = 0.005;
+  fit_in_hose(cables, {0.04, 0});
+  CHECK(cables[0].farthest == Approx(0.002));  // 12 mm less two radii
+  CHECK(cables[0].ring == no_ring);
+  CHECK(cables[1].nearest == Approx(0.010));
+  CHECK(cables[1].farthest == Approx(0.020));
+  CHECK(cables[1].gap == Approx(0.007));
+  CHECK(cables[3].nearest == Approx(0.022));
+  CHECK(cables[3].farthest == Approx(0.035));
+  CHECK(cables[3].ring == no_ring);
+  // where they overlap there is no room, and the other way stays open
+  std::vector<LooseCable> tight{signal_cable(0.01), signal_cable(-0.01)};
+  for (LooseCable& cable : tight) cable.radius = 0.0101;
+  fit_in_hose(tight, {0.02, 0.001});
+  CHECK(tight[0].gap == 0);
+  CHECK(tight[0].farthest == Approx(0.01));
+  CHECK(tight[0].nearest == Approx(0.01));
+}
+
+TEST_CASE("whatever a hose does, every number is finite") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int run = 0; run < 40; ++run) {
+    const double play = std::array{0.0, 1e-4, 0.005, 0.02, without_limit}[run % 5];
+    const double slack = std::array{0.0, 0.002, 0.05, -0.01}[run % 4];
+    std::vector<LooseCable> cables = ring_of_ten(slack);
+    for (LooseCable& cable : cables)
+      if (play < without_limit) cable.ring = no_ring, cable.gap = without_limit, cable.play = play;
+    cables.resize(run % 3 == 0 ? 1 : 10);
+    if (cables.size() == 1) cables[0].ring = no_ring;
+    cables[0].grip = run % 7 == 0 ? 0 : without_limit;
+    const std::size_t elements = std::array{4, 16, 64, 200}[run % 4];
+    LooseCables loose(cables, {0.3 + 3 * share(random), elements, run % 2 == 0 ? 0.0 : 0.63});
+    const double bend = 20 * share(random), twist = 15 * share(random), phase = 6 * share(random);
+    for (int t = 0; t < 12; ++t) {
+      loose.advance(hose(elements,
+                         [&](double z) {
+                           return HoseNode{bend * std::sin(5 * z + 0.5 * t),
+                                           bend * std::cos(3 * z + phase),
+                                           twist * std::sin(0.3 * t),
+                                           0.01 * std::sin(t),
+                                           {50 * std::sin(t), -9.81}};
+                         }),
+                    step);
+      for (std::size_t k = 0; k < loose.cables(); ++k) check_finite(loose.state(k));
+    }
+  }
+}
