@@ -263,6 +263,9 @@ Program read_program(const pipeline::Motion& motion) {
     language = backup.language;
     options.routine = backup.routine;
     for (const std::filesystem::path& file : backup.files) files.push_back(source_of(file));
+    if (files.empty())
+      throw pipeline::InputError({motion.program.string()}, "holds none of the files that its lists name",
+                                 "name the folder or the file that holds the program");
     missing = backup.missing;
   } else {
     language = language_of(motion.program);

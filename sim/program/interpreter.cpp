@@ -286,9 +286,9 @@ std::optional<bool> Interpreter::assumed(const Place& place) {
 void Interpreter::ask(const Place& place, const std::string& what, const Value& unknown,
                       const std::string& answers) {
   const std::string value = remedy_for(unknown);
-  complain(place, what + because(unknown),
-           fmt::format("choose with --assume {}={} (motion.assume in a job){}", short_place(place), answers,
-                       value.empty() ? "" : fmt::format(", or give {} (motion.values)", value)));
+  miss("decision in " + where(place).text(), place, what + because(unknown),
+       fmt::format("choose with --assume {}={} (motion.assume in a job){}", short_place(place), answers,
+                   value.empty() ? "" : fmt::format(", or give {} (motion.values)", value)));
 }
 
 Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
@@ -296,12 +296,14 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
     if (branch.conditions.empty()) return execute(branch.body);
     std::optional<bool> decision = assumed(branch.place);
     Value condition;
+    const std::size_t problems = problems_.count();
     if (!decision) {
       condition = evaluate(branch.conditions[0]);
       if (condition.kind == Value::Kind::truth) decision = condition.number != 0;
     }
     if (!decision) {
       if (!matters(statement)) return leave_out(statement, condition);
+      if (problems_.count() != problems) return run_both(statement);  // what makes it unknown is told
       ask(branch.place, "branches on what is known only while the robot runs", condition, "then or =else");
       return run_both(statement);
     }
@@ -758,7 +760,11 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
   locals_.push_back(std::move(variables));
   result_ = Value{};
   const Flow flow = execute_routine(routine);
-  const Value result = flow == Flow::give_back ? result_ : Value{};
+  const Value result =
+      flow == Flow::give_back
+          ? result_
+          : unknown_value(
+                "", fmt::format("is given back by '{}' behind a branch that is undecided", routine.written));
   variables = std::move(locals_.back());
   locals_.pop_back();
   routines_.pop_back();

@@ -71,7 +71,8 @@ void Problems::add_missing(const std::string& name, const pipeline::Where& where
                            const std::string& remedy) {
   for (Problem& problem : problems_)
     if (problem.about == name) {
-      if (problem.where.line != where.line || problem.where.file != where.file) ++problem.more_uses;
+      if (problem.where.line != where.line || problem.where.file != where.file)
+        problem.more_uses.emplace(where.file, where.line);
       return;
     }
   const std::size_t before = problems_.size();
@@ -93,7 +94,8 @@ void Problems::throw_if_any() const {
            std::tie(b.where.file, b.where.line, b.where.column);
   });
   for (Problem& problem : sorted)
-    if (problem.more_uses > 0) problem.what += fmt::format(" (here and {} times more)", problem.more_uses);
+    if (!problem.more_uses.empty())
+      problem.what += fmt::format(" (here and {} times more)", problem.more_uses.size());
   std::string rest;
   for (std::size_t i = 1; i < sorted.size(); ++i)
     rest +=

@@ -14,7 +14,9 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/errors.h"
@@ -107,7 +109,7 @@ struct Problem {
   pipeline::Where where;
   std::string what, remedy;
   std::string about = {};  ///< the name that is missing, of a problem that is told once for all of its uses
-  int more_uses = 0;
+  std::set<std::pair<std::string, int>> more_uses = {};  ///< files and lines
 };
 
 class Problems {

@@ -28,6 +28,10 @@ std::optional<Value> Rapid::constant(const std::string& name) {
   if (name == "load0") return rapid_initial(code_, "loaddata");
   if (name == "high" || name == "edge") return number_value(1);
   if (name == "low") return number_value(0);
+  if (name == "op_undef" || name == "run_undef") return number_value(0);
+  if (name == "op_auto" || name == "run_cont_cycle") return number_value(1);
+  if (name == "op_man_prog" || name == "run_instr_fwd") return number_value(2);
+  if (name == "op_man_test" || name == "run_instr_bwd") return number_value(3);
   for (const NamedFrame& tool : tools_)
     if (same(name, tool.name)) return tool_value(tool);
   for (const NamedFrame& object : work_objects_)
@@ -103,7 +107,13 @@ void Rapid::settings(const Statement& statement, Interpreter& run) {
     return high;
   };
   if (statement.name == "accset") acceleration_percent_ = std::max(20.0, needed(0, 0, 100));
-  if (statement.name == "speedrefresh") override_ = needed(0, 0.1, 100) / 100;
+  if (statement.name == "speedrefresh") {
+    const double percent = needed(0, 0, 100);
+    if (percent > 0)
+      override_ = percent / 100;
+    else
+      run.note(statement.place, "SpeedRefresh 0: the robot stands until an interrupt lets it go on", true);
+  }
   if (statement.name == "velset") {
     speed_factor_ = needed(0, 0.1, 100) / 100;
     speed_limit_ = needed(1, 0.1, 1e6) * millimetre;
@@ -170,6 +180,34 @@ bool Rapid::named_data(const Statement& statement, Interpreter& run) {
   return true;
 }
 
+/// Whether a trap, or a routine that it calls, moves the robot, stops it or changes how it moves.
+bool Rapid::steers(const std::vector<Statement>& body, int module, int depth) const {
+  constexpr int deepest = 4;  // calls in traps
+  return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
+           if (statement.name == "stopmove" || statement.name == "storepath" || matters(statement.name))
+             return true;
+           for (const Branch& branch : statement.branches)
+             if (steers(branch.body, module, depth)) return true;
+           const Routine* called =
+               statement.kind == Statement::Kind::instruction ? code_.find(statement.name, module) : nullptr;
+           return called && steers(called->body, called->module, depth + 1);
+         });
+}
+
+/// An interrupt is taken not to happen; what its trap writes to is unknown until the program writes it again.
+void Rapid::connect(const Statement& statement, Interpreter& run) {
+  run.note(statement.place, "CONNECT: input, output or logic");
+  if (statement.branches.empty()) return;
+  const Statement& call = statement.branches[0].body[0];
+  run.forget_writes_of(
+      call, run.module(),
+      fmt::format("may be written by the trap {} ({})", call.text, run.short_place(call.place)));
+  if (steers({call}, run.module(), 0))
+    run.note(statement.place,
+             fmt::format("a trap that may move or stop the robot ({}): it is taken not to happen", call.text),
+             true);
+}
+
 bool Rapid::instruction(const Statement& statement, Interpreter& run) {
   const std::string& name = statement.name;
   if (const Signature* signature = rapid_move(name)) return move(*signature, statement, run);
@@ -184,6 +222,8 @@ bool Rapid::instruction(const Statement& statement, Interpreter& run) {
   } else if (name == "confl" || name == "confj") {
     for (const Expression& argument : statement.arguments)
       (name == "confl" ? configuration_of_paths_ : configuration_of_joint_moves_) = argument.option != "off";
+  } else if (name == "connect") {
+    connect(statement, run);
   } else if (name == "callbyvar" && statement.arguments.size() == 2) {
     const Value routine = run.evaluate(statement.arguments[0]);
     const Value number = run.evaluate(statement.arguments[1]);
@@ -263,6 +303,8 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
   if (name == "offs") return offset(call, false, run);
   if (name == "reltool") return offset(call, true, run);
   if (name == "crobt" || name == "cjointt" || name == "cpos") return current_position(call, run);
+  if (name == "opmode" && !run.given(name)) return constant("op_auto");  // a production's cycle is meant
+  if (name == "runmode" && !run.given(name)) return constant("run_cont_cycle");
   if (name == "strtoval") return text_to_value(call, run);
   if (name == "present" && call.items.size() == 1) return truth_value(run.present(call.items[0]));
   static const std::set<std::string> signals{"dinput", "doutput", "ginput",     "goutput",

@@ -69,7 +69,7 @@ std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& 
 }
 
 /// Of backinfo.txt: the modules of a task, "PROGMOD/main.mod @ ..." below ">>TASK1: (T_ROB1,...)"; in lower
-/// case.
+/// case, with '/' (virtual controllers write '\\').
 std::vector<std::string> contents_of(const fs::path& backinfo, const std::string& task) {
   std::istringstream lines(lower_case(pipeline::read_text(backinfo)));
   std::vector<std::string> modules;
@@ -77,24 +77,28 @@ std::vector<std::string> contents_of(const fs::path& backinfo, const std::string
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with(">>")) within = line.starts_with(">>" + lower_case(task) + ":");
     const std::size_t end = line.find(" @");
-    if (within && end != std::string::npos) modules.push_back(line.substr(0, end));
+    if (!within || end == std::string::npos) continue;
+    modules.push_back(line.substr(0, end));
+    std::replace(modules.back().begin(), modules.back().end(), '\\', '/');
   }
   return modules;
 }
 
-/// The modules of a task's folder: those that the backup's contents name, else all.
+/// The modules of a task's folder: those that the backup's contents name, all where they name none of them.
 void add_task(const fs::path& task, const std::vector<fs::path>& files, Backup& backup) {
   std::vector<std::string> named;
+  std::vector<fs::path> own;
   for (const fs::path& file : files)
     if (name_of(file) == "backinfo.txt" &&
         file.parent_path().parent_path() == task.parent_path().parent_path())
       named = contents_of(file, task.filename().string());
-  const bool all = named.empty();
   for (const fs::path& file : files) {
     if (!is_module(file) || task_of(file) != task) continue;
+    own.push_back(file);
     const std::string name = lower_case(file.lexically_relative(task).generic_string());
-    if (all || std::erase(named, name) > 0) backup.files.push_back(file);
+    if (std::erase(named, name) > 0) backup.files.push_back(file);
   }
+  if (backup.files.empty()) backup.files = own;
   backup.missing = named;
 }
 
@@ -102,6 +106,21 @@ std::string names_of(const std::set<fs::path>& paths) {
   std::string names;
   for (const fs::path& path : paths) names += (names.empty() ? "" : ", ") + path.string();
   return names;
+}
+
+/// Of several lists of modules the only one that lies in the folder itself, else the only one of the
+/// controller's own folder, RAPID; all of them where that does not tell.
+void keep_nearest(const fs::path& folder, std::set<fs::path>& lists) {
+  const auto only = [&](const auto& is_meant) {
+    if (std::count_if(lists.begin(), lists.end(), is_meant) == 1)
+      std::erase_if(lists, [&](const fs::path& list) { return !is_meant(list); });
+  };
+  const fs::path here = folder.lexically_normal() / "";
+  only([&](const fs::path& list) { return list.parent_path().lexically_normal() / "" == here; });
+  only([](const fs::path& list) {
+    return std::any_of(list.begin(), list.end(),
+                       [](const fs::path& part) { return lower_case(part.string()) == "rapid"; });
+  });
 }
 
 }  // namespace
@@ -125,6 +144,7 @@ Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, 
     add_task(*moving.begin(), files, backup);
     return backup;
   }
+  if (lists.size() > 1) keep_nearest(folder, lists);
   if (lists.size() > 1)
     throw pipeline::InputError({folder.string()}, "holds several lists of modules",
                                "name one: " + names_of(lists));

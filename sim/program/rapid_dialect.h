@@ -60,6 +60,8 @@ class Rapid final : public Dialect {
   void settings(const Statement& statement, Interpreter& run);
   void wait(const Statement& statement, Interpreter& run);
   bool arithmetic(const Statement& statement, Interpreter& run);
+  void connect(const Statement& statement, Interpreter& run);
+  bool steers(const std::vector<Statement>& body, int module, int depth) const;
   bool named_data(const Statement& statement, Interpreter& run);
   Value offset(const Expression& call, bool in_tool, Interpreter& run);
   Value text_to_value(const Expression& call, Interpreter& run);

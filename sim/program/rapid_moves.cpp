@@ -76,7 +76,9 @@ const Signature* rapid_move(const std::string& instruction) {
 
 std::optional<Value> Rapid::typed(const Expression& written, const char* type, const char* what,
                                   Interpreter& run) {
+  const std::size_t problems = run.problem_count();
   Value value = run.evaluate(written);
+  if (!value.known() && run.problem_count() != problems) return {};  // what makes it unknown is told
   if (!value.known()) {
     const std::string remedy = run.remedy_for(value);
     if (written.kind == Expression::Kind::name && !run.variable(written.text))
@@ -86,11 +88,14 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
           fmt::format("give the module that declares it too (--module, motion.modules), or {}",
                       is_frame(type) ? "its frame in --frames FILE.yaml (motion.tools, motion.work_objects)"
                                      : remedy + " (motion.values)"));
-    else
+    else if (remedy.empty())
       run.complain(written.place,
                    fmt::format("has {} that is known only while the robot runs", what) + run.because(value),
-                   remedy.empty() ? fmt::format("write {} as a constant", what)
-                                  : fmt::format("give {} (motion.values)", remedy));
+                   fmt::format("write {} as a constant", what));
+    else
+      run.miss(remedy, written.place,
+               fmt::format("has {} that is known only while the robot runs", what) + run.because(value),
+               fmt::format("give {} (motion.values)", remedy));
     return {};
   }
   const RecordType* record = code_.record(type);

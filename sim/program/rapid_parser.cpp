@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sim/program/parser.h"
 #include "sim/program/rapid.h"
 
@@ -304,8 +306,18 @@ class RapidParser : StatementParser {
 
   int module_ = -1;
 
+  /// CONNECT number WITH trap; the call of the trap in a branch.
   void connect_statement(Statement& s) {
     s.name = "connect";
+    while (!at_.at_end() && !at_.at_sign(";") && !at_.at_word("with")) at_.next();
+    if (at_.take_word("with")) {
+      Statement call;
+      call.place = at_.place();
+      call.text = std::string(at_.peek().text);
+      call.name = at_.word("a trap");
+      s.branches.emplace_back();
+      s.branches[0].body.push_back(std::move(call));
+    }
     while (!at_.at_end() && !at_.at_sign(";")) at_.next();
     at_.need_sign(";");
   }
@@ -338,7 +350,25 @@ class RapidParser : StatementParser {
 
 }  // namespace
 
+namespace {
+
+/// ABB encodes modules that nobody is to read: bytes without words.
+bool is_encoded(const std::string& text) {
+  const auto is_control = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < ' ' && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f' && byte != 0x1a;
+  };
+  constexpr std::ptrdiff_t one_in = 50;  // of random bytes it is one in ten; text has none
+  return std::count_if(text.begin(), text.end(), is_control) * one_in >
+         static_cast<std::ptrdiff_t>(text.size());
+}
+
+}  // namespace
+
 void parse_rapid(Code& code, int file, Problems& problems) {
+  if (is_encoded(code.files[file].text()))
+    return problems.add({code.files[file].name(), 1, 1}, "is encoded: its routines and data cannot be read",
+                        "give the module as text where the program needs it");
   const std::vector<Token> tokens = tokens_of(code.files[file], {'!', "", false, false}, problems);
   RapidParser(code, file, tokens, problems).run();
 }

@@ -54,10 +54,10 @@ std::pair<std::string, std::string> routine_and_arguments(const std::string& wri
 void add_requests(Code& code, const ImportOptions& options, bool krl, Problems& problems) {
   for (const auto& [name, text] : options.values)
     read_text(code, "value " + name, text, krl, problems,
-              [&](Cursor& at) { code.values[value_key(name)] = at.expression(); });
+              [&, &name = name](Cursor& at) { code.values[value_key(name)] = at.expression(); });
   for (const auto& [line, text] : options.choose)
     read_text(code, "assumption " + line, text, krl, problems,
-              [&](Cursor& at) { code.choices[line] = at.expression(); });
+              [&, &line = line](Cursor& at) { code.choices[line] = at.expression(); });
   const auto [routine, arguments] = routine_and_arguments(options.routine);
   code.start = lower_case(routine);
   if (!arguments.empty())

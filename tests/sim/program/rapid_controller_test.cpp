@@ -1,0 +1,269 @@
+// What an ABB controller makes of modules as they lie on it: each case says what it does and why.
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "tests/sim/program/reading.h"
+
+using namespace dresslife;
+using namespace dresslife::sim;
+using dresslife::tests::Reader;
+using dresslife::tests::Reading;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+
+/// Axis angles of which the first one tells moves apart.
+std::string axes(double first) { return fmt::format("[[{},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", first); }
+std::string go(double first) { return "MoveAbsJ " + axes(first) + ",v1000,fine,tool0;\n"; }
+const std::string pose =
+    "CONST robtarget p:=[[1000,0,1000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n";
+
+Reading run(const std::string& body, const std::string& more = "", const ImportOptions& options = {}) {
+  return Reader{Language::rapid,
+                options}({{"m.mod", "MODULE m\nPROC main()\n" + body + "ENDPROC\n" + more + "ENDMODULE\n"}});
+}
+
+ImportOptions giving(const std::string& name, const std::string& value) {
+  ImportOptions options;
+  options.values[name] = value;
+  return options;
+}
+
+/// Angles of axis 1 over the moves [deg].
+std::vector<double> first_axes(const Reading& reading) {
+  INFO(reading.problem());
+  CHECK(reading.problems.empty());
+  std::vector<double> angles;
+  for (const Instruction& move : reading.program.instructions)
+    if (!move.target.joints.empty()) angles.push_back(std::round(move.target.joints[0] / degree));
+  return angles;
+}
+using Angles = std::vector<double>;
+
+bool warns(const Reading& reading, const std::string& words) {
+  return std::any_of(reading.program.skipped.begin(), reading.program.skipped.end(),
+                     [&](const Skipped& s) { return s.may_move && s.what.find(words) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("rapid controller: LOCAL data and routines are their module's own") {
+  // Both modules hold a LOCAL j and a LOCAL step; each sees its own, whichever is read last.
+  const auto module = [](const std::string& name, double at, const std::string& routine,
+                         const std::string& call) {
+    return "MODULE " + name + "\nLOCAL CONST jointtarget j:=" + axes(at) + ";\nPROC " + routine +
+           "()\nMoveAbsJ j,v1000,fine,tool0;\nstep;\n" + call + "ENDPROC\nLOCAL PROC step()\n" + go(at + 1) +
+           "ENDPROC\nENDMODULE\n";
+  };
+  const std::pair<std::string, std::string> a{"a.mod", module("a", 1, "main", "other;\n")},
+      b{"b.mod", module("b", 11, "other", "")};
+  CHECK(first_axes(Reader{Language::rapid}({a, b})) == Angles{1, 2, 11, 12});
+  CHECK(first_axes(Reader{Language::rapid}({b, a})) == Angles{1, 2, 11, 12});
+}
+
+TEST_CASE("rapid controller: one name for two global things is refused where it is used") {
+  // A controller does not load the second module; which of the two was meant, nobody can tell.
+  const std::string twice =
+      "MODULE m\nPROC main()\n" + go(1) + "ENDPROC\nPROC main()\n" + go(2) + "ENDPROC\nENDMODULE\n";
+  CHECK_THAT(Reader{Language::rapid}({{"m.mod", twice}}).problem(),
+             Catch::Contains("holds 'main', which stands in m.mod"));
+  const auto data = [](double at) { return "MODULE d\nCONST jointtarget j:=" + axes(at) + ";\nENDMODULE\n"; };
+  const std::pair<std::string, std::string> user{
+      "m.mod", "MODULE m\nPROC main()\nMoveAbsJ j,v1000,fine,tool0;\nENDPROC\nENDMODULE\n"};
+  CHECK_THAT(Reader{Language::rapid}({user, {"d.mod", data(1)}, {"e.mod", data(2)}}).problem(),
+             Catch::Contains("gives 'j' another value than"));
+  CHECK(first_axes(Reader{Language::rapid}({user, {"d.mod", data(1)}, {"e.mod", data(1)}})) == Angles{1});
+}
+
+TEST_CASE("rapid controller: what an instruction that is left out writes is unknown behind it") {
+  // k is 0 in the file, but the operator types it: neither the branch nor the count may go by 0.
+  for (const char* reads :
+       {"TPReadNum k,\"how many?\";", "TPReadFK k,\"which?\",\"A\",\"B\",stEmpty,stEmpty,stEmpty;",
+        "GetNumber k;", "found:=StrToVal(typed,k);", "UnpackRawBytes raw,1,k\\Float4;"}) {
+    CAPTURE(reads);
+    const std::string declared = "VAR num k:=0;\nVAR bool found;\n";
+    const Reading branch = run(declared + reads + std::string("\nIF k=1 THEN\n") + go(1) + "ENDIF\n" + go(2));
+    CHECK_THAT(branch.problem(), Catch::Contains("branches on what is known only while the robot runs: 'k'"));
+    CHECK_THAT(branch.problem(), Catch::Contains("--value 'k=...'"));
+    const Reading count =
+        run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n" + go(2));
+    CHECK_THAT(count.problem(), Catch::Contains("counts to what is known only while the robot runs"));
+    CHECK(first_axes(run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n", "",
+                         giving("k", "3"))) == Angles{1, 1, 1});
+  }
+}
+
+TEST_CASE("rapid controller: Incr, Decr, Add and Clear are arithmetic") {
+  CHECK(first_axes(run("VAR num n:=0;\nWHILE n<3 DO\n" + go(1) + "Incr n;\nENDWHILE\n")) == Angles{1, 1, 1});
+  CHECK(first_axes(run("VAR num n:=3;\nClear n;\nIF n=3 THEN\n" + go(1) + "ELSE\n" + go(2) + "ENDIF\n")) ==
+        Angles{2});
+  CHECK(first_axes(run("VAR num n:=5;\nDecr n;\nAdd n,-2;\nIF n=2 THEN\n" + go(1) + "ENDIF\n")) == Angles{1});
+}
+
+TEST_CASE("rapid controller: FOR counts down by itself where the end is smaller") {
+  CHECK(first_axes(run("FOR i FROM 3 TO 1 DO\nMoveAbsJ "
+                       "[[i,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\nENDFOR\n")) ==
+        Angles{3, 2, 1});
+}
+
+TEST_CASE("rapid controller: ConfL frees lines, ConfJ joint moves") {
+  const Reading lines =
+      run("ConfL\\Off;\nMoveJ p,v1000,fine,tool0;\nMoveL Offs(p,0,0,-100),v1000,fine,tool0;\n", pose);
+  REQUIRE(lines.problem() == "no such problem");
+  CHECK(lines.move(0).target.configuration.text() == "abb 0 0 0 0");
+  CHECK(lines.move(1).target.configuration.kind == ArmConfiguration::Kind::any);
+  const Reading joints =
+      run("ConfJ\\Off;\nMoveJ p,v1000,fine,tool0;\nMoveL Offs(p,0,0,-100),v1000,fine,tool0;\n", pose);
+  CHECK(joints.move(0).target.configuration.kind == ArmConfiguration::Kind::any);
+  CHECK(joints.move(1).target.configuration.text() == "abb 0 0 0 0");
+}
+
+TEST_CASE("rapid controller: an index out of range and a division by zero stop the program") {
+  const Reading r = run("VAR num z{3}:=[1,2,3];\nVAR num y:=7;\nz{4}:=9;\nz{0}:=8;\ny:=1/0;\n" + go(1));
+  REQUIRE(r.problems.size() == 3);
+  CHECK_THAT(r.problem(0), Catch::Contains("m.mod:5:") && Catch::Contains("the index 4 of a list of 3"));
+  CHECK_THAT(r.problem(1), Catch::Contains("the index 0 of a list of 3"));
+  CHECK_THAT(r.problem(2), Catch::Contains("divides by zero"));
+  // What is unknown for that reason is not complained of once more.
+  const Reading target =
+      run("VAR robtarget t{2};\nMoveJ t{3},v1000,fine,tool0;\nIF t{3}.trans.x>0 THEN\n" + go(1) + "ENDIF\n");
+  REQUIRE(target.problems.size() == 2);
+  CHECK_THAT(target.problem(1), Catch::Contains("the index 3 of a list of 2"));
+}
+
+TEST_CASE("rapid controller: ExitCycle ends the pass") {
+  CHECK(first_axes(run(go(1) + "ExitCycle;\n" + go(2))) == Angles{1});
+}
+
+TEST_CASE("rapid controller: a weave is told, the line is followed") {
+  const Reading r = run("ArcL p,v100,sm1,wd1\\Weave:=wv1,fine,tool0;\n",
+                        pose +
+                            "PERS seamdata sm1:=[1,1,0,0];\nPERS welddata "
+                            "wd1:=[8,0,[5,0,24,0,0,0,0,0,0],[0,0,0,0,0,0,0,0,0]];\n"
+                            "PERS weavedata wv1:=[1,0,3,4,0,0,0,0,0,0,0,0,0,0,0];\n");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(warns(r, "the torch swings"));
+  CHECK(r.move(0).speed.tool.value() == Approx(0.008).epsilon(rounding));  // welddata begins with 8 mm/s
+}
+
+TEST_CASE("rapid controller: a mistake counts where it runs") {
+  CHECK(first_axes(run(go(1), "PROC unused()\n<SMT>\nENDPROC\n")) == Angles{1});
+  CHECK_THAT(run(go(1) + "unused;\n", "PROC unused()\n<SMT>\nENDPROC\n").problem(),
+             Catch::Contains("m.mod:"));
+}
+
+TEST_CASE("rapid controller: optional arguments are handed on, arguments may have names") {
+  const std::string routines =
+      "PROC first(\\switch fast)\nstep \\fast?fast;\nENDPROC\nPROC step(\\switch fast)\nIF Present(fast) "
+      "THEN\n" +
+      go(1) + "ELSE\n" + go(2) + "ENDIF\nENDPROC\n";
+  CHECK(first_axes(run("first \\fast;\nfirst;\n", routines)) == Angles{1, 2});
+  const Reading named = run("MoveJ p,v1000,fine,Tool:=tool0;\n", pose);
+  REQUIRE(named.problem() == "no such problem");
+  CHECK(named.program.instructions.size() == 1);
+}
+
+TEST_CASE("rapid controller: a routine's name may be worked out") {
+  CHECK(first_axes(run("VAR num n:=1;\n%\"step\"+ValToStr(n)%;\nCallByVar \"step\",2;\n",
+                       "PROC step1()\n" + go(1) + "ENDPROC\nPROC step2()\n" + go(2) + "ENDPROC\n")) ==
+        Angles{1, 2});
+}
+
+TEST_CASE("rapid controller: CJointT stands where the last joint move led") {
+  const Reading r = run("VAR jointtarget j;\n" + go(5) +
+                        "j:=CJointT();\nj.robax.rax_6:=j.robax.rax_6+90;\nMoveAbsJ j,v1000,fine,tool0;\n");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.move(1).target.joints[0] == Approx(5 * degree).epsilon(rounding));
+  CHECK(r.move(1).target.joints[5] == Approx(90 * degree).epsilon(rounding));
+  CHECK_THAT(
+      run("VAR jointtarget j;\nMoveJ p,v1000,fine,tool0;\nj:=CJointT();\nMoveAbsJ j,v1000,fine,tool0;\n",
+          pose)
+          .problem(),
+      Catch::Contains("asks for the axes at a target that is a pose"));
+}
+
+TEST_CASE("rapid controller: inputs are given by their names, arguments behind the routine's") {
+  const std::string lift = "MoveL Offs(p,0,0,10*GInput(gi1)),v1000,fine,tool0;\n";
+  CHECK_THAT(run(lift, pose).problem(), Catch::Contains("give --value 'gi1=...'"));
+  CHECK(run(lift, pose, giving("gi1", "2")).move(0).target.pose.position.z() ==
+        Approx(1.02).epsilon(rounding));
+  ImportOptions routine;
+  routine.routine = "drill(3)";
+  CHECK(first_axes(run(go(1),
+                       "PROC drill(num at)\nMoveAbsJ "
+                       "[[at,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\nENDPROC\n",
+                       routine)) == Angles{3});
+}
+
+TEST_CASE("rapid controller: the loop that runs away is named, not the routine that it called") {
+  const Reading r =
+      run("VAR num n:=0;\nWHILE n<10 DO\nsignals;\nENDWHILE\n", "PROC signals()\nSetDO do1,1;\nENDPROC\n");
+  CHECK_THAT(r.problem(), Catch::Contains("m.mod:4:") && Catch::Contains("--assume m.mod:4=then"));
+}
+
+TEST_CASE("rapid controller: what is missing is told once, with the number of its other places") {
+  const Reading frames =
+      run("FOR i FROM 1 TO 3 DO\nMoveJ p,v1000,fine,grip\\WObj:=pallet;\nMoveL "
+          "p,v1000,fine,grip\\WObj:=pallet;\nENDFOR\n",
+          pose);
+  REQUIRE(frames.problems.size() == 2);
+  for (const Problem& problem : frames.problems) CHECK(problem.more_uses.size() == 1);  // lines, not passes
+  CHECK_THAT(frames.problem(0), Catch::Contains("'grip'") && Catch::Contains("--frames"));
+  const Reading parts =
+      run("MoveJ Offs(p,0,0,height),v1000,fine,tool0;\nMoveL Offs(p,0,0,height+5),v1000,fine,tool0;\n", pose);
+  REQUIRE(parts.problems.size() == 1);
+  CHECK_THAT(parts.problem(), Catch::Contains("'height' is a name that no file read declares"));
+  CHECK(parts.problems[0].more_uses.size() == 1);
+}
+
+TEST_CASE("rapid controller: one question for one decision, whatever it hangs on") {
+  const Reading r = run("wait di1;\nwait di2;\n",
+                        "PROC wait(VAR signaldi input)\nIF input=1 THEN\n" + go(1) + "ENDIF\nENDPROC\n");
+  REQUIRE(r.problems.size() == 1);
+  CHECK_THAT(r.problem(), Catch::Contains("--assume m.mod:7=then"));
+}
+
+TEST_CASE(
+    "rapid controller: encoded modules are told for what they are, and matter only where they are called") {
+  std::string encoded;
+  for (int i = 0; i < 2000; ++i) encoded += static_cast<char>(i * 37 % 256);
+  const auto with = [&](const std::string& body) {
+    return Reader{Language::rapid}(
+        {{"m.mod", "MODULE m\nPROC main()\n" + body + "ENDPROC\nENDMODULE\n"}, {"secret.mod", encoded}});
+  };
+  CHECK(first_axes(with(go(1))) == Angles{1});
+  const Reading failed = with("MoveJ hidden,v1000,fine,tool0;\n");
+  REQUIRE(failed.problems.size() == 2);
+  CHECK_THAT(failed.problem(1), Catch::Contains("secret.mod:1:1: error: is encoded"));
+}
+
+TEST_CASE("rapid controller: production is meant where a program asks for the operating mode") {
+  const std::string choice = "IF OpMode()<>OP_AUTO THEN\n" + go(1) + "ELSE\n" + go(2) + "ENDIF\n";
+  CHECK(first_axes(run(choice)) == Angles{2});
+  CHECK(first_axes(run(choice, "", giving("opmode", "2"))) == Angles{1});
+}
+
+TEST_CASE("rapid controller: SpeedRefresh slows down; 0 lets the robot stand until a trap lets it go on") {
+  const Reading r = run("SpeedRefresh 50;\n" + go(1) + "SpeedRefresh 0;\n" + go(2));
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.move(0).speed.tool.value() == Approx(0.5).epsilon(rounding));
+  CHECK(r.move(1).speed.tool.value() == Approx(0.5).epsilon(rounding));
+  CHECK(warns(r, "SpeedRefresh 0"));
+}
+
+TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the robot is told") {
+  // Interrupts come whenever they come: a variable of a trap is known again once the program writes it.
+  const std::string traps =
+      "VAR bool stopped:=FALSE;\nVAR intnum number;\nTRAP halt\nstopped:=TRUE;\nENDTRAP\nTRAP "
+      "flee\nStopMove;\n" +
+      go(9) + "ENDTRAP\n";
+  const std::string branch = "IF stopped THEN\n" + go(1) + "ELSE\n" + go(2) + "ENDIF\n";
+  CHECK_THAT(run("CONNECT number WITH halt;\nISignalDI di1,1,number;\n" + branch, traps).problem(),
+             Catch::Contains("'stopped' may be written by the trap halt (m.mod:3)"));
+  CHECK(first_axes(run("CONNECT number WITH halt;\nstopped:=FALSE;\n" + branch, traps)) == Angles{2});
+  CHECK(warns(run("CONNECT number WITH flee;\n" + go(1), traps),
+              "a trap that may move or stop the robot (flee)"));
+  CHECK_FALSE(warns(run("CONNECT number WITH halt;\n" + go(1), traps), "a trap"));
+}
