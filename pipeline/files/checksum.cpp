@@ -20,13 +20,17 @@ constexpr std::string_view before_digest = "xxh3-128 ", before_bytes = " of ";
 constexpr std::size_t digest_digits = 32;
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 
-std::string block_of(const std::string& digest, std::uint64_t bytes) {
+}  // namespace
+
+std::string checksum_block(const std::string& digest, std::uint64_t bytes) {
   std::string block(first_line);
   block += fmt::format("{}{}{}{} bytes after these {}", before_digest, digest, before_bytes, bytes,
                        checksum_block_bytes);
   block.resize(checksum_block_bytes, '\n');
   return block;
 }
+
+namespace {
 
 struct Promise {
   std::string digest;
@@ -39,7 +43,7 @@ std::optional<Promise> promise_of(const std::string& block) {
   constexpr std::size_t bytes_at = digest_at + digest_digits + before_bytes.size();
   Promise promise{block.substr(digest_at, digest_digits), 0};
   std::from_chars(block.data() + bytes_at, block.data() + block.size(), promise.bytes);
-  if (block_of(promise.digest, promise.bytes) != block) return std::nullopt;
+  if (checksum_block(promise.digest, promise.bytes) != block) return std::nullopt;
   return promise;
 }
 
@@ -55,7 +59,7 @@ std::string write_checksum(WholeFile& file) {
   if (digest.empty())
     throw InputError({file.final_name().string()},
                      fmt::format("cannot be read back ({})", std::strerror(errno)), "check the disk");
-  const std::string block = block_of(digest, size - checksum_block_bytes);
+  const std::string block = checksum_block(digest, size - checksum_block_bytes);
   file.write_at(block.data(), block.size(), 0);
   return digest;
 }

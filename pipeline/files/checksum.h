@@ -19,6 +19,9 @@ namespace dresslife::pipeline {
 
 inline constexpr std::uint64_t checksum_block_bytes = 512;
 
+/// The block in front of so many bytes with this XXH3 digest.
+std::string checksum_block(const std::string& digest, std::uint64_t bytes);
+
 /// Digests what has been written so far after the block and writes the block. Returns the digest.
 /// Errors: InputError when the file cannot be read back or written.
 std::string write_checksum(WholeFile& file);

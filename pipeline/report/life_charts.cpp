@@ -198,12 +198,12 @@ PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
   if (found != life.dresspack.end())
     place.dresspack = static_cast<std::size_t>(found - life.dresspack.begin());
   const std::vector<std::size_t> of_segment = dresspack_of_segments(file);
-  const auto [first, end] = std::equal_range(of_segment.begin(), of_segment.end(), place.dresspack);
-  place.first_segment = static_cast<std::size_t>(first - of_segment.begin());
+  const auto range = std::equal_range(of_segment.begin(), of_segment.end(), place.dresspack);
+  const auto first = range.first - of_segment.begin(), end = range.second - of_segment.begin();
+  place.first_segment = static_cast<std::size_t>(first);
   const auto own = [&](const char* dataset) {
     const std::vector<double> all = file.read<double>(dataset);
-    return std::vector<double>(all.begin() + (first - of_segment.begin()),
-                               all.begin() + (end - of_segment.begin()));
+    return std::vector<double>(all.begin() + first, all.begin() + end);
   };
   life.segment_length = own("/segment/length");
   life.segment_damage = own("/segment/damage");

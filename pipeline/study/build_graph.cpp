@@ -132,18 +132,19 @@ std::string error_line(const fs::path& log) {
 /// Why a job is not done after a run.
 std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result) {
   const Stage& stage = stages[state.next];
-  const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
-  if (receipt && receipt->recipe != state.recipes[state.next])
-    return fmt::format("{}: error: its files or programs changed while the study ran; run again",
-                       stage.output);
   std::error_code ignored;
   if (!fs::is_regular_file(folder / log_file(stage), ignored))
     return result.words.empty() ? "it was not reached"
                                 : "it was not reached: " + result.words + "; run again";
-  const std::string line = error_line(folder / log_file(stage));
-  return line.empty()
-             ? fmt::format("{} ended without a word (killed, or out of memory?)", program_name(stage))
-             : line;
+  if (const std::string line = error_line(folder / log_file(stage)); !line.empty()) return line;
+  // From here on the stage said nothing; a receipt may be older than this run.
+  if (!result.words.empty())
+    return fmt::format("{} was broken off: {}; run again", program_name(stage), result.words);
+  const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
+  if (receipt && receipt->recipe != state.recipes[state.next])
+    return fmt::format("{}: error: its files or programs changed while the study ran; run again",
+                       stage.output);
+  return fmt::format("{} ended without a word (killed, or out of memory?)", program_name(stage));
 }
 
 void join_logs(const fs::path& folder) {
@@ -277,7 +278,7 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel,
       event.what = fmt::format("{} {}", stage, job);
       ++result.executed;
       if (on_event) on_event(event);
-    } else if (line.find("error") != std::string::npos) {
+    } else if (line.starts_with("ninja: ")) {
       said = line;
     }
   }

@@ -1,0 +1,29 @@
+// libFuzzer's entry for jobs: any bytes as a job's YAML. What is not refused must come back the same from its
+// own echo. Not part of the tests; built by scripts/fuzz.
+#include <cstdlib>
+#include <fstream>
+
+#include "pipeline/job/job.h"
+#include "tests/pipeline/sample_job.h"
+
+using namespace dresslife::pipeline;
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  std::ofstream("corpus/sample") << sample_job;
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  std::string echo;
+  try {
+    echo = job_text(job_from(parse_yaml(std::string(reinterpret_cast<const char*>(data), size), "job.yaml")));
+  } catch (const InputError&) {
+    return 0;
+  }
+  // Read outside the try block: an echo that is refused is our fault.
+  const Job again = job_from(parse_yaml(echo, "job.yaml"));
+  if (job_text(again) != echo) std::abort();
+  for (const Part part : {Part::sim, Part::strain, Part::fatigue}) part_text(again, part);
+  files_beside(again);
+  return 0;
+}

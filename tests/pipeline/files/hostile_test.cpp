@@ -1,0 +1,131 @@
+// Files that promise what they do not hold, or point elsewhere: refused before memory is taken or another
+// file is read.
+#include <hdf5.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <vector>
+
+#include "pipeline/files/files.h"
+#include "tests/pipeline/scratch.h"
+
+using namespace dresslife::pipeline;
+
+namespace {
+
+const Format two_rows{"dresslife-rows",
+                      1,
+                      "dresslife-maker",
+                      "tests",
+                      {{"/group/rows", Type::f64, {"row", "2"}, "m", "rows"}},
+                      {}};
+
+/// A file of the format without a checksum block, in which `change` may put another dataset.
+class Made {
+ public:
+  Made() {
+    FileWriter writer(scratch_ / "whole.h5", two_rows);
+    writer.append("/group/rows", std::span<const double>(std::vector<double>{1, 2, 3, 4}));
+    writer.attribute("job", std::string("a: 1\n"));
+    writer.commit();
+    std::ofstream(scratch_ / "f.h5", std::ios::binary) << bytes_of(scratch_ / "whole.h5").substr(512);
+    file_ = H5Fopen((scratch_ / "f.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    REQUIRE(file_ >= 0);
+  }
+  hid_t file() const { return file_; }
+  void remove(const char* path) const { REQUIRE(H5Ldelete(file_, path, H5P_DEFAULT) >= 0); }
+  /// Puts a dataset of `lengths` there, with its unit.
+  void put(hid_t creation, std::vector<hsize_t> lengths) const {
+    remove("/group/rows");
+    const hid_t space = H5Screate_simple(static_cast<int>(lengths.size()), lengths.data(), nullptr);
+    const hid_t made =
+        H5Dcreate2(file_, "/group/rows", H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    REQUIRE(made >= 0);
+    const hid_t type = H5Tcopy(H5T_C_S1), one = H5Screate(H5S_SCALAR);
+    const hid_t unit = H5Acreate2(made, "unit", type, one, H5P_DEFAULT, H5P_DEFAULT);
+    REQUIRE(H5Awrite(unit, type, "m") >= 0);
+    H5Aclose(unit);
+    H5Sclose(one);
+    H5Tclose(type);
+    H5Dclose(made);
+    H5Sclose(space);
+    H5Pclose(creation);
+  }
+  /// What the reader says to the file, without its name and the remedy.
+  std::string refusal() {
+    H5Fclose(file_);
+    const std::string message =
+        message_of([&] { FileReader(scratch_ / "f.h5", two_rows).read<double>("/group/rows"); });
+    const std::string before = (scratch_ / "f.h5").string() + ": error: ",
+                      after = "; make the file anew with dresslife-maker";
+    if (!message.starts_with(before) || !message.ends_with(after)) return message;
+    return message.substr(before.size(), message.size() - before.size() - after.size());
+  }
+  const Scratch& scratch() const { return scratch_; }
+
+ private:
+  Scratch scratch_;
+  hid_t file_ = -1;
+};
+
+hid_t chunked(std::vector<hsize_t> lengths) {
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(creation, static_cast<int>(lengths.size()), lengths.data());
+  return creation;
+}
+
+}  // namespace
+
+TEST_CASE("hostile files: the file that the others are made of is read") {
+  Made made;
+  CHECK(made.refusal().empty());
+}
+
+TEST_CASE("hostile files: values that are promised and not there are refused before memory is taken") {
+  Made made;
+  made.put(chunked({1000, 2}), {1'000'000'000, 2});  // 16 GB in a file of kilobytes
+  CHECK(made.refusal() == "dataset /group/rows has 0 of its 1000000 chunks (the file is damaged)");
+  Made endless;
+  endless.put(chunked({1000, 2}), {hsize_t{1} << 62, 2});
+  CHECK(endless.refusal() == "dataset /group/rows is too large");
+  Made lumps;
+  lumps.put(chunked({hsize_t{1} << 26, 2}), {hsize_t{1} << 26, 2});
+  CHECK(lumps.refusal() == "dataset /group/rows has chunks of 1073741824 bytes");
+  Made plain;
+  plain.put(H5Pcreate(H5P_DATASET_CREATE), {1'000'000'000, 2});
+  CHECK(plain.refusal() == "dataset /group/rows was never filled");
+}
+
+TEST_CASE("hostile files: data that lies in other files is not followed") {
+  {
+    Made made;
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    REQUIRE(H5Pset_external(creation, "/etc/passwd", 0, 32) >= 0);
+    made.put(creation, {2, 2});
+    CHECK(made.refusal() == "dataset /group/rows lies in other files (the data must lie in the file itself)");
+  }
+  {
+    Made made;
+    hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    const hsize_t lengths[] = {2, 2};
+    const hid_t space = H5Screate_simple(2, lengths, nullptr);
+    REQUIRE(H5Pset_virtual(creation, space, (made.scratch() / "whole.h5").c_str(), "/group/rows", space) >=
+            0);
+    H5Sclose(space);
+    made.put(creation, {2, 2});
+    CHECK(made.refusal() == "dataset /group/rows lies in other files (the data must lie in the file itself)");
+  }
+  const std::string other = "whole.h5";
+  for (const bool group : {false, true}) {
+    const char* const way = group ? "/group" : "/group/rows";
+    Made outside;
+    outside.remove(way);
+    REQUIRE(H5Lcreate_external(other.c_str(), way, outside.file(), way, H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    CHECK(outside.refusal() == std::string(way) + " is a link (the data must lie in the file itself)");
+    Made inside;
+    inside.remove(way);
+    REQUIRE(H5Lcreate_soft(way, inside.file(), way, H5P_DEFAULT, H5P_DEFAULT) >= 0);  // to itself
+    CHECK(inside.refusal() == std::string(way) + " is a link (the data must lie in the file itself)");
+  }
+}
