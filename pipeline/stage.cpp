@@ -7,7 +7,6 @@
 #include <cstring>
 #include <iostream>
 #include <system_error>
-#include <thread>
 
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/digest.h"
@@ -45,10 +44,10 @@ void check_output(const StageCall& call, bool force) {
   if (call.info.may_lack_output && call.output.empty()) return;
   check_replaceable(call.output);
   std::error_code failure;
-  for (const auto& [input, state] : call.inputs)
-    if (std::filesystem::equivalent(input, call.output, failure))
+  for (const StageInput& input : call.inputs)
+    if (std::filesystem::equivalent(input.file, call.output, failure))
       throw InputError({call.output.string()},
-                       input == call.input ? "is the input itself" : "is one of the files that are read",
+                       input.file == call.input ? "is the input itself" : "is one of the files that are read",
                        "name another output after -o");
   const auto folder = call.output.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder, failure))
@@ -67,19 +66,22 @@ FileState input_state(const std::filesystem::path& file) {
   return failure ? FileState{} : state_of(target);
 }
 
-/// A change from now on shows in the state: the clock of file times has moved on since the last one.
-FileState settled_state(const std::filesystem::path& file) {
+/// Two changes within one tick of the clock of file times have the same state: of a file that was changed so
+/// lately, or by a clock that ran ahead, the bytes count.
+StageInput input_as_it_is(const std::filesystem::path& file) {
   constexpr auto tick = std::chrono::milliseconds(10);  // of the slowest kernels
+  const FileState state = input_state(file);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const std::int64_t age = std::chrono::nanoseconds(now).count() - input_state(file).changed_ns;
-  if (age >= 0 && age < std::chrono::nanoseconds(tick).count()) std::this_thread::sleep_for(tick);
-  return input_state(file);
+  const std::int64_t age = std::chrono::nanoseconds(now).count() - state.changed_ns;
+  const bool young = age < std::chrono::nanoseconds(tick).count();
+  return {file, state, young ? told_checksum(file) : std::nullopt};
 }
 
 void check_inputs_unchanged(const StageCall& call) {
-  for (const auto& [file, before] : call.inputs)
-    if (input_state(file) != before)
-      throw InputError({file.string()}, fmt::format("has changed while {} ran", call.info.program),
+  for (const StageInput& input : call.inputs)
+    if (input_state(input.file) != input.state ||
+        (input.checksum && told_checksum(input.file) != input.checksum))
+      throw InputError({input.file.string()}, fmt::format("has changed while {} ran", call.info.program),
                        "run it again");
 }
 
@@ -128,9 +130,7 @@ void run_body(StageCall& call, const StageFlags& flags,
   limit_time(call.info.program, flags.seconds);
   limit_memory(flags.megabytes);
   Progress progress(call.info.program, call.quiet);
-  const auto watch = [&](const std::filesystem::path& file) {
-    call.inputs.emplace_back(file, settled_state(file));
-  };
+  const auto watch = [&](const std::filesystem::path& file) { call.inputs.push_back(input_as_it_is(file)); };
   watch(call.input);
   if (!call.job_file.empty()) watch(call.job_file);
   std::optional<Settings> settings;

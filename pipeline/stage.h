@@ -40,6 +40,13 @@ struct StageInfo {
   std::optional<Part> part = {};  ///< of the job, on which the result depends; nothing: no stage of a study
 };
 
+/// A file that is read, as it was when the stage began.
+struct StageInput {
+  std::filesystem::path file;
+  FileState state;
+  std::optional<std::string> checksum;  ///< of a file so young that its state could hide a change
+};
+
 struct StageCall {
   StageInfo info;
   std::filesystem::path input, output;
@@ -48,7 +55,7 @@ struct StageCall {
   std::vector<std::vector<std::string>> options;  ///< values given for each of info.options
   bool quiet = false;
   std::shared_future<std::string> input_sha256{};  ///< worked out beside the stage, for the stamp
-  std::vector<std::pair<std::filesystem::path, FileState>> inputs{};  ///< files that are read, as they began
+  std::vector<StageInput> inputs{};
 };
 
 /// Parses the command line, runs `body`, words what it throws. Returns the exit status. With --receipt, the

@@ -7,10 +7,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -213,23 +211,6 @@ FileState state_of(int descriptor) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return {};
   return state_from(status);
-}
-
-bool settle(const fs::path& file, FileState& state) {
-  constexpr auto most_wait = std::chrono::milliseconds(60),
-                 pause = std::chrono::milliseconds(1);  // ticks are 1 .. 10 ms
-  state = state_of(file);
-  const auto [made, probe] = make_part(file);
-  if (made < 0) return false;
-  bool settled = false;
-  for (auto waited = most_wait - most_wait; waited < most_wait && !settled; waited += pause) {
-    if (::pwrite(made, "", 1, 0) != 1) break;
-    settled = state_of(made).changed_ns > state.changed_ns;
-    if (!settled) std::this_thread::sleep_for(pause);
-  }
-  ::close(made);
-  ::unlink(probe.c_str());
-  return settled && state == state_of(file);
 }
 
 bool read_at(int descriptor, void* bytes, std::size_t count, std::uint64_t offset) {

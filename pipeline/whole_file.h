@@ -64,8 +64,8 @@ void remove_leftovers(const std::filesystem::path& final_name);
 void check_replaceable(const std::filesystem::path& file);
 
 /// When a file's bytes or its name were last changed, as the file system tells it. Equal states of one path
-/// are the same bytes, provided that the first was taken when a tick of the file system's clock had passed
-/// since the change.
+/// are the same bytes, provided that the first was taken when a tick of the file system's clock (1 .. 10 ms)
+/// had passed since the change.
 struct FileState {
   std::int64_t size = -1, modified_ns = 0, changed_ns = 0;
   std::uint64_t inode = 0;
@@ -74,10 +74,6 @@ struct FileState {
 };
 FileState state_of(const std::filesystem::path& file);
 FileState state_of(int descriptor);
-
-/// The state when any later change will show in it: waits until the clock of the file's folder has moved on
-/// since the last change, at most `most_wait`. Nothing when it has not by then (clocks of whole seconds).
-bool settle(const std::filesystem::path& file, FileState& state);
 
 /// Fills `count` bytes from `offset`; zeros beyond the end. False: errno tells why.
 bool read_at(int descriptor, void* bytes, std::size_t count, std::uint64_t offset);

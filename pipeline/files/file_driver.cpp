@@ -74,8 +74,8 @@ herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t coun
   return 0;
 }
 
-/// Called when the library has given its last space back. The length is set even where the last write made it:
-/// whether that is so depends on what was packed how well, and every file shall end on the same path.
+/// Called when the library has given its last space back. The length is set even where the last write made
+/// it: whether that is so depends on what was packed how well, and every file shall end on the same path.
 herr_t cut_file(H5FD_t* file, hid_t, hbool_t) {
   OpenFile& of = opened(file);
   if (!of.target.written) return 0;

@@ -1,6 +1,8 @@
 #include "pipeline/files/receipt.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <cstdio>
 #include <fstream>
@@ -50,6 +52,7 @@ std::optional<Receipt> read_receipt(const std::filesystem::path& file) {
         state.size >> state.modified_ns >> state.changed_ns >> state.inode >> end) ||
       word[0] != "recipe" || word[1] != "input" || word[2] != "output" || word[3] != "state" || end != "end")
     return std::nullopt;
+  receipt.written_ns = state_of(file).changed_ns;
   return receipt;
 }
 
@@ -65,23 +68,24 @@ std::string text_of(const Receipt& receipt) {
 }  // namespace
 
 void write_receipt(const std::filesystem::path& file, Receipt receipt, const std::filesystem::path& output) {
-  if (!settle(output, receipt.state)) receipt.state = {};
+  receipt.state = state_of(output);
   write_text_if_changed(file, text_of(receipt), Sync::never);
+  // A receipt that says what it said before is now as young as this look at the output.
+  if (state_of(file).changed_ns <= receipt.state.changed_ns) ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);
 }
 
 void renew_receipt(const std::filesystem::path& file, const std::filesystem::path& output) {
-  std::optional<Receipt> receipt = read_receipt(file);
-  FileState state;
+  const std::optional<Receipt> receipt = read_receipt(file);
+  const FileState state = state_of(output);
   // The bytes are compared after the state was taken: what changes them later changes the state.
-  if (!receipt || !settle(output, state) || checksum_of(output) != receipt->output) return;
-  receipt->state = state;
-  write_text_if_changed(file, text_of(*receipt), Sync::never);
+  if (receipt && checksum_of(output) == receipt->output && state_of(output) == state)
+    write_receipt(file, *receipt, output);
 }
 
 bool is_as_noted(const Receipt& receipt, const std::filesystem::path& output) {
   const FileState now = state_of(output);
   if (!now.exists()) return false;
-  return (receipt.state.exists() && receipt.state == now) || checksum_of(output) == receipt.output;
+  return (receipt.state_suffices() && receipt.state == now) || checksum_of(output) == receipt.output;
 }
 
 }  // namespace dresslife::pipeline

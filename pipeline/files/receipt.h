@@ -7,10 +7,10 @@
 //   input:  checksum of the file of the stage before ("-" for a job);
 //   output: checksum of the file that was made;
 //   state:  of the output as the stage left it. While size, inode and the two times are what they were then
-//   to the
-//           nanosecond, the checksum need not be compared again: a later change shows in one of them
-//           (FileState). A state that could not be waited for is noted as none, and the bytes are compared
-//           each time.
+//   to the nanosecond, the checksum need not be compared again: a later change shows in one of them
+//   (FileState), if the file system's clock had moved on between the output and its receipt. Both times are
+//   the file system's own, which nobody can set. Where the receipt is not the younger one, the bytes are
+//   compared.
 #pragma once
 
 #include <filesystem>
@@ -27,6 +27,8 @@ namespace dresslife::pipeline {
 struct Receipt {
   std::string recipe, input, output;
   FileState state;
+  std::int64_t written_ns = 0;  ///< when the receipt itself was changed last
+  bool state_suffices() const { return state.exists() && written_ns > state.changed_ns; }
 };
 
 /// Digests of files by name, each worked out once.

@@ -89,7 +89,7 @@ void look_at(JobState& state, const fs::path& folder) {
       if (now.exists()) state.damaged = stage.output;
       return;
     }
-    if (now != receipt->state) state.compared.push_back(state.next);
+    if (now != receipt->state || !receipt->state_suffices()) state.compared.push_back(state.next);
     made_before = receipt->output;
   }
 }

@@ -1,11 +1,11 @@
 // What of a study is up to date, and how the rest is made.
 //
 // A result is up to date when the receipts of its stages say that they were made from what the study says now
-// (pipeline/files/receipt.h): same settings, same files beside the job, same programs, each from the file that the
-// stage before made. Times decide nothing. What is left is a Ninja graph: per job the chain sim -> strain ->
-// fatigue from the first stage that is not up to date. Its targets are no files; Ninja only keeps the cores
-// busy and carries on past failures. A stage whose recipe and input turn out as before leaves its output
-// alone.
+// (pipeline/files/receipt.h): same settings, same files beside the job, same programs, each from the file
+// that the stage before made. Times decide nothing. What is left is a Ninja graph: per job the chain sim ->
+// strain -> fatigue from the first stage that is not up to date. Its targets are no files; Ninja only keeps
+// the cores busy and carries on past failures. A stage whose recipe and input turn out as before leaves its
+// output alone.
 //
 // Whatever becomes of Ninja and the stages, a job is done only when its receipts say so afterwards.
 #pragma once
@@ -38,7 +38,7 @@ struct JobState {
   std::string damaged;                           ///< "life.h5": is not what its stage wrote
   std::string failure;                           ///< why the last attempt with these recipes failed
   bool has_results = false;                      ///< of any settings
-  std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared: their times have changed
+  std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared, as no times vouch for them
   bool done() const { return next == stage_count; }
   /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings, "to do" without
   /// any.

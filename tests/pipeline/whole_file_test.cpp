@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "pipeline/limits.h"
 #include "tests/pipeline/scratch.h"
@@ -105,13 +106,12 @@ TEST_CASE("whole file: the first failure is kept, later writes do nothing") {
   CHECK_FALSE(fs::exists(scratch / "a"));
 }
 
-TEST_CASE("file state: once settled, every later change shows") {
+TEST_CASE("file state: after a tick of the clock every change shows, whatever times are set") {
   const Scratch scratch;
-  for (int k = 0; k < 30; ++k) {
+  for (int k = 0; k < 10; ++k) {
     const fs::path file = scratch.write("a", "one");
-    FileState state;
-    REQUIRE(settle(file, state));
-    CHECK(state == state_of(file));
+    std::this_thread::sleep_for(std::chrono::milliseconds(12));  // ticks are 1 .. 10 ms
+    const FileState state = state_of(file);
     const fs::file_time_type time = fs::last_write_time(file);
     scratch.write("a", "two");
     fs::last_write_time(file, time);
@@ -119,7 +119,6 @@ TEST_CASE("file state: once settled, every later change shows") {
   }
   CHECK_FALSE(state_of(scratch / "absent").exists());
   CHECK_FALSE(state_of(scratch / ".").exists());
-  CHECK(scratch.entries() == 1);
 }
 
 TEST_CASE("shown text: nothing in it acts on a terminal") {
