@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "pipeline/job/job.h"
+#include "pipeline/job/setup.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -32,12 +32,12 @@ std::size_t link_index(const pipeline::Robot& robot, const std::string& name) {
 
 }  // namespace
 
-std::vector<bool> joints_between_clamps(const pipeline::Job& job, std::size_t dresspack) {
-  const pipeline::Routing& routing = job.dresspacks[dresspack].routing;
-  std::vector<bool> between(job.robot.joints.size(), false);
+std::vector<bool> joints_between_clamps(const pipeline::Setup& setup, std::size_t dresspack) {
+  const pipeline::Routing& routing = setup.dresspacks[dresspack].routing;
+  std::vector<bool> between(setup.robot.joints.size(), false);
   if (!routing.base_clamp || !routing.tool_clamp) return between;
-  const std::size_t one = link_index(job.robot, routing.base_clamp->link),
-                    other = link_index(job.robot, routing.tool_clamp->link);
+  const std::size_t one = link_index(setup.robot, routing.base_clamp->link),
+                    other = link_index(setup.robot, routing.tool_clamp->link);
   const std::size_t last = std::min(std::max(one, other), between.size());
   for (std::size_t joint = std::min(one, other); joint < last; ++joint)
     between[joint] = true;  // joint k moves link k + 1

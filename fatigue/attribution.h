@@ -27,13 +27,13 @@
 #include "pipeline/job/routing.h"
 
 namespace dresslife::pipeline {
-struct Job;
+struct Setup;
 }
 
 namespace dresslife::fatigue {
 
 /// (joint) whether it lies between the links of the two clamps. Empty for a job without a robot.
-std::vector<bool> joints_between_clamps(const pipeline::Job& job, std::size_t dresspack = 0);
+std::vector<bool> joints_between_clamps(const pipeline::Setup& setup, std::size_t dresspack = 0);
 
 /// The surface (F19).
 class StrainOfJoints {

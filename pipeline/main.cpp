@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "pipeline/installation.h"
+#include "pipeline/job/job_text.h"
 #include "pipeline/limits.h"
 #include "pipeline/program_manual.h"
 #include "pipeline/progress.h"
@@ -178,7 +179,7 @@ int manual(const CLI::App& app, const Options& options) {
 }
 
 int show(const Options& options) {
-  print(job_text(read_job(named_file(options.study, "jobs"), options.sets)));
+  print(job_text(named_file(options.study, "jobs"), options.sets));
   return 0;
 }
 

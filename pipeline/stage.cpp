@@ -1,6 +1,5 @@
 #include "pipeline/stage.h"
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -8,13 +7,13 @@
 #include <iostream>
 #include <system_error>
 
+#include "pipeline/command_line.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/installation.h"
 #include "pipeline/job/job.h"
 #include "pipeline/limits.h"
-#include "pipeline/program_manual.h"
 #include "pipeline/threads.h"
 
 namespace dresslife::pipeline {
@@ -118,13 +117,6 @@ void run_with_receipt(const StageCall& call, const std::filesystem::path& receip
   write_receipt(receipt_file, wanted, call.output);
 }
 
-/// What only the command line of a stage says.
-struct StageFlags {
-  bool force = false;
-  std::filesystem::path receipt;
-  std::uint64_t seconds = 0, megabytes = 0;
-};
-
 void run_body(StageCall& call, const StageFlags& flags,
               const std::function<void(const StageCall&, Progress&)>& body) {
   limit_time(call.info.program, flags.seconds);
@@ -152,61 +144,7 @@ int run_stage(const StageInfo& info, int argc, char** argv,
   end_with_parent();
   StageCall call;
   StageFlags flags;
-  call.info = info;
-  CLI::App app(info.purpose + example_mark + info.example, info.program);
-  std::string input, output, job_file, receipt;
-  CLI::Option* job = nullptr;
-  app.add_option("input", input, info.input)->required()->type_name("");
-  app.add_option("-o,--output", output, "where to write " + info.output)
-      ->required(!info.may_lack_output)
-      ->type_name("FILE");
-  if (!info.input_is_job)
-    job = app.add_option("--job", job_file, "take the settings from this job instead of the one in the input")
-              ->type_name("JOB.yaml");
-  app.add_option("--set", call.sets,
-                 "override a key of the job, for example simulation.segments=80; may be repeated")
-      ->type_name("KEY.PATH=VALUE")
-      ->allow_extra_args(false);
-  call.options.resize(info.options.size());
-  for (std::size_t i = 0; i < info.options.size(); ++i)
-    if (info.options[i].value.empty())
-      app.add_flag_callback(
-          info.options[i].name, [&call, i] { call.options[i].emplace_back(); }, info.options[i].meaning);
-    else
-      app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)
-          ->type_name(info.options[i].value)
-          ->allow_extra_args(false);
-  app.add_flag("--force", flags.force, "replace an output that is no " + info.output);
-  if (info.part) {
-    CLI::Option* noted =
-        app.add_option("--receipt", receipt,
-                       "note there from what the output is made, and make it only when that has changed")
-            ->type_name("FILE");
-    if (job) noted->needs(job);
-  }
-  app.add_option("--job-time", flags.seconds, "give up after so long")->type_name("SECONDS");
-  app.add_option("--job-memory", flags.megabytes, "take no more memory than this")->type_name("MB");
-  app.add_flag("--quiet", call.quiet, "no progress, no notes");
-  app.set_version_flag("--version", [&info] { return version_text(info.program); });
-  app.add_option_function<std::string>(
-         "--manual",
-         [&app](const std::string& kind) {
-           std::fputs(program_manual(app, kind).c_str(), stdout);
-           throw CLI::Success();
-         },
-         "print this program's man page, or its completion for a shell")
-      ->check(CLI::IsMember(manual_kinds()))
-      ->type_name(fmt::format("{}", fmt::join(manual_kinds(), "|")))
-      ->trigger_on_parse();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return finish_output(app.exit(problem) == 0 ? 0 : 2);
-  }
-  call.input = input;
-  call.output = output;
-  call.job_file = job_file;
-  flags.receipt = receipt;
+  if (const std::optional<int> status = read_command_line(info, argc, argv, call, flags)) return *status;
   return guarded(info.program, [&] {
     run_body(call, flags, body);
     return 0;

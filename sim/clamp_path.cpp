@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "pipeline/job/job.h"
+#include "pipeline/job/setup.h"
 #include "sim/program/import.h"
 
 namespace dresslife::sim {
@@ -18,24 +18,24 @@ Frame clamp_frame(const pipeline::Clamp& clamp) {
   return rolled({clamp.position, Quaternion(axes)}, clamp.roll.value_or(0));
 }
 
-RobotPath::RobotPath(const pipeline::Job& job)
-    : kinematics_(job.robot),
-      motion_(resolved_motion(job.motion), job.robot),
+RobotPath::RobotPath(const pipeline::Setup& setup)
+    : kinematics_(setup.robot),
+      motion_(resolved_motion(setup.motion), setup.robot),
       mounting_pose_(motion_.position(0)) {
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;
-    add_dresspack(job, routing);
+    add_dresspack(setup, routing);
     if (routing.mounting_pose.empty()) continue;
-    check_joint_limits(job.robot, routing.mounting_pose, "routing.mounting_pose_deg", routing.where);
+    check_joint_limits(setup.robot, routing.mounting_pose, "routing.mounting_pose_deg", routing.where);
     const auto axes = static_cast<long>(routing.mounting_pose.size());
     mounting_pose_.head(axes) =  // external axes: as at the start
         Eigen::Map<const Eigen::VectorXd>(routing.mounting_pose.data(), axes);
   }
 }
 
-void RobotPath::add_dresspack(const pipeline::Job& job, const pipeline::Routing& routing) {
+void RobotPath::add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing) {
   const auto add = [&](const pipeline::Clamp& clamp) {
-    clamp_links_.push_back(find_link(job.robot, clamp.link, clamp.where));
+    clamp_links_.push_back(find_link(setup.robot, clamp.link, clamp.where));
     clamps_.push_back(clamp_frame(clamp));
   };
   const auto add_end = [&](bool free = false) {
@@ -52,7 +52,7 @@ void RobotPath::add_dresspack(const pipeline::Job& job, const pipeline::Routing&
   if (!free) add(*routing.tool_clamp);
   add_end(free);
   for (const pipeline::GuideRing& ring : routing.rings) {
-    ring_links_.push_back(find_link(job.robot, ring.link, ring.where));
+    ring_links_.push_back(find_link(setup.robot, ring.link, ring.where));
     rings_.push_back(clamp_frame({ring.link, ring.position, ring.direction, {}, ring.where}));
   }
 }

@@ -27,7 +27,7 @@
 #include "sim/rod/rod.h"
 
 namespace dresslife::pipeline {
-struct Job;
+struct Setup;
 }
 
 namespace dresslife::sim {
@@ -53,7 +53,7 @@ class ClampPath {
 class RobotPath final : public ClampPath {
  public:
   /// Throws InputError: joint limits, wrong links. Precondition: the job has its clamps.
-  explicit RobotPath(const pipeline::Job& job);
+  explicit RobotPath(const pipeline::Setup& setup);
 
   double duration() const override { return motion_.duration(); }
   Pose at(double time) const override { return pose(motion_.position(time)); }
@@ -75,7 +75,7 @@ class RobotPath final : public ClampPath {
   void turn_clamp(int end, double roll);
 
  private:
-  void add_dresspack(const pipeline::Job& job, const pipeline::Routing& routing);
+  void add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing);
 
   RobotKinematics kinematics_;
   JointMotion motion_;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/job/job.h"
+#include "pipeline/job/setup.h"
 #include "sim/contact/self_contact.h"
 #include "sim/equilibrium.h"
 #include "sim/routing.h"
@@ -64,28 +64,28 @@ void add_shapes(World& world, int link, const Shapes& shapes) {
   }
 }
 
-WorldSettings world_settings(const pipeline::Job& job) {
+WorldSettings world_settings(const pipeline::Setup& setup) {
   WorldSettings settings;
-  settings.time_step = job.simulation.time_step;
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks)
+  settings.time_step = setup.simulation.time_step;
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
     settings.frictions.push_back(mounted.dresspack.friction);
-  settings.floor = job.simulation.floor;
-  settings.self_contact = job.simulation.self_contact;
+  settings.floor = setup.simulation.floor;
+  settings.self_contact = setup.simulation.self_contact;
   return settings;
 }
 
-void add_obstacles(World& world, const pipeline::Job& job, const RobotPath* robot) {
-  if (!job.simulation.contact) return;
-  add_shapes(world, cell_obstacle, job.cell);
+void add_obstacles(World& world, const pipeline::Setup& setup, const RobotPath* robot) {
+  if (!setup.simulation.contact) return;
+  add_shapes(world, cell_obstacle, setup.cell);
   if (!robot) return;
-  for (size_t link = 0; link < job.robot.links.size(); ++link)
-    add_shapes(world, static_cast<int>(link), job.robot.links[link]);
+  for (size_t link = 0; link < setup.robot.links.size(); ++link)
+    add_shapes(world, static_cast<int>(link), setup.robot.links[link]);
 }
 
 class Mounting {
  public:
-  Mounting(const pipeline::Job& job, const Rod& rod, const ClampPath& path, RobotPath* robot)
-      : job_(job), rod_(rod), path_(path), robot_(robot) {}
+  Mounting(const pipeline::Setup& setup, const Rod& rod, const ClampPath& path, RobotPath* robot)
+      : setup_(setup), rod_(rod), path_(path), robot_(robot) {}
 
   RodState mounted() {
     for (int d = 0; d < rod_.dresspacks(); ++d) hang_up(d);
@@ -95,11 +95,11 @@ class Mounting {
   }
 
  private:
-  const pipeline::Routing& routing(int dresspack) const { return job_.dresspacks[dresspack].routing; }
+  const pipeline::Routing& routing(int dresspack) const { return setup_.dresspacks[dresspack].routing; }
 
   [[noreturn]] void fail(int dresspack, const std::string& what) const {
     throw InputError(routing(dresspack).where,
-                     fmt::format("{} {}", pipeline::dresspack_words(job_, dresspack), what),
+                     fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
                      "check the free length and the clamps' places and directions in the mounting pose");
   }
 
@@ -152,7 +152,7 @@ class Mounting {
     held.slider.reset();
     const Rod rod(spans);
     std::vector<Vector3> through;  // the rings' centres, where they hold it
-    const std::vector<RoutedRing> routed = routed_rings(job_);
+    const std::vector<RoutedRing> routed = routed_rings(setup_);
     for (size_t r = 0; r < pose.rings.size(); ++r)
       if (routed[r].span == span) through.push_back(pose.rings[r].position);
     for (int part = 0; part <= parts; ++part) {
@@ -171,7 +171,7 @@ class Mounting {
   std::vector<Piece> pieces_of(int k, const Vector3& from) const {
     const Span& span = rod_.spans()[k];
     const Pose pose = mounting_pose();
-    const std::vector<RoutedRing> routed = routed_rings(job_);
+    const std::vector<RoutedRing> routed = routed_rings(setup_);
     const std::vector<int> end_links =
         robot_ ? robot_->end_links() : std::vector<int>(2 * rod_.spans().size(), no_link);
     const bool free_end = span.properties.tool_end == End::free;
@@ -268,7 +268,7 @@ class Mounting {
 
   Held held_clear(const Piece& piece) const {
     const Pose pose = mounting_pose();
-    const Vector3 g = job_.simulation.gravity;
+    const Vector3 g = setup_.simulation.gravity;
     const Vector3 chord = piece.end.position - piece.begin.position;
     Vector3 side = chord.cross(g);
     if (side.norm() > 0) side *= g.norm() / side.norm();
@@ -282,9 +282,9 @@ class Mounting {
     if (!best.found) fail(piece.dresspack, "finds no equilibrium between its clamps");
     if (best.depth > overlap_share * piece.properties.diameter)
       fail(piece.dresspack,
-           fmt::format(
-               "runs {:.0f} mm deep through {} in the mounting pose", 1e3 * best.depth,
-               best.through < 0 ? "the robot or the floor" : pipeline::dresspack_words(job_, best.through)));
+           fmt::format("runs {:.0f} mm deep through {} in the mounting pose", 1e3 * best.depth,
+                       best.through < 0 ? "the robot or the floor"
+                                        : pipeline::dresspack_words(setup_, best.through)));
     return best;
   }
 
@@ -307,10 +307,10 @@ class Mounting {
       found = find_equilibrium(rod, turned, found.state);
     }
     if (found.status != EquilibriumStatus::converged) return {};
-    WorldSettings settings = world_settings(job_);
+    WorldSettings settings = world_settings(setup_);
     settings.base_link = piece.begin_link, settings.tool_link = piece.end_link;
     World world(rod, settings, found.state, pose.links);
-    add_obstacles(world, job_, robot_);
+    add_obstacles(world, setup_, robot_);
     Held held{found.state, clamped.roll + piece.pre_twist, 0, -1, true};
     held.depth = world.advance(found.state.clamps, pose.links).max_depth;
     if (properties.tool_end == End::free)
@@ -321,7 +321,7 @@ class Mounting {
 
   /// How deep a piece lies in the dresspacks that hang already.
   void find_other_dresspacks(const Piece& piece, Held& held) const {
-    if (!job_.simulation.self_contact || piece.dresspack == 0) return;
+    if (!setup_.simulation.self_contact || piece.dresspack == 0) return;
     const Rod rod = hung_rod(&piece);
     std::vector<RodState> pieces = hung_;
     pieces.push_back(held.state);
@@ -338,7 +338,7 @@ class Mounting {
   }
 
   RodState at_rest(const RodState& state, const Pose& pose) const {
-    const std::unique_ptr<World> world = make_world(job_, rod_, robot_, state, pose);
+    const std::unique_ptr<World> world = make_world(setup_, rod_, robot_, state, pose);
     const Equilibrium found = settle(*world, pose.links, settling_steps, rest);
     if (found.status == EquilibriumStatus::too_short)
       fail(rod_.most_stretched(found.state).dresspack, "is drawn taut when it is clamped");
@@ -357,8 +357,8 @@ class Mounting {
   RodState carried(const RodState& start) const {
     const Eigen::VectorXd from = robot_->mounting_pose(), way = robot_->motion().position(0) - from;
     const int steps = static_cast<int>(
-        std::ceil(way.lpNorm<Eigen::Infinity>() / (carrying_speed * job_.simulation.time_step)));
-    const std::unique_ptr<World> world = make_world(job_, rod_, robot_, start, robot_->pose(from));
+        std::ceil(way.lpNorm<Eigen::Infinity>() / (carrying_speed * setup_.simulation.time_step)));
+    const std::unique_ptr<World> world = make_world(setup_, rod_, robot_, start, robot_->pose(from));
     for (int k = 1; k <= steps; ++k) {
       const double u = static_cast<double>(k) / steps;
       const Pose pose = robot_->pose(from + u * u * (3 - 2 * u) * way);
@@ -370,7 +370,7 @@ class Mounting {
     return world->state();
   }
 
-  const pipeline::Job& job_;
+  const pipeline::Setup& setup_;
   const Rod& rod_;
   const ClampPath& path_;
   RobotPath* robot_;
@@ -381,9 +381,9 @@ class Mounting {
 
 }  // namespace
 
-std::unique_ptr<World> make_world(const pipeline::Job& job, const Rod& rod, const RobotPath* robot,
+std::unique_ptr<World> make_world(const pipeline::Setup& setup, const Rod& rod, const RobotPath* robot,
                                   const RodState& state, const Pose& pose) {
-  WorldSettings settings = world_settings(job);
+  WorldSettings settings = world_settings(setup);
   if (robot) {
     const std::vector<int>& links = robot->end_links();
     settings.base_link = links.front();
@@ -391,8 +391,8 @@ std::unique_ptr<World> make_world(const pipeline::Job& job, const Rod& rod, cons
     settings.between_links.assign(links.begin() + 1, links.end() - 1);
   }
   auto world = std::make_unique<World>(rod, settings, state, pose.links);
-  add_obstacles(*world, job, robot);
-  const std::vector<RoutedRing> routed = routed_rings(job);
+  add_obstacles(*world, setup, robot);
+  const std::vector<RoutedRing> routed = routed_rings(setup);
   for (size_t k = 0; k < routed.size(); ++k) {
     const pipeline::GuideRing& ring = routed[k].ring;
     world->add(robot->ring_links()[k],
@@ -401,8 +401,8 @@ std::unique_ptr<World> make_world(const pipeline::Job& job, const Rod& rod, cons
   return world;
 }
 
-RodState mount(const pipeline::Job& job, const Rod& rod, const ClampPath& path, RobotPath* robot) {
-  return Mounting(job, rod, path, robot).mounted();
+RodState mount(const pipeline::Setup& setup, const Rod& rod, const ClampPath& path, RobotPath* robot) {
+  return Mounting(setup, rod, path, robot).mounted();
 }
 
 }  // namespace dresslife::sim

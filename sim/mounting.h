@@ -16,19 +16,19 @@
 #include "sim/rod/rod.h"
 
 namespace dresslife::pipeline {
-struct Job;
+struct Setup;
 }
 
 namespace dresslife::sim {
 
 /// All dresspacks in `state` among the links of the robot (null: none), in the guide rings and on the floor,
 /// as the job says.
-std::unique_ptr<World> make_world(const pipeline::Job& job, const Rod& rod, const RobotPath* robot,
+std::unique_ptr<World> make_world(const pipeline::Setup& setup, const Rod& rod, const RobotPath* robot,
                                   const RodState& state, const Pose& pose);
 
 /// The chain at rest in the clamps of time 0. Turns the robot's clamps for good. robot: `path` if it is
 /// one. Throws InputError at the routing when a hose cannot be clear of the robot and the other dresspacks,
 /// is too short or does not come to rest.
-RodState mount(const pipeline::Job& job, const Rod& rod, const ClampPath& path, RobotPath* robot);
+RodState mount(const pipeline::Setup& setup, const Rod& rod, const ClampPath& path, RobotPath* robot);
 
 }  // namespace dresslife::sim

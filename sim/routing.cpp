@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/job/job.h"
+#include "pipeline/job/setup.h"
 
 namespace dresslife::sim {
 namespace {
@@ -56,22 +56,22 @@ void append(std::vector<Vector3>& to, const std::vector<Vector3>& from) {
 
 }  // namespace
 
-Rod rod_of(const pipeline::Job& job) {
+Rod rod_of(const pipeline::Setup& setup) {
   std::vector<RodProperties> all;
   std::vector<int> first_of_dresspack;
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     first_of_dresspack.push_back(static_cast<int>(all.size()));
     const std::vector<RodProperties> spans =
-        spans_of(properties_of(mounted, job.simulation), mounted.routing);
+        spans_of(properties_of(mounted, setup.simulation), mounted.routing);
     all.insert(all.end(), spans.begin(), spans.end());
   }
   return Rod(all, first_of_dresspack);
 }
 
-std::vector<RoutedRing> routed_rings(const pipeline::Job& job) {
+std::vector<RoutedRing> routed_rings(const pipeline::Setup& setup) {
   std::vector<RoutedRing> routed;
   int first_span = 0;
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;
     for (const pipeline::GuideRing& ring : routing.rings) {
       const auto before = std::count_if(routing.clamps.begin(), routing.clamps.end(),
@@ -85,9 +85,9 @@ std::vector<RoutedRing> routed_rings(const pipeline::Job& job) {
   return routed;
 }
 
-std::vector<double> shortest_ways(const pipeline::Job& job, const Rod& rod, const ClampFrames& clamps,
+std::vector<double> shortest_ways(const pipeline::Setup& setup, const Rod& rod, const ClampFrames& clamps,
                                   const std::vector<Frame>& rings) {
-  const std::vector<RoutedRing> routed = routed_rings(job);
+  const std::vector<RoutedRing> routed = routed_rings(setup);
   std::vector<double> ways;
   for (int k = 0; k < static_cast<int>(rod.spans().size()); ++k) {
     std::vector<Vector3> through;

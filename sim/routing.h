@@ -8,7 +8,7 @@
 #include "sim/rod/rod.h"
 
 namespace dresslife::pipeline {
-struct Job;
+struct Setup;
 }
 
 namespace dresslife::sim {
@@ -16,17 +16,17 @@ namespace dresslife::sim {
 /// Of a span: below, its end corrections (S5) overlap.
 inline constexpr int fewest_segments = 4;
 
-Rod rod_of(const pipeline::Job& job);
+Rod rod_of(const pipeline::Setup& setup);
 
 /// A guide ring and the span that passes it; the rings of all dresspacks, in their order.
 struct RoutedRing {
   const pipeline::GuideRing& ring;
   int span;
 };
-std::vector<RoutedRing> routed_rings(const pipeline::Job& job);
+std::vector<RoutedRing> routed_rings(const pipeline::Setup& setup);
 /// (span) length of the straight ways from end to end through the rings' centres, less what an off-centre
 /// hose saves at most: no shorter hose reaches.
-std::vector<double> shortest_ways(const pipeline::Job& job, const Rod& rod, const ClampFrames& clamps,
+std::vector<double> shortest_ways(const pipeline::Setup& setup, const Rod& rod, const ClampFrames& clamps,
                                   const std::vector<Frame>& rings);
 
 /// The states of single spans as one state of the whole rod.

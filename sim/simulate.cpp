@@ -12,9 +12,9 @@ namespace {
 
 using pipeline::InputError;
 
-std::unique_ptr<ClampPath> path_of(const pipeline::Job& job) {
-  if (!job.motion.clamp_poses.empty()) return std::make_unique<RecordedPath>(job.motion.clamp_poses);
-  return std::make_unique<RobotPath>(job);
+std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
+  if (!setup.motion.clamp_poses.empty()) return std::make_unique<RecordedPath>(setup.motion.clamp_poses);
+  return std::make_unique<RobotPath>(setup);
 }
 
 constexpr double same_step = 1e-9;  // [s]
@@ -26,39 +26,41 @@ int intervals(double duration, double rate) { return static_cast<int>(std::ceil(
 
 /// Before memory or time is spent on it. A repeat's liveliness is held step by step, 8 bytes each, its
 /// samples are written with 136 bytes a segment and more.
-void check_size(const pipeline::Job& job, double duration, int segments) {
+void check_size(const pipeline::Setup& setup, double duration, int segments) {
   constexpr double most_steps = 1e8, most_values = 1e9;  // 0.8 GB of memory, 140 GB of disk
-  const pipeline::Simulation& settings = job.simulation;
+  const pipeline::Simulation& settings = setup.simulation;
   const double steps = duration / settings.time_step, values = duration * settings.sample_rate * segments;
   if (!(steps <= most_steps))
     throw InputError(
-        job.motion.where,
+        setup.motion.where,
         fmt::format("one repeat of the motion takes {:.6g} s, {:.3g} steps of {:.4g} ms (at most {:.0e})",
                     duration, steps, 1e3 * settings.time_step, most_steps),
         "look for a long dwell or many repeats, or choose a longer simulation.time_step_ms");
   if (!(values <= most_values))
     throw InputError(
-        job.motion.where,
+        setup.motion.where,
         fmt::format("one repeat of the motion takes {:.6g} s: {:.3g} samples of {} segments, {:.0f} GB",
                     duration, duration * settings.sample_rate, segments, 136e-9 * values),
         "choose a lower simulation.sample_rate_Hz or fewer segments, or split the motion");
 }
 
-std::vector<MotionLimits> limits_of(const pipeline::Job& job) {
+std::vector<MotionLimits> limits_of(const pipeline::Setup& setup) {
   std::vector<MotionLimits> limits;
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks)
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
     limits.push_back(sim::limits_of(mounted.dresspack));
   return limits;
 }
 
 }  // namespace
 
-Simulation::Simulation(const pipeline::Job& job) : job_(job), rod_(rod_of(job_)), path_(path_of(job_)) {
-  if (job_.simulation.choose_time_step) job_.simulation.time_step = first_step(job_.simulation.sample_rate);
+Simulation::Simulation(const pipeline::Setup& setup)
+    : setup_(setup), rod_(rod_of(setup_)), path_(path_of(setup_)) {
+  if (setup_.simulation.choose_time_step)
+    setup_.simulation.time_step = first_step(setup_.simulation.sample_rate);
   robot_ = dynamic_cast<RobotPath*>(path_.get());
-  check_size(job_, path_->duration(), rod_.segments());
-  description_.samples = intervals(path_->duration(), job_.simulation.sample_rate) + 1;
-  for (const pipeline::MountedDresspack& mounted : job_.dresspacks)
+  check_size(setup_, path_->duration(), rod_.segments());
+  description_.samples = intervals(path_->duration(), setup_.simulation.sample_rate) + 1;
+  for (const pipeline::MountedDresspack& mounted : setup_.dresspacks)
     description_.dresspacks.push_back(mounted.name);
   for (int i = 0; i < rod_.segments(); ++i) {
     description_.dresspack.push_back(rod_.span_of(i).dresspack);
@@ -66,12 +68,12 @@ Simulation::Simulation(const pipeline::Job& job) : job_(job), rod_(rod_of(job_))
   }
   description_.clamp_segment = clamp_segments(rod_);
   description_.links = rod_.links();
-  description_.joints = static_cast<int>(robot_ ? job_.robot.axes() : 0);
+  description_.joints = static_cast<int>(robot_ ? setup_.robot.axes() : 0);
   description_.step_texts = path_->step_texts();
   if (robot_)
-    for (const pipeline::Link& link : job_.robot.links) description_.link_names.push_back(link.name);
+    for (const pipeline::Link& link : setup_.robot.links) description_.link_names.push_back(link.name);
   check_reach();
-  start_ = mount(job_, rod_, *path_, robot_);
+  start_ = mount(setup_, rod_, *path_, robot_);
 }
 
 Simulation::~Simulation() = default;
@@ -86,11 +88,11 @@ std::string Simulation::moment(double time) const {
 void Simulation::check_reach() const {
   double worst = 0, when = 0;
   size_t where = 0;
-  const int steps = intervals(path_->duration(), 1 / job_.simulation.time_step);
+  const int steps = intervals(path_->duration(), 1 / setup_.simulation.time_step);
   for (int k = 0; k <= steps; ++k) {
-    const double time = k * job_.simulation.time_step;
+    const double time = k * setup_.simulation.time_step;
     const Pose pose = path_->at(time);
-    const std::vector<double> ways = shortest_ways(job_, rod_, pose.clamps, pose.rings);
+    const std::vector<double> ways = shortest_ways(setup_, rod_, pose.clamps, pose.rings);
     for (size_t span = 0; span < ways.size(); ++span) {
       const RodProperties& p = rod_.spans()[span].properties;
       const double missing = p.tool_end == End::free ? 0 : ways[span] - p.length;
@@ -101,9 +103,9 @@ void Simulation::check_reach() const {
   const Span& span = rod_.spans()[where];
   const double length = span.properties.length;
   const std::string between = between_clamps(span);
-  throw InputError(job_.dresspacks[span.dresspack].routing.where,
+  throw InputError(setup_.dresspacks[span.dresspack].routing.where,
                    fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
-                               pipeline::dresspack_words(job_, span.dresspack), 1e3 * worst, moment(when),
+                               pipeline::dresspack_words(setup_, span.dresspack), 1e3 * worst, moment(when),
                                between.empty() ? "routing.free_length_m is" : "its length" + between + " is",
                                length, length + worst),
                    "give it more free length, with slack to bend, or move a clamp");
@@ -117,7 +119,7 @@ std::string Simulation::between_clamps(const Span& span) const {
 
 void Simulation::check_step(const StepReport& report, double time) const {
   if (!report.finite)
-    throw InputError({job_.dresspacks.front().routing.where.file},
+    throw InputError({setup_.dresspacks.front().routing.where.file},
                      fmt::format("the simulation broke down {} (the state is not finite)", moment(time)),
                      "choose a smaller simulation.time_step_ms, or check the dresspack's stiffness and mass");
 }
@@ -126,26 +128,26 @@ void Simulation::check_taut(const RodState& state, double time) const {
   const Span& span = rod_.most_stretched(state);
   const double elongation = rod_.mean_elongation(state, span);
   if (elongation <= longest_elongation) return;
-  throw InputError(job_.dresspacks[span.dresspack].routing.where,
+  throw InputError(setup_.dresspacks[span.dresspack].routing.where,
                    fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
-                               pipeline::dresspack_words(job_, span.dresspack), between_clamps(span),
+                               pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span),
                                moment(time), 1e3 * elongation * span.properties.length, 1e2 * elongation),
                    "give it more free length, or keep the motion from winding it around the robot");
 }
 
 std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {
-  pipeline::Job job = job_;
-  job.simulation.time_step = step;
-  return make_world(job, rod_, robot_, state, pose);
+  pipeline::Setup setup = setup_;
+  setup.simulation.time_step = step;
+  return make_world(setup, rod_, robot_, state, pose);
 }
 
 int Simulation::steps_per_sample(double step) const {
-  return std::max(1, static_cast<int>(std::lround(1 / (job_.simulation.sample_rate * step))));
+  return std::max(1, static_cast<int>(std::lround(1 / (setup_.simulation.sample_rate * step))));
 }
 
 struct Simulation::Repeat {
   Repeat(const Simulation& s, double step)
-      : checks(s.rod_, limits_of(s.job_)),
+      : checks(s.rod_, limits_of(s.setup_)),
         error(
             s.rod_, *s.path_,
             [&s](const RodState& state, const Pose& pose, double h) { return s.world_at(state, pose, h); },
@@ -158,7 +160,7 @@ struct Simulation::Repeat {
 // cycle, with twice the step, but for its last tenth. Whether it did is judged as between any two repeats.
 // Null: it broke down or drew the dresspack taut; the motion then runs from rest, which says where.
 std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
-  const double h = job_.simulation.time_step;
+  const double h = setup_.simulation.time_step;
   const int steps = (description_.samples - 1) * steps_per_sample(h);
   const int coarse = static_cast<int>((1 - exact_lead) * steps / 2);
   std::unique_ptr<World> world = world_at(start_, path_->at(0), 2 * h);
@@ -182,7 +184,7 @@ std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
 }
 
 RunSummary Simulation::run(const RunSinks& sinks) const {
-  const pipeline::Simulation& settings = job_.simulation;
+  const pipeline::Simulation& settings = setup_.simulation;
   RunSummary summary;
   summary.returns = returns(*path_);
   summary.time_step = settings.time_step;
@@ -235,7 +237,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
   StepReport since;
   Touch touch(rod_.segments(), description_.link_names, static_cast<int>(pose.rings.size()));
   const auto hand_over = [&](int sample) {
-    const double time = sample / job_.simulation.sample_rate;
+    const double time = sample / setup_.simulation.sample_rate;
     const RodState& state = world.state();
     const std::vector<double> pull = rod_.tensions(state);
     for (const Span& span : rod_.spans())
@@ -251,7 +253,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
   };
   const auto ways = [&] {
     return pose.rings.empty() ? std::vector<double>{}
-                              : shortest_ways(job_, rod_, world.state().clamps, pose.rings);
+                              : shortest_ways(setup_, rod_, world.state().clamps, pose.rings);
   };
   checks.see(world.state(), {}, 0, ways());
   repeat.error.see(0, world.state());
@@ -269,7 +271,7 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
       since.touching = std::max(since.touching, report.touching);
       since.max_depth = std::max(since.max_depth, report.max_depth);
     }
-    check_taut(world.state(), sample / job_.simulation.sample_rate);
+    check_taut(world.state(), sample / setup_.simulation.sample_rate);
     hand_over(sample);
   }
 }
@@ -284,8 +286,8 @@ std::string in_words(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
-std::string check_words(const pipeline::Job& job, const Check& check) {
-  const std::string name = pipeline::name_among(job, check.dresspack);
+std::string check_words(const pipeline::Setup& setup, const Check& check) {
+  const std::string name = pipeline::name_among(setup, check.dresspack);
   return name.empty() ? check.name : fmt::format("{}, {}", name, check.name);
 }
 
@@ -294,7 +296,7 @@ std::string check_words(const pipeline::Job& job, const Check& check) {
 std::vector<std::string> remarks(const Simulation& simulation, const RunSummary& summary) {
   std::vector<std::string> lines;
   const double off = 1e3 * summary.distance;
-  const double tolerance = 1e3 * simulation.job().simulation.periodic_tolerance;
+  const double tolerance = 1e3 * simulation.setup().simulation.periodic_tolerance;
   if (summary.returns && !summary.periodic)
     lines.push_back(
         fmt::format("warning: after {} repeats the motion still begins {:.1f} mm from where it began the "
@@ -307,7 +309,7 @@ std::vector<std::string> remarks(const Simulation& simulation, const RunSummary&
         summary.repeats, off));
   for (const Check& check : summary.checks)
     if (check.warning)
-      lines.push_back(fmt::format("warning: {}: {} (limit {}) {}", check_words(simulation.job(), check),
+      lines.push_back(fmt::format("warning: {}: {} (limit {}) {}", check_words(simulation.setup(), check),
                                   in_words(check.value, check.unit), in_words(check.limit, check.unit),
                                   simulation.moment(check.time)));
   return lines;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job/job.h"
+#include "pipeline/job/setup.h"
 #include "sim/checks.h"
 #include "sim/clamp_path.h"
 #include "sim/contact/touch.h"
@@ -80,7 +80,7 @@ class Simulation {
   /// Finds the start. Throws InputError: what the motion's constructors throw; a motion that pulls the clamps
   /// further apart than the free length (when, in which program line, how many millimetres are missing); no
   /// equilibrium at the start.
-  explicit Simulation(const pipeline::Job& job);
+  explicit Simulation(const pipeline::Setup& setup);
   ~Simulation();
 
   const RunDescription& description() const { return description_; }
@@ -88,7 +88,7 @@ class Simulation {
   const ClampPath& path() const { return *path_; }
   const Rod& rod() const { return rod_; }
   /// As given; simulation.time_step is the step that the run begins with.
-  const pipeline::Job& job() const { return job_; }
+  const pipeline::Setup& setup() const { return setup_; }
   std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"
 
   /// Runs the motion, as often as it takes. Throws InputError when the dresspack is drawn taut or the state
@@ -107,7 +107,7 @@ class Simulation {
   void check_step(const StepReport& report, double time) const;
   void check_taut(const RodState& state, double time) const;
 
-  pipeline::Job job_;  // its time step is the first one if the run is to choose
+  pipeline::Setup setup_;  // its time step is the first one if the run is to choose
   Rod rod_;
   std::unique_ptr<ClampPath> path_;
   RobotPath* robot_ = nullptr;  // path_, if it is one

@@ -1,11 +1,10 @@
-// Catalogue entries by name, `from: NAME`, and --set: everything that turns a written job into one whole
-// tree.
+#include "pipeline/job/catalogue.h"
+
 #include <algorithm>
 #include <cstdlib>
 
 #include "pipeline/installation.h"
 #include "pipeline/job/fields.h"
-#include "pipeline/job/job.h"
 #include "pipeline/job/urdf.h"
 
 namespace dresslife::pipeline {

@@ -2,20 +2,11 @@
 
 #include <algorithm>
 
+#include "pipeline/job/catalogue.h"
 #include "pipeline/job/fields.h"
 #include "pipeline/job/urdf.h"
 
 namespace dresslife::pipeline {
-
-void resolve_job(Node& job);  // catalogue.cpp
-
-void describe(Fields& f, MountedDresspack& mounted) {
-  f.place(mounted.where);
-  f.text("name", mounted.name, Need::required, "a name that tells it from the others, without '/'");
-  f.group("dresspack", mounted.dresspack, Need::required,
-          "a name of config/dresspacks, a file, or the entry itself");
-  f.group("routing", mounted.routing, Need::required, "clamps and free length");
-}
 
 namespace {
 
@@ -170,7 +161,13 @@ Job read_job(const std::filesystem::path& file, const std::vector<std::string>& 
   return job_from(read_yaml(file), sets);
 }
 
+Setup setup_from(Node document) { return job_from(std::move(document)); }
+
 std::string job_text(const Job& job) { return to_yaml(echo_fields(job)); }
+
+std::string job_text(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return job_text(read_job(file, sets));
+}
 
 namespace {
 
@@ -301,15 +298,6 @@ const Material& material_of(const Job& job, const std::string& name) {
 
 const Material& hose_material_of(const Job& job, const Dresspack& dresspack) {
   return resolved_material(job, dresspack.hose_material);
-}
-
-std::string name_among(const Job& job, std::size_t dresspack) {
-  return job.dresspacks.size() > 1 ? job.dresspacks[dresspack].name : "";
-}
-
-std::string dresspack_words(const Job& job, std::size_t dresspack) {
-  const std::string name = name_among(job, dresspack);
-  return name.empty() ? "dresspack" : fmt::format("dresspack '{}'", name);
 }
 
 }  // namespace dresslife::pipeline

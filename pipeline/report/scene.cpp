@@ -8,7 +8,8 @@
 
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
-#include "pipeline/job/job.h"
+#include "pipeline/job/job_text.h"
+#include "pipeline/job/setup.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -66,7 +67,7 @@ void add_robot(std::vector<Stroke>& strokes, const FileReader& file, const Robot
 }
 
 /// Guide rings and the clamps between the ends, as circles of short strokes about the hose.
-void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Job& job, std::size_t sample) {
+void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Setup& setup, std::size_t sample) {
   if (!file.has("/robot/link_pose")) return;
   constexpr int corners = 20;
   constexpr double thick = 0.006;  // [m]
@@ -75,7 +76,7 @@ void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Job& 
   const auto circle = [&](const std::string& name, const Vector3d& centre, const Vector3d& axis,
                           double radius) {
     std::size_t link = 0;
-    while (link < job.robot.links.size() && job.robot.links[link].name != name) ++link;
+    while (link < setup.robot.links.size() && setup.robot.links[link].name != name) ++link;
     if (7 * link + 6 >= pose.size()) return;
     const double* p = &pose[7 * link];
     const Eigen::Quaterniond turn(p[3], p[4], p[5], p[6]);
@@ -87,7 +88,7 @@ void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Job& 
     };
     for (int k = 0; k < corners; ++k) strokes.push_back({corner(k), corner(k + 1), thick, "arm-2"});
   };
-  for (const MountedDresspack& mounted : job.dresspacks) {
+  for (const MountedDresspack& mounted : setup.dresspacks) {
     for (const GuideRing& ring : mounted.routing.rings)
       circle(ring.link, ring.position, ring.direction, ring.radius + thick);
     for (const IntermediateClamp& between : mounted.routing.clamps)
@@ -180,15 +181,16 @@ std::string scale_bar(const View& view, double height) {
 std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
                           const std::string& worst_dresspack) {
   const FileReader file(motion_file, motion_format());
-  const Job job = job_from(parse_yaml(file.text_attribute("job"), motion_file.string() + " (attribute job)"));
+  const Setup setup =
+      setup_from(parse_yaml(file.text_attribute("job"), motion_file.string() + " (attribute job)"));
   const std::size_t sample = sample_at(file, time);
   std::vector<Stroke> strokes;
-  add_robot(strokes, file, job.robot, sample);
-  add_rings(strokes, file, job, sample);
+  add_robot(strokes, file, setup.robot, sample);
+  add_rings(strokes, file, setup, sample);
   const std::vector<std::vector<Vector3d>> hoses = hose_points(file, sample);
-  for (std::size_t d = 0; d < std::min(hoses.size(), job.dresspacks.size()); ++d)
-    add_hose(strokes, hoses[d], job.dresspacks[d].dresspack.diameter / 2,
-             name_among(job, d) == worst_dresspack ? worst_from_tool : 0);
+  for (std::size_t d = 0; d < std::min(hoses.size(), setup.dresspacks.size()); ++d)
+    add_hose(strokes, hoses[d], setup.dresspacks[d].dresspack.diameter / 2,
+             name_among(setup, d) == worst_dresspack ? worst_from_tool : 0);
 
   double height = 0;
   const View view = fit(strokes, height);

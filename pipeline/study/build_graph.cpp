@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "pipeline/files/receipt.h"
+#include "pipeline/job/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -238,7 +239,7 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places) {
     const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) continue;
     for (std::size_t stage = 0; stage < stage_count; ++stage)
-      states[k].recipes[stage] = recipe_of_stage(job.job, stages[stage], places, digests);
+      states[k].recipes[stage] = recipe_of_stage(*job.job, stages[stage], places, digests);
     look_at(states[k], places.job(job.name));
   }
   return states;
@@ -255,7 +256,7 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     if (!job.failure.empty()) continue;
     const fs::path folder = places.job(job.name);
     fs::create_directories(folder / ".stage");
-    write_text_if_changed(folder / "job.yaml", job_text(job.job), Sync::never);
+    write_text_if_changed(folder / "job.yaml", job_text(*job.job), Sync::never);
     for (const std::size_t stage : states[k].compared)
       renew_receipt(folder / receipt_file(stages[stage]), folder / stages[stage].output);
     if (states[k].done()) continue;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "pipeline/job/catalogue.h"
 #include "pipeline/job/fields.h"
+#include "pipeline/job/job.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -99,7 +101,7 @@ StudyJob make_job(const Node& base, const Variant& variant, const std::string& f
   try {
     Node document = base;
     for (const Change& change : variant.changes) set_value(document, change.path, change.value, change.where);
-    made.job = job_from(std::move(document), sets);
+    made.job = std::make_shared<const Job>(job_from(std::move(document), sets));
   } catch (const InputError& problem) {
     made.failure = problem.what();
   }

@@ -8,17 +8,19 @@
 //     stiff: {dresspack.bending_stiffness_Nm2: 8}
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "pipeline/job/job.h"
-
 namespace dresslife::pipeline {
 
+struct Job;
+
 struct StudyJob {
-  std::string name;     ///< unique in the study, fit for a folder
-  Job job;              ///< when it can be run
-  std::string failure;  ///< else: the one line that says why not
+  std::string name;                ///< unique in the study, fit for a folder
+  std::shared_ptr<const Job> job;  ///< when it can be run
+  std::string failure;             ///< else: the one line that says why not
 };
 
 struct Study {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job.h"
 #include "sim/motion_file.h"
 #include "sim/mounting.h"
 #include "sim/routing.h"

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "pipeline/job/job.h"
 #include "sim/simulate.h"
 
 namespace dresslife::sim {

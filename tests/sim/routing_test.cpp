@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "pipeline/job/job.h"
 #include "sim/simulate.h"
 #include "tests/pipeline/scratch.h"
 

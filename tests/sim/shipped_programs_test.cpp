@@ -2,6 +2,7 @@
 // a dresspack that survives them.
 #include <catch2/catch.hpp>
 
+#include "pipeline/job/job.h"
 #include "sim/simulate.h"
 
 namespace dresslife::sim {

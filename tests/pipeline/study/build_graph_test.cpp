@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "pipeline/files/receipt.h"
+#include "pipeline/job/job.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -37,8 +38,11 @@ class Bench {
   Study study(const std::vector<std::pair<std::string, std::string>>& jobs) const {
     Study made;
     made.name = "study";
-    for (const auto& [name, set] : jobs)
-      made.jobs.push_back({name, job_from(parse_yaml(sample_job, "job.yaml"), {set}), ""});
+    for (const auto& [name, set] : jobs) {
+      const std::shared_ptr<const Job> job =
+          std::make_shared<const Job>(job_from(parse_yaml(sample_job, "job.yaml"), {set}));
+      made.jobs.push_back({name, job, ""});
+    }
     return made;
   }
   BuildResult run(const Study& of) {
@@ -88,7 +92,7 @@ TEST_CASE("build graph: every stage of every job runs once, in folders of any na
   CHECK(bench.words(study) == Words{"done", "done"});
   CHECK(bench.calls("one") == "sim strain fatigue ");
   CHECK(bench.calls("two") == "sim strain fatigue ");
-  CHECK(bytes_of(bench.places().job("two") / "job.yaml") == job_text(study.jobs[1].job));
+  CHECK(bytes_of(bench.places().job("two") / "job.yaml") == job_text(*study.jobs[1].job));
   CHECK(std::count(bench.events().begin(), bench.events().end(), "fatigue two") == 1);
   CHECK(bench.run(study).executed == 0);
   CHECK(bench.calls("one") == "sim strain fatigue ");
@@ -149,12 +153,14 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
   Bench bench;
   const fs::path poses = bench.scratch().write("poses.csv", "0, 1\n");
   Study study = bench.study({{"one", "simulation.segments=20"}});
-  study.jobs[0].job.motion.steps.clear();
-  study.jobs[0].job.motion.clamp_poses = poses;
-  study.jobs[0].job.robot = {};
-  study.jobs[0].job.dresspacks[0].routing.base_clamp.reset();
-  study.jobs[0].job.dresspacks[0].routing.tool_clamp.reset();
-  study.jobs[0].job.dresspacks[0].routing.mounting_pose.clear();
+  Job recorded = *study.jobs[0].job;
+  recorded.motion.steps.clear();
+  recorded.motion.clamp_poses = poses;
+  recorded.robot = {};
+  recorded.dresspacks[0].routing.base_clamp.reset();
+  recorded.dresspacks[0].routing.tool_clamp.reset();
+  recorded.dresspacks[0].routing.mounting_pose.clear();
+  study.jobs[0].job = std::make_shared<const Job>(recorded);
   bench.run(study);
   REQUIRE(bench.words(study) == Words{"done"});
   const auto before = fs::last_write_time(poses);

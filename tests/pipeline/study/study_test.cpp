@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "pipeline/job/job.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -35,8 +36,8 @@ TEST_CASE("study: every combination of the varied values becomes a job, the last
   CHECK(study.name == "my_study");
   CHECK(names(study) ==
         Names{"cyclic-segments=20", "cyclic-segments=40", "elastic-segments=20", "elastic-segments=40"});
-  CHECK(study.jobs[2].job.fatigue.stress == Stress::elastic);
-  CHECK(study.jobs[2].job.simulation.segments == 20);
+  CHECK(study.jobs[2].job->fatigue.stress == Stress::elastic);
+  CHECK(study.jobs[2].job->simulation.segments == 20);
   for (const StudyJob& job : study.jobs) CHECK(job.failure.empty());
 }
 
@@ -48,15 +49,15 @@ TEST_CASE("study: named changes are varied, too") {
                "vary: {strain.slip: [free, stick]}\n");
   CHECK(study.name == "other");
   CHECK(names(study) == Names{"stiff-free", "stiff-stick", "plain-free", "plain-stick"});
-  CHECK(study.jobs[1].job.dresspacks[0].dresspack.bending_stiffness == 8);
-  CHECK(study.jobs[2].job.dresspacks[0].dresspack.bending_stiffness == 5);
+  CHECK(study.jobs[1].job->dresspacks[0].dresspack.bending_stiffness == 8);
+  CHECK(study.jobs[2].job->dresspacks[0].dresspack.bending_stiffness == 5);
 }
 
 TEST_CASE("study: a base alone is one job with the study's name") {
   const Scratch scratch;
   const Study study = study_of(scratch, "base: job.yaml\n");
   CHECK(names(study) == Names{"my_study"});
-  CHECK(job_text(study.jobs[0].job) == job_text(read_job(scratch / "job.yaml")));
+  CHECK(job_text(*study.jobs[0].job) == job_text(read_job(scratch / "job.yaml")));
 }
 
 TEST_CASE("study: jobs are named by their values, fit for a folder") {
@@ -90,8 +91,8 @@ TEST_CASE("study: --set comes after the study's own changes") {
   const Scratch scratch;
   const Study study = study_of(scratch, "base: job.yaml\nvary: {simulation.segments: [20, 40]}\n",
                                {"simulation.segments=60", "fatigue.stress=elastic"});
-  CHECK(study.jobs[0].job.simulation.segments == 60);
-  CHECK(study.jobs[1].job.fatigue.stress == Stress::elastic);
+  CHECK(study.jobs[0].job->simulation.segments == 60);
+  CHECK(study.jobs[1].job->fatigue.stress == Stress::elastic);
 }
 
 TEST_CASE("study: what is no study is refused where it stands") {

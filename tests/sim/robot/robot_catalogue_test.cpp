@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "pipeline/job/catalogue.h"
 #include "pipeline/job/fields.h"
-#include "pipeline/job/job.h"
 #include "sim/robot/inverse_kinematics.h"
 
 namespace dresslife::pipeline {

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
+#include "pipeline/job/catalogue.h"
 #include "pipeline/job/fields.h"
-#include "pipeline/job/job.h"
 #include "pipeline/job/urdf.h"
 #include "sim/robot/robot.h"
 

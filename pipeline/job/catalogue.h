@@ -1,0 +1,28 @@
+// Catalogue entries by name, and changes of single keys: from a job as it is written to one whole tree.
+#pragma once
+
+#include <string>
+
+#include "pipeline/job/document.h"
+
+namespace dresslife::pipeline {
+
+/// Folders of the catalogue: "robots", "programs", "dresspacks", "materials". A name is looked up beside the
+/// file that names it and in its parents (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml; the working folder for
+/// --set), then in the same way beside the job (a study or --set may change a job of another place), then in
+/// the catalogue that comes with dresslife (installation.h: DRESSLIFE_CONFIG names another). Errors:
+/// InputError with the near names.
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
+                     const Where& job);
+
+/// Writes out every entry that a job names, and the materials that its dresspacks name. Errors: InputError.
+void resolve_job(Node& job);
+
+/// Sets the value at a key path (`simulation.segments`, `dresspacks.2.routing.free_length_m`); where: who
+/// asks for it.
+void set_value(Node& job, const std::string& path, Node value, const Where& where);
+
+/// Sets the value at `key.path=value` in a job's tree; list items count from 1. Errors: InputError.
+void apply_set(Node& job, const std::string& set);
+
+}  // namespace dresslife::pipeline

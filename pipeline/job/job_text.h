@@ -1,0 +1,38 @@
+// A job as a whole: read, written, and the parts of it on which results depend. Whoever only passes jobs on
+// needs no more than this, and is not compiled anew for a key.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/job/document.h"
+
+namespace dresslife::pipeline {
+
+struct Job;
+struct Setup;
+
+/// Reads a job, looks up the catalogue entries that it names, applies `--set key.path=value` in their order,
+/// checks everything that can be checked without running. Errors: InputError.
+Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
+
+/// The same for a job that is a tree already: a study's, or the `job` attribute of a file.
+Job job_from(Node document, const std::vector<std::string>& sets = {});
+Setup setup_from(Node document);
+
+/// The resolved job as YAML: catalogue entries written out, defaults filled in. Reads back to the same job.
+std::string job_text(const Job& job);
+std::string job_text(const std::filesystem::path& file, const std::vector<std::string>& sets);
+
+/// What of the job each stage's result depends on; equal text (and equal files beside it), equal result.
+enum class Part { sim, strain, fatigue };
+std::string part_text(const Job& job, Part part);
+
+/// Files beyond the job and the catalogue that dresslife-sim reads.
+std::vector<std::filesystem::path> files_beside(const Job& job);
+
+/// Every key of a job, as Markdown tables.
+std::string job_manual();
+
+}  // namespace dresslife::pipeline

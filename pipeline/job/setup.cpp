@@ -1,0 +1,24 @@
+#include "pipeline/job/setup.h"
+
+#include "pipeline/job/fields.h"
+
+namespace dresslife::pipeline {
+
+void describe(Fields& f, MountedDresspack& mounted) {
+  f.place(mounted.where);
+  f.text("name", mounted.name, Need::required, "a name that tells it from the others, without '/'");
+  f.group("dresspack", mounted.dresspack, Need::required,
+          "a name of config/dresspacks, a file, or the entry itself");
+  f.group("routing", mounted.routing, Need::required, "clamps and free length");
+}
+
+std::string name_among(const Setup& setup, std::size_t dresspack) {
+  return setup.dresspacks.size() > 1 ? setup.dresspacks[dresspack].name : "";
+}
+
+std::string dresspack_words(const Setup& setup, std::size_t dresspack) {
+  const std::string name = name_among(setup, dresspack);
+  return name.empty() ? "dresspack" : fmt::format("dresspack '{}'", name);
+}
+
+}  // namespace dresslife::pipeline

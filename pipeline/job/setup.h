@@ -1,0 +1,41 @@
+// What moves and how: all of a job that dresslife-sim needs. Whoever stays with it is not compiled anew for a
+// key of strain or fatigue.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/job/document.h"
+#include "pipeline/job/dresspack.h"
+#include "pipeline/job/motion.h"
+#include "pipeline/job/robot.h"
+#include "pipeline/job/routing.h"
+#include "pipeline/job/shapes.h"
+#include "pipeline/job/simulation.h"
+
+namespace dresslife::pipeline {
+
+/// One of the robot's dresspacks as it is clamped.
+struct MountedDresspack {
+  std::string name;  ///< empty: the only one, given by the job's own keys `dresspack` and `routing`
+  Dresspack dresspack;
+  Routing routing;
+  Where where;
+};
+
+void describe(Fields& f, MountedDresspack& mounted);
+
+struct Setup {
+  Robot robot;  ///< no joints with clamp_poses
+  Motion motion;
+  std::vector<MountedDresspack> dresspacks = std::vector<MountedDresspack>(1);  ///< at least one
+  Cell cell;
+  Simulation simulation;
+};
+
+/// What tells a dresspack from the others: its name, or nothing where it is the only one; and the same as the
+/// subject of a sentence: "dresspack 'main hose'", "dresspack".
+std::string name_among(const Setup& setup, std::size_t dresspack);
+std::string dresspack_words(const Setup& setup, std::size_t dresspack);
+
+}  // namespace dresslife::pipeline
