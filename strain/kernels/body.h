@@ -20,9 +20,10 @@ struct Descent {
 };
 
 /// The part of step k in its parent `rod`, once its free strain is known. held: what friction holds of its
-/// deviation, at this sample.
-inline Rod<Pack> step_down(const Rod<Pack>& rod, const NestingLevel& step, const Placement& place,
-                           const Rod<double>& rest, const Pack& free_strain, const double* held) {
+/// deviation, at this sample. One copy: inlined wherever it is called, it is most of what there is to compile.
+__attribute__((noinline, flatten)) Rod<Pack> step_down(const Rod<Pack>& rod, const NestingLevel& step,
+                                                       const Placement& place, const Rod<double>& rest,
+                                                       const Pack& free_strain, const double* held) {
   const Rod<Pack> glued = child(rod, place);
   if (step.slide.sliding == Sliding::glued) return glued;
   if (held == nullptr) return slid(glued, free_strain, rest, place.kinematics);
