@@ -262,7 +262,8 @@ void FanucRun::block(const std::string& word) {
 void FanucRun::jump(FanucCursor& at, bool certain) {
   if (!at.take("LBL")) return complain("jumps to no LBL[n]", "mend the statement");
   const auto label = values_.index(at);
-  if (!label || !label->number) return missing_value("jumps to a label by");
+  if (!label || !label->number)
+    return whole_program_no_matter() ? void() : missing_value("jumps to a label by");
   const auto& labels = routine().listing->labels;
   const auto found = labels.find(whole(*label->number));
   if (found == labels.end())
@@ -459,6 +460,23 @@ bool FanucRun::no_matter(const FanucEffects& effects) {
   return true;
 }
 
+/// Whether the called program that runs moves nothing wherever it jumps: then it ends here, and what it may
+/// write is unknown.
+bool FanucRun::whole_program_no_matter() {
+  if (routines_.size() < 2) return false;
+  const FanucListing& listing = *routine().listing;
+  const auto aborts = [](const FanucStatement& s) {
+    const std::string action = fanuc_action(s.text);
+    return FanucCursor(action).word() == "abort";
+  };
+  if (std::any_of(listing.statements.begin(), listing.statements.end(), aborts)) return false;
+  FanucEffects effects = outlook_.effects(listing, 0, listing.statements.size());
+  effects.leaves = false;  // jumps stay within a program
+  if (effects.waits || !no_matter(effects)) return false;
+  routine().at = listing.statements.size();
+  return true;
+}
+
 void FanucRun::if_statement(FanucCursor& at) {
   const std::size_t here = routine().at;
   const FanucStatement& s = statement();
@@ -467,7 +485,10 @@ void FanucRun::if_statement(FanucCursor& at) {
   if (const auto told = assumed(s.line)) decision = told;
   if (lower_case(s.text).ends_with("then")) {
     if (!decision) {
-      if (!no_matter(outlook_.effects(*routine().listing, here + 1, s.end))) ask("branches on");
+      if (!no_matter(outlook_.effects(*routine().listing, here + 1, s.end))) {
+        if (whole_program_no_matter()) return;
+        ask("branches on");
+      }
       routine().at = s.end;
     } else if (!*decision) {
       routine().at = s.other + 1;
@@ -497,14 +518,14 @@ void FanucRun::undecided(const std::string& action) {
     const auto label = values_.index(at);
     const auto found =
         label && label->number ? listing.labels.find(whole(*label->number)) : listing.labels.end();
-    if (found == listing.labels.end()) return ask("branches on");
+    if (found == listing.labels.end()) return whole_program_no_matter() ? void() : ask("branches on");
     target = found->second;
   }
   if (word == "abort") return note("ABORT: on a condition that is taken not to be met");
   const FanucEffects effects = target == here  ? outlook_.effects(action)
                                : target > here ? outlook_.effects(listing, here + 1, target)
                                                : outlook_.effects(listing, target, here);
-  if (!no_matter(effects)) return ask("branches on");
+  if (!no_matter(effects)) return whole_program_no_matter() ? void() : ask("branches on");
   if (target > here) routine().at = target;
 }
 
@@ -587,6 +608,7 @@ void FanucRun::undecided_select(const std::vector<Case>& cases, std::size_t behi
   }
   effects.add(outlook_.effects(listing, behind, furthest));
   if (!no_matter(effects)) {
+    if (whole_program_no_matter()) return;
     const std::string name = values_.missing().empty() ? "what" : values_.missing() + ", which";
     complain(fmt::format("selects by {} is known only while the robot runs", name),
              fmt::format("choose with --assume {}=VALUE ({}; motion.assume in a job)", line_name(),

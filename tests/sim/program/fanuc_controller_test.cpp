@@ -293,6 +293,24 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
       run("   1:  R[5]=20 ;\n   2:  IF (DI[9])R[5]=(1) ;\n   3:J P[1] R[5]% FINE ;\n").problems.at(0).what ==
       "has a speed by R[5], which is known only while the robot runs");
 
+  // A called program without moves, whose jumps hang on arguments, ends one way or the other.
+  const std::string told =
+      "   1:  IF SO[4]=ON,JMP LBL[7] ;\n   2:  JMP LBL[AR[1]] ;\n   3:  LBL[1] ;\n   4:  R[5]=1 ;\n   5:  "
+      "END ;\n   6:  "
+      "LBL[7] ;\n   7:  MESSAGE[LOW] ;\n";
+  const std::string main =
+      "   1:J P[1] 100% FINE ;\n   2:  R[5]=50 ;\n   3:  CALL TEXT(R[9]) ;\n   4:J P[2] ";
+  const Reading text = run(main + "20% FINE ;\n", {}, {{"text.ls", listing("TEXT", told)}});
+  CHECK(text.problem() == "no such problem");
+  CHECK(stops(text) == std::vector<int>{1, 2});
+  CHECK_THAT(run(main + "R[5]% FINE ;\n", {}, {{"text.ls", listing("TEXT", told)}}).problem(),
+             Catch::Contains("has a speed by R[5]"));
+  for (const char* more : {"   8:J P[1] 50% FINE ;\n", "   8:  ABORT ;\n", "   8:  WAIT   2.00(sec) ;\n"})
+    CHECK_THAT(run(main + "20% FINE ;\n", {}, {{"text.ls", listing("TEXT", told + more)}}).problem(),
+               Catch::Contains("SO[4], which is known only while the robot runs") ||
+                   Catch::Contains("AR[1], which is known only while the robot runs") ||
+                   Catch::Contains("R[9], which is known only while the robot runs"));
+
   const std::string choice =
       "   1:J P[1] 100% FINE ;\n   2:  SELECT R[1]=1,JMP LBL[1] ;\n   3:         =2,JMP LBL[2] ;\n   4:      "
       "   "
