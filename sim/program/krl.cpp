@@ -7,6 +7,7 @@
 
 #include "sim/program/krl_dialect.h"
 #include "sim/program/krl_spline.h"
+#include "sim/program/tokens.h"
 
 namespace dresslife::sim {
 
@@ -14,8 +15,8 @@ using namespace krl;
 
 namespace {
 
-constexpr const char* standing_names[] = {"$axis_act", "$pos_act",  "$axis_int",
-                                          "$pos_int",  "$axis_ret", "$pos_ret"};
+constexpr const char* standing_names[] = {"$axis_act", "$axis_act_meas", "$pos_act",  "$pos_act_mes",
+                                          "$axis_int", "$pos_int",       "$axis_ret", "$pos_ret"};
 
 bool is_standing(const std::string& name) {
   return std::find(std::begin(standing_names), std::end(standing_names), name) != std::end(standing_names);
@@ -50,8 +51,8 @@ std::optional<Value> Krl::constant(const std::string& name) {
   if (name == "$nullframe" || name == "$world") return frame_value(Frame{});
   if (name == "$num_ax") return number_value(6);
   if (name == "$t1" || name == "$t2") return truth_value(false);  // what wears cables is automatic operation
-  const bool axes = name == "$axis_act" || name == "$axis_int";
-  if (!axes && name != "$pos_act" && name != "$pos_int") return named_frame(name);
+  const bool axes = name == "$axis_act" || name == "$axis_act_meas" || name == "$axis_int";
+  if (!axes && name != "$pos_act" && name != "$pos_act_mes" && name != "$pos_int") return named_frame(name);
   const auto numbers = axes ? axes_ : place_before(current_frames(*run_));
   if (numbers) return record(*numbers, axes ? "axis" : "frame");
   if (std::optional<Value> given = run_->given(name)) return given;
@@ -330,8 +331,19 @@ void Krl::add_origins(const Expression& target, const Frames& frames, Instructio
 
 // ---- moves ------------------------------------------------------------------------------------------------
 
-bool Krl::stands_still(const Expression& target) const {
-  return target.kind == Expression::Kind::name && is_standing(target.text);
+/// A move to $AXIS_ACT; before the first move also one to a variable that keeps it.
+bool Krl::stands_still(const Expression& target, Interpreter& run) const {
+  if (target.kind != Expression::Kind::name) return false;
+  if (is_standing(target.text)) return true;
+  const auto moves = [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; };
+  const auto& made = run.program().instructions;
+  if (std::any_of(made.begin(), made.end(), moves)) return false;
+  const Place last = run.origin(target);  // "p = $AXIS_ACT", unless a part of it was written since
+  if (last.line == 0) return false;
+  std::string line = lower_case(code_.files[last.file].from(last.line, last.column));
+  line.resize(std::min(line.find(';'), line.size()));
+  std::erase(line, ' ');
+  return line.starts_with(target.text + "=") && is_standing(line.substr(target.text.size() + 1));
 }
 
 void Krl::set_frames(const Frames& frames, Instruction& move, Interpreter& run) {
@@ -390,7 +402,7 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
     run.complain(statement.place, "CIRC needs a point on the way and a target", "write both");
     return;
   }
-  if (stands_still(*target)) {
+  if (stands_still(*target, run)) {
     run.note(statement.place, "the robot stands there already: no move");
     return;
   }

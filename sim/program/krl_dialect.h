@@ -60,7 +60,7 @@ class Krl final : public Dialect {
   static std::optional<Instruction::Kind> kind_of(const std::string& name);
   bool move(Instruction::Kind kind, const Statement& statement, Interpreter& run);
   void move_now(Instruction::Kind kind, const Statement& statement, Interpreter& run);
-  bool stands_still(const Expression& target) const;
+  bool stands_still(const Expression& target, Interpreter& run) const;
   bool read_via(const Expression& via, From from, const Frames& frames, Instruction& move, Interpreter& run);
   bool read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
                    Interpreter& run);

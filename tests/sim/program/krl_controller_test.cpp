@@ -247,6 +247,10 @@ TEST_CASE("krl: a move to where the robot stands is none") {
     REQUIRE(r.problem() == "no such problem");
     CHECK(first_axes(r) == std::vector<double>{3});
   }
+  const Reading kept = run("DECL E6AXIS h\nh = $AXIS_ACT_MEAS ; here\nPTP h\nPTP " + axes(3));
+  REQUIRE(kept.problem() == "no such problem");
+  CHECK(first_axes(kept) == std::vector<double>{3});
+  CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nPTP " + axes(3) + "\nPTP h").problems.size() == 1);  // back there
   const Reading known = run("DECL E6AXIS h\nPTP " + axes(3) + "\nh=$AXIS_ACT\nh.A1=h.A1+4\nPTP h");
   REQUIRE(known.problem() == "no such problem");
   CHECK(first_axes(known) == std::vector<double>{3, 7});
