@@ -99,7 +99,10 @@ void Interpreter::start(const Routine& routine) {
                          names));
     return;
   }
-  call(routine, code_.start_arguments, routine.place);
+  if (dialect_.begins_again(routine) && code_.start_arguments.empty())
+    run_cycles(routine);
+  else
+    call(routine, code_.start_arguments, routine.place);
 }
 
 pipeline::Where Interpreter::where(const Place& place) const {
@@ -601,6 +604,61 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
            cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
        cut);
   throw Stop{};
+}
+
+/// Runs the routine; true: it ended the program instead of itself.
+bool Interpreter::ends_within(const Routine& routine) {
+  try {
+    call(routine, {}, routine.place);
+  } catch (const Stop&) {
+    locals_.resize(1);
+    routines_.clear();
+    loops_.clear();
+    module_ = -1;
+    return true;
+  }
+  return false;
+}
+
+/// A routine that begins again at its end: as an endless loop around it. What cannot be told of a later cycle
+/// does not take away the first one.
+void Interpreter::run_cycles(const Routine& routine) {
+  const std::size_t wanted = options_.passes;
+  const std::uint64_t state_before = state();
+  const long work_before = executed_;
+  Passes passes(program_.instructions);
+  while (true) {
+    const Problems told = problems_;
+    const bool ended = ends_within(routine);
+    if (problems_.count() > told.count() && passes.count() > 0) {
+      const Problem& first = problems_.list()[told.count()];
+      const std::string why = fmt::format("{} ({})", first.what, first.where.text());
+      problems_ = told;
+      const std::size_t kept = passes.by_motion() ? passes.by_motion() : 1;
+      program_.instructions.resize(passes.end(kept));
+      return note(routine.place,
+                  fmt::format("{} begins again at its end, and its next cycle {}; the motion is {}",
+                              routine.written, why, passes_text(static_cast<long>(kept))),
+                  true);
+    }
+    if (ended || problems_.count() > told.count()) return;
+    passes.add(state());
+    if (passes.count() == 1 && wanted <= 1 && state() == state_before) return;
+    if (passes.count() == wanted || (!wanted && passes.repeats())) break;
+    if (!wanted && (passes.count() >= searched_passes || executed_ - work_before > searched_work ||
+                    program_.instructions.size() > searched_moves))
+      break;
+  }
+  const std::size_t kept = passes.kept(wanted);
+  const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
+  program_.instructions.resize(passes.end(kept));
+  if (kept > 1 || cut)
+    note(routine.place,
+         fmt::format(
+             "{} begins again at its end; the motion is {}{}", routine.written,
+             passes_text(static_cast<long>(kept)),
+             cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
+         cut);
 }
 
 bool Interpreter::present(const Expression& argument) {

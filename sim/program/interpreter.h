@@ -10,7 +10,8 @@
 //
 // An endless main loop is run until the program's variables are what they were after an earlier pass: that is
 // one cycle of the machine. Where they never are, it is one pass; ImportOptions::passes says how many else. A
-// loop that a known condition keeps going is run as often as it says, within ImportLimits.
+// loop that a known condition keeps going is run as often as it says, within ImportLimits. RAPID's main
+// begins again at its end, with the variables as they are: that is an endless loop, too.
 #pragma once
 
 #include <functional>
@@ -33,7 +34,8 @@ struct Cause {
 
 struct Value {
   enum class Kind { unknown, number, truth, text, list };
-  /// Of KRL's numbers, and of the variables that hold them: INT counts in whole numbers, also when it divides.
+  /// Of KRL's numbers, and of the variables that hold them: INT counts in whole numbers, also when it
+  /// divides.
   enum class Numeric : unsigned char { any, integer, real };
   Kind kind = Kind::unknown;
   Numeric numeric = Numeric::any;
@@ -82,6 +84,11 @@ class Dialect {
     static_cast<void>(position);
     static_cast<void>(argument);
     return !harmless(instruction);
+  }
+  /// Whether the controller runs this routine again when it has ended.
+  virtual bool begins_again(const Routine& routine) const {
+    static_cast<void>(routine);
+    return false;
   }
   virtual const RecordType* type_of(const std::string& name) const = 0;
   /// Value of a declared variable without one.
@@ -164,6 +171,8 @@ class Interpreter {
   struct Round;
 
   void start(const Routine& routine);
+  void run_cycles(const Routine& routine);
+  bool ends_within(const Routine& routine);
   Flow execute(const std::vector<Statement>& body);
   Flow execute_routine(const Routine& routine);
   std::string rivals(const Place& a, const Place& b) const;

@@ -267,3 +267,27 @@ TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the r
               "a trap that may move or stop the robot (flee)"));
   CHECK_FALSE(warns(run("CONNECT number WITH halt;\n" + go(1), traps), "a trap"));
 }
+
+TEST_CASE("rapid controller: main begins again at its end") {
+  // Machines of states without a loop of their own move by it: 1 once, then 2, 3, 2, 3, ...
+  const std::string machine = "TEST state\nCASE 0:\n" + go(1) + "state:=1;\nCASE 1:\n" + go(2) +
+                              "state:=2;\nCASE 2:\n" + go(3) + "state:=1;\nENDTEST\n";
+  CHECK(first_axes(run(machine, "VAR num state:=0;\n")) == Angles{1, 2, 3});
+  ImportOptions five;
+  five.passes = 5;
+  CHECK(first_axes(run(machine, "VAR num state:=0;\n", five)) == Angles{1, 2, 3, 2, 3});
+  // What main itself declares is new in each cycle, a counter of parts changes no move, and EXIT is the end.
+  CHECK(first_axes(run("VAR num state:=0;\n" + machine)) == Angles{1});
+  CHECK(first_axes(run(go(1) + "Incr parts;\n", "VAR num parts:=0;\n")) == Angles{1});
+  CHECK(first_axes(run(go(1) + "Incr parts;\nIF parts=3 EXIT;\n", "VAR num parts:=0;\n")) == Angles{1, 1, 1});
+  // What nobody knows of the next cycle leaves the first one as it is, with a warning.
+  const Reading asks = run("IF again THEN\n" + go(2) + "ENDIF\n" + go(1) + "TPReadNum n,\"\";\nagain:=n>0;\n",
+                           "VAR bool again:=FALSE;\nVAR num n;\n");
+  CHECK(first_axes(asks) == Angles{1});
+  CHECK(warns(asks, "its next cycle branches on what is known only while the robot runs"));
+  // Another routine than main is run once.
+  ImportOptions step;
+  step.routine = "step";
+  CHECK(first_axes(run(go(9), "VAR num state:=0;\nPROC step()\n" + machine + "ENDPROC\n", step)) ==
+        Angles{1});
+}
