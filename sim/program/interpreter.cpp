@@ -630,7 +630,8 @@ void Interpreter::run_cycles(const Routine& routine) {
   while (true) {
     const Problems told = problems_;
     const bool ended = ends_within(routine);
-    if (problems_.count() > told.count() && passes.count() > 0) {
+    constexpr std::size_t few_moves = 2;  // make no motion
+    if (problems_.count() > told.count() && passes.count() > 0 && passes.end(passes.count()) >= few_moves) {
       const Problem& first = problems_.list()[told.count()];
       const std::string why = fmt::format("{} ({})", first.what, first.where.text());
       problems_ = told;

@@ -281,10 +281,13 @@ TEST_CASE("rapid controller: main begins again at its end") {
   CHECK(first_axes(run(go(1) + "Incr parts;\n", "VAR num parts:=0;\n")) == Angles{1});
   CHECK(first_axes(run(go(1) + "Incr parts;\nIF parts=3 EXIT;\n", "VAR num parts:=0;\n")) == Angles{1, 1, 1});
   // What nobody knows of the next cycle leaves the first one as it is, with a warning.
-  const Reading asks = run("IF again THEN\n" + go(2) + "ENDIF\n" + go(1) + "TPReadNum n,\"\";\nagain:=n>0;\n",
-                           "VAR bool again:=FALSE;\nVAR num n;\n");
-  CHECK(first_axes(asks) == Angles{1});
+  const std::string next = "IF again THEN\n" + go(2) + "ENDIF\n" + go(1);
+  const std::string typed = "TPReadNum n,\"\";\nagain:=n>0;\n", data = "VAR bool again:=FALSE;\nVAR num n;\n";
+  const Reading asks = run(next + go(3) + typed, data);
+  CHECK(first_axes(asks) == Angles{1, 3});
   CHECK(warns(asks, "its next cycle branches on what is known only while the robot runs"));
+  // One place is no motion: then it asks.
+  CHECK_THAT(run(next + typed, data).problem(), Catch::Contains("'again'"));
   // Another routine than main is run once.
   ImportOptions step;
   step.routine = "step";
