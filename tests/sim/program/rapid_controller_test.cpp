@@ -287,7 +287,7 @@ TEST_CASE("rapid controller: main begins again at its end") {
   CHECK(first_axes(asks) == Angles{1, 3});
   CHECK(warns(asks, "its next cycle branches on what is known only while the robot runs"));
   // One place is no motion: then it asks.
-  CHECK_THAT(run(next + typed, data).problem(), Catch::Contains("'again'"));
+  CHECK_THAT(run(next + typed, data).problem(), Catch::Contains("'n' may be written by tpreadnum"));
   // Another routine than main is run once.
   ImportOptions step;
   step.routine = "step";
