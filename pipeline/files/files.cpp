@@ -170,9 +170,11 @@ struct Axis {
 struct FileWriter::Impl {
   struct Open {
     const Dataset* description = nullptr;
-    Handle id, file_type, memory_type;
+    Handle id, file_type, memory_type;  // id: from the first write on
     std::size_t row_values = 1, value_bytes = 0, rows = 0, chunk_rows = 1;
     std::vector<char> buffer;
+    std::map<std::string, std::string> attributes;
+    std::size_t row_bytes() const { return row_values * value_bytes; }
   };
   WholeFile whole;
   const Format* format = nullptr;
@@ -223,18 +225,19 @@ struct FileWriter::Impl {
       made.file_type = Handle(H5Tcopy(file_type(made.description->type)), H5Tclose);
       made.memory_type = Handle(H5Tcopy(memory_type(made.description->type)), H5Tclose);
     }
-    create(path, made);
-    return made;
-  }
-
-  void create(const std::string& path, Open& made) {
-    const auto& shape = made.description->shape;
-    std::vector<hsize_t> lengths(shape.size()), most(shape.size()), chunk(shape.size());
     made.chunk_rows =
         made.description->packed()
             ? packed_chunk_rows
-            : std::max<std::size_t>(
-                  1, chunk_bytes / std::max<std::size_t>(1, made.row_values * made.value_bytes));
+            : std::max<std::size_t>(1, chunk_bytes / std::max<std::size_t>(1, made.row_bytes()));
+    made.attributes["unit"] = made.description->unit;
+    return made;
+  }
+
+  /// Not before there is something to write: what fits into less than a chunk takes no whole one on the disk.
+  void create(Open& made) {
+    const std::string& path = made.description->path;
+    const auto& shape = made.description->shape;
+    std::vector<hsize_t> lengths(shape.size()), most(shape.size()), chunk(shape.size());
     for (std::size_t i = 0; i < shape.size(); ++i) {
       lengths[i] = i ? axis_length(shape[i]) : 0;
       most[i] = i ? lengths[i] : H5S_UNLIMITED;
@@ -254,8 +257,19 @@ struct FileWriter::Impl {
     make_groups(path);
     made.id = Handle(
         H5Dcreate2(file, path.c_str(), made.file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
-    if (!made.id.valid() || !write_text_attribute(made.id, "unit", made.description->unit))
-      fail("dataset " + path);
+    if (!made.id.valid()) fail("dataset " + path);
+    for (const auto& [name, value] : made.attributes)
+      if (!write_text_attribute(made.id, name, value)) fail("attribute " + name + " of " + path);
+  }
+
+  /// Writes the rest of a dataset, which may be all of it.
+  void finish(Open& target) {
+    const std::size_t rows = target.row_bytes() ? target.buffer.size() / target.row_bytes() : 0;
+    if (!target.id.valid()) {
+      target.chunk_rows = std::max<std::size_t>(1, std::min(rows, target.chunk_rows));
+      create(target);
+    }
+    flush(target);
   }
 
   /// The groups above a dataset. (Left to the library they would carry the time of day: other bytes in every
@@ -300,6 +314,7 @@ struct FileWriter::Impl {
 
   /// rows: of the chunk that belong to the dataset.
   void write_chunk(Open& target, const char* numbers, std::size_t rows) {
+    if (!target.id.valid()) create(target);
     if (target.description->lists)
       deflater.pack(std::span(reinterpret_cast<const std::uint32_t*>(numbers), target.chunk_rows), packed);
     else
@@ -314,8 +329,9 @@ struct FileWriter::Impl {
 
   void flush(Open& target) {
     if (target.description->packed()) return flush_packed(target, true);
-    const std::size_t row_bytes = target.row_values * target.value_bytes;
+    const std::size_t row_bytes = target.row_bytes();
     if (target.buffer.empty() || row_bytes == 0) return;
+    if (!target.id.valid()) create(target);
     const hsize_t rows = target.buffer.size() / row_bytes;
     const auto& shape = target.description->shape;
     std::vector<hsize_t> first(shape.size(), 0), count(shape.size()), length(shape.size());
@@ -446,11 +462,13 @@ void FileWriter::attribute(const std::string& name, double value) {
 
 void FileWriter::dataset_attribute(const std::string& dataset, const std::string& name,
                                    const std::string& value) {
-  if (!write_text_attribute(impl_->dataset(dataset).id, name, value)) impl_->fail("attribute " + name);
+  Impl::Open& target = impl_->dataset(dataset);
+  target.attributes[name] = value;
+  if (target.id.valid() && !write_text_attribute(target.id, name, value)) impl_->fail("attribute " + name);
 }
 
 void FileWriter::commit() {
-  for (auto& [path, target] : impl_->open) impl_->flush(target);
+  for (auto& [path, target] : impl_->open) impl_->finish(target);
   impl_->check_whole();
   for (auto& [path, target] : impl_->open)
     if (target.id.reset() < 0) impl_->fail("dataset " + path);
