@@ -56,7 +56,7 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
   std::vector<JobResult> results;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
-    JobResult result{job.name, places.life(job.name), job.failure};
+    JobResult result{job.name, places.life(job.name), job.failure, states[k].settings};
     if (job.failure.empty() && !states[k].done())
       result.failure = states[k].failure.empty() ? states[k].words() : states[k].failure;
     results.push_back(std::move(result));

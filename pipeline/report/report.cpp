@@ -10,11 +10,11 @@
 #include "pipeline/installation.h"
 #include "pipeline/job/document.h"
 #include "pipeline/readable.h"
-#include "pipeline/whole_file.h"
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/motion_checks.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
+#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -363,6 +363,7 @@ std::string facts(const RankingRow& row) {
   fact("bounds",
        fmt::format("{} (all stick) .. {} (all free)", hours_words(row.hours_of(row.life_repeats_all_stick)),
                    hours_words(row.hours_of(row.life_repeats_all_free))));
+  if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
   const double stuck = row.life_repeats_all_stick / row.life_repeats;
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;

@@ -51,10 +51,18 @@ void check_programs(const StudyPlaces& places) {
   }
 }
 
-std::string recipe_of_stage(const Job& job, const Stage& stage, const StudyPlaces& places, Digests& digests) {
-  return recipe_of(part_text(job, stage.part),
-                   stage.part == Part::sim ? files_beside(job) : std::vector<fs::path>{},
-                   fs::canonical(places.programs / program_name(stage)), digests);
+/// What a job's stages are to be made from.
+void set_recipes(JobState& state, const Job& job, const StudyPlaces& places, Digests& digests) {
+  const std::vector<fs::path> files = files_beside(job);
+  std::string all;
+  for (std::size_t k = 0; k < stage_count; ++k) {
+    const std::string text = part_text(job, stages[k].part);
+    state.recipes[k] = recipe_of(text, stages[k].part == Part::sim ? files : std::vector<fs::path>{},
+                                 fs::canonical(places.programs / program_name(stages[k])), digests);
+    all += text;
+  }
+  constexpr std::size_t digits = 12;
+  state.settings = recipe_of(all, files, {}, digests).substr(0, digits);
 }
 
 std::string failure_key(const JobState& state) { return fmt::format("{}", fmt::join(state.recipes, " ")); }
@@ -238,8 +246,7 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places) {
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) continue;
-    for (std::size_t stage = 0; stage < stage_count; ++stage)
-      states[k].recipes[stage] = recipe_of_stage(*job.job, stages[stage], places, digests);
+    set_recipes(states[k], *job.job, places, digests);
     look_at(states[k], places.job(job.name));
   }
   return states;

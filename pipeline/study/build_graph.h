@@ -34,10 +34,11 @@ struct StudyPlaces {
 /// How a job stands.
 struct JobState {
   std::array<std::string, stage_count> recipes;  ///< that its receipts must name
-  std::size_t next = 0;                          ///< the first stage to run; stage_count: the job is done
-  std::string damaged;                           ///< "life.h5": is not what its stage wrote
-  std::string failure;                           ///< why the last attempt with these recipes failed
-  bool has_results = false;                      ///< of any settings
+  std::string settings;  ///< digest of the job and the files beside it, twelve digits; programs do not matter
+  std::size_t next = 0;  ///< the first stage to run; stage_count: the job is done
+  std::string damaged;   ///< "life.h5": is not what its stage wrote
+  std::string failure;   ///< why the last attempt with these recipes failed
+  bool has_results = false;           ///< of any settings
   std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared, as no times vouch for them
   bool done() const { return next == stage_count; }
   /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings, "to do" without

@@ -45,6 +45,7 @@ RankingRow read_row(const JobResult& result) {
   row.job = result.name;
   row.life_file = result.life_file;
   row.failure = result.failure;
+  row.settings = result.settings;
   if (!row.done()) return row;
   try {
     const FileReader file(result.life_file, life_format(), FileReader::Scope::attributes);
@@ -188,12 +189,12 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,worst_time_s,worst_step,"
       "status,message,life_hours_p10,life_hours_p50,life_hours_p90,conductor_life_hours_p10,"
       "conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,hose_segment_from_tool,"
-      "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack\n";
+      "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack,settings\n";
   for (const RankingRow& row : rows) {
     if (!row.done()) {
       const bool waits = row.failure == "stale" || row.failure == "to do";
-      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,\n", csv_cell(row.job),
-                          waits ? row.failure : "failed", csv_cell(row.failure));
+      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{}\n", csv_cell(row.job),
+                          waits ? row.failure : "failed", csv_cell(row.failure), row.settings);
       continue;
     }
     const bool evaluated = row.worst_segment_from_tool > 0;
@@ -219,6 +220,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     cells.push_back(row.worst_joint);
     cells.push_back(row.worst_joint.empty() ? "" : shortest_text(row.worst_joint_share));
     cells.push_back(row.worst_dresspack);
+    cells.push_back(row.settings);
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }

@@ -15,7 +15,8 @@ namespace dresslife::pipeline {
 struct JobResult {
   std::string name;
   std::filesystem::path life_file;
-  std::string failure;  ///< why there is no life file, one line; empty: the job is done
+  std::string failure;     ///< why there is no life file, one line; empty: the job is done
+  std::string settings{};  ///< of which it is the result (JobState)
 };
 
 /// The hose's wall of a job, whose life is told beside that of the wires.
@@ -31,6 +32,7 @@ struct RankingRow {
   std::string job;
   std::filesystem::path life_file;
   std::string failure;                  ///< empty: done, and the rest holds
+  std::string settings;                 ///< of which the row tells; empty: not known
   double life_repeats = 0;              ///< repeats of the motion until the worst wire breaks
   double life_hours = 0;                ///< hours of motion
   double life_months = 0;               ///< at the job's operating hours per week

@@ -134,6 +134,19 @@ TEST_CASE("build graph: a program with other bytes reruns its stage, one that wa
   CHECK(bench.words(study) == Words{"done"});
 }
 
+TEST_CASE("build graph: each setting of a job is in the digest of its settings, its programs are not") {
+  Bench bench;
+  std::set<std::string> seen;
+  for (const char* set :
+       {"simulation.segments=20", "simulation.segments=21", "strain.gate=2e-4", "fatigue.stress=elastic"})
+    for (const char* more : {"", "more"}) {
+      bench.write_stage("sim", more);
+      seen.insert(states_of(bench.study({{"one", set}}), bench.places())[0].settings);
+    }
+  CHECK(seen.size() == 4);
+  for (const std::string& settings : seen) CHECK(settings.size() == 12);
+}
+
 TEST_CASE("build graph: no time decides, only content") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}});
