@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "pipeline/job/job.h"
+
 namespace dresslife::fatigue {
 namespace {
 
@@ -64,6 +66,22 @@ std::vector<std::size_t> SiteSet::Block::cuts(std::size_t parts) const {
   sites.front() = begin;
   sites.push_back(end);
   return sites;
+}
+
+void SiteSet::check_materials(const pipeline::Job& job) const {
+  const auto describes = [&](const std::string& name) {
+    return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [&](const auto& mounted) {
+      const auto& materials = mounted.dresspack.materials;
+      return std::any_of(materials.begin(), materials.end(),
+                         [&](const pipeline::Material& material) { return material.name == name; });
+    });
+  };
+  for (const std::string& name : material_.values)
+    if (!describes(name))
+      throw pipeline::InputError(
+          file_.where(),
+          fmt::format("{}/site/material names '{}', which its job does not describe", group_, name),
+          "make the file anew with dresslife-strain");
 }
 
 std::size_t SiteSet::end_of_block(std::size_t begin) const {

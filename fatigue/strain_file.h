@@ -10,6 +10,10 @@
 #include "fatigue/rainflow.h"
 #include "pipeline/files/files.h"
 
+namespace dresslife::pipeline {
+struct Job;
+}
+
 namespace dresslife::fatigue {
 
 /// A text dataset in which few values occur often: each value once, and the index of every row's.
@@ -29,6 +33,8 @@ class SiteSet {
   std::size_t size() const { return segment_.size(); }
   int segment(std::size_t site) const { return segment_[site]; }
   const TextColumn& material() const { return material_; }
+  /// @throws pipeline::InputError when a site is of a material that the job does not describe.
+  void check_materials(const pipeline::Job& job) const;
   std::size_t reversals() const { return offset_.back(); }
 
   /// Several sites in a row with the strains of all their reversals.

@@ -59,6 +59,7 @@ std::size_t SiteDamage::worst_wall() const {
 
 SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job)
     : component_(component.index), material_(sites.material().index) {
+  sites.check_materials(job);
   std::vector<int> wall_of_dresspack;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
     const bool walled = !mounted.dresspack.hose_material.empty();

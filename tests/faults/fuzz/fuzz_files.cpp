@@ -181,7 +181,8 @@ void edit_dataset(hid_t file, const std::string& path, Choices& choices) {
       return;
     case 4: {  // a packed chunk, byte by byte
       const std::vector<hsize_t> first(lengths.size(), 0);
-      const Bytes chunk = choices.piece(choices.next<std::uint16_t>() % 4096u + 1u);
+      Bytes chunk = choices.piece(choices.next<std::uint16_t>() % 4096u + 1u);
+      chunk.resize(std::max<std::size_t>(1, chunk.size()));
       H5Dwrite_chunk(dataset, H5P_DEFAULT, choices.next<unsigned char>() % 4 == 0, first.data(), chunk.size(),
                      chunk.data());
       return;
