@@ -653,6 +653,9 @@ TEST_CASE("life.h5: strain files that contradict themselves are refused, and not
   f = example();
   f.free.clear();
   refused(f, "/bound_free holds no sites");
+  f = example();
+  f.sites[1].material = "unobtainium";
+  refused(f, "/site/material names 'unobtainium', which its job does not describe");
 }
 
 TEST_CASE("sites are visited in order with their own strains, also over many blocks") {
