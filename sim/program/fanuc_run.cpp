@@ -89,9 +89,13 @@ void FanucRun::charge(long steps) {
   executed_ += steps;
   if (executed_ + values_.charged() <= ImportLimits::executed) return;
   const pipeline::Where at = last_jump_.line > 0 ? last_jump_ : where();
-  problems_.add(
-      at, fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
-      fmt::format("decide what ends the loop: --assume {}:LINE=then or =else, or --value", file_of(at.file)));
+  const std::string end =
+      last_decision_.line > 0
+          ? fmt::format("--assume {}:{}=then or =else", file_of(last_decision_.file), last_decision_.line)
+          : "a statement that leaves it";
+  problems_.add(at,
+                fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
+                fmt::format("decide what ends the loop: {}, or --value with what it hangs on", end));
   throw Stop{};
 }
 
@@ -481,7 +485,10 @@ void FanucRun::if_statement(FanucCursor& at) {
   const std::size_t here = routine().at;
   const FanucStatement& s = statement();
   std::optional<bool> decision = values_.condition(at);
-  if (decision) routine().decided.insert(here);
+  if (decision) {
+    routine().decided.insert(here);
+    last_decision_ = where();
+  }
   if (const auto told = assumed(s.line)) decision = told;
   if (lower_case(s.text).ends_with("then")) {
     if (!decision) {
@@ -554,6 +561,7 @@ void FanucRun::select() {
   const auto which = chosen(cases, selected);
   if (!which) return undecided_select(cases, behind);
   routine().decided.insert(here);
+  last_decision_ = where();
   routine().at = behind;
   if (*which >= cases.size()) return;  // none of them
   routine().at = cases[*which].statement;

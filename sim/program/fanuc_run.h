@@ -137,6 +137,7 @@ class FanucRun {
   std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
   std::set<std::string> noted_;
   pipeline::Where last_jump_;  // back
+  pipeline::Where last_decision_;
   long executed_ = 0;
 };
 

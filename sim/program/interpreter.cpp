@@ -837,14 +837,29 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
 
 // ---- what a branch may do ---------------------------------------------------------------------------------
 
+/// A function of the program may move the robot before it gives back its value.
+bool Interpreter::moves(const Expression& expression, int module) {
+  const Routine* called =
+      expression.kind == Expression::Kind::call ? code_.find(expression.text, module) : nullptr;
+  return (called && moves(*called)) ||
+         std::any_of(expression.items.begin(), expression.items.end(),
+                     [&](const Expression& item) { return moves(item, module); });
+}
+
 bool Interpreter::moves(const Statement& statement, int module) {
+  const auto in_any = [&](const std::vector<Expression>& expressions) {
+    return std::any_of(expressions.begin(), expressions.end(),
+                       [&](const Expression& expression) { return moves(expression, module); });
+  };
+  if (in_any(statement.arguments)) return true;
   if (statement.kind == Kind::instruction) {
     const Routine* routine = code_.find(statement.name, module);
     if (routine ? moves(*routine) : statement.name == late_binding || dialect_.matters(statement.name))
       return true;
   }
   return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
-    return std::any_of(branch.body.begin(), branch.body.end(),
+    return in_any(branch.conditions) ||
+           std::any_of(branch.body.begin(), branch.body.end(),
                        [&](const Statement& inner) { return moves(inner, module); });
   });
 }

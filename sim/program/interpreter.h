@@ -199,6 +199,7 @@ class Interpreter {
   const typename Answers::mapped_type* answer(const Answers& answers, const Place& place);
   std::optional<bool> assumed(const Place& place);
 
+  bool moves(const Expression& expression, int module);
   bool moves(const Statement& statement, int module);
   bool moves(const Routine& routine);
   bool matters(const Statement& statement);

@@ -363,6 +363,13 @@ TEST_CASE("fanuc loops: an endless one runs until it repeats itself, or as often
       "JMP LBL[1] ;\n";
   CHECK(stops(run(parts)) == std::vector<int>{1, 2});
   CHECK(stops(run(parts, {.passes = 3})) == std::vector<int>{1, 2, 1, 2, 1, 2});
+  // One that only counts is told with the line that decides it.
+  const std::string counts =
+      "   1:  R[1]=1 ;\n   2:  R[2]=0 ;\n   3:  LBL[1] ;\n   4:  R[2]=R[2]+1 ;\n   5:  IF R[1]=1,JMP LBL[1] "
+      ";\n   6:J P[1] "
+      "100% FINE ;\n";
+  CHECK_THAT(run(counts).problem(),
+             Catch::Contains("goes back again and again") && Catch::Contains("--assume cell.ls:8=then"));
   // A palletizer: every pass is another one until it begins again.
   const std::string pallet =
       "   1:  LBL[1] ;\n   2:  R[1]=0 ;\n   3:  LBL[2] ;\n   4:  PR[2]=PR[1] ;\n   5:  "

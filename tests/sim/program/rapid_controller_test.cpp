@@ -294,3 +294,15 @@ TEST_CASE("rapid controller: main begins again at its end") {
   CHECK(first_axes(run(go(9), "VAR num state:=0;\nPROC step()\n" + machine + "ENDPROC\n", step)) ==
         Angles{1});
 }
+
+TEST_CASE("rapid controller: a function may move the robot where a condition or an assignment calls it") {
+  const std::string step =
+      "FUNC bool step(num at)\nMoveAbsJ [[at,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n"
+      "RETURN at<2;\nENDFUNC\nVAR bool more;\nVAR num n:=0;\n";
+  CHECK(first_axes(run("more:=TRUE;\nWHILE more DO\nIncr n;\nmore:=step(n);\nENDWHILE\n", step)) ==
+        Angles{1, 2});
+  for (const char* body : {"WHILE di1=1 DO\nmore:=step(1);\nENDWHILE\n", "IF di1=1 more:=step(1);\n",
+                           "IF di1=1 THEN\nIF step(1) THEN\nSet do1;\nENDIF\nENDIF\n"})
+    CHECK_THAT(run(go(1) + go(2) + body, step).problem(),
+               Catch::Contains("'di1' is a name that no file read declares"));
+}
