@@ -396,7 +396,12 @@ std::string Interpreter::because(const Value& unknown) const {
 
 std::string Interpreter::remedy_for(const Value& unknown) const {
   const Cause* cause = unknown.first_cause();
-  return cause && !cause->name.empty() ? fmt::format("--value '{}=...'", cause->name) : "";
+  if (!cause || cause->name.empty()) return "";
+  const std::string value = fmt::format("--value '{}=...'", cause->name);
+  const std::string_view why = cause->why, branch = "hangs on the branch in ";
+  return why.starts_with(branch)
+             ? fmt::format("--assume {}=then or =else, or {}", why.substr(branch.size()), value)
+             : value;
 }
 
 Value Interpreter::aggregate(const Expression& expression) {

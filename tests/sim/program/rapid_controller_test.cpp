@@ -306,3 +306,14 @@ TEST_CASE("rapid controller: a function may move the robot where a condition or 
     CHECK_THAT(run(go(1) + go(2) + body, step).problem(),
                Catch::Contains("'di1' is a name that no file read declares"));
 }
+
+TEST_CASE("rapid controller: what a branch without moves decides can be had by answering that branch") {
+  const std::string body =
+      "VAR num k:=0;\nIF di1=1 THEN\nk:=1;\nENDIF\nIF k=1 THEN\n" + go(1) + "ENDIF\n" + go(2);
+  CHECK_THAT(run(body).problem(),
+             Catch::Contains("'k' hangs on the branch in m.mod:4") &&
+                 Catch::Contains("or give --assume m.mod:4=then or =else, or --value 'k=...'"));
+  ImportOptions answered;
+  answered.assume["m.mod:4"] = Assumption::then_branch;
+  CHECK(first_axes(run(body, "", answered)) == Angles{1, 2});
+}
