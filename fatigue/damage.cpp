@@ -490,6 +490,8 @@ std::vector<DamagingCycle> DamageCounter::cycles(std::span<const Reversal> rever
   });
 }
 
+bool DamageCounter::must_alternate() const { return !is_repeated(tables_->settings.counting); }
+
 double life_in_repeats(double damage) {
   return damage > 0 ? 1 / damage : std::numeric_limits<double>::infinity();
 }

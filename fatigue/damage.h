@@ -74,6 +74,9 @@ class DamageCounter {
   void operator()(std::span<const StrainList> histories, std::span<double> damage,
                   Workspace& workspace) const;
 
+  /// Whether rises and falls must alternate: where the history is counted once, as half cycles.
+  bool must_alternate() const;
+
   /// The history's cycles with stress and damage by the same tables, in the order in which they close. Their
   /// sum is what operator() gives, to rounding.
   std::vector<DamagingCycle> cycles(std::span<const Reversal> reversals) const;

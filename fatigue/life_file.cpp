@@ -291,12 +291,13 @@ std::vector<double> worst_history(const Context& c) {
 std::vector<Reversal> write_worst_strain(const Context& c) {
   const char* const dataset = "/worst/strain";
   const std::vector<double> history = worst_history(c);
-  if (c.worst == no_site) {
-    put(c.life, dataset, std::vector<double>(c.time.size(), 0.0));
-    return {};
-  }
   if (history.empty()) {
-    std::vector<Reversal> turns = c.reversals_of(c.worst);
+    std::vector<Reversal> turns;
+    if (c.worst != no_site) turns = c.reversals_of(c.worst);
+    if (turns.empty()) {
+      put(c.life, dataset, std::vector<double>(c.time.size(), 0.0));
+      return {};
+    }
     put(c.life, dataset, strain_between_reversals(turns, c.time.size()));
     return turns;
   }

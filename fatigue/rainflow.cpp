@@ -81,6 +81,14 @@ std::vector<Cycle> repeat_residue(std::span<const Reversal> residue) {
 }
 
 std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals) {
+  if (const std::size_t bad = first_going_on(reversals, [](const Reversal& r) { return r.strain; });
+      bad < reversals.size())
+    throw pipeline::InputError(
+        {},
+        fmt::format("reversal {} of a strain history goes on from {} to {} in the direction of the one before "
+                    "(rises and falls must alternate)",
+                    bad, reversals[bad - 1].strain, reversals[bad].strain),
+        "leave out what is no turn, or count the repeated history");
   std::vector<Cycle> cycles;
   std::vector<Reversal> open;
   std::size_t first = 0;  // of those still open

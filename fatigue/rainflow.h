@@ -75,8 +75,24 @@ class FourPointCounter {
 /// The cycles that a residue closes when it happens once more, in the order in which they close.
 std::vector<Cycle> repeat_residue(std::span<const Reversal> residue);
 
+/// The first of a list that goes on in the direction of the one before it; its size where rises and falls
+/// alternate. A plateau is one level. strain_of: of an element.
+template <class List, class StrainOf>
+std::size_t first_going_on(const List& list, const StrainOf& strain_of) {
+  int direction = 0;
+  for (std::size_t i = 1; i < list.size(); ++i) {
+    const auto before = strain_of(list[i - 1]), now = strain_of(list[i]);
+    if (now == before) continue;
+    const int next = now > before ? 1 : -1;
+    if (next == direction) return i;
+    direction = next;
+  }
+  return list.size();
+}
+
 /// ASTM E1049-85, 5.4.4: full and half cycles of a history that happens once, in the order in which they are
 /// counted.
+/// @throws pipeline::InputError when rises and falls do not alternate: find_reversals() makes them.
 std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals);
 
 /// The reversals of one period of a repeated history, starting and ending with its largest |strain| (the

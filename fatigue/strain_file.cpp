@@ -112,6 +112,17 @@ void SiteSet::for_each(const std::function<void(std::size_t, std::span<const flo
   });
 }
 
+void SiteSet::check_alternating(std::size_t site, std::span<const float> strains) const {
+  const std::size_t bad = first_going_on(strains, [](float strain) { return strain; });
+  if (bad == strains.size()) return;
+  throw pipeline::InputError(
+      file_.where(),
+      fmt::format("{}/reversal/strain goes on from {} to {} at turning point {} of site {} (rises and falls "
+                  "must alternate to be counted as half_cycles)",
+                  group_, strains[bad - 1], strains[bad], bad, site),
+      "make the file anew with dresslife-strain, or set fatigue.counting to repeating");
+}
+
 std::vector<Reversal> SiteSet::reversals_of(std::size_t site) const {
   std::vector<float> strains;
   std::vector<std::uint32_t> samples;

@@ -59,6 +59,8 @@ class SiteSet {
   static constexpr std::size_t block_reversals = 1 << 20;
 
   std::vector<Reversal> reversals_of(std::size_t site) const;
+  /// @throws pipeline::InputError, which names the site, when its strains do not rise and fall in turns.
+  void check_alternating(std::size_t site, std::span<const float> strains) const;
 
  private:
   void check(std::size_t segments) const;

@@ -83,7 +83,7 @@ const DamageCounter& SiteCounters::of(std::size_t site) const {
 namespace {
 
 /// Of the sites [begin, end), as many of one material in a row as there are at a time.
-void add_damage_of(const SiteSet::Block& block, std::size_t begin, std::size_t end,
+void add_damage_of(const SiteSet& sites, const SiteSet::Block& block, std::size_t begin, std::size_t end,
                    const SiteCounters& counters, DamageCounter::Workspace& workspace, SiteDamage& all) {
   std::vector<StrainList> lists;
   for (std::size_t first = begin; first < end; first += lists.size()) {
@@ -91,6 +91,7 @@ void add_damage_of(const SiteSet::Block& block, std::size_t begin, std::size_t e
     lists.clear();
     for (std::size_t site = first; site < end && &counters.of(site) == &counter; ++site) {
       const std::span<const float> strains = block.strains_of(site);
+      if (counter.must_alternate()) sites.check_alternating(site, strains);
       lists.push_back({strains.data(), strains.size()});
       all.range[site] = range_of(strains);
     }
@@ -114,7 +115,7 @@ SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::si
     pipeline::in_parallel(threads, [&](std::size_t part) {
       if (part == 0) read_ahead();
       for (std::size_t piece = next++; piece + 1 < cuts.size(); piece = next++)
-        add_damage_of(block, cuts[piece], cuts[piece + 1], counters, workspaces[part], all);
+        add_damage_of(sites, block, cuts[piece], cuts[piece + 1], counters, workspaces[part], all);
     });
     progress(double(block.end) / sites.size());
   });

@@ -21,9 +21,16 @@ double nodal_share(double angle, int node) {
 }  // namespace
 
 double rest_ingredient(const WireNode& node, const Fibre* fibre) {
-  if (fibre == nullptr) return node.strain_factor * node.shear_radius / std::numbers::sqrt3 * node.rest.twist;
-  if (fibre->on_axis) return 0;
-  return fibre_strain(node.rest.bend1, node.rest.bend2, node.wire_radius, fibre->phi_sine, fibre->phi_cosine);
+  const double length = rest_length(node.place.kinematics, node.rest);
+  if (fibre == nullptr)
+    return node.strain_factor * node.shear_radius / std::numbers::sqrt3 * node.rest.twist / length;
+  const FibreShape shape = shape_of(*fibre, node);
+  return shape.by_bend1 * node.rest.bend1 + shape.by_bend2 * node.rest.bend2;
+}
+
+FibreShape shape_of(const Fibre& fibre, const WireNode& node) {
+  if (fibre.on_axis) return {};
+  return fibre_shape(node.place.kinematics, node.rest, node.wire_radius, fibre.phi_sine, fibre.phi_cosine);
 }
 
 void PartStates::fill(const BundleNesting& nesting, const DeformationColumns& columns, std::size_t samples,
@@ -53,10 +60,13 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
   constexpr float glued = std::numeric_limits<float>::infinity();
   mixed.cap = slip.sliding == Sliding::glued ? glued : static_cast<float>(slip.cap.constant);
   mixed.cap_per_mean = static_cast<float>(slip.cap.per_mean);
+  mixed.elastic = static_cast<float>(slip.elastic);
+  mixed.inverse_radial_share = static_cast<float>(1 / slip.radial_share);
   mixed.scales = !is_thesis(construction_.kinematics());
   mixed.with_shear = settings_.with_shear;
   mixed.on_axis = settings_.on_axis;
   mixed.rest.resize(1 + settings_.fibre_count);
+  mixed.fibre_scale.resize(settings_.fibre_count);
   for (int lane = 0; lane < lanes; ++lane) {
     const double angle = angles[lane < static_cast<int>(angles.size()) ? lane : 0];
     mixed.slip[lane] = 0;
@@ -65,11 +75,12 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
     mixed.shape[2][lane] = static_cast<float>(std::sin(2 * angle));
     mixed.shape[3][lane] = static_cast<float>(std::cos(2 * angle));
     for (int kind = 0; kind <= settings_.fibre_count; ++kind) {
+      const Fibre* const fibre = kind == 0 ? nullptr : &fibres[kind - 1];
       double rest = 0;
       for (int node = 0; node < waves_per_layer; ++node)
-        rest +=
-            nodal_share(angle, node) * rest_ingredient(nodes[node], kind == 0 ? nullptr : &fibres[kind - 1]);
+        rest += nodal_share(angle, node) * rest_ingredient(nodes[node], fibre);
       mixed.rest[kind][lane] = static_cast<float>(rest);
+      if (fibre) mixed.fibre_scale[kind - 1][lane] = mixed.scales ? static_cast<float>(1 / (1 + rest)) : 1.0f;
     }
   }
   return mixed;

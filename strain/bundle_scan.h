@@ -21,6 +21,7 @@ struct ScanSettings {
 
 /// Shear (fibre null) or bending of the undeformed wire, as the ingredients hold them.
 double rest_ingredient(const WireNode& node, const Fibre* fibre);
+FibreShape shape_of(const Fibre& fibre, const WireNode& node);
 
 /// The state of a part over the motion, from which its own parts go on: worked out once for all of them.
 class PartStates {

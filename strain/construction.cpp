@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "strain/cable_bending.h"
 #include "strain/corrugation.h"
 
 namespace dresslife::strain {
@@ -18,8 +19,8 @@ std::string element(const Layer& layer, int number) {
   return (layer.label.empty() ? "" : layer.label + "/") + layer.name + " " + std::to_string(number);
 }
 
-/// E A of a part along its own axis: of its wires alone. A helix of stiffness E A has E A cos^3(alpha) along
-/// its parent: strain and force are cos^2 and cos of those along the parent.
+}  // namespace
+
 double axial_stiffness(const pipeline::Dresspack& dresspack, const pipeline::Component& part) {
   if (part.components.empty()) {
     for (const pipeline::Material& material : dresspack.materials)
@@ -31,8 +32,6 @@ double axial_stiffness(const pipeline::Dresspack& dresspack, const pipeline::Com
     sum += inner.count * axial_stiffness(dresspack, inner) * std::pow(std::cos(inner.lay_angle), 3);
   return sum;
 }
-
-}  // namespace
 
 double Layer::pitch() const {
   if (helix_radius == 0 || lay_angle == 0) return std::numeric_limits<double>::infinity();
@@ -84,7 +83,7 @@ void Construction::check(const pipeline::Component& component, int parent_layer,
 }
 
 void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Component& component,
-                       int parent_layer, int level) {
+                       int parent_layer, int level, double friction_level) {
   check(component, parent_layer, level);
   Layer layer;
   layer.name = component.name;
@@ -99,13 +98,23 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   layer.lay_angle = sign_of(component.hand) * component.lay_angle;
   layer.phase = component.phase;
   layer.friction = component.friction.value_or(0);
-  layer.line_load = component.radial_line_load.value_or(0);
+  layer.line_load = friction_level * component.radial_line_load.value_or(0);
   layer.tension = component.tension;
+  layer.jacket_stiffness = component.jacket_stiffness;
+  layer.radial_stiffness = component.radial_stiffness.value_or(layer.radial_stiffness);
   layer.axial_stiffness = axial_stiffness(dresspack, component);
   const int index = static_cast<int>(layers_.size());
   layers_.push_back(layer);
   levels_ = std::max(levels_, level);
-  for (const auto& inner : component.components) add(dresspack, inner, index, level + 1);
+  const bool measured = component.measured_bending_stiffness.has_value();
+  if (measured && friction_level != 1)
+    throw pipeline::InputError(component.where,
+                               fmt::format("'{}' has measured_bending_stiffness_Nm2 and lies in a part that has it "
+                                           "too (one friction level belongs to both)",
+                                           component.name),
+                               "keep one of the two");
+  const double inside = measured ? strain::friction_level(dresspack, component) : friction_level;
+  for (const auto& inner : component.components) add(dresspack, inner, index, level + 1, inside);
 }
 
 void Construction::list_parts(int parent_layer, int parent_part) {

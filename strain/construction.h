@@ -6,6 +6,7 @@
 // itself) together with the wire layers directly in it.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,6 @@ namespace dresslife::strain {
 
 constexpr int dresspack_itself = -1;  ///< as the parent of a part or layer
 constexpr int hose_places = 16;       ///< around the hose's wall, evenly spaced
-constexpr int highest_level = 6;      ///< of nesting; Series::capacity must exceed it by two
 
 struct Layer {
   std::string name;      ///< "signal cable"; part k is "signal cable k"
@@ -39,6 +39,8 @@ struct Layer {
   double friction = 0;         ///< Coulomb, of a part on what it lies against
   double line_load = 0;        ///< radial, from jacket and tape [N/m]
   double tension = 0;          ///< of a part at rest [N]
+  double jacket_stiffness = 0;  ///< that holds a part along its path [N/m2]
+  double radial_stiffness = std::numeric_limits<double>::infinity();  ///< of what the layer lies on [N/m2]
   double axial_stiffness = 0;  ///< EA of a part, of its wires alone [N]; 0: a material is not known
 
   double pitch() const;  ///< along the parent [m]; infinite when straight
@@ -56,6 +58,10 @@ struct Bundle {
   int part;  ///< or dresspack_itself
   std::vector<int> wire_layers;
 };
+
+/// E A of a part along its own axis, of its wires alone [N]. A helix of stiffness E A has E A cos^3(alpha)
+/// along its parent: strain and force are cos^2 and cos of those along the parent.
+double axial_stiffness(const pipeline::Dresspack& dresspack, const pipeline::Component& part);
 
 class Construction {
  public:
@@ -83,8 +89,9 @@ class Construction {
   std::string wire_path(int layer, int number, int parent) const;
 
  private:
+  /// friction_level: factor of the radial line loads, from a measured stiffness of what it lies in.
   void add(const pipeline::Dresspack& dresspack, const pipeline::Component& component, int parent_layer,
-           int level);
+           int level, double friction_level = 1);
   void check(const pipeline::Component& component, int parent_layer, int level) const;
   void list_parts(int parent_layer, int parent_part);
   double lay_angle(const Layer& layer) const;

@@ -330,6 +330,7 @@ FibreHistory Evaluation::mixed_history(const BundleNesting& nesting, const Layer
   const WireNode& node = nesting.nodes[0];
   const Fibre& fibre = nesting.fibres[0];
   const double rest_bending = rest_ingredient(node, &fibre), rest_shear = rest_ingredient(node, nullptr);
+  const double fibre_scale = shape_of(fibre, node).scale;
   const bool scales = !is_thesis(construction_.kinematics());
   constexpr double glued = std::numeric_limits<double>::infinity();
   Slider slider;
@@ -337,10 +338,10 @@ FibreHistory Evaluation::mixed_history(const BundleNesting& nesting, const Layer
     for (std::size_t t = 0; t < samples; ++t) {
       const double mean = rows[mean_strain * stride + t], away = rows[deviation * stride + t];
       const double cap = slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, mean);
-      const double axial = mean + slider.next(away, cap);
-      const double scale = scales ? (1 + axial) / (1 + mean + away) : 1;
-      both.strain[t] = axial + (fibre.on_axis ? 0 : rows[first_bending * stride + t] * scale - rest_bending);
-      both.shear[t] = std::numbers::sqrt3 * (rows[shear * stride + t] * scale - rest_shear);
+      const double axial = mean + slider.next((1 - slip.elastic) * away, cap) + slip.elastic * away;
+      const double scale = scales ? (1 + axial) / (1 + (mean + away) / slip.radial_share) : 1;
+      both.strain[t] = (axial + rows[first_bending * stride + t] * scale - rest_bending) * fibre_scale;
+      both.shear[t] = std::numbers::sqrt3 * (rows[shear * stride + t] * scale - rest_shear) * fibre_scale;
     }
   return both;
 }

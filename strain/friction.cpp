@@ -9,18 +9,21 @@ namespace {
 /// Rows of deviations (mean, then the powers) to what is held of them (the powers). Runs twice, the first
 /// time to settle.
 void hold(const std::vector<double>& deviations, int powers, std::size_t stride, std::size_t samples,
-          const FrictionCap& cap, std::vector<double>& held) {
+          const LayerSlip& slip, std::vector<double>& held) {
   held.assign(powers * stride, 0.0);
   std::vector<double> slope_slip(powers, 0.0);
   Slider slider;
   for (int run = 0; run < 2; ++run)
     for (std::size_t t = 0; t < samples; ++t) {
       const double before = slider.slip();
-      held[t] = slider.next(deviations[stride + t], cap_at(cap, deviations[t]));
+      const double away = deviations[stride + t], slides = 1 - slip.elastic;
+      held[t] = slider.next(slides * away, cap_at(slip.cap, deviations[t])) + slip.elastic * away;
       const bool sliding = slider.slip() != before;
-      for (int power = 1; power < powers; ++power)
+      for (int power = 1; power < powers; ++power) {
+        const double slope = deviations[(1 + power) * stride + t];
         held[power * stride + t] =
-            Slider::next_slope(deviations[(1 + power) * stride + t], sliding, slope_slip[power]);
+            Slider::next_slope(slides * slope, sliding, slope_slip[power]) + slip.elastic * slope;
+      }
     }
 }
 
@@ -83,7 +86,7 @@ void HeldStrains::fill(Rows& rows, int part) {
   const auto hold_turned = [&](int turn, std::vector<double>& held) {
     kernels().deviations(pointers(nesting), turn, turned_level(construction_, construction_.ancestry(part)),
                          columns_, 0, samples_, deviations_.data(), stride_);
-    hold(deviations_, powers, stride_, samples_, plan[construction_.parts()[part].layer].cap, held);
+    hold(deviations_, powers, stride_, samples_, plan[construction_.parts()[part].layer], held);
   };
   for (int turn = 0; any_turned() && turn < phases_per_pitch; ++turn) hold_turned(turn, rows.turned[turn]);
   hold_turned(-1, rows.own);

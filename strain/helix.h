@@ -25,6 +25,8 @@
 
 namespace dresslife::strain {
 
+constexpr int highest_level = 6;  ///< of nesting; Series::capacity must exceed it by two
+
 /// State of a component at one place: see above. In `thesis` kinematics only the values (order 0) are used,
 /// stretch is 1 + strain, bend1 = kappa_bi and bend2 = kappa_no.
 template <class T>
@@ -47,6 +49,12 @@ struct Placement {
   double lay_cosine = 1;        ///< cos(alpha)
   double turn_rate = 0;         ///< theta' per ideal length of the parent [rad/m]; 0 on the axis
   Series<double> sine, cosine;  ///< of theta along the parent
+};
+
+/// What a fibre on a wire's surface feels of the wire's bending: its strain is (axial + by_bend1 x change of
+/// bend1 + by_bend2 x change of bend2) x scale.
+struct FibreShape {
+  double by_bend1 = 0, by_bend2 = 0, scale = 1;
 };
 
 inline namespace DRESSLIFE_MACHINE {
@@ -222,10 +230,28 @@ Rod<T> slid_unevenly(const Rod<T>& glued, const Series<T>& strain, const Rod<dou
   return rod;
 }
 
-/// What the fibre at angle phi (from n toward b) on a wire of radius r adds to the axial strain (W12).
+/// The stretch at rest, by which a wire's rates count per path length; 1 where the kinematics knows none.
+inline double rest_length(pipeline::Kinematics kinematics, const WireState<double>& rest) {
+  return is_thesis(kinematics) ? 1 : rest.stretch;
+}
+
+/// The fibre at angle phi (from n toward b) on a wire of radius r is stretch + r Y long per ideal length of
+/// the wire, Y = bend1 sin(phi) - bend2 cos(phi). Against the same at rest, index 0, with the axial strain e =
+/// stretch / stretch0 - 1,
+///     (stretch + r Y) / (stretch0 + r Y0) - 1 = (e + r (Y - Y0) / stretch0) / (1 + r Y0 / stretch0).     (W12)
+/// Precondition: r Y0 > -stretch0, the wire is thinner than its bend at rest is round.
+inline FibreShape fibre_shape(pipeline::Kinematics kinematics, const WireState<double>& rest, double r,
+                              double phi_sine, double phi_cosine) {
+  const double per_length = r / rest_length(kinematics, rest);
+  FibreShape shape{per_length * phi_sine, -per_length * phi_cosine, 1};
+  if (!is_thesis(kinematics)) shape.scale = 1 / (1 + shape.by_bend1 * rest.bend1 + shape.by_bend2 * rest.bend2);
+  return shape;
+}
+
+/// Strain of a fibre from that of its wire's axis and the changes of the wire's bending.
 template <class T>
-T fibre_strain(const T& bend1_change, const T& bend2_change, double r, double phi_sine, double phi_cosine) {
-  return r * (bend1_change * phi_sine - bend2_change * phi_cosine);
+T fibre_strain(const FibreShape& fibre, const T& axial, const T& bend1_change, const T& bend2_change) {
+  return (axial + fibre.by_bend1 * bend1_change + fibre.by_bend2 * bend2_change) * fibre.scale;
 }
 
 }  // namespace DRESSLIFE_MACHINE

@@ -21,6 +21,7 @@ SlidingNumbers sliding_numbers(const LayerSlip& slip, const BundleNesting& nesti
   slide.sliding = slip.sliding;
   slide.helical_level = slip.helical_level;
   slide.cap = slip.cap;
+  slide.radial_share = slip.radial_share;
   if (slip.sliding == Sliding::over_pitch) slide.mean_rest_rate = mean_path_rate(rest_at_end(nesting), place);
   if (slip.sliding == Sliding::along_ancestor) {
     double sum = 0;
@@ -43,6 +44,14 @@ void turn_place(Placement& place, double sine, double cosine) {
   const double before = place.sine.at[0];
   place.sine.at[0] = before * cosine + place.cosine.at[0] * sine;
   place.cosine.at[0] = place.cosine.at[0] * cosine - before * sine;
+}
+
+SlidingLayer closed_layer(const BundleNesting& nesting, const WireNode& first) {
+  std::array<double, most_sliding_fibres> heights;
+  std::size_t count = 0;
+  for (const Fibre& fibre : nesting.fibres)
+    heights[count++] = fibre.on_axis ? 0 : -first.wire_radius * fibre.phi_cosine;
+  return sliding_layer(rest_at_end(nesting), first.place, first.slide.radial_share, {heights.data(), count});
 }
 
 bool helical(const Layer& layer) { return layer.helix_radius > 0 && layer.lay_angle != 0; }
@@ -100,7 +109,7 @@ void add_wire_layer(const Construction& construction, const std::vector<LayerSli
   WireNode node = node_at(construction, plan, nesting, layer, 1, part, arc, 0);
   const bool closed =
       nesting.order == 0 && !is_thesis(node.place.kinematics) && node.slide.sliding == Sliding::over_pitch;
-  nesting.sliding.push_back(closed ? sliding_layer(rest_at_end(nesting), node.place) : SlidingLayer{});
+  nesting.sliding.push_back(closed ? closed_layer(nesting, node) : SlidingLayer{});
   nesting.nodes.push_back(node);
   for (int k = 1; k < waves_per_layer; ++k) {
     turn_place(node.place, sine, cosine);

@@ -5,25 +5,68 @@
 namespace dresslife::strain {
 namespace {
 
-/// The harmonics of g: g = at[0] + at[1] cos b + at[2] cos 2b + at[3] cos 3b. By sqrt(1 + 2 c x + x^2) = 1 +
-/// c x + (1 - c^2) x^2/2 - c (1 - c^2) x^3/2 - (1 - c^2)(1 - 5 c^2) x^4/8 + .., x = sqrt(k) cos b, c^2 = 1 -
-/// tau.
-struct RestStretch {
-  double at[4];
+/// The helix at rest, and the numbers that its fibres share.
+struct AtRest {
+  double R, s, sigma, B, D, C4;
 
-  RestStretch(double scale, double c, double tau, double k) {
-    const double x = std::sqrt(k), third = -0.5 * c * tau, fourth = 0.125 * tau * (4 - 5 * tau);
-    at[0] = scale * (1 + k * (0.25 * tau + k * 0.375 * fourth));
-    at[1] = scale * x * (c + 0.75 * third * k);
-    at[2] = scale * k * (0.25 * tau + 0.5 * fourth * k);
-    at[3] = scale * 0.25 * third * k * x;
+  /// f0 at the angle b from where the rest's bending is largest.
+  double bending(double cosine) const {
+    const double X = B * cosine, y = s + R * X;
+    return (R * sigma * sigma + y * X) / (R * R * sigma * sigma + y * y);
   }
 };
 
+/// The harmonics of G = at[0] + at[1] cos b + at[2] cos 2b + at[3] cos 3b, from its values at eight angles:
+/// the seventh, which stands in the first as well, is its sixth power.
+struct LengthAtRest {
+  double at[4];
+
+  LengthAtRest(const AtRest& rest, double height) {
+    double value[5];
+    for (int k = 0; k <= 4; ++k)
+      value[k] = (k == 0 || k == 4 ? 1 : 2) / (1 + height * rest.bending(eighth(k)));
+    for (int wave = 0; wave < 4; ++wave) {
+      at[wave] = 0;
+      for (int k = 0; k <= 4; ++k) at[wave] += (wave == 0 ? 0.125 : 0.25) * value[k] * eighth(wave * k);
+    }
+  }
+
+ private:
+  static double eighth(int turns) {  ///< cosine of eighths of a turn
+    constexpr double root = 0.70710678118654752;
+    constexpr double cosine[] = {1, root, 0, -root, -1, -root, 0, root};
+    return cosine[turns % 8];
+  }
+};
+
+SlidingFibre sliding_fibre(const AtRest& rest, double height) {
+  const auto single = [](double x) { return static_cast<float>(x); };
+  const auto [G0, G1, G2, G3] = LengthAtRest(rest, height).at;
+  const double R = rest.R, D = rest.D, s = rest.s, B = rest.B;
+  const double by_first = height / D, by_second = -0.5 * height * R / D, by_third = 0.25 * height * R * R / (D * D);
+  SlidingFibre fibre;
+  fibre.mean = single(height / R);
+  fibre.mean_of_mean = single(G0);
+  fibre.mean_of_first = single(0.5 * G1 * by_first);
+  fibre.mean_of_second = single(0.5 * G2 * by_second);
+  fibre.sine_of_sine = single((G0 - 0.5 * G2) * by_first);
+  fibre.first_of_second = single(0.5 * G1 * by_second);
+  fibre.cosine_of_cosine = single((G0 + 0.5 * G2) * by_first);
+  fibre.cosine_of_mean = single(G1);
+  fibre.second_of_second = single(G0 * by_second);
+  fibre.sine2_of_sine = single(0.5 * (G1 - G3) * by_first);
+  fibre.cosine2_of_cosine = single(0.5 * (G1 + G3) * by_first);
+  fibre.second_of_third = single(0.5 * G1 * by_third / 0.75);  // of 3/4 C4
+  fibre.cosine2_of_mean = single(G2);
+  fibre.third0 = single(0.5 * G1 * by_third * rest.C4 * s * B * B * B);
+  return fibre;
+}
+
 }  // namespace
 
-SlidingLayer sliding_layer(const Rod<double>& parent, const Placement& first) {
-  assert(!is_thesis(first.kinematics) && first.radius > 0);
+SlidingLayer sliding_layer(const Rod<double>& parent, const Placement& first, double radial_share,
+                           std::span<const double> heights) {
+  assert(!is_thesis(first.kinematics) && first.radius > 0 && heights.size() <= most_sliding_fibres);
   const auto single = [](double x) { return static_cast<float>(x); };
   const double R = first.radius, s = parent.stretch.at[0], sigma = first.turn_rate + parent.twist.at[0];
   const double bend1 = parent.bend1.at[0], bend2 = parent.bend2.at[0], B = std::hypot(bend1, bend2);
@@ -56,21 +99,9 @@ SlidingLayer sliding_layer(const Rod<double>& parent, const Placement& first) {
   layer.mean0 = single(tau - 0.5 * k * (E1 + k * (0.75 * E2 + 0.625 * k * E3)));
   layer.first0 = single(s * B * (C2 + k * (0.75 * C4 + k * (0.625 * C6 + 35.0 / 64 * k * C8))));
   layer.second_wave0 = single(B * B * (E1 + k * (E2 + 0.9375 * k * E3)));
-  const auto [g0, g1, g2, g3] = RestStretch(first.lay_cosine * std::sqrt(D), s / std::sqrt(D), tau, k).at;
-  const double by_first = 1 / D, by_second = -0.5 * R / D, by_third = 0.25 * R * R / (D * D);
-  layer.mean_of_mean = single(g0 / R);
-  layer.mean_of_first = single(0.5 * g1 * by_first);
-  layer.mean_of_second = single(0.5 * g2 * by_second);
-  layer.sine_of_sine = single((g0 - 0.5 * g2) * by_first);
-  layer.first_of_second = single(0.5 * g1 * by_second);
-  layer.cosine_of_cosine = single((g0 + 0.5 * g2) * by_first);
-  layer.cosine_of_mean = single(g1 / R);
-  layer.second_of_second = single(g0 * by_second);
-  layer.sine2_of_sine = single(0.5 * (g1 - g3) * by_first);
-  layer.cosine2_of_cosine = single(0.5 * (g1 + g3) * by_first);
-  layer.second_of_third = single(0.5 * g1 * by_third / 0.75);  // of 3/4 C4
-  layer.cosine2_of_mean = single(g2 / R);
-  layer.third0 = single(0.5 * g1 * by_third * C4 * s * B * B * B);
+  layer.radial_share = single(radial_share);
+  for (std::size_t f = 0; f < heights.size(); ++f)
+    layer.fibres[f] = sliding_fibre({R, s, sigma, B, D, C4}, heights[f]);
   // of theta - psi at wire 1
   const double sine1 = first.sine.at[0] * cosine - first.cosine.at[0] * sine;
   const double cosine1 = first.cosine.at[0] * cosine + first.sine.at[0] * sine;

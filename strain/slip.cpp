@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace dresslife::strain {
 namespace {
@@ -18,6 +19,18 @@ FrictionCap friction_cap(const Layer& layer, double evening_length) {
 }
 
 }  // namespace
+
+double elastic_share(double jacket_stiffness, double axial_stiffness, double evening_length) {
+  if (jacket_stiffness == 0) return 0;
+  const double waves = 2 * std::numbers::pi / evening_length;  // [rad/m]
+  return jacket_stiffness / (jacket_stiffness + axial_stiffness * waves * waves);
+}
+
+double radial_share(double axial_stiffness, double lay_angle, double helix_radius, double radial_stiffness) {
+  if (helix_radius == 0) return 1;
+  const double press = std::pow(std::sin(lay_angle), 2) / helix_radius;  // of a tension [1/m]
+  return 1 / (1 + axial_stiffness * press * press / radial_stiffness);
+}
 
 std::vector<LayerSlip> plan_slip(const Construction& construction, const std::vector<pipeline::Slip>& slip,
                                  double free_length) {
@@ -36,6 +49,8 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     length[k] = parent_length / std::cos(layer.lay_angle);
     const bool helical = layer.pitch() < parent_length;
     helical_level[k] = helical ? layer.level : inherited;
+    plan[k].radial_share =
+        radial_share(layer.axial_stiffness, layer.lay_angle, layer.helix_radius, layer.radial_stiffness);
     const auto level = std::min<std::size_t>(layer.level, slip.size());
     // path length over which the strain evens out: of a pitch, of its own or its ancestor's, or all
     evening[k] = helical          ? layer.pitch() / std::cos(layer.lay_angle)
@@ -53,6 +68,7 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     if (!rubs(slip[level - 1])) continue;
     plan[k].friction = true;
     plan[k].cap = friction_cap(layer, evening[k]);
+    plan[k].elastic = elastic_share(layer.jacket_stiffness, layer.axial_stiffness, evening[k]);
   }
   return plan;
 }

@@ -16,25 +16,29 @@
 
 #include "pipeline/job/strain.h"
 #include "strain/construction.h"
+#include "strain/sliding.h"
 
 namespace dresslife::strain {
-
-enum class Sliding { glued, over_pitch, clamp_to_clamp, along_ancestor };
-
-/// Largest deviation of the strain from its mean that friction can hold (README W16): constant + per_mean x
-/// mean, not below 0. The mean strain is what tension the part has beyond that at rest.
-struct FrictionCap {
-  double constant = 0, per_mean = 0;
-  bool operator==(const FrictionCap&) const = default;
-};
 
 struct LayerSlip {
   Sliding sliding = Sliding::glued;
   int helical_level = 0;  ///< of along_ancestor: level of the nearest helical ancestor
   bool friction = false;  ///< slides only when its deviation from the mean reaches the cap
   FrictionCap cap;
+  double elastic = 0;       ///< with friction: share of the deviation that a jacket holds elastically (W30)
+  double radial_share = 1;  ///< of its strain that the bed of the layer leaves (W31)
   bool operator==(const LayerSlip&) const = default;
 };
+
+/// A jacket that fills the gussets holds a part by a spring along its path, of jacket_stiffness k per length
+/// [N/m2]. Of a deviation that is a wave over the evening length s [m] it leaves to friction what equilibrium
+/// k u = E A u'' leaves: the share k / (k + E A (2 pi/s)^2) is held elastically (W30).
+double elastic_share(double jacket_stiffness, double axial_stiffness, double evening_length);
+
+/// A helix that pulls with T presses its bed with T sin^2(alpha)/R per length; where that gives by 1/k_r of it
+/// (radial_stiffness [N/m2]; infinite: rigid) the helix shortens by sin^2(alpha)/R of the give, so that of its
+/// strain 1 / (1 + E A sin^4(alpha)/(R^2 k_r)) is left (W31).
+double radial_share(double axial_stiffness, double lay_angle, double helix_radius, double radial_stiffness);
 
 /// One entry per layer of the construction. slip: one for every level or one per level, outermost first; the
 /// last holds for all deeper ones. free_length: of the dresspack between the clamps [m].

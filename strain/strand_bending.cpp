@@ -26,15 +26,17 @@ StrandBending::StrandBending(const Strand& strand) {
     const double R = layer->helix_radius, EA = layer->youngs_modulus * area(*layer);
     const double sine = std::abs(std::sin(layer->lay_angle)), cosine = std::cos(layer->lay_angle);
     const double own = strand.tension * EA * cosine * cosine / stiffness * sine * sine / R;
-    double line_load = own;
+    double line_load = own + layer->line_load;
     if (strand.outer_layers_press) line_load += 2 * pressed_inward / layer->count;
-    pressed_inward += layer->count * own;
+    pressed_inward += layer->count * (own + layer->line_load);
+    const double elastic = elastic_share(layer->jacket_stiffness, EA, 2 * pi * R / sine);
     const double largest = pi / 2 * strand.friction * line_load * R / (EA * sine);  // (W16)
     for (int k = 0; k < angles_per_quarter; ++k) {
       const double share = (k + 0.5) / angles_per_quarter, lever = R * std::sin(pi / 2 * share);
       fibres_.push_back({cosine * cosine * lever,
                          layer->count * EA * cosine * lever / angles_per_quarter,
                          strand.cap == Strand::Cap::even ? largest : largest * share,
+                         elastic,
                          {}});
     }
   }
@@ -48,8 +50,11 @@ double StrandBending::stuck_stiffness() const {
 
 double StrandBending::moment(double curvature) {
   double sum = own_stiffness_ * curvature;
-  for (Fibre& fibre : fibres_)
-    sum += fibre.moment_per_strain * fibre.slider.next(fibre.strain_per_curvature * curvature, fibre.cap);
+  for (Fibre& fibre : fibres_) {
+    const double away = fibre.strain_per_curvature * curvature;
+    sum += fibre.moment_per_strain *
+           (fibre.elastic * away + fibre.slider.next((1 - fibre.elastic) * away, fibre.cap));
+  }
   return sum;
 }
 

@@ -6,7 +6,8 @@
 // sin(theta)). `even`: the cap of W16 all around, as the strain stage has it. `gathering`: the cap grows from
 // the neutral axis, where slip begins, in proportion to the angle from it, up to that of W16: the field of
 // Papailiou's model. A wire is pressed by its own tension, T sin^2(alpha)/R, and, when `outer_layers_press`,
-// by what the layers outside it press, with which it rubs on both of its sides.
+// by what the layers outside it press, with which it rubs on both of its sides. Jacket and tape press a layer
+// and, through it, those inside; a jacket that fills the gussets holds a share elastically (W30).
 //
 // Source: K. Papailiou, IEEE Trans. Power Delivery 12 (1997); F. Foti and L. Martinelli, J. Sound Vib. 370
 // (2016).
@@ -24,6 +25,8 @@ struct StrandLayer {
   double youngs_modulus = 0;  ///< [Pa]
   double helix_radius = 0;    ///< 0: the core wire [m]
   double lay_angle = 0;       ///< either hand [rad]
+  double line_load = 0;       ///< by which jacket and tape press a wire of it inward [N/m]
+  double jacket_stiffness = 0;  ///< of what holds a wire along its path (W30) [N/m2]
 };
 
 struct Strand {
@@ -46,7 +49,7 @@ class StrandBending {
 
  private:
   struct Fibre {  ///< wires of a layer around one angle of the first quarter; the other quarters mirror it
-    double strain_per_curvature, moment_per_strain, cap;
+    double strain_per_curvature, moment_per_strain, cap, elastic;
     Slider slider;
   };
   double own_stiffness_ = 0;

@@ -30,6 +30,18 @@ void describe(Fields& f, Component& component) {
   f.text("material", component.material, Need::optional,
          "of a wire: a name of config/materials; a part with parts has none");
   f.list("components", component.components, Need::optional, "the layers of parts inside");
+  f.number("jacket_stiffness_N_per_m2", component.jacket_stiffness, Need::optional, at_least(0),
+           "force per length and displacement by which a jacket that fills the gussets holds the part along "
+           "its path; read where strain.slip is friction");
+  f.maybe_number("radial_stiffness_N_per_m2", component.radial_stiffness, above(0),
+                 "force per length and displacement of what the helix lies on; without it nothing gives");
+  f.maybe_number("measured_bending_stiffness_Nm2", component.measured_bending_stiffness, above(0),
+                 "of one part with parts, moment over curvature; sets the level of radial_line_load_N_per_m "
+                 "of all that lies in it, read where strain.slip is friction");
+  f.number("measured_at_curvature_1_per_m", component.measured_at_curvature, Need::optional, above(0),
+           "to which the straight part was bent for it");
+  f.number("polymer_bending_stiffness_Nm2", component.polymer_bending_stiffness, Need::optional, at_least(0),
+           "of it that jacket and insulation make");
 }
 
 void describe(Fields& f, Corrugation& corrugation) {

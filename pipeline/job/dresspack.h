@@ -48,6 +48,11 @@ struct Component {
   std::optional<double> friction;  ///< Coulomb, on what it lies against; needed where slip is `friction`
   std::optional<double> radial_line_load;  ///< that presses the part on what it lies against [N/m]; likewise
   double tension = 0;                      ///< of the part in the dresspack at rest [N]
+  double jacket_stiffness = 0;  ///< of a jacket that holds the part along its path [N/m2]
+  std::optional<double> radial_stiffness;            ///< of what the helix lies on [N/m2]; absent: rigid
+  std::optional<double> measured_bending_stiffness;  ///< M / curvature of a part with parts [N m2]
+  double measured_at_curvature = 1;                  ///< [1/m]
+  double polymer_bending_stiffness = 0;              ///< of it, of jacket and insulation [N m2]
   std::string material;  ///< of a wire; a key of Dresspack::materials; empty for a part with parts
   std::vector<Component> components;
   Where where;

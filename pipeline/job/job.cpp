@@ -4,6 +4,7 @@
 
 #include "pipeline/job/catalogue.h"
 #include "pipeline/job/fields.h"
+#include "pipeline/job/overlap.h"
 #include "pipeline/job/urdf.h"
 
 namespace dresslife::pipeline {
@@ -99,6 +100,7 @@ void check_dresspacks(const Job& job, const Where& strain) {
     check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
     depth = std::max(depth, check_dresspack(mounted.dresspack, job.strain.slip));
     check_materials(mounted.dresspack.materials);
+    overlap_warnings(mounted.dresspack);  // dresslife-strain tells them; gross overlap is refused here
   }
   check_shared(job.dresspacks);
   if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)

@@ -30,6 +30,7 @@ constexpr std::array units{
     Unit{"kg_per_m", "kg/m", 1, 1e4},
     Unit{"N", "N", 1, 1e10},  // E A of a steel bar of 0.25 m
     Unit{"N_per_m", "N/m", 1, 1e10},
+    Unit{"N_per_m2", "N/m2", 1, 1e15},
     Unit{"Ns_per_m", "N s/m", 1, 1e8},
     Unit{"Nm2", "N m2", 1, 1e7},  // E I of the same bar
     Unit{"MPa", "MPa", 1e6, 1e7},

@@ -25,7 +25,12 @@ __attribute__((noinline, flatten)) Rod<Pack> step_down(const Rod<Pack>& rod, con
                                                        const Placement& place, const Rod<double>& rest,
                                                        const Pack& free_strain, const double* held) {
   const Rod<Pack> glued = child(rod, place);
-  if (step.slide.sliding == Sliding::glued) return glued;
+  if (step.slide.sliding == Sliding::glued) {
+    if (step.slide.radial_share == 1) return glued;
+    Series<Pack> strain = step.slide.radial_share * (glued.stretch * (constant_series(1.0, rest.stretch.order) / rest.stretch));
+    strain.at[0] -= step.slide.radial_share;
+    return slid_unevenly(glued, strain, rest, place.kinematics);
+  }
   if (held == nullptr) return slid(glued, free_strain, rest, place.kinematics);
   Series<Pack> strain;
   strain.order = glued.stretch.order;
@@ -56,14 +61,14 @@ inline Pack free_strain(const BundlePointers& nesting, const Descent& descent, i
     case Sliding::glued:
       break;
     case Sliding::clamp_to_clamp:
-      return load<Pack>(slide.clamp_strain + sample);
+      return slide.radial_share * load<Pack>(slide.clamp_strain + sample);
     case Sliding::over_pitch:
-      return mean_path_rate(descent.rods[level], place) / slide.mean_rest_rate - 1.0;
+      return slide.radial_share * (mean_path_rate(descent.rods[level], place) / slide.mean_rest_rate - 1.0);
     case Sliding::along_ancestor: {
       Pack sum{};
       for (int turn = 0; turn < phases_per_pitch; ++turn)
         sum += path_rate(turned_parent(nesting, descent, slide.helical_level, level, turn, sample), place);
-      return sum / (phases_per_pitch * slide.mean_rest_rate) - 1.0;
+      return slide.radial_share * (sum / (phases_per_pitch * slide.mean_rest_rate) - 1.0);
     }
   }
   return Pack{};
@@ -119,21 +124,29 @@ void deviations(const BundlePointers& nesting, int turn, int turned_level, const
     const Rod<Pack> glued = child(parent, place);
     const Series<Pack> ratio = glued.stretch * (constant_series(1.0, rest.stretch.order) / rest.stretch);
     store(mean, out + t);
-    store(Pack(ratio.at[0] - 1.0 - mean), out + stride + t);
-    for (int power = 1; power <= ratio.order; ++power) store(ratio.at[power], out + (1 + power) * stride + t);
+    const double share = step.slide.radial_share;
+    store(Pack(share * (ratio.at[0] - 1.0) - mean), out + stride + t);
+    for (int power = 1; power <= ratio.order; ++power)
+      store(Pack(share * ratio.at[power]), out + (1 + power) * stride + t);
   }
+}
+
+inline FibreShape shape_of(const Fibre& fibre, const WireNode& node) {
+  return fibre.on_axis ? FibreShape{}
+                       : fibre_shape(node.place.kinematics, node.rest, node.wire_radius, fibre.phi_sine,
+                                     fibre.phi_cosine);
 }
 
 /// Strains of one node's fibres at a pack of samples. sliding: its axial strain when it slides.
 inline void strains_of_node(const BundlePointers& nesting, const Rod<Pack>& parent, const WireNode& node,
                             const Pack& sliding, Pack* strain) {
   const WireState<Pack> wire = wire_state(parent, node.place);
-  Pack axial = wire.stretch * node.inverse_rest_stretch - 1.0;
+  Pack axial = node.slide.radial_share * (wire.stretch * node.inverse_rest_stretch - 1.0);
   Pack bend1 = wire.bend1, bend2 = wire.bend2;
-  if (node.slide.sliding != Sliding::glued) {
-    axial = sliding;
+  if (node.slide.sliding != Sliding::glued || node.slide.radial_share != 1) {
+    if (node.slide.sliding != Sliding::glued) axial = sliding;
     if (!is_thesis(node.place.kinematics)) {  // curvature per path length stays (W11)
-      const Pack factor = (1.0 + sliding) * node.rest.stretch * wire.inverse_stretch;
+      const Pack factor = (1.0 + axial) * node.rest.stretch * wire.inverse_stretch;
       bend1 *= factor;
       bend2 *= factor;
     }
@@ -142,10 +155,9 @@ inline void strains_of_node(const BundlePointers& nesting, const Rod<Pack>& pare
   bend1 -= node.rest.bend1;
   bend2 -= node.rest.bend2;
   for (int f = 0; f < nesting.fibre_count; ++f) {
-    const Fibre& fibre = nesting.fibres[f];
-    strain[f] = fibre.on_axis
+    strain[f] = nesting.fibres[f].on_axis
                     ? axial
-                    : axial + fibre_strain(bend1, bend2, node.wire_radius, fibre.phi_sine, fibre.phi_cosine);
+                    : fibre_strain(shape_of(nesting.fibres[f], node), axial, bend1, bend2);
   }
 }
 
@@ -170,19 +182,22 @@ __attribute__((flatten)) void node_strains(const BundlePointers& nesting, const 
   }
 }
 
+inline double shear_by_twist(const WireNode& node) {
+  return inverse_root_3 * node.strain_factor * node.shear_radius /
+         rest_length(node.place.kinematics, node.rest);
+}
+
 /// What the strain of a node is made of (see Ingredient).
 inline void ingredients_of_node(const BundlePointers& nesting, const Descent& descent, const WireNode& node,
                                 const Pack& sliding, Pack* out) {
   const WireState<Pack> wire = wire_state(descent.rods[nesting.step_count], node.place);
-  const Pack glued = wire.stretch * node.inverse_rest_stretch - 1.0;
+  const Pack glued = node.slide.radial_share * (wire.stretch * node.inverse_rest_stretch - 1.0);
   out[mean_strain] = sliding;
   out[deviation] = node.strain_factor * glued - sliding;
-  out[shear] = (inverse_root_3 * node.strain_factor * node.shear_radius) * wire.twist;
+  out[shear] = shear_by_twist(node) * wire.twist;
   for (int f = 0; f < nesting.fibre_count; ++f) {
-    const Fibre& fibre = nesting.fibres[f];
-    out[first_bending + f] = fibre.on_axis ? Pack{}
-                                           : fibre_strain(wire.bend1, wire.bend2, node.wire_radius,
-                                                          fibre.phi_sine, fibre.phi_cosine);
+    const FibreShape shape = shape_of(nesting.fibres[f], node);
+    out[first_bending + f] = shape.by_bend1 * wire.bend1 + shape.by_bend2 * wire.bend2;
   }
 }
 
@@ -410,6 +425,7 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
   const float at_rest[] = {static_cast<float>(rest.stretch), static_cast<float>(rest.bend1),
                            static_cast<float>(rest.bend2), static_cast<float>(rest.twist)};
   const float R = helix.radius;
+  const auto share = static_cast<float>(step.slide.radial_share);
   for (std::size_t t = 0; t < count; t += float_pack_size) {
     const ParentAt p(helix, of, t);
     const FloatPack X = p.bend1 * sine - p.bend2 * cosine, radial = p.bend1 * cosine + p.bend2 * sine;
@@ -420,8 +436,8 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
     const FloatPack e = q * inverse(1.0f + (1.0f + q) * root);
     FloatPack strain = e, m = -e * root, along = FloatPack{} + 1.0f;  // along: bend1's factor
     if constexpr (how != Sliding::glued) {
-      strain = how == Sliding::over_pitch ? p.mean_over_pitch(helix)
-                                          : in_single(step.slide.clamp_strain + first + t);
+      strain = share * (how == Sliding::over_pitch ? p.mean_over_pitch(helix)
+                                                   : in_single(step.slide.clamp_strain + first + t));
       m = (strain - q) * (root * root);
       along = (1.0f + strain) * root;
     }
@@ -484,7 +500,8 @@ void fill_from_rows(const BundlePointers& nesting, std::size_t first, std::size_
   for (int n = 0; n < nesting.node_count; ++n)
     if (const SlidingNumbers& slide = nesting.nodes[n].slide; slides_from_afar(slide))
       for (std::size_t t = 0; t < count; t += float_pack_size)
-        store(in_single(slide.clamp_strain + first + t), waiting_place(out, n, kinds, stride) + t);
+        store(FloatPack(static_cast<float>(slide.radial_share) * in_single(slide.clamp_strain + first + t)),
+              waiting_place(out, n, kinds, stride) + t);
 }
 
 /// Fills the state for samples [first, first + count), and leaves the strains of nodes that slide from afar
@@ -513,7 +530,7 @@ __attribute__((flatten)) void fill_part(const BundlePointers& nesting, const Def
 struct NodeNumbers {
   float sine, cosine, y0, inverse_V0, inverse_V0_squared;
   float rest_stretch, rest_bend1, rest_bend2;
-  float strain0, inverse_rest_stretch;  ///< of the thesis' formula at rest
+  float strain0, inverse_rest_stretch;  ///< strain0: of the thesis' formula at rest
 
   NodeNumbers(const WireNode& node, const PartAtRest& parent) {
     const Placement& p = node.place;
@@ -533,12 +550,28 @@ struct NodeNumbers {
 
 /// What the nodes of a layer share.
 struct LayerNumbers : HelixNumbers {
-  float mean_strain0, inverse_mean_rest_rate;
+  float mean_strain0, inverse_mean_rest_rate, radial_share;
+  bool sticks;  ///< with its curvature: glued, and nothing gives radially
 
   LayerNumbers(const WireNode& node, const PartAtRest& parent)
       : HelixNumbers(node.place, parent),
         mean_strain0(static_cast<float>(node.slide.mean_rest_rate - 1)),
-        inverse_mean_rest_rate(static_cast<float>(1 / node.slide.mean_rest_rate)) {}
+        inverse_mean_rest_rate(static_cast<float>(1 / node.slide.mean_rest_rate)),
+        radial_share(static_cast<float>(node.slide.radial_share)),
+        sticks(node.slide.sliding == Sliding::glued && node.slide.radial_share == 1) {}
+};
+
+/// FibreShape in single precision.
+struct FibreNumbers {
+  float by_bend1, by_bend2, scale;
+
+  FibreNumbers() = default;
+  FibreNumbers(const Fibre& fibre, const WireNode& node) {
+    const FibreShape shape = shape_of(fibre, node);
+    by_bend1 = static_cast<float>(shape.by_bend1);
+    by_bend2 = static_cast<float>(shape.by_bend2);
+    scale = static_cast<float>(shape.scale);
+  }
 };
 
 struct FiveNodes : LayerNumbers {
@@ -551,6 +584,16 @@ struct FiveNodes : LayerNumbers {
         nesting(of),
         nodes(at),
         node{{at[0], parent}, {at[1], parent}, {at[2], parent}, {at[3], parent}, {at[4], parent}} {}
+};
+
+/// The fibres of a layer at its nodes.
+struct FibresAtNodes {
+  FibreNumbers at[most_fibres][waves_per_layer];
+
+  explicit FibresAtNodes(const FiveNodes& layer) {
+    for (int f = 0; f < layer.nesting.fibre_count; ++f)
+      for (int n = 0; n < waves_per_layer; ++n) at[f][n] = {layer.nesting.fibres[f], layer.nodes[n]};
+  }
 };
 
 /// wire_state() with the glued strain in place of the stretch.
@@ -579,7 +622,8 @@ struct LayerAt : ParentAt {
   inline NodeState operator()(const NodeNumbers& n) const {
     const FloatPack X = bend1 * n.sine - bend2 * n.cosine, radial = bend1 * n.cosine + bend2 * n.sine;
     if constexpr (thesis)
-      return {(thesis_strain(layer.radius * X) - n.strain0) * n.inverse_rest_stretch, -cosine * radial,
+      return {layer.radial_share * ((thesis_strain(layer.radius * X) - n.strain0) * n.inverse_rest_stretch),
+              -cosine * radial,
               cosine_squared * X, sine_cosine * X, FloatPack{} + 1.0f};
     const FloatPack y = stretch + layer.radius * X, V2 = turning * turning + y * y,
                     inverse_V = inverse_root(V2);
@@ -587,7 +631,7 @@ struct LayerAt : ParentAt {
     const FloatPack q = (twisting + y_change * (y + n.y0)) * n.inverse_V0_squared;
     const FloatPack scale = layer.c * inverse_V;
     NodeState state;
-    state.strain = q * inverse(1.0f + V2 * inverse_V * n.inverse_V0);
+    state.strain = layer.radial_share * (q * inverse(1.0f + V2 * inverse_V * n.inverse_V0));
     state.bend1 = FloatPack{};
     state.bend2 = scale * (turning * sigma + y * X);
     state.twist = scale * sigma * stretch;
@@ -611,14 +655,16 @@ struct LayerAt : ParentAt {
   /// The mean of the glued strain over the pitch.
   inline FloatPack mean_strain_over_pitch() const {
     if constexpr (thesis)
-      return (thesis_strain(FloatPack{}) - layer.mean_strain0) * layer.inverse_mean_rest_rate;
-    return mean_over_pitch(layer);
+      return layer.radial_share *
+             ((thesis_strain(FloatPack{}) - layer.mean_strain0) * layer.inverse_mean_rest_rate);
+    return layer.radial_share * mean_over_pitch(layer);
   }
 
   /// Where curvature per path length stays (W11), what it is multiplied by.
-  inline FloatPack curvature_factor(bool glued, const FloatPack& axial, const NodeNumbers& n,
+  inline FloatPack curvature_factor(const FloatPack& axial, const NodeNumbers& n,
                                     const NodeState& node) const {
-    return glued || thesis ? FloatPack{} + 1.0f : (1.0f + axial) * n.rest_stretch * node.inverse_stretch;
+    return layer.sticks || thesis ? FloatPack{} + 1.0f
+                                  : (1.0f + axial) * n.rest_stretch * node.inverse_stretch;
   }
 
   /// Strain of each node where it slides; glued nodes: nothing. waiting: what fill_part() left for this
@@ -663,6 +709,7 @@ void sliding_strains_of_layer(const FiveNodes& layer, const PartState& part, std
   const FiveToWaves to_waves;
   const BundlePointers& nesting = layer.nesting;
   const auto factor_of_wall = static_cast<float>(layer.nodes[0].strain_factor);
+  const FibresAtNodes fibres(layer);
   for (std::size_t t = 0; t < count; t += float_pack_size) {
     const LayerAt<false, false> at(layer, part, t);
     FloatPack axial[waves_per_layer], bend2[waves_per_layer], strain[waves_per_layer];
@@ -677,10 +724,8 @@ void sliding_strains_of_layer(const FiveNodes& layer, const PartState& part, std
       axial[n] *= factor_of_wall;
     }
     for (int f = 0; f < nesting.fibre_count; ++f) {
-      const Fibre& fibre = nesting.fibres[f];
-      const auto by_bend2 =
-          static_cast<float>(fibre.on_axis ? 0 : -layer.nodes[0].wire_radius * fibre.phi_cosine);
-      for (int n = 0; n < waves_per_layer; ++n) strain[n] = axial[n] + by_bend2 * bend2[n];
+      for (int n = 0; n < waves_per_layer; ++n)
+        strain[n] = (axial[n] + fibres.at[f][n].by_bend2 * bend2[n]) * fibres.at[f][n].scale;
       to_waves.store_waves(strain, out + f * waves_per_layer * stride + t, stride);
     }
   }
@@ -696,6 +741,7 @@ void strains_of_layer(const FiveNodes& layer, const PartState& part, std::size_t
   const FiveToWaves to_waves;
   const BundlePointers& nesting = layer.nesting;
   const auto factor_of_wall = static_cast<float>(layer.nodes[0].strain_factor);
+  const FibresAtNodes fibres(layer);
   for (std::size_t t = 0; t < count; t += float_pack_size) {
     const LayerAt<thesis, with_bend1> at(layer, part, t);
     FloatPack axial[waves_per_layer], bend1[waves_per_layer], bend2[waves_per_layer], strain[waves_per_layer];
@@ -703,19 +749,17 @@ void strains_of_layer(const FiveNodes& layer, const PartState& part, std::size_t
     for (int n = 0; n < waves_per_layer; ++n) {
       const NodeState node = at(layer.node[n]);
       if (glued) axial[n] = node.strain;
-      const FloatPack factor = at.curvature_factor(glued, axial[n], layer.node[n], node);
+      const FloatPack factor = at.curvature_factor(axial[n], layer.node[n], node);
       bend1[n] = node.bend1 * factor - layer.node[n].rest_bend1;
       bend2[n] = node.bend2 * factor - layer.node[n].rest_bend2;
       axial[n] *= factor_of_wall;
     }
     for (int f = 0; f < nesting.fibre_count; ++f) {
-      const Fibre& fibre = nesting.fibres[f];
-      const auto radius = static_cast<float>(fibre.on_axis ? 0 : layer.nodes[0].wire_radius);
-      const float by_bend1 = radius * static_cast<float>(fibre.phi_sine);
-      const float by_bend2 = -radius * static_cast<float>(fibre.phi_cosine);
       for (int n = 0; n < waves_per_layer; ++n) {
-        strain[n] = axial[n] + by_bend2 * bend2[n];
-        if constexpr (with_bend1) strain[n] += by_bend1 * bend1[n];
+        const FibreNumbers& fibre = fibres.at[f][n];
+        strain[n] = axial[n] + fibre.by_bend2 * bend2[n];
+        if constexpr (with_bend1) strain[n] += fibre.by_bend1 * bend1[n];
+        strain[n] *= fibre.scale;
       }
       to_waves.store_waves(strain, out + f * waves_per_layer * stride + t, stride);
     }
@@ -728,8 +772,10 @@ void ingredients_of_layer(const FiveNodes& layer, const PartState& part, std::si
                           std::size_t stride) {
   const FiveToWaves to_waves;
   const BundlePointers& nesting = layer.nesting;
-  const WireNode& of = layer.nodes[0];
-  const auto factor_of_wall = static_cast<float>(of.strain_factor);
+  const auto factor_of_wall = static_cast<float>(layer.nodes[0].strain_factor);
+  const FibresAtNodes fibres(layer);
+  float by_twist[waves_per_layer];
+  for (int n = 0; n < waves_per_layer; ++n) by_twist[n] = static_cast<float>(shear_by_twist(layer.nodes[n]));
   for (std::size_t t = 0; t < count; t += float_pack_size) {
     const LayerAt<thesis, with_bend1> at(layer, part, t);
     NodeState node[waves_per_layer];
@@ -742,18 +788,12 @@ void ingredients_of_layer(const FiveNodes& layer, const PartState& part, std::si
     };
     put(mean_strain, [&](int n) { return sliding[n]; });
     put(deviation, [&](int n) { return FloatPack(factor_of_wall * node[n].strain - sliding[n]); });
-    put(shear, [&](int n) {
-      return FloatPack(static_cast<float>(inverse_root_3 * of.strain_factor * of.shear_radius) *
-                       node[n].twist);
-    });
-    for (int f = 0; f < nesting.fibre_count; ++f) {
-      const Fibre& fibre = nesting.fibres[f];
-      const double radius = fibre.on_axis ? 0 : of.wire_radius;
-      const auto by_bend1 = static_cast<float>(radius * fibre.phi_sine);
-      const auto by_bend2 = static_cast<float>(radius * fibre.phi_cosine);
-      put(first_bending + f,
-          [&](int n) { return FloatPack(node[n].bend1 * by_bend1 - node[n].bend2 * by_bend2); });
-    }
+    put(shear, [&](int n) { return FloatPack(by_twist[n] * node[n].twist); });
+    for (int f = 0; f < nesting.fibre_count; ++f)
+      put(first_bending + f, [&](int n) {
+        const FibreNumbers& fibre = fibres.at[f][n];
+        return FloatPack(node[n].bend1 * fibre.by_bend1 + node[n].bend2 * fibre.by_bend2);
+      });
   }
 }
 
@@ -820,7 +860,7 @@ void over_layers(const BundlePointers& nesting, const DeformationColumns& in, st
       const WireNode* nodes = nesting.nodes + layer * waves_per_layer;
       float* const to = out + layer * per_layer + done;
       if (any_closed && shape.suits(sliding[layer]))
-        closed_strains_of_layer(sliding[layer], nesting, nodes->wire_radius, part, shape, here, to, stride);
+        closed_strains_of_layer(sliding[layer], nesting.fibre_count, part, shape, here, to, stride);
       else
         by(nodes->slide.sliding)(FiveNodes(nesting, nodes, at_rest), part, here, to, stride);
     }
@@ -846,10 +886,7 @@ void strains_of_one(const BundlePointers& nesting, const WireNode& of, const Par
   const LayerNumbers layer(of, at_rest);
   const NodeNumbers number(of, at_rest);
   const Sliding how = of.slide.sliding;
-  const Fibre& fibre = nesting.fibres[0];
-  const double radius = fibre.on_axis ? 0 : of.wire_radius;
-  const auto by_bend1 = static_cast<float>(radius * fibre.phi_sine);
-  const auto by_bend2 = static_cast<float>(-radius * fibre.phi_cosine);
+  const FibreNumbers fibre(nesting.fibres[0], of);
   const auto factor_of_wall = static_cast<float>(of.strain_factor);
   for (std::size_t t = 0; t < count; t += float_pack_size) {
     const LayerAt<thesis, with_bend1> at(layer, part, t);
@@ -857,10 +894,10 @@ void strains_of_one(const BundlePointers& nesting, const WireNode& of, const Par
     const FloatPack axial = how == Sliding::glued        ? node.strain
                             : how == Sliding::over_pitch ? at.mean_strain_over_pitch()
                                                          : load<FloatPack>(out + t);
-    const FloatPack factor = at.curvature_factor(how == Sliding::glued, axial, number, node);
-    FloatPack strain = axial * factor_of_wall + by_bend2 * (node.bend2 * factor - number.rest_bend2);
-    if constexpr (with_bend1) strain += by_bend1 * (node.bend1 * factor - number.rest_bend1);
-    store(strain, out + t);
+    const FloatPack factor = at.curvature_factor(axial, number, node);
+    FloatPack strain = axial * factor_of_wall + fibre.by_bend2 * (node.bend2 * factor - number.rest_bend2);
+    if constexpr (with_bend1) strain += fibre.by_bend1 * (node.bend1 * factor - number.rest_bend1);
+    store(FloatPack(strain * fibre.scale), out + t);
   }
 }
 
@@ -925,27 +962,34 @@ void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t strid
   const Around around(state.shape, lane);
   const std::size_t per_kind = waves_per_layer * stride;
   const FloatPack zero{};
+  const float sliding_share = 1 - state.elastic;
   FloatPack slip = load<FloatPack>(state.slip + lane);
   for (std::size_t t = 0; t < count; ++t) {
     const FloatPack mean = around.at(waves + mean_strain * per_kind, stride, t);
     const FloatPack away = around.at(waves + deviation * per_kind, stride, t);
     const FloatPack cap = larger(state.cap + state.cap_per_mean * mean, zero);
     // return mapping (W17): what is held is the deviation less the slip, cut at the cap; the slip follows
-    const FloatPack held = -larger(-larger(away - slip, -cap), -cap);
-    slip = away - held;
-    const FloatPack axial = mean + held;
-    const FloatPack scale = state.scales ? (1.0f + axial) / (1.0f + (mean + away)) : zero + 1.0f;
+    const FloatPack slides = sliding_share * away;
+    const FloatPack by_friction = -larger(-larger(slides - slip, -cap), -cap);
+    slip = slides - by_friction;
+    const FloatPack axial = mean + (by_friction + state.elastic * away);
+    const FloatPack scale =
+        state.scales ? (1.0f + axial) / (1.0f + (mean + away) * state.inverse_radial_share) : zero + 1.0f;
     FloatPack torsion{};
     if (state.with_shear)
       torsion = around.at(waves + shear * per_kind, stride, t) * scale -
                 load<FloatPack>(state.rest[0].data() + lane);
     for (int f = 0; f < fibres; ++f) {
-      FloatPack strain = axial;
-      if (!state.on_axis)
+      FloatPack strain = axial, sheared = torsion;
+      if (!state.on_axis) {
         strain += around.at(waves + (first_bending + f) * per_kind, stride, t) * scale -
                   load<FloatPack>(state.rest[1 + f].data() + lane);
+        const FloatPack per_own_length = load<FloatPack>(state.fibre_scale[f].data() + lane);
+        strain *= per_own_length;
+        sheared *= per_own_length;
+      }
       if (state.with_shear) {
-        const FloatPack size = square_root(strain * strain + torsion * torsion);
+        const FloatPack size = square_root(strain * strain + sheared * sheared);
         strain = select(greater(zero, strain), -size, size);
       }
       store(strain, out + (f * count + t) * lanes + lane);

@@ -15,8 +15,8 @@
 #include "strain/helix.h"
 #include "strain/kernels/sizes.h"
 #include "strain/kernels/turning_list.h"
+#include "strain/sliding.h"
 #include "strain/sliding_layer.h"
-#include "strain/slip.h"
 
 namespace dresslife::strain {
 
@@ -35,6 +35,7 @@ struct SlidingNumbers {
   Sliding sliding = Sliding::glued;
   int helical_level = 0;                 ///< of along_ancestor
   double mean_rest_rate = 1;             ///< mean path rate at rest, over the phase or the ancestor's pitch
+  double radial_share = 1;               ///< of its strain that the bed of its layer leaves (W31)
   const double* clamp_strain = nullptr;  ///< (sample) of clamp_to_clamp
   FrictionCap cap;                       ///< with friction
   /// What friction holds of a part's deviation, (power, sample) with `held_stride`; null: nothing.
@@ -118,7 +119,8 @@ inline namespace DRESSLIFE_MACHINE {
 /// to.
 inline bool single_suffices(const NestingLevel& last, const WireNode* nodes, int node_count, int order) {
   bool suffice = order == 0 && !is_thesis(last.place.kinematics) && last.slide.held == nullptr &&
-                 last.slide.sliding != Sliding::along_ancestor;
+                 last.slide.sliding != Sliding::along_ancestor &&
+                 (last.slide.sliding != Sliding::glued || last.slide.radial_share == 1);
   for (int n = 0; n < node_count; ++n) suffice &= nodes[n].slide.sliding != Sliding::along_ancestor;
   return suffice;
 }
@@ -184,7 +186,8 @@ struct LaneRun {
 
 /// What a wire's strain is made of before friction, one after the other: the mean along its path, the glued
 /// strain's deviation from it, the shear strain gamma/sqrt(3) of its torsion at its surface, and the bending
-/// strain of each fibre. The last two hold what the undeformed wire has too, as glued.
+/// strain of each fibre. The last two hold what the undeformed wire has too, as glued, and count per length of
+/// the undeformed axis; what a fibre feels counts per length of its own (W12).
 enum Ingredient { mean_strain, deviation, shear, first_bending };
 constexpr int ingredients(int fibres) { return first_bending + fibres; }
 
@@ -193,7 +196,10 @@ struct MixedLanes {
   alignas(64) float shape[waves_per_layer - 1][lanes];
   alignas(64) float slip[lanes];               ///< how far each wire has slid against its parent [strain]
   std::vector<std::array<float, lanes>> rest;  ///< of shear and of the fibres' bending, (1 + fibres)
+  std::vector<std::array<float, lanes>> fibre_scale;  ///< FibreShape::scale, (fibres)
   float cap = 0, cap_per_mean = 0;             ///< cap infinite: glued, 0: free
+  float elastic = 0;               ///< share of the deviation that is held whatever the cap (W30)
+  float inverse_radial_share = 1;  ///< (W31)
   bool scales = true;                          ///< curvature and torsion per path length stay (W11)
   bool with_shear = false, on_axis = false;
 };

@@ -74,7 +74,7 @@ struct alignas(64) SlidingState {
       // (W10) of a helix in a straight part, and what bending adds: as mean_over_pitch()
       const FloatPack straight = root_less_one(q);
       const FloatPack bent = k * tau * (1.0f + of.second_slope * k) * of.second_scale - of.second0;
-      const FloatPack strain = straight + bent + bent * straight;
+      const FloatPack strain = of.radial_share * (straight + bent + bent * straight);
 
       const FloatPack E1 = 1.0f + tau * (4.0f * tau - 5.0f), E2 = of.E2_constant + of.E2_slope * tau;
       const FloatPack C4 = 0.75f + tau * (6.0f * tau - 6.0f);   // times 3/4
@@ -92,58 +92,48 @@ struct alignas(64) SlidingState {
   }
 };
 
-/// From what fibre `fibre` feels around the layer to waves that count angles from wire 1.
-struct FibreTurn {
-  float mean, sine1, cosine1, sine2, cosine2;
-
-  FibreTurn() = default;
-  FibreTurn(const SlidingLayer& of, const Fibre& fibre, double wire_radius)
-      : mean(static_cast<float>(fibre.on_axis ? 0 : -wire_radius * fibre.phi_cosine)),
-        sine1(mean * of.sine1),
-        cosine1(mean * of.cosine1),
-        sine2(mean * of.sine2),
-        cosine2(mean * of.cosine2) {}
-};
-
-/// Waves of the strain of the layer's fibres, like strains_of_layer().
-void closed_strains_of_layer(const SlidingLayer& layer, const BundlePointers& nesting, double wire_radius,
-                             const PartState& part, const BendShape& shape, std::size_t count, float* out,
-                             std::size_t stride) {
-  const SlidingLayer of = layer;  // a copy: the compiler sees that `out` is not in it
-  const int fibre_count = nesting.fibre_count;
-  FibreTurn fibres[most_fibres];
-  for (int f = 0; f < fibre_count; ++f) fibres[f] = {of, nesting.fibres[f], wire_radius};
-  SlidingState state;
-  state.fill(of, part, shape, count);
+/// Waves of the strain of one of the layer's fibres.
+void closed_strains_of_fibre(const SlidingLayer& layer, const SlidingFibre& fibre, const SlidingState& state,
+                             const BendShape& shape, std::size_t count, float* out, std::size_t stride) {
+  const SlidingLayer of = layer;  // copies: the compiler sees that `out` is not in them
+  const SlidingFibre by = fibre;
   for (std::size_t t = 0; t < count; t += float_pack_size) {
-    // harmonics of f (1 + strain) - f0, and those of their product with g
-    const FloatPack axial = state(SlidingState::axial, t), mean = state(SlidingState::mean, t);
+    // harmonics of strain + rho (f (1 + strain) - f0), those of f in their rows' numbers, and of their product
+    // with G
+    const FloatPack mean =
+        state(SlidingState::axial, t) + by.mean * state(SlidingState::mean, t);
     const FloatPack first = state(SlidingState::first, t), second = state(SlidingState::second, t);
-    const FloatPack third = of.second_of_third * state(SlidingState::third, t);
+    const FloatPack third = by.second_of_third * state(SlidingState::third, t);
     const FloatPack sine = first * shape(BendShape::sine, t);
     const FloatPack cosine = first * shape(BendShape::cosine, t) - of.first0;
     const FloatPack sine2 = second * shape(BendShape::sine2, t);
     const FloatPack cosine2 = second * shape(BendShape::cosine2, t) - of.second_wave0;
     const FloatPack sine3 = third * shape(BendShape::sine3, t);
-    const FloatPack cosine3 = third * shape(BendShape::cosine3, t) - of.third0;
+    const FloatPack cosine3 = third * shape(BendShape::cosine3, t) - by.third0;
     const FloatPack felt_mean =
-        of.mean_of_mean * mean + of.mean_of_first * cosine + of.mean_of_second * cosine2;
-    const FloatPack felt_sine = of.sine_of_sine * sine + of.first_of_second * sine2;
+        by.mean_of_mean * mean + by.mean_of_first * cosine + by.mean_of_second * cosine2;
+    const FloatPack felt_sine = by.sine_of_sine * sine + by.first_of_second * sine2;
     const FloatPack felt_cosine =
-        of.cosine_of_cosine * cosine + of.first_of_second * cosine2 + of.cosine_of_mean * mean;
-    const FloatPack felt_sine2 = of.second_of_second * sine2 + (of.sine2_of_sine * sine + sine3);
+        by.cosine_of_cosine * cosine + by.first_of_second * cosine2 + by.cosine_of_mean * mean;
+    const FloatPack felt_sine2 = by.second_of_second * sine2 + (by.sine2_of_sine * sine + sine3);
     const FloatPack felt_cosine2 =
-        of.second_of_second * cosine2 + of.cosine2_of_cosine * cosine + (of.cosine2_of_mean * mean + cosine3);
-    for (int f = 0; f < fibre_count; ++f) {
-      const FibreTurn& by = fibres[f];
-      float* const to = out + f * waves_per_layer * stride + t;
-      store(FloatPack(axial + by.mean * felt_mean), to);
-      store(FloatPack(by.cosine1 * felt_sine - by.sine1 * felt_cosine), to + stride);
-      store(FloatPack(by.sine1 * felt_sine + by.cosine1 * felt_cosine), to + 2 * stride);
-      store(FloatPack(by.cosine2 * felt_sine2 - by.sine2 * felt_cosine2), to + 3 * stride);
-      store(FloatPack(by.sine2 * felt_sine2 + by.cosine2 * felt_cosine2), to + 4 * stride);
-    }
+        by.second_of_second * cosine2 + by.cosine2_of_cosine * cosine + (by.cosine2_of_mean * mean + cosine3);
+    store(felt_mean, out + t);
+    store(FloatPack(of.cosine1 * felt_sine - of.sine1 * felt_cosine), out + stride + t);
+    store(FloatPack(of.sine1 * felt_sine + of.cosine1 * felt_cosine), out + 2 * stride + t);
+    store(FloatPack(of.cosine2 * felt_sine2 - of.sine2 * felt_cosine2), out + 3 * stride + t);
+    store(FloatPack(of.sine2 * felt_sine2 + of.cosine2 * felt_cosine2), out + 4 * stride + t);
   }
+}
+
+/// Waves of the strain of the layer's fibres, like strains_of_layer().
+void closed_strains_of_layer(const SlidingLayer& layer, int fibre_count, const PartState& part,
+                             const BendShape& shape, std::size_t count, float* out, std::size_t stride) {
+  SlidingState state;
+  state.fill(layer, part, shape, count);
+  for (int f = 0; f < fibre_count; ++f)
+    closed_strains_of_fibre(layer, layer.fibres[f], state, shape, count, out + f * waves_per_layer * stride,
+                            stride);
 }
 
 }  // namespace

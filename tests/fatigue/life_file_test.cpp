@@ -380,6 +380,15 @@ TEST_CASE("life.h5: no damage, no sites, and strains that no wire survives") {
   CHECK(none.rows("/damage") == 0);
   CHECK(empty.notes.summary == "no wire was evaluated");
 
+  StrainFile calm_site = example();  // nothing turns, and the first site ranks worst without a turning point
+  for (Site& site : calm_site.sites) site.strain = {}, site.sample = {};
+  calm_site.probes = {};
+  const Result unmoved = run(folder, calm_site, test_job(), "unmoved.h5");
+  const FileReader rest(unmoved.file, pipeline::life_format());
+  CHECK(rest.number_attribute("worst_site") == 0);
+  CHECK(rest.number_attribute("life_hours") == std::numeric_limits<double>::infinity());
+  CHECK(rest.read<double>("/worst/strain") == std::vector<double>(samples, 0.0));
+
   StrainFile absurd = example();
   absurd.sites[0] = swing(0, "cable 1/layer 1/wire 1", 40);
   const Result torn = run(folder, absurd, test_job(), "torn.h5");
@@ -647,6 +656,17 @@ TEST_CASE("life.h5: strain files that contradict themselves are refused, and not
   f = example();
   f.sites[3].sample[2] = 20;
   refused(f, "/reversal/sample holds 20 for a turning point of site 3 (must rise");
+  f = example();
+  f.sites[3].strain[2] = 0.02f;
+  CHECK_NOTHROW(run(folder, f));  // the repeated history merges what goes on
+  std::filesystem::remove(folder.path / "life.h5");
+  pipeline::Job once = test_job();
+  once.fatigue.counting = pipeline::Counting::half_cycles;
+  CHECK_THROWS_WITH(run(folder, f, once),
+                    Catch::Contains("strain.h5: error: /reversal/strain goes on from 0.01 to 0.02 at turning "
+                                    "point 2 of site 3") &&
+                        Catch::Contains("half_cycles"));
+  CHECK_FALSE(std::filesystem::exists(folder.path / "life.h5"));
   f = example();
   f.step[7] = 3;
   refused(f, "/program/step names line 3 (/program/text has 3)");

@@ -136,8 +136,9 @@ std::vector<double> plain_history(const Construction& construction, const Bundle
     }
     go_down(construction.placement(layer, number, bundle.part, arc));
     const double radius = construction.layers()[layer].part_radius;
-    strains.push_back(rod.stretch.at[0] / rest.stretch.at[0] - 1 +
-                      radius * (rod.bend2.at[0] - rest.bend2.at[0]));
+    strains.push_back((rod.stretch.at[0] + radius * rod.bend2.at[0]) /
+                          (rest.stretch.at[0] + radius * rest.bend2.at[0]) -
+                      1);
   }
   return strains;
 }

@@ -103,8 +103,8 @@ double glued_strain(const Construction& construction, const std::vector<Link>& l
   }
   const double radius = construction.layers()[links.back().layer].part_radius;
   const bool exact = construction.kinematics() == Kinematics::exact;
-  const double bend = exact ? rod.bend2.at[0] - rest.bend2.at[0] : rod.bend1.at[0];
-  return rod.stretch.at[0] / rest.stretch.at[0] - 1 + radius * bend;
+  if (!exact) return rod.stretch.at[0] / rest.stretch.at[0] - 1 + radius * rod.bend1.at[0];
+  return (rod.stretch.at[0] + radius * rod.bend2.at[0]) / (rest.stretch.at[0] + radius * rest.bend2.at[0]) - 1;
 }
 
 /// Worst difference of all sites' turning points from `reference(site's links, segment, sample)`, over the
@@ -225,7 +225,9 @@ TEST_CASE("free components have the mean of their glued strain and keep their ow
         const double wire_strain =
             over_phases(conductor, links[2], segment) / over_phases(conductor_rest, links[2], segment) - 1;
         const Rod<double> wire = scaled(child(conductor, in_conductor), wire_strain, wire_rest);
-        return wire_strain + 75e-6 * (wire.bend2.at[0] - wire_rest.bend2.at[0]);
+        return (wire.stretch.at[0] + 75e-6 * wire.bend2.at[0]) /
+                   (wire_rest.stretch.at[0] + 75e-6 * wire_rest.bend2.at[0]) -
+               1;
       });
   CHECK(difference < wave_tolerance);
 }

@@ -497,3 +497,162 @@ TEST_CASE("the hose's wall: stretch, bending and twist of a tube, times its corr
     CHECK(highest == Approx(expected).epsilon(third_harmonic));
   }
 }
+
+namespace {
+
+/// Largest difference of the probed wires' turning points, which come from waves in single precision, from
+/// their histories, which come wire by wire in double: over the largest strain.
+double off_their_probes(const Results& results) {
+  double worst = 0, size = 0;
+  std::vector<std::size_t> first{0};
+  for (const std::uint64_t turning : results.turning) first.push_back(first.back() + turning);
+  for (const Probe& probe : results.probes)
+    for (std::size_t k = first[probe.site]; k < first[probe.site + 1]; ++k) {
+      const double strain = probe.strain[results.sample[k]];
+      worst = std::max(worst, std::abs(results.strain[k] - strain));
+      size = std::max(size, std::abs(strain));
+    }
+  REQUIRE(size > 1e-4);
+  return worst / size;
+}
+
+// Waves leave out the third harmonic, 1e-4 of the range (evaluation_test.cpp); sliders follow it.
+constexpr double third_harmonic = 1e-3;
+
+void press_on(std::vector<Component>& components, double radial_stiffness) {
+  for (Component& component : components) {
+    component.radial_stiffness = radial_stiffness;
+    press_on(component.components, radial_stiffness);
+  }
+}
+
+void fill_gussets(std::vector<Component>& components, double jacket_stiffness) {
+  for (Component& component : components) {
+    component.jacket_stiffness = jacket_stiffness;
+    fill_gussets(component.components, jacket_stiffness);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a jacket that gives nothing holds all, and one that gives holds its share of the deviation") {
+  const Settings stick = settings_with({Slip::stick}), rubs = settings_with({Slip::friction});
+  Dresspack dresspack = rubbing(0);
+  fill_gussets(dresspack.components, 1e20);
+  CHECK(difference(evaluate(dresspack, rubs), evaluate(rubbing(0), stick)) < 1e-9);
+  fill_gussets(dresspack.components, 1e9);
+  CHECK(off_their_probes(evaluate(dresspack, rubs)) < third_harmonic);
+  // Nobody reads it where slip is something else.
+  for (const Slip slip : {Slip::stick, Slip::free})
+    CHECK(evaluate(dresspack, settings_with({slip})).strain == evaluate(rubbing(0), settings_with({slip})).strain);
+
+  CHECK(elastic_share(0, 2000, 0.05) == 0);
+  // Of the deviation eps(x) = A sin(2 pi x/s) of a bar (E A) on a spring bed (k): E A u'' = k (u - u_parent)
+  // with u_parent' = eps gives u' = A k/(k + E A (2 pi/s)^2) sin(2 pi x/s).
+  const double k = 3e7, EA = 2000, s = 0.05, waves = 2 * pi / s, step = 1e-5;
+  const double share = elastic_share(k, EA, s);
+  const auto own = [&](double x) { return -share / waves * std::cos(waves * x); };
+  const auto parent = [&](double x) { return -1 / waves * std::cos(waves * x); };
+  for (const double x : {0.004, 0.011, 0.03}) {
+    const double curve = (own(x + step) - 2 * own(x) + own(x - step)) / (step * step);
+    CHECK(EA * curve == Approx(k * (own(x) - parent(x))).epsilon(1e-5));  // (2 pi step / s)^2 / 12
+  }
+}
+
+TEST_CASE("only wires in a jacket: the strain between free and stuck is the jacket's share") {
+  // The axis of the wires, which slide over their pitch in one straight cable that sticks.
+  Settings settings = settings_with({Slip::stick, Slip::stick, Slip::friction});
+  settings.surface_fibres = 0;
+  Dresspack dresspack = rubbing(0);
+  Component& wire = dresspack.components[0].components[0].components[1];
+  wire.jacket_stiffness = 2e9;
+  const Results in_jacket = evaluate(dresspack, settings);
+  settings.slip[2] = Slip::stick;
+  const Results stuck = evaluate(dresspack, settings);
+  settings.slip[2] = Slip::free;
+  const Results free = evaluate(dresspack, settings);
+  const double EA = 117e9 * pi * std::pow(wire.radius, 2);
+  const double share = elastic_share(2e9, EA, 2 * pi * wire.helix_radius / std::sin(5 * degree));
+  CHECK(share > 0.05);
+  CHECK(share < 0.95);
+  int compared = 0;
+  for (const Probe& probe : in_jacket.probes)
+    for (const Probe& of_stuck : stuck.probes)
+      for (const Probe& of_free : free.probes) {
+        if (probe.site != of_stuck.site || probe.site != of_free.site) continue;
+        const std::size_t per_cable = 7 * (31 + 25), per_conductor = 31 + 25;
+        if (probe.site % (2 * per_cable) % per_conductor < 31) continue;  // of the other layer
+        for (std::size_t t = 0; t < samples; ++t)
+          CHECK(probe.strain[t] ==
+                Approx(of_free.strain[t] + share * (of_stuck.strain[t] - of_free.strain[t])).margin(1e-12));
+        ++compared;
+      }
+  CHECK(compared > 0);
+}
+
+TEST_CASE("a helix keeps its share of strain where its bed gives") {
+  // The shipped conductors: E A sin^4/R^2 = 7.5e8 N/m2.
+  const double EA = 92 * 117e9 * pi * 75e-6 * 75e-6 * std::pow(std::cos(5 * degree), 3);
+  CHECK(EA * std::pow(std::sin(25 * degree), 4) / std::pow(0.002825, 2) == Approx(7.5e8).epsilon(0.01));
+  constexpr double printed = 0.03;  // of two digits
+  CHECK(radial_share(EA, 25 * degree, 0.002825, 1e8) == Approx(0.12).epsilon(printed));
+  CHECK(radial_share(EA, 25 * degree, 0.002825, 3e8) == Approx(0.29).epsilon(printed));
+  CHECK(radial_share(EA, 25 * degree, 0.002825, 1e9) == Approx(0.57).epsilon(printed));
+  CHECK(radial_share(EA, 25 * degree, 0.002825, HUGE_VAL) == 1);
+  CHECK(radial_share(EA, 0, 0, 1e9) == 1);
+  // Equilibrium of a helix that is stretched by e and gives by u: its tension presses with T sin^2/R per
+  // length, and the strain that is left makes that tension.
+  const double a = 25 * degree, R = 0.002825, e = 1e-3, k = 3e8;
+  const double left = std::pow(std::cos(a), 2) * e * radial_share(EA, a, R, k);
+  const double give = EA * left * std::pow(std::sin(a), 2) / R / k;
+  CHECK(left == Approx(std::pow(std::cos(a), 2) * e - std::pow(std::sin(a), 2) * give / R));
+}
+
+TEST_CASE("a bed that gives takes its share of conductors and wires in every way of sliding") {
+  using enum Slip;
+  for (const std::vector<Slip>& slip : {std::vector{stick}, {free}, {friction}, {free, stick, free}, {stick, free, stick},
+                                        {free, friction, stick}}) {
+    CAPTURE(static_cast<int>(slip[0]), slip.size());
+    Settings settings = settings_with(slip);
+    Dresspack dresspack = rubbing(0.3);
+    const Results rigid = evaluate(dresspack, settings);
+    press_on(dresspack.components, 1e15);
+    CHECK(difference(evaluate(dresspack, settings), rigid) < 1e-5);  // 7.5e8 / 1e15, and what slips by it
+    press_on(dresspack.components, 3e8);
+    const Results soft = evaluate(dresspack, settings);
+    CHECK(off_their_probes(soft) < third_harmonic);
+    settings.equivalent = Equivalent::shear_included;  // wires put together one by one
+    CHECK(off_their_probes(evaluate(dresspack, settings)) < third_harmonic);
+  }
+  // A pull alone: what is left of the wires' strain is the share of both helices.
+  const auto strain_of_pulled = [](const Dresspack& dresspack, Slip slip) {
+    const Construction construction(dresspack, Kinematics::exact);
+    Settings settings = settings_with({slip});
+    settings.surface_fibres = 0;
+    settings.probes = {{1, "signal cable 1/conductor 1/layer 1/wire 1"}};
+    Evaluation evaluation(construction, settings, {2.0}, 2);
+    DeformationHistory history(1, 2);
+    history.set(0, 0, {0, 0, 0, 0});
+    history.set(0, 1, {0, 0, 0, 1e-5});
+    evaluation.add(history);
+    double strain = 0;
+    Sink sink;
+    sink.sites = sink.bound_free = sink.bound_stick = [](const SiteRows&) {};
+    sink.probe = [&](const Probe& probe) { strain = probe.strain[1]; };
+    evaluation.evaluate(0, history, 0, sink);
+    return strain;
+  };
+  for (const Slip slip : {stick, free, friction}) {
+    Dresspack dresspack = rubbing(0.3);
+    const double rigid = strain_of_pulled(dresspack, slip);
+    press_on(dresspack.components, 3e8);
+    const Construction construction(dresspack, Kinematics::exact);
+    double share = 1;
+    for (const int layer : {1, 2}) {
+      const Layer& of = construction.layers()[layer];
+      share *= radial_share(of.axial_stiffness, of.lay_angle, of.helix_radius, 3e8);
+    }
+    // Of second order in a strain of 1e-5; the wires' lay changes a little with the conductor's pull.
+    CHECK(strain_of_pulled(dresspack, slip) == Approx(share * rigid).epsilon(1e-3));
+  }
+}

@@ -93,6 +93,40 @@ TEST_CASE("one level of helices agrees with curves in space") { compare_with_spa
 TEST_CASE("two levels of helices agree with curves in space") { compare_with_space(2, 1000); }
 TEST_CASE("three levels of helices agree with curves in space") { compare_with_space(3, 1000); }
 
+TEST_CASE("a fibre on a wire's surface agrees with a curve in space") {
+  // A fibre is a straight curve beside the wire's axis. What its length has besides, that it winds around the
+  // axis as the wire twists, is the wire's shear (W19): taken off by Pythagoras. Rounding: of 1e-4 as above.
+  Random random;
+  double worst = 0, worst_of_sum = 0;
+  for (int k = 0; k < 300; ++k) {
+    const State state = random.state();
+    auto levels = random.levels(2);
+    const Nested wire = nest(state, levels, Kinematics::exact);
+    const double r = static_cast<double>(levels.back().radius) * random.between(0.1, 0.5);
+    const double phi = random.between(0, 2 * std::numbers::pi);
+    levels.push_back({r, 0, phi});
+    const auto length = [&](const space_curve::Curves& curve, const Rod<double>& rod) {
+      const auto path = curve.stretch_of_last(), winding = static_cast<long double>(r * rod.twist.at[0]);
+      return std::sqrt(path * path - winding * winding);
+    };
+    const auto now = length({1.0L + state.elongation, {state.curvature1, state.curvature2, state.twist}, levels}, wire.now);
+    const auto rest = length({1.0L, {0, 0, 0}, levels}, wire.rest);
+    const double strain = static_cast<double>(now / rest - 1);
+    const WireState<double> at_rest{wire.rest.stretch.at[0], wire.rest.bend1.at[0], wire.rest.bend2.at[0],
+                                    wire.rest.twist.at[0], 1};
+    const FibreShape fibre = fibre_shape(Kinematics::exact, at_rest, r, std::sin(phi), std::cos(phi));
+    const double bend1 = wire.now.bend1.at[0] - wire.rest.bend1.at[0];
+    const double bend2 = wire.now.bend2.at[0] - wire.rest.bend2.at[0];
+    const double ours = fibre_strain(fibre, wire.strain(), bend1, bend2);
+    const double sum = wire.strain() + r * (bend1 * std::sin(phi) - bend2 * std::cos(phi));
+    worst = std::max(worst, std::abs(ours - strain) / std::max(std::abs(strain), smallest_strain));
+    worst_of_sum = std::max(worst_of_sum, std::abs(sum - strain) / std::max(std::abs(strain), smallest_strain));
+  }
+  CAPTURE(worst, worst_of_sum);
+  CHECK(worst < strain_tolerance);
+  CHECK(worst_of_sum > 0.01);  // strain and change of bending added up are another number
+}
+
 TEST_CASE(
     "a straight part of a twisted dresspack stretches by geometry, not by twice that as in the thesis") {
   const State twisted{0, 0, 0, 5};

@@ -1,0 +1,77 @@
+#include "pipeline/job/overlap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double allowed = 0.02;   // of the diameter
+constexpr double hopeless = 0.5;   // of the diameter, between the axes
+constexpr int steps = 2000;        // of phi: wrong by their square, 1e-6 of the distance
+
+bool fits(const Component& of, double lay_angle, int count) {
+  return count < 2 || neighbour_distance(of.helix_radius, lay_angle, count) >= 2 * of.radius * (1 - allowed);
+}
+
+int largest_count(const Component& of) {
+  int count = of.count;
+  while (!fits(of, of.lay_angle, count)) --count;
+  return count;
+}
+
+/// Between 0, which fits, and that of the component, which does not.
+double largest_lay_angle(const Component& of) {
+  double low = 0, high = of.lay_angle;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = (low + high) / 2;
+    (fits(of, middle, of.count) ? low : high) = middle;
+  }
+  return low;
+}
+
+std::string what_fits(const Component& of) {
+  const std::string fewer = fmt::format("{} of them fit", largest_count(of));
+  if (of.lay_angle == 0 || !fits(of, 0, of.count)) return fewer;
+  return fmt::format("at a lay angle of {:.1f} deg all fit, at {:.4g} deg {}",
+                     std::floor(10 * largest_lay_angle(of) * 180 / pi) / 10, of.lay_angle * 180 / pi, fewer);
+}
+
+void add_warnings(const Component& of, std::vector<std::string>& warnings) {
+  for (const Component& inner : of.components) add_warnings(inner, warnings);
+  if (of.count < 2 || of.helix_radius == 0 || fits(of, of.lay_angle, of.count)) return;
+  const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
+  const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
+  const std::string what =
+      fmt::format("the {} parts '{}' are {:.4g} mm apart between their axes, {:.3f} mm less than their diameter",
+                  of.count, name, 1e3 * apart, 1e3 * (needed - apart));
+  if (apart < hopeless * needed)
+    throw InputError(of.where, fmt::format("{} (nearer than half of it)", what),
+                     fmt::format("check count, radius_mm, helix_radius_mm and lay_angle_deg; {}", what_fits(of)));
+  warnings.push_back(fmt::format("{}: warning: {}; {}", of.where.text(), what, what_fits(of)));
+}
+
+}  // namespace
+
+double neighbour_distance(double helix_radius, double lay_angle, int count) {
+  const double turned = 2 * pi / count, R = helix_radius;
+  if (lay_angle == 0) return 2 * R * std::sin(turned / 2);
+  double nearest = 4 * R * R;
+  for (int k = 0; k <= steps; ++k) {
+    const double phi = -turned * k / steps, along = R * phi / std::tan(lay_angle);
+    nearest = std::min(nearest, 2 * R * R * (1 - std::cos(turned + phi)) + along * along);
+  }
+  return std::sqrt(nearest);
+}
+
+std::vector<std::string> overlap_warnings(const Dresspack& dresspack) {
+  std::vector<std::string> warnings;
+  for (const Component& component : dresspack.components) add_warnings(component, warnings);
+  return warnings;
+}
+
+}  // namespace dresslife::pipeline

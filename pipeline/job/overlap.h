@@ -1,0 +1,25 @@
+// Parts of one layer that would need more room than their circle has.
+//
+// Neighbours lie on helices of one radius R and lay angle alpha, turned against each other by delta = 2 pi/K.
+// Seen from a point of one, the other is nearest not in the cross-section but a little along,
+//     d^2 = min over phi of 2 R^2 (1 - cos(delta + phi)) + (R phi / tan(alpha))^2,
+// phi the angle by which it goes on; straight parts are 2 R sin(delta/2) apart.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/job/dresspack.h"
+
+namespace dresslife::pipeline {
+
+/// Between the axes of neighbours in a layer of `count` > 1 parts [m].
+double neighbour_distance(double helix_radius, double lay_angle, int count);
+
+/// One line for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
+/// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit.
+/// Errors: InputError for parts nearer than half of their diameter. Insulation gives, but two such parts would
+/// share over a third of their sections.
+std::vector<std::string> overlap_warnings(const Dresspack& dresspack);
+
+}  // namespace dresslife::pipeline
