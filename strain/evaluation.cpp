@@ -16,7 +16,6 @@ namespace dresslife::strain {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::size_t thinned_samples = 256;  // at least so many of them pick the wires of the bounds
 // Of the bundles whose results wait to be written, half for each thread: enough to bridge a slow write.
 constexpr std::size_t samples_at_a_time = 1 << 14;
 
@@ -74,11 +73,9 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       with_planes_(judges_planes(settings.equivalent)),
       means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
       stick_{{construction, plan_slip(construction, {pipeline::Slip::stick}, total(lengths_)), lengths_,
-              arcs_, samples},
-             {}},
+              arcs_, samples}},
       free_{{construction, plan_slip(construction, {pipeline::Slip::free}, total(lengths_)), lengths_, arcs_,
-             samples},
-            {}} {
+             samples}} {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
@@ -492,9 +489,7 @@ void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
 std::vector<Evaluation::Worst> Evaluation::worst_of_bound(Bound& bound, std::size_t segment,
                                                           const DeformationHistory& history,
                                                           std::size_t row) {
-  const std::size_t every = std::max<std::size_t>(1, history.samples() / thinned_samples);
-  if (!bound.thin) bound.thin.emplace(bound.means.thinned(every));
-  return worst_of(segment, *bound.thin, history.thinned(row, every), 0, {});
+  return worst_of(segment, bound.means, history, row, {});
 }
 
 void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,

@@ -118,7 +118,6 @@ class Evaluation {
   /// One way of sliding and what it needs.
   struct Bound {
     ClampMeans means;
-    std::optional<ClampMeans> thin;  ///< the means at the thinned samples
   };
 
   /// What one thread keeps between bundles.
@@ -178,7 +177,7 @@ class Evaluation {
   /// The worst sites of every wire layer. sink: where all sites go; may be empty.
   std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
                               std::size_t row, const std::function<void(const SiteRows&)>& sink);
-  /// The same for a bound, found on thinned samples.
+  /// The same for a bound.
   std::vector<Worst> worst_of_bound(Bound& bound, std::size_t segment, const DeformationHistory& history,
                                     std::size_t row);
   void put_probes(const std::vector<Site>& sites, std::size_t segment, const DeformationHistory& history,

@@ -10,12 +10,13 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double allowed = 0.02;   // of the diameter
+constexpr double allowed = 0.02;   // of the diameter, without a warning
+constexpr double rounding = 1e-9;  // of the diameter: six straight ones around one of their size touch
 constexpr double hopeless = 0.5;   // of the diameter, between the axes
 constexpr int steps = 2000;        // of phi: wrong by their square, 1e-6 of the distance
 
-bool fits(const Component& of, double lay_angle, int count) {
-  return count < 2 || neighbour_distance(of.helix_radius, lay_angle, count) >= 2 * of.radius * (1 - allowed);
+bool fits(const Component& of, double lay_angle, int count, double give = rounding) {
+  return count < 2 || neighbour_distance(of.helix_radius, lay_angle, count) >= 2 * of.radius * (1 - give);
 }
 
 int largest_count(const Component& of) {
@@ -43,7 +44,7 @@ std::string what_fits(const Component& of) {
 
 void add_warnings(const Component& of, std::vector<std::string>& warnings) {
   for (const Component& inner : of.components) add_warnings(inner, warnings);
-  if (of.count < 2 || of.helix_radius == 0 || fits(of, of.lay_angle, of.count)) return;
+  if (of.count < 2 || of.helix_radius == 0 || fits(of, of.lay_angle, of.count, allowed)) return;
   const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
   const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
   const std::string what =

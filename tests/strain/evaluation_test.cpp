@@ -301,8 +301,10 @@ TEST_CASE("at a bend radius of 100 mm a glued wire sees thirty times what a slip
   // sin^2).
   constexpr double mean_stretch =
       0.05;  // of the bending: the mean over the pitch grows with the curvature's square
+  // And its fibre is shortest on the inside of the bow in which the conductor lies (W12).
+  const double shortest = 1 - (0.00075 + 75e-6) * own_curvature;
   CHECK(largest(Slip::free, Kinematics::exact, 1) ==
-        Approx(75e-6 * curvature * cosine * (1 + sine * sine)).epsilon(mean_stretch));
+        Approx(75e-6 * curvature * cosine * (1 + sine * sine) / shortest).epsilon(mean_stretch));
 }
 
 TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a probe") {
@@ -327,8 +329,7 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
     return largest;
   };
   for (std::size_t segment = 0; segment < few_segments; ++segment) {
-    // picked on thinned samples, so the pick may be a close second
-    constexpr float close = 0.01f;
+    constexpr float close = 1e-3f;  // strains of all wires are waves, without a third harmonic (W13)
     CHECK(largest_range(free.stick, segment) == Approx(largest_range(stick.sites, segment)).epsilon(close));
     CHECK(largest_range(stick.free, segment) == Approx(largest_range(free.sites, segment)).epsilon(close));
     double probed = 0;
