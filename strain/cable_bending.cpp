@@ -11,7 +11,7 @@ namespace dresslife::strain {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int phases = 36;               // around a layer: whole harmonics are exact, what yields is to 1e-3
+constexpr int phases = 36;                // around a layer: whole harmonics are exact, what yields is to 1e-3
 constexpr double small_curvature = 1e-4;  // [1/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
 constexpr double no_friction = 0, all_friction = 1e12;  // levels
 
@@ -26,28 +26,30 @@ const pipeline::Material* material_of(const pipeline::Dresspack& dresspack, cons
 /// A part of the cable at rest and slightly bent.
 struct CableBending::Bent {
   Rod<double> rest, now;
-  double per_length;    ///< how many of it, times their length, per length of the cable
-  double evening;       ///< path length of the nearest helix' pitch in it or above; 0: none [m]
+  double per_length;  ///< how many of it, times their length, per length of the cable
+  double evening;     ///< path length of the nearest helix' pitch in it or above; 0: none [m]
   int depth;
 };
 
 CableBending::CableBending(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {
   constexpr int order = Series<double>::capacity - 1;
-  const Bent straight{uniform_rod<double>(0, 0, 0, 0, order), uniform_rod<double>(0, small_curvature, 0, 0, order),
-                      1, 0, 0};
+  const Bent straight{uniform_rod<double>(0, 0, 0, 0, order),
+                      uniform_rod<double>(0, small_curvature, 0, 0, order), 1, 0, 0};
   for (const pipeline::Component& layer : cable.components) add(dresspack, layer, straight);
 }
 
-void CableBending::add(const pipeline::Dresspack& dresspack, const pipeline::Component& layer, const Bent& parent) {
+void CableBending::add(const pipeline::Dresspack& dresspack, const pipeline::Component& layer,
+                       const Bent& parent) {
   const double signed_angle = sign_of(layer.hand) * layer.lay_angle, sine = std::sin(layer.lay_angle);
   const double cosine = std::cos(layer.lay_angle), R = layer.helix_radius;
   const bool helical = R > 0 && layer.lay_angle != 0;
   if (R > 0 && !helical && parent.evening == 0)
     throw pipeline::InputError(
         layer.where,
-        fmt::format("'{}' lies straight beside the axis of a cable with measured_bending_stiffness_Nm2 (how far "
-                    "it slides in a bent sample depends on the sample's length)",
-                    layer.name),
+        fmt::format(
+            "'{}' lies straight beside the axis of a cable with measured_bending_stiffness_Nm2 (how far "
+            "it slides in a bent sample depends on the sample's length)",
+            layer.name),
         "give its lay_angle_deg, or leave out the measured stiffness");
   const double evening = helical ? 2 * pi * R / sine : parent.evening / cosine;
   const double EA = axial_stiffness(dresspack, layer);
@@ -57,11 +59,12 @@ void CableBending::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   const int depth = parent.depth + 1;
   depth_ = std::max(depth_, depth);
   for (int k = 0; k < phases; ++k) {
-    const Placement place = make_placement(pipeline::Kinematics::exact, R, signed_angle, 2 * pi * (k + 0.5) / phases);
+    const Placement place =
+        make_placement(pipeline::Kinematics::exact, R, signed_angle, 2 * pi * (k + 0.5) / phases);
     const Rod<double> rest = child(parent.rest, place), glued = child(parent.now, place);
     const double strain = glued.stretch.at[0] / rest.stretch.at[0] - 1;
-    const double mean =
-        helical ? mean_path_rate(parent.now, place) / mean_path_rate(parent.rest, place) - 1 : (R == 0 ? strain : 0);
+    const double mean = helical ? mean_path_rate(parent.now, place) / mean_path_rate(parent.rest, place) - 1
+                                : (R == 0 ? strain : 0);
     const double away = (strain - mean) / small_curvature, lever = weight * EA * away;
     if (R > 0 && EA > 0)
       held_.push_back({depth, share * away, lever, reach * layer.tension * press / EA,
@@ -81,8 +84,8 @@ void CableBending::add(const pipeline::Dresspack& dresspack, const pipeline::Com
     const double bend1 = rate(now.bend1, rest.bend1), bend2 = rate(now.bend2, rest.bend2);
     const double twist = rate(now.twist, rest.twist), stretch = mean / small_curvature;
     const double EI = EA * layer.radius * layer.radius / 4, GJ = EI / (1 + material->poisson_ratio);
-    own_stiffness_ += weight * (EI * (bend1 * bend1 + bend2 * bend2) + GJ * twist * twist +
-                                share * EA * stretch * stretch);
+    own_stiffness_ +=
+        weight * (EI * (bend1 * bend1 + bend2 * bend2) + GJ * twist * twist + share * EA * stretch * stretch);
   }
 }
 
@@ -105,7 +108,8 @@ double CableBending::free_stiffness() const {
 double CableBending::stuck_stiffness(int levels) const {
   double sum = own_stiffness_;
   for (const Held& of : held_)
-    sum += of.moment_per_strain * of.strain_rate * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
+    sum +=
+        of.moment_per_strain * of.strain_rate * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
   return sum;
 }
 
@@ -118,9 +122,10 @@ double friction_level(const pipeline::Dresspack& dresspack, const pipeline::Comp
   if (wanted < least || wanted > most)
     throw pipeline::InputError(
         cable.where,
-        fmt::format("'{}' has measured_bending_stiffness_Nm2 {:.4g} at {:.4g} 1/m (its wires and polymer have "
-                    "{:.4g} without friction and {:.4g} where friction holds all that it presses)",
-                    cable.name, wanted, curvature, least, most),
+        fmt::format(
+            "'{}' has measured_bending_stiffness_Nm2 {:.4g} at {:.4g} 1/m (its wires and polymer have "
+            "{:.4g} without friction and {:.4g} where friction holds all that it presses)",
+            cable.name, wanted, curvature, least, most),
         "check the measurement, polymer_bending_stiffness_Nm2, the radii and lay angles, and that the layers "
         "have a friction_coefficient and a radial_line_load_N_per_m");
   double low = 1e-9, high = all_friction;  // M grows with the level

@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
         const pipeline::FileReader motion(call.input, pipeline::motion_format());
         const pipeline::Job job = pipeline::job_of(call, motion, {pipeline::Part::sim});
         for (const pipeline::MountedDresspack& mounted : job.dresspacks)
-          for (const std::string& warning : pipeline::overlap_warnings(mounted.dresspack)) progress.note(warning);
+          for (const std::string& warning : pipeline::overlap_warnings(mounted.dresspack))
+            progress.note(warning);
         pipeline::FileWriter file(call.output, pipeline::strain_format());
         const std::string summary = strain::write_strain(motion, job, file, pipeline::thread_count(),
                                                          [&](double share) { progress.show(share); });

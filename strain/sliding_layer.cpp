@@ -43,7 +43,8 @@ SlidingFibre sliding_fibre(const AtRest& rest, double height) {
   const auto single = [](double x) { return static_cast<float>(x); };
   const auto [G0, G1, G2, G3] = LengthAtRest(rest, height).at;
   const double R = rest.R, D = rest.D, s = rest.s, B = rest.B;
-  const double by_first = height / D, by_second = -0.5 * height * R / D, by_third = 0.25 * height * R * R / (D * D);
+  const double by_first = height / D, by_second = -0.5 * height * R / D,
+               by_third = 0.25 * height * R * R / (D * D);
   SlidingFibre fibre;
   fibre.mean = single(height / R);
   fibre.mean_of_mean = single(G0);

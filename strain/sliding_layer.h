@@ -13,8 +13,8 @@
 //     first   f_1 = s/D (C2 + 3/4 k C4 + 5/8 k^2 C6 + 35/64 k^3 C8)          times P sin b + Q cos b
 //     second  f_2 = -R/(2 D) (E1 + k E2 + 15/16 k^2 E3)          times 2 P Q sin 2b + (Q^2 - P^2) cos 2b
 //     third   f_3 = s R^2/(4 D^2) C4            times (3 Q^2 P - P^3) sin 3b + (Q^3 - 3 Q P^2) cos 3b
-// and G, with X0 = B0 cos b, has its own. Products of harmonics are harmonics again. E2 and C6 are taken linear in tau, E3 and C8 as at rest: all of them stand beside powers
-// of k.
+// and G, with X0 = B0 cos b, has its own. Products of harmonics are harmonics again. E2 and C6 are taken
+// linear in tau, E3 and C8 as at rest: all of them stand beside powers of k.
 #pragma once
 
 #include <array>

@@ -21,11 +21,11 @@ namespace dresslife::strain {
 
 struct StrandLayer {
   int count = 1;
-  double wire_radius = 0;     ///< [m]
-  double youngs_modulus = 0;  ///< [Pa]
-  double helix_radius = 0;    ///< 0: the core wire [m]
-  double lay_angle = 0;       ///< either hand [rad]
-  double line_load = 0;       ///< by which jacket and tape press a wire of it inward [N/m]
+  double wire_radius = 0;       ///< [m]
+  double youngs_modulus = 0;    ///< [Pa]
+  double helix_radius = 0;      ///< 0: the core wire [m]
+  double lay_angle = 0;         ///< either hand [rad]
+  double line_load = 0;         ///< by which jacket and tape press a wire of it inward [N/m]
   double jacket_stiffness = 0;  ///< of what holds a wire along its path (W30) [N/m2]
 };
 

@@ -47,12 +47,13 @@ void add_warnings(const Component& of, std::vector<std::string>& warnings) {
   if (of.count < 2 || of.helix_radius == 0 || fits(of, of.lay_angle, of.count, allowed)) return;
   const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
   const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
-  const std::string what =
-      fmt::format("the {} parts '{}' are {:.4g} mm apart between their axes, {:.3f} mm less than their diameter",
-                  of.count, name, 1e3 * apart, 1e3 * (needed - apart));
+  const std::string what = fmt::format(
+      "the {} parts '{}' are {:.4g} mm apart between their axes, {:.3f} mm less than their diameter",
+      of.count, name, 1e3 * apart, 1e3 * (needed - apart));
   if (apart < hopeless * needed)
-    throw InputError(of.where, fmt::format("{} (nearer than half of it)", what),
-                     fmt::format("check count, radius_mm, helix_radius_mm and lay_angle_deg; {}", what_fits(of)));
+    throw InputError(
+        of.where, fmt::format("{} (nearer than half of it)", what),
+        fmt::format("check count, radius_mm, helix_radius_mm and lay_angle_deg; {}", what_fits(of)));
   warnings.push_back(fmt::format("{}: warning: {}; {}", of.where.text(), what, what_fits(of)));
 }
 

@@ -18,8 +18,8 @@ double neighbour_distance(double helix_radius, double lay_angle, int count);
 
 /// One line for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
 /// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit.
-/// Errors: InputError for parts nearer than half of their diameter. Insulation gives, but two such parts would
-/// share over a third of their sections.
+/// Errors: InputError for parts nearer than half of their diameter. Insulation gives, but two such parts
+/// would share over a third of their sections.
 std::vector<std::string> overlap_warnings(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

@@ -59,8 +59,8 @@ TEST_CASE("a cable's closed ends: free, wires stuck, all stuck") {
     const ConductorInCable in_cable(lay_angle * degree);
     const double section = pi * 75e-6 * 75e-6, EA = youngs_modulus * section, EI = EA * 75e-6 * 75e-6 / 4;
     const double wire_cosine = std::cos(5 * degree);
-    // The wires are stranded into a conductor that turns by its own torsion: against the cable they turn by the
-    // sum of both, here nearly none, and that is what stretches them.
+    // The wires are stranded into a conductor that turns by its own torsion: against the cable they turn by
+    // the sum of both, here nearly none, and that is what stretches them.
     const double torsion_at_rest = sine * cosine / conductor.helix_radius;
     double free = 0, wires = 0, conductor_EA = 0;
     for (const Component& wire : conductor.components) {
@@ -68,11 +68,12 @@ TEST_CASE("a cable's closed ends: free, wires stuck, all stuck") {
       const double V2 = 1 + R * R * turning * turning, many = 7 * wire.count / wire_cosine;
       wires += many * EA * std::pow(R / V2, 2) / 2 * in_cable.bending;
       const double by_torsion = R * R * turning / V2;
-      free += many * (EI * in_cable.bending + (EI / (1 + poisson_ratio) + EA * by_torsion * by_torsion) *
-                                                  in_cable.torsion);
+      free += many * (EI * in_cable.bending +
+                      (EI / (1 + poisson_ratio) + EA * by_torsion * by_torsion) * in_cable.torsion);
       conductor_EA += wire.count * EA * std::pow(wire_cosine, 3);
     }
-    const double conductors = 7 * conductor_EA * std::pow(cosine, 3) * std::pow(conductor.helix_radius, 2) / 2;
+    const double conductors =
+        7 * conductor_EA * std::pow(cosine, 3) * std::pow(conductor.helix_radius, 2) / 2;
     // Wires are bent a little less than their conductor, by sin^2 of their own 5 degrees.
     constexpr double wires_lay = 0.01;
     CHECK(bending.free_stiffness() == Approx(free).epsilon(wires_lay));
@@ -101,7 +102,8 @@ TEST_CASE("a cable of wires alone is the strand that its sliders make") {
   for (const double jacket : {0.0, 1e9}) {
     cable.components[0].jacket_stiffness = jacket;
     const CableBending bending(dresspack, cable);
-    Strand strand{{{12, 75e-6, youngs_modulus, 0.0003, 10 * degree, 20, jacket}}, 0, 0.3, Strand::Cap::even, true};
+    Strand strand{
+        {{12, 75e-6, youngs_modulus, 0.0003, 10 * degree, 20, jacket}}, 0, 0.3, Strand::Cap::even, true};
     StrandBending sliders(strand);
     for (const double curvature : {0.01, 1.0, 5.0, 20.0}) {
       const double held = bending.moment(curvature, 1) - bending.moment(curvature, 0);
@@ -135,9 +137,9 @@ TEST_CASE("a stiffness that no friction gives is refused with the two it could h
   Dresspack dresspack = pressed_dresspack();
   Component& cable = dresspack.components[0];
   cable.measured_bending_stiffness = 0.0017;
-  CHECK_THROWS_WITH(friction_level(dresspack, cable),
-                    Catch::Contains("0.0017 at 1 1/m") && Catch::Contains("0.001802 without friction") &&
-                        Catch::Contains("4.09 where friction holds all"));
+  CHECK_THROWS_WITH(friction_level(dresspack, cable), Catch::Contains("0.0017 at 1 1/m") &&
+                                                          Catch::Contains("0.001802 without friction") &&
+                                                          Catch::Contains("4.09 where friction holds all"));
   cable.measured_bending_stiffness = 5;
   CHECK_THROWS_WITH(friction_level(dresspack, cable), Catch::Contains("error: 'signal cable' has"));
   cable.measured_bending_stiffness = 0.2;
@@ -148,7 +150,8 @@ TEST_CASE("a stiffness that no friction gives is refused with the two it could h
   CHECK_THROWS_WITH(friction_level(dresspack, cable), Catch::Contains("lies straight beside the axis"));
 }
 
-TEST_CASE("a cable held by friction needs less moment to bend than one that sticks, and never less than free") {
+TEST_CASE(
+    "a cable held by friction needs less moment to bend than one that sticks, and never less than free") {
   const Dresspack dresspack = pressed_dresspack();
   const CableBending bending(dresspack, dresspack.components[0]);
   double before = 0;

@@ -109,7 +109,8 @@ TEST_CASE("a fibre on a wire's surface agrees with a curve in space") {
       const auto path = curve.stretch_of_last(), winding = static_cast<long double>(r * rod.twist.at[0]);
       return std::sqrt(path * path - winding * winding);
     };
-    const auto now = length({1.0L + state.elongation, {state.curvature1, state.curvature2, state.twist}, levels}, wire.now);
+    const auto now = length(
+        {1.0L + state.elongation, {state.curvature1, state.curvature2, state.twist}, levels}, wire.now);
     const auto rest = length({1.0L, {0, 0, 0}, levels}, wire.rest);
     const double strain = static_cast<double>(now / rest - 1);
     const WireState<double> at_rest{wire.rest.stretch.at[0], wire.rest.bend1.at[0], wire.rest.bend2.at[0],
@@ -120,7 +121,8 @@ TEST_CASE("a fibre on a wire's surface agrees with a curve in space") {
     const double ours = fibre_strain(fibre, wire.strain(), bend1, bend2);
     const double sum = wire.strain() + r * (bend1 * std::sin(phi) - bend2 * std::cos(phi));
     worst = std::max(worst, std::abs(ours - strain) / std::max(std::abs(strain), smallest_strain));
-    worst_of_sum = std::max(worst_of_sum, std::abs(sum - strain) / std::max(std::abs(strain), smallest_strain));
+    worst_of_sum =
+        std::max(worst_of_sum, std::abs(sum - strain) / std::max(std::abs(strain), smallest_strain));
   }
   CAPTURE(worst, worst_of_sum);
   CHECK(worst < strain_tolerance);

@@ -32,10 +32,12 @@ TEST_CASE("neighbouring helices are as far apart as points laid on them") {
   // Brute force over both helices; nearest points half a step of 2e-4 rad off cost (1e-4)^2.
   for (const double lay_angle : {5.0, 25.0, 45.0, 60.0})
     for (const int count : {2, 3, 7, 31}) {
-      const double R = 2.825e-3, rise = R / std::tan(lay_angle * degree), turned = 2 * std::numbers::pi / count;
+      const double R = 2.825e-3, rise = R / std::tan(lay_angle * degree),
+                   turned = 2 * std::numbers::pi / count;
       double nearest = 1;
       for (double phi = -4; phi < 4; phi += 2e-4)
-        nearest = std::min(nearest, std::hypot(R - R * std::cos(phi + turned), R * std::sin(phi + turned), rise * phi));
+        nearest = std::min(
+            nearest, std::hypot(R - R * std::cos(phi + turned), R * std::sin(phi + turned), rise * phi));
       CHECK(neighbour_distance(R, lay_angle * degree, count) == Approx(nearest).epsilon(1e-5));
     }
   CHECK(neighbour_distance(1, 0, 6) == Approx(1));
@@ -44,9 +46,10 @@ TEST_CASE("neighbouring helices are as far apart as points laid on them") {
 TEST_CASE("parts that overlap on their circle are warned of, with what would fit") {
   const auto warnings = overlap_warnings(dresspack_of(7, 1.175, 2.825, 25));
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Catch::Contains("pack.yaml:7:3: warning: the 7 parts 'conductor' are 2.254 mm apart") &&
-                              Catch::Contains("0.096 mm less than their diameter") &&
-                              Catch::Contains("at 25 deg 6 of them fit"));
+  CHECK_THAT(warnings[0],
+             Catch::Contains("pack.yaml:7:3: warning: the 7 parts 'conductor' are 2.254 mm apart") &&
+                 Catch::Contains("0.096 mm less than their diameter") &&
+                 Catch::Contains("at 25 deg 6 of them fit"));
   // What it says fits does, and a tenth of a degree more does not.
   const std::size_t at = warnings[0].find("lay angle of ") + 13;
   const double most = std::stod(warnings[0].substr(at));
