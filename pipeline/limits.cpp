@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -13,6 +14,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <new>
+
+#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -26,6 +30,7 @@ LastWords last_words;
 
 extern "C" void time_is_over(int) {
   constexpr int input_is_wrong = 1;
+  remove_parts_of_this_process();
   if (::write(STDERR_FILENO, last_words.text, last_words.length) < 0) ::_exit(input_is_wrong);
   ::_exit(input_is_wrong);
 }
@@ -57,7 +62,25 @@ void limit_time(const std::string& program, std::uint64_t seconds) {
   ::alarm(static_cast<unsigned>(std::min<std::uint64_t>(seconds, 0x7fffffff)));
 }
 
-void limit_memory(std::uint64_t megabytes) {
+namespace {
+
+/// The kernel ends a program whose stack may not grow: it grows before memory is limited.
+[[gnu::noinline]] void grow_stack() {
+  constexpr std::size_t bytes = 1 << 20, page = 4096;
+  volatile char stack[bytes];
+  for (std::size_t at = 0; at < bytes; at += page) stack[at] = 0;
+  static_cast<void>(stack[0]);
+}
+
+/// The HDF5 library stumbles over itself where even its first tables find no place: better not begun.
+void check_least_memory() {
+  constexpr std::size_t least = 24 << 20;  // [bytes]; the smallest stage takes more
+  void* const tried = ::mmap(nullptr, least, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (tried == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(tried, least);
+}
+
+void set_memory_limit(std::uint64_t megabytes) {
   if (megabytes == 0) return;
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -66,6 +89,14 @@ void limit_memory(std::uint64_t megabytes) {
   if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur <= most) return;
   limit.rlim_cur = most;
   ::setrlimit(RLIMIT_AS, &limit);
+}
+
+}  // namespace
+
+void limit_memory(std::uint64_t megabytes) {
+  grow_stack();
+  set_memory_limit(megabytes);
+  check_least_memory();
 }
 
 std::uint64_t installed_memory_mb() {

@@ -61,6 +61,27 @@ std::pair<int, fs::path> make_part(const fs::path& final_name) {
   return {-1, {}};
 }
 
+/// Names of this process's parts. A signal's handler takes no argument and may not allocate; a place is taken
+/// by the last letter that is written to it, and a stage writes a file or two at a time.
+constexpr std::size_t most_parts = 8, longest_name = 4096;
+char parts[most_parts][longest_name];
+
+void remember(const fs::path& part) {
+  const std::string& name = part.native();
+  for (auto& place : parts)
+    if (place[0] == '\0' && name.size() < longest_name) {
+      name.copy(place + 1, name.size() - 1, 1);
+      place[name.size()] = '\0';
+      place[0] = name[0];
+      return;
+    }
+}
+
+void forget(const fs::path& part) {
+  for (auto& place : parts)
+    if (part.native() == place) place[0] = '\0';
+}
+
 bool same_bytes(int one, const fs::path& path) {
   const int other = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (other < 0) return false;
@@ -101,10 +122,12 @@ WholeFile::WholeFile(fs::path final_name) : final_name_(std::move(final_name)) {
   if (descriptor < 0) fail(errno);
   descriptor_ = descriptor;
   part_ = std::move(part);
+  remember(part_);
 }
 
 WholeFile::~WholeFile() {
   if (!committed_) ::unlink(part_.c_str());
+  forget(part_);
   ::close(descriptor_);  // with it goes the lock; what it could tell, commit() has asked for
 }
 
@@ -174,6 +197,11 @@ void write_text_if_changed(const fs::path& file, const std::string& text, Sync w
   WholeFile whole(file);
   whole.write_at(text.data(), text.size(), 0);
   whole.commit(when);
+}
+
+void remove_parts_of_this_process() noexcept {
+  for (const auto& place : parts)
+    if (place[0] != '\0') ::unlink(place);
 }
 
 void remove_leftovers(const fs::path& final_name) {

@@ -28,12 +28,21 @@ void read_scatter(const FileReader& file, RankingRow& row) {
   }
 }
 
+int count_attribute(const FileReader& file, const std::string& name) {
+  constexpr double most = 1e9;
+  const double value = file.number_attribute(name);
+  if (!(std::abs(value) <= most))
+    throw InputError(file.where(), fmt::format("attribute '{}' is {} (must be a count)", name, value),
+                     "make the file anew with dresslife-fatigue");
+  return static_cast<int>(value);
+}
+
 void read_hose(const FileReader& file, RankingRow& row) {
   if (!file.has_attribute("hose_life_hours")) return;
   HoseLife hose;
   hose.hours = file.number_attribute("hose_life_hours");
   hose.months = file.number_attribute("hose_life_months");
-  hose.segment_from_tool = static_cast<int>(file.number_attribute("hose_segment_from_tool"));
+  hose.segment_from_tool = count_attribute(file, "hose_segment_from_tool");
   hose.position_from_tool = file.number_attribute("hose_position_from_tool");
   hose.component = file.text_attribute("hose_component");
   hose.step = file.text_attribute("hose_step");
@@ -59,7 +68,7 @@ RankingRow read_row(const JobResult& result) {
     read_scatter(file, row);
     read_hose(file, row);
     if (file.number_attribute("worst_site") < 0) return row;
-    row.worst_segment_from_tool = static_cast<int>(file.number_attribute("worst_segment_from_tool"));
+    row.worst_segment_from_tool = count_attribute(file, "worst_segment_from_tool");
     row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
     row.worst_time = file.number_attribute("worst_time");
     if (file.has_attribute("worst_component")) row.worst_component = file.text_attribute("worst_component");

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <mutex>
+#include <new>
 
 #include "sim/contact/self_contact.h"
 
@@ -17,10 +19,24 @@ namespace {
 constexpr double margin_steps = 1.5, least_margin = 1e-3;  // [1], [m]
 constexpr int most_points = 4;                             // of one pair of shapes
 
+// ODE takes its memory without a look at what it gets.
+void* memory_or_throw(std::size_t bytes) {
+  if (void* const memory = std::malloc(bytes)) return memory;
+  throw std::bad_alloc();
+}
+void* more_memory_or_throw(void* memory, std::size_t, std::size_t bytes) {
+  if (void* const moved = std::realloc(memory, bytes)) return moved;
+  throw std::bad_alloc();
+}
+
 // ODE keeps data per process and per thread; both calls may be repeated.
 void prepare_ode() {
   static std::once_flag once;
-  std::call_once(once, [] { dInitODE2(0); });
+  std::call_once(once, [] {
+    dSetAllocHandler(memory_or_throw);
+    dSetReallocHandler(more_memory_or_throw);
+    dInitODE2(0);
+  });
   dAllocateODEDataForThread(dAllocateMaskAll);
 }
 

@@ -244,6 +244,33 @@ TEST_CASE("what killed writers left is cleared away, what lives is not") {
   CHECK(content(scratch / "motion.h5.part") == "not ours");
 }
 
+TEST_CASE("a stage that runs out of its time or memory says so and leaves nothing") {
+  const Chain chain;
+  const Scratch& scratch = chain.scratch;
+  fs::create_directories(scratch / "out");
+  const Outcome slow = run(scratch, "dresslife-sim",
+                           "job.yaml -o out/m.h5 --quiet --job-time 1 --set simulation.time_step_ms=0.01 "
+                           "--set simulation.segments=400");
+  CHECK(slow.status == 1);
+  CHECK(slow.err.find("dresslife-sim: error: took longer than 1 s (--job-time)") == 0);
+  CHECK(entries(scratch / "out") == 0);
+#ifndef __SANITIZE_ADDRESS__  // which takes more address space than these limits leave
+  for (const Stage& stage : stages)
+    for (const int megabytes : {1, 2, 3, 5, 8, 13}) {
+      const Outcome large =
+          run(scratch, stage.program,
+              stage.command("out/" + stage.output) + " --job-memory " + std::to_string(megabytes));
+      INFO(stage.program << ' ' << megabytes << ": " << large.status << large.err);
+      if (large.status != 0) {
+        CHECK(large.status == 3);
+        CHECK(large.err.find(stage.program + ": error: ") == 0);
+      }
+      fs::remove(scratch / "out" / stage.output);
+      CHECK(entries(scratch / "out") == 0);
+    }
+#endif
+}
+
 TEST_CASE("closed and full streams are survived and told by the status") {
   const Chain chain;
   const Scratch& scratch = chain.scratch;
