@@ -393,6 +393,12 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   return worst;
 }
 
+/// What the strains ask of the cables and their clamps, handed on to the ranking.
+void copy_forces(const Context& c) {
+  for (const char* name : {"largest_force_share", "clamp_moment_share"})
+    if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
+}
+
 /// The worst wire's life, place and moment. Returns the summary for the terminal.
 std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles) {
   const Worst worst = worst_of(c, c.worst, cycles);
@@ -407,6 +413,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
   c.life.attribute("worst_time", worst.time);
   c.life.attribute("worst_component", worst.component);
   c.life.attribute("worst_step", worst.step);
+  copy_forces(c);
   if (c.worst == no_site) return "no wire was evaluated";
   if (worst.damage == 0) return "no wire is damaged";
   return fmt::format("{} h ({} repeats, {} months) until {} breaks, {:.2f} m from the tool{}",
@@ -435,10 +442,17 @@ std::string write_hose(const Context& c) {
   return fmt::format("; the hose's wall lasts {} h", pipeline::readable(worst.life_hours));
 }
 
-/// Whether the job itself lets every level slip this way: then its own sites, which are all wires and not
-/// only the likely worst ones, are the bound.
+/// Whether the job itself lets every level slip this way, but for its cables, which slide in a bound as they do
+/// in the job: then its own sites, which are all wires and not only the likely worst ones, are the bound.
 bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
-  return std::all_of(job.strain.slip.begin(), job.strain.slip.end(),
+  const auto holds_wires = [](const pipeline::MountedDresspack& mounted) {
+    return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(),
+                       [](const pipeline::Component& part) { return part.components.empty(); });
+  };
+  const bool cables_only =
+      pipeline::slides(job.strain.slip.front()) && job.strain.slip.size() > 1 &&
+      std::none_of(job.dresspacks.begin(), job.dresspacks.end(), holds_wires);
+  return std::all_of(job.strain.slip.begin() + (cables_only ? 1 : 0), job.strain.slip.end(),
                      [&](pipeline::Slip own) { return own == slip; });
 }
 

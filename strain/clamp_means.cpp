@@ -23,20 +23,17 @@ std::size_t ClampMeans::add_row() {
 }
 
 void ClampMeans::list_group(int parent) {
-  struct Member {
-    int layer, number;
-    double turn;
-  };
-  std::vector<Member> members;
-  Group group{parent, {}, {}};
+  std::vector<PathMember> members;
+  std::vector<std::size_t> rows;
   const int parent_layer =
       parent == dresspack_itself ? dresspack_itself : construction_.parts()[parent].layer;
   const auto& parts = construction_.parts();
   for (std::size_t k = 0; k < parts.size(); ++k)
-    if (parts[k].parent == parent && plan_[parts[k].layer].sliding == Sliding::clamp_to_clamp) {
+    if (parts[k].parent == parent && plan_[parts[k].layer].sliding == Sliding::clamp_to_clamp &&
+        !construction_.layers()[parts[k].layer].is_cable()) {
       members.push_back({parts[k].layer, parts[k].number, 0});
       part_row_[static_cast<int>(k)] = add_row();
-      group.rows.push_back(strain_.size() - 1);
+      rows.push_back(strain_.size() - 1);
     }
   for (std::size_t k = 0; k < construction_.layers().size(); ++k) {
     const Layer& layer = construction_.layers()[k];
@@ -45,39 +42,40 @@ void ClampMeans::list_group(int parent) {
     layer_row_[{parent, static_cast<int>(k)}] = strain_.size();
     for (int node = 0; node < waves_per_layer; ++node) {
       members.push_back({static_cast<int>(k), 1, 2 * std::numbers::pi * node / waves_per_layer});
-      group.rows.push_back(add_row());
+      rows.push_back(add_row());
     }
   }
   if (members.empty()) return;
-  for (std::size_t segment = 0; segment < lengths_.size(); ++segment) {
-    const double arc = arcs_[segment];
-    BundleNesting nesting = nesting_to(construction_, plan_, parent, arc, surface_fibres(0));
-    for (const Member& member : members)
-      nesting.nodes.push_back(
-          node_at(construction_, plan_, nesting, member.layer, member.number, parent, arc, member.turn));
-    group.nestings.push_back(std::move(nesting));
-  }
-  groups_.push_back(std::move(group));
+  groups_.push_back({parent, {construction_, plan_, parent, members, lengths_, arcs_}, rows});
 }
 
-void ClampMeans::add(const DeformationHistory& block) {
-  const std::size_t count = block.samples(), stride = padded(count);
-  assert(next_ + count <= stride_);
+void ClampMeans::add(std::size_t segment, const SegmentMotion& motion) {
+  const std::size_t stride = padded(motion.samples);
+  assert(next_ + motion.samples <= stride_);
+  in_block_ = motion.samples;
   for (Group& group : groups_) {
-    const std::size_t nodes = group.rows.size();
-    std::vector<double> path(nodes * stride, 0.0), rest(nodes, 0.0);
-    for (std::size_t segment = 0; segment < lengths_.size(); ++segment) {
-      BundleNesting& nesting = group.nestings[segment];
-      attach(nesting, group.parent, next_);
-      kernels().add_path_rates(pointers(nesting), block.columns(segment), 0, count, lengths_[segment],
-                               path.data(), stride);
-      for (std::size_t n = 0; n < nodes; ++n) rest[n] += lengths_[segment] * nesting.nodes[n].rest_rate;
-    }
-    for (std::size_t n = 0; n < nodes; ++n)
-      for (std::size_t t = 0; t < count; ++t)
-        strain_[group.rows[n]][next_ + t] = path[n * stride + t] / rest[n] - 1;
+    const std::size_t members = group.rows.size();
+    group.path.resize(members * stride, 0.0);
+    group.rest.resize(members, 0.0);
+    const DeformationColumns& columns = motion.columns(construction_, plan_, group.parent);
+    group.rates.add(
+        segment, columns, motion.samples,
+        [&](BundleNesting& nesting) { attach(nesting, group.parent, motion, next_); }, group.path.data(),
+        stride);
+    for (std::size_t n = 0; n < members; ++n) group.rest[n] += group.rates.rest(segment, n);
   }
-  next_ += count;
+}
+
+void ClampMeans::next_block() {
+  const std::size_t stride = padded(in_block_);
+  for (Group& group : groups_) {
+    for (std::size_t n = 0; n < group.rows.size(); ++n)
+      for (std::size_t t = 0; t < in_block_; ++t)
+        strain_[group.rows[n]][next_ + t] = group.path[n * stride + t] / group.rest[n] - 1;
+    group.path.clear();
+    group.rest.clear();
+  }
+  next_ += in_block_;
 }
 
 const double* ClampMeans::of_part(int part) const {
@@ -103,26 +101,13 @@ std::vector<double> ClampMeans::at_angle(int part, int layer, double turn) const
   return strain;
 }
 
-ClampMeans::ClampMeans(const ClampMeans& whole, std::size_t every)
-    : construction_(whole.construction_),
-      plan_(whole.plan_),
-      lengths_(whole.lengths_),
-      arcs_(whole.arcs_),
-      stride_(padded((whole.next_ + every - 1) / every) + padding),
-      next_(whole.next_),
-      part_row_(whole.part_row_),
-      layer_row_(whole.layer_row_) {
-  for (const std::vector<double>& row : whole.strain_) {
-    std::vector<double>& thin = strain_.emplace_back(stride_, 0.0);
-    for (std::size_t k = 0; k * every < next_; ++k) thin[k] = row[k * every];
-  }
-}
-
-void ClampMeans::attach(BundleNesting& nesting, int part, std::size_t first) const {
+void ClampMeans::attach(BundleNesting& nesting, int part, const SegmentMotion& motion,
+                        std::size_t first) const {
   const std::vector<int> line = construction_.ancestry(part);
   for (std::size_t k = 0; k < line.size(); ++k)
     if (nesting.steps[k].slide.sliding == Sliding::clamp_to_clamp)
-      nesting.steps[k].slide.clamp_strain = of_part(line[k]) + first;
+      nesting.steps[k].slide.clamp_strain =
+          k == 0 ? motion.strain[construction_.cable_of(line[k])] : of_part(line[k]) + first;
 }
 
 }  // namespace dresslife::strain

@@ -1,4 +1,4 @@
-// The axial strain of straight components that slide from clamp to clamp: (path length now)/(path length at
+// The axial strain of what slides from clamp to clamp and is no cable: (path length now)/(path length at
 // rest) - 1 over all segments (README W10). Built sample by sample in blocks that hold every segment, read
 // per segment afterwards.
 #pragma once
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "strain/history.h"
-#include "strain/nesting.h"
+#include "strain/path_rates.h"
+#include "strain/segment_motion.h"
 
 namespace dresslife::strain {
 
@@ -18,8 +18,9 @@ class ClampMeans {
   ClampMeans(const Construction& construction, std::vector<LayerSlip> plan, std::vector<double> lengths,
              std::vector<double> arcs, std::size_t samples);
 
-  /// The next samples, of every segment.
-  void add(const DeformationHistory& block);
+  /// The next samples: of one segment after the other, then next_block(). motion: of these samples.
+  void add(std::size_t segment, const SegmentMotion& motion);
+  void next_block();
 
   const std::vector<LayerSlip>& plan() const { return plan_; }
   bool needed() const { return !groups_.empty(); }
@@ -31,27 +32,25 @@ class ClampMeans {
   /// (sample) strain at any angle around the layer, from its nodes; `turn` counts from wire 1.
   std::vector<double> at_angle(int part, int layer, double turn) const;
 
-  /// The same at every `every`-th sample, to read only.
-  ClampMeans thinned(std::size_t every) const { return {*this, every}; }
-
-  /// Gives each sliding step of `nesting` its strains, from sample `first` on.
-  void attach(BundleNesting& nesting, int part, std::size_t first = 0) const;
+  /// Gives each sliding step of `nesting` its strains, from sample `first` on; motion: there, for cables.
+  void attach(BundleNesting& nesting, int part, const SegmentMotion& motion, std::size_t first = 0) const;
 
  private:
   struct Group {  ///< what slides in one parent
     int parent;
-    std::vector<BundleNesting> nestings;  ///< one per segment, nodes: the sliding components
-    std::vector<std::size_t> rows;        ///< of strain_, one per node
+    PathRates rates;
+    std::vector<std::size_t> rows;  ///< of strain_, one per member
+    std::vector<double> path{};     ///< (member, sample) of the block so far [m]
+    std::vector<double> rest{};     ///< (member) [m]
   };
 
-  ClampMeans(const ClampMeans& whole, std::size_t every);
   void list_group(int parent);
   std::size_t add_row();
 
   const Construction& construction_;
   std::vector<LayerSlip> plan_;
   std::vector<double> lengths_, arcs_;
-  std::size_t stride_, next_ = 0;
+  std::size_t stride_, next_ = 0, in_block_ = 0;
   std::vector<Group> groups_;  ///< parents before children
   std::map<int, std::size_t> part_row_;
   std::map<std::pair<int, int>, std::size_t> layer_row_;  ///< (part, layer) -> first of waves_per_layer rows

@@ -39,7 +39,10 @@ double Layer::pitch() const {
 }
 
 Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics)
-    : kinematics_(kinematics), rest_curvature_(dresspack.rest_curvature) {
+    : kinematics_(kinematics),
+      rest_curvature_(dresspack.rest_curvature),
+      section_{pipeline::inner_radius(dresspack).value_or(without_limit), dresspack.core_diameter / 2},
+      hose_bending_stiffness_(dresspack.bending_stiffness) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   if (!dresspack.hose_material.empty()) {
     const WallFactors factors = wall_factors(dresspack);
@@ -103,6 +106,11 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   layer.jacket_stiffness = component.jacket_stiffness;
   layer.radial_stiffness = component.radial_stiffness.value_or(layer.radial_stiffness);
   layer.axial_stiffness = axial_stiffness(dresspack, component);
+  if (layer.is_cable()) {
+    layer.loose = pipeline::lies_loose(dresspack, component);
+    layer.laying = component.laying;
+    layer.force = CableForce(dresspack, component);
+  }
   const int index = static_cast<int>(layers_.size());
   layers_.push_back(layer);
   levels_ = std::max(levels_, level);
@@ -129,6 +137,7 @@ void Construction::list_parts(int parent_layer, int parent_part) {
       const int index = static_cast<int>(parts_.size()), layer = static_cast<int>(k);
       parts_.push_back({layer, number, parent_part, wire_path(layer, number, parent_part),
                         length_rate(parent_part) / layers_[k].lay_cosine});
+      if (layers_[k].is_cable()) cables_.push_back(index);
       list_parts(layer, index);
     }
   }
@@ -138,6 +147,12 @@ std::vector<int> Construction::ancestry(int part) const {
   std::vector<int> line;
   for (; part != dresspack_itself; part = parts_[part].parent) line.insert(line.begin(), part);
   return line;
+}
+
+int Construction::cable_of(int part) const {
+  if (part == dresspack_itself) return no_cable;
+  while (parts_[part].parent != dresspack_itself) part = parts_[part].parent;
+  return static_cast<int>(std::lower_bound(cables_.begin(), cables_.end(), part) - cables_.begin());
 }
 
 /// The thesis knows no hands: all its lay angles are positive.

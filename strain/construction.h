@@ -12,11 +12,14 @@
 
 #include "pipeline/job/dresspack.h"
 #include "pipeline/job/strain.h"
+#include "strain/cable_force.h"
 #include "strain/helix.h"
+#include "strain/loose/rings.h"
 
 namespace dresslife::strain {
 
 constexpr int dresspack_itself = -1;  ///< as the parent of a part or layer
+constexpr int no_cable = -1;
 constexpr int hose_places = 16;       ///< around the hose's wall, evenly spaced
 
 struct Layer {
@@ -42,7 +45,11 @@ struct Layer {
   double jacket_stiffness = 0;  ///< that holds a part along its path [N/m2]
   double radial_stiffness = std::numeric_limits<double>::infinity();  ///< of what the layer lies on [N/m2]
   double axial_stiffness = 0;  ///< EA of a part, of its wires alone [N]; 0: a material is not known
+  bool loose = false;          ///< lies where it rests in the hose, if it may slide
+  pipeline::Laying laying;     ///< of a cable: a part of the first level that holds parts
+  CableForce force;            ///< of a cable
 
+  bool is_cable() const { return level == 1 && !is_wire; }
   double pitch() const;  ///< along the parent [m]; infinite when straight
 };
 
@@ -74,8 +81,16 @@ class Construction {
   const std::vector<Bundle>& bundles() const { return bundles_; }
   pipeline::Kinematics kinematics() const { return kinematics_; }
   int levels() const { return levels_; }  ///< of the deepest wire
+  const HoseSection& section() const { return section_; }
   /// Of the delivered dresspack, about d2 [1/m]: the shape in which its parts are free of strain.
   double rest_curvature() const { return rest_curvature_; }
+
+  /// Cables: parts of the first level that hold parts, in their order.
+  const std::vector<int>& cables() const { return cables_; }
+  /// The cable, as an index into cables(), in which a part lies or that it is; no_cable for the dresspack.
+  int cable_of(int part) const;
+  /// E I of the hose [N m2].
+  double hose_bending_stiffness() const { return hose_bending_stiffness_; }
 
   /// Parts from the outermost to `part` itself; empty for the dresspack.
   std::vector<int> ancestry(int part) const;
@@ -98,6 +113,9 @@ class Construction {
 
   pipeline::Kinematics kinematics_;
   double rest_curvature_ = 0;
+  HoseSection section_;
+  double hose_bending_stiffness_ = 0;
+  std::vector<int> cables_;
   std::vector<Layer> layers_;
   std::vector<Part> parts_;
   std::vector<Bundle> bundles_;

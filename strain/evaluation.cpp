@@ -32,6 +32,24 @@ double total(const std::vector<double>& lengths) {
   return std::accumulate(lengths.begin(), lengths.end(), 0.0);
 }
 
+/// Inside the cables everything sticks or slides; cables themselves do what the job has them do, or where they
+/// stick in the job, what is inside does: stuck to the hose, or sliding at their places.
+std::vector<LayerSlip> bound_plan(const Construction& construction, const std::vector<LayerSlip>& own,
+                                  pipeline::Slip inside, double free_length) {
+  std::vector<LayerSlip> plan = plan_slip(construction, {inside}, free_length);
+  for (std::size_t k = 0; k < plan.size(); ++k) {
+    if (!construction.layers()[k].is_cable()) continue;
+    const bool slides = own[k].loose || own[k].sliding != Sliding::glued;
+    if (slides) {
+      plan[k] = own[k];
+    } else if (plan[k].loose) {
+      plan[k].loose = false;
+      plan[k].sliding = Sliding::clamp_to_clamp;
+    }
+  }
+  return plan;
+}
+
 /// Something like the damage of Smith, Watson and Topper where the metal yields: sum of (range times stress
 /// of the tensile peak)^2.5 between neighbours, stress growing as the fifth root of strain (copper's n' is
 /// 0.19). It finds wires that many middling cycles damage, which StrainMeasures::cycle_sum misses.
@@ -72,10 +90,11 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
             counts_shear(settings.equivalent), settings.surface_fibres == 0},
       with_planes_(judges_planes(settings.equivalent)),
       means_(construction, plan_slip(construction, settings.slip, total(lengths_)), lengths_, arcs_, samples),
-      stick_{{construction, plan_slip(construction, {pipeline::Slip::stick}, total(lengths_)), lengths_,
-              arcs_, samples}},
-      free_{{construction, plan_slip(construction, {pipeline::Slip::free}, total(lengths_)), lengths_, arcs_,
-             samples}} {
+      stick_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::stick, total(lengths_)),
+              lengths_, arcs_, samples}},
+      free_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::free, total(lengths_)),
+             lengths_, arcs_, samples}},
+      cables_(construction, free_.means.plan(), rubs(settings.slip.front()), lengths_, arcs_, samples) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
@@ -137,8 +156,24 @@ std::string Evaluation::summary(std::size_t sites) const {
                      wires_[worst_.wire].path);
 }
 
-void Evaluation::add(const DeformationHistory& block) {
-  for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) means->add(block);
+void Evaluation::add(const SpanBlock& block) {
+  cables_.add(block);
+  if (!cables_.remembers()) add_means(block.deformation);
+}
+
+void Evaluation::add_again(const DeformationHistory& block) {
+  cables_.finish();
+  add_means(block);
+}
+
+void Evaluation::add_means(const DeformationHistory& block) {
+  for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) {
+    if (!means->needed()) continue;
+    for (std::size_t segment = 0; segment < lengths_.size(); ++segment)
+      means->add(segment, keeper_.of(cables_, segment, block.columns(segment), meant_, block.samples()));
+    means->next_block();
+  }
+  meant_ += block.samples();
 }
 
 bool Evaluation::mixed(const ClampMeans& means) const {
@@ -146,17 +181,23 @@ bool Evaluation::mixed(const ClampMeans& means) const {
                                          [](const LayerSlip& slip) { return slip.friction; });
 }
 
+const DeformationColumns& Evaluation::columns_of(Site site, const ClampMeans& means,
+                                                 const SegmentMotion& motion) const {
+  return motion.columns(construction_, means.plan(), construction_.bundles()[wires_[site.wire].bundle].part);
+}
+
 BundleNesting Evaluation::part_nesting(int part, std::size_t segment, const ClampMeans& means,
-                                       const std::vector<Fibre>& fibres, Worker& worker) const {
+                                       const SegmentMotion& motion, const std::vector<Fibre>& fibres,
+                                       Worker& worker) const {
   BundleNesting nesting = nesting_to(construction_, means.plan(), part, arcs_[segment], fibres);
-  means.attach(nesting, part);
+  means.attach(nesting, part, motion);
   if (&means == &means_) worker.held.attach(nesting, part);
   return nesting;
 }
 
 BundleNesting Evaluation::layer_nesting(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
-                                        Worker& worker) const {
-  BundleNesting nesting = part_nesting(bundle.part, segment, means, fibres_, worker);
+                                        const SegmentMotion& motion, Worker& worker) const {
+  BundleNesting nesting = part_nesting(bundle.part, segment, means, motion, fibres_, worker);
   nesting.nodes.reserve(waves_per_layer * bundle.wire_layers.size());
   for (const int layer : bundle.wire_layers) {
     add_wire_layer(construction_, means.plan(), nesting, layer, bundle.part, arcs_[segment]);
@@ -181,17 +222,16 @@ bool parent_suffices(const BundleNesting& nesting) {
 }
 
 BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, std::size_t segment,
-                                       const ClampMeans& means, const DeformationHistory& history,
-                                       std::size_t row, Worker& worker) const {
+                                       const ClampMeans& means, const SegmentMotion& motion, Worker& worker) const {
   BundlePointers from = pointers(nesting);
   const int parent = part == dresspack_itself ? dresspack_itself : construction_.parts()[part].parent;
   if (parent == dresspack_itself || !parent_suffices(nesting)) return from;
   const std::pair wanted{parent, nesting.order + 1};
   const bool in_double = !single_suffices(nesting.steps.back(), from.nodes, from.node_count, nesting.order);
   if (worker.parent_is != wanted || (in_double && !worker.parent.in_double())) {
-    BundleNesting to_parent = part_nesting(parent, segment, means, fibres_, worker);
+    BundleNesting to_parent = part_nesting(parent, segment, means, motion, fibres_, worker);
     to_parent.order = nesting.order + 1;
-    worker.parent.fill(to_parent, history.columns(row), history.samples(), in_double);
+    worker.parent.fill(to_parent, motion.columns(construction_, means.plan(), parent), motion.samples, in_double);
     worker.parent_is = wanted;
   }
   worker.parent.lend(from);
@@ -199,22 +239,23 @@ BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, s
 }
 
 void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMeans& means,
-                             const DeformationHistory& history, std::size_t row, bool with_rows,
+                             const SegmentMotion& motion, bool with_rows,
                              Worker& worker, BundleSites& out) const {
   const Bundle& bundle = construction_.bundles()[b];
-  const BundleNesting nesting = layer_nesting(bundle, segment, means, worker);
-  const BundlePointers from = from_parent(nesting, bundle.part, segment, means, history, row, worker);
+  const BundleNesting nesting = layer_nesting(bundle, segment, means, motion, worker);
+  const BundlePointers from = from_parent(nesting, bundle.part, segment, means, motion, worker);
+  const DeformationColumns& columns = motion.columns(construction_, means.plan(), bundle.part);
   out.rows.clear();
   out.seen.clear();
   const auto site_of = [&](std::size_t wire, int fibre) { return Site{first_wire_[b] + wire, fibre}; };
   if (!with_rows) {
-    worker.scan.rank(bundle, means.plan(), from, mixed(means), history.columns(row), history.samples());
+    worker.scan.rank(bundle, means.plan(), from, mixed(means), columns, motion.samples);
     worker.scan.for_each_rank([&](std::size_t wire, int fibre, const StrainMeasures& of) {
       out.seen.push_back(seen(site_of(wire, fibre), of));
     });
     return;
   }
-  worker.scan.run(bundle, means.plan(), from, mixed(means), history.columns(row), history.samples());
+  worker.scan.run(bundle, means.plan(), from, mixed(means), columns, motion.samples);
   const std::vector<double> helix = helix_of(bundle.part, segment);
   worker.scan.for_each_site([&](std::size_t wire, int fibre, std::span<const TurningPoint> points) {
     append_site(out.rows, site_of(wire, fibre), segment, helix);
@@ -224,27 +265,26 @@ void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMean
   });
 }
 
-void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
-                              std::size_t row, bool with_rows,
+void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion, bool with_rows,
                               const std::function<void(const BundleSites&)>& use) {
   const std::size_t bundles = construction_.bundles().size(), threads = workers_.size();
-  const std::size_t each = std::max<std::size_t>(1, samples_at_a_time / history.samples());
+  const std::size_t each = std::max<std::size_t>(1, samples_at_a_time / motion.samples);
   const std::size_t ahead = threads == 1 ? 1 : std::min(bundles, 2 * threads * each);
   for (Worker& worker : workers_) worker.parent_is = {};
   if (found_.size() < ahead) found_.resize(ahead);
   pipeline::in_order(
       threads, bundles, ahead,
       [&](std::size_t part, std::size_t b) {  // alone: who takes it makes no difference
-        scan_bundle(b, segment, means, history, row, with_rows, workers_[part], found_[b % ahead]);
+        scan_bundle(b, segment, means, motion, with_rows, workers_[part], found_[b % ahead]);
       },
       [&](std::size_t b) { use(found_[b % ahead]); });
 }
 
 BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t segment,
-                                       const ClampMeans& means, std::vector<std::vector<double>>& sliding,
-                                       Worker& worker) const {
+                                       const ClampMeans& means, const SegmentMotion& motion,
+                                       std::vector<std::vector<double>>& sliding, Worker& worker) const {
   const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
-  BundleNesting nesting = part_nesting(part, segment, means, {fibres_[sites[0].fibre]}, worker);
+  BundleNesting nesting = part_nesting(part, segment, means, motion, {fibres_[sites[0].fibre]}, worker);
   sliding.resize(sites.size());
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const Wire& wire = wires_[sites[k].wire];
@@ -260,13 +300,13 @@ BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t 
 
 std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> sites, std::size_t segment,
                                                           const ClampMeans& means,
-                                                          const DeformationHistory& history, std::size_t row,
+                                                          const SegmentMotion& motion,
                                                           Worker& worker) const {
-  const std::size_t samples = history.samples(), stride = padded(samples);
+  const std::size_t samples = motion.samples, stride = padded(samples);
   std::vector<std::vector<double>> histories;
   if (mixed(means)) {
     for (const Site site : sites) {
-      FibreHistory both = fibre_history(site, segment, means, history, row, worker);
+      FibreHistory both = fibre_history(site, segment, means, motion, worker);
       for (std::size_t t = 0; scan_.with_shear && t < samples; ++t)
         both.strain[t] =
             std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
@@ -275,44 +315,47 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
     return histories;
   }
   std::vector<std::vector<double>> sliding;
-  const BundleNesting nesting = site_nesting(sites, segment, means, sliding, worker);
+  const BundleNesting nesting = site_nesting(sites, segment, means, motion, sliding, worker);
   std::vector<double> strain(sites.size() * stride);
-  kernels().node_strains(pointers(nesting), history.columns(row), 0, samples, strain.data(), stride);
+  kernels().node_strains(pointers(nesting), columns_of(sites[0], means, motion), 0, samples, strain.data(),
+                         stride);
   for (auto from = strain.begin(); from != strain.end(); from += stride)
     histories.emplace_back(from, from + samples);
   return histories;
 }
 
 void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                            const DeformationHistory& history, std::size_t row, Worker& worker,
+                            const SegmentMotion& motion, Worker& worker,
                             std::span<TurningList> lists) const {
   const auto list = [&](const auto* strain, TurningList& to) {
     TurningPoints points(scan_.gate);
-    for (std::size_t t = 0; t < history.samples(); ++t) points.next(static_cast<float>(strain[t]), to);
+    for (std::size_t t = 0; t < motion.samples; ++t) points.next(static_cast<float>(strain[t]), to);
     points.finish(to);
   };
   if (mixed(means)) {
-    const auto histories = histories_of(sites, segment, means, history, row, worker);
+    const auto histories = histories_of(sites, segment, means, motion, worker);
     for (std::size_t k = 0; k < sites.size(); ++k) list(histories[k].data(), lists[k]);
     return;
   }
   std::vector<std::vector<double>> sliding;
-  const BundleNesting nesting = site_nesting(sites, segment, means, sliding, worker);
+  const BundleNesting nesting = site_nesting(sites, segment, means, motion, sliding, worker);
   const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
-  const BundlePointers from = from_parent(nesting, part, segment, means, history, row, worker);
-  const std::size_t stride = padded(history.samples());
+  const BundlePointers from = from_parent(nesting, part, segment, means, motion, worker);
+  const std::size_t stride = padded(motion.samples);
   std::vector<float> strain(sites.size() * stride);
-  kernels().node_strains_in_single(from, history.columns(row), 0, history.samples(), strain.data(), stride);
+  kernels().node_strains_in_single(from, columns_of(sites[0], means, motion), 0, motion.samples,
+                                   strain.data(), stride);
   for (std::size_t k = 0; k < sites.size(); ++k) list(strain.data() + k * stride, lists[k]);
 }
 
 FibreHistory Evaluation::fibre_history(Site site, std::size_t segment, const ClampMeans& means,
-                                       const DeformationHistory& history, std::size_t row,
+                                       const SegmentMotion& motion,
                                        Worker& worker) const {
   std::vector<std::vector<double>> sliding;
-  const BundleNesting nesting = site_nesting({&site, 1}, segment, means, sliding, worker);
+  const BundleNesting nesting = site_nesting({&site, 1}, segment, means, motion, sliding, worker);
   FibreHistory both =
-      mixed_history(nesting, means.plan()[wires_[site.wire].layer], history.columns(row), history.samples());
+      mixed_history(nesting, means.plan()[wires_[site.wire].layer], columns_of(site, means, motion),
+                    motion.samples);
   both.site = site_row(segment, site);
   return both;
 }
@@ -406,13 +449,19 @@ void Evaluation::Worst::consider(const Seen& seen) {
       value[measure] = seen.by[measure];
       site[measure] = seen.site;
     }
+  const float sum = seen.by[cycles];
+  if (by_cycles.size() == most_by_cycles && sum <= by_cycles.back().first) return;
+  const auto place = std::find_if(by_cycles.begin(), by_cycles.end(),
+                                  [&](const auto& other) { return sum > other.first; });
+  by_cycles.insert(place, {sum, seen.site});
+  if (by_cycles.size() > most_by_cycles) by_cycles.pop_back();
 }
 
 std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const ClampMeans& means,
-                                                    const DeformationHistory& history, std::size_t row,
+                                                    const SegmentMotion& motion,
                                                     const std::function<void(const SiteRows&)>& sink) {
   std::vector<Worst> worst(construction_.layers().size());
-  scan_bundles(segment, means, history, row, sink != nullptr, [&](const BundleSites& bundle) {
+  scan_bundles(segment, means, motion, sink != nullptr, [&](const BundleSites& bundle) {
     for (const Seen& seen : bundle.seen) worst[wires_[seen.site.wire].layer].consider(seen);
     if (sink) sink(bundle.rows);
   });
@@ -421,12 +470,14 @@ std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const C
 
 void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
                           const Sink& sink) {
-  for (Worker& worker : workers_) worker.held.begin(arcs_[segment], history.columns(row), history.samples());
-  const std::vector<Worst> worst = worst_of(segment, means_, history, row, sink.sites);
+  cables_.finish();
+  const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
+  for (Worker& worker : workers_) worker.held.begin(arcs_[segment], motion);
+  const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
     const bool same = bound->means.plan() == means_.plan();
-    put_bound(same ? worst : worst_of_bound(*bound, segment, history, row), bound->means, segment, history,
-              row, bound == &stick_ ? sink.bound_stick : sink.bound_free);
+    put_bound(same ? worst : worst_of(segment, bound->means, motion, {}), bound->means, segment, motion,
+              bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
   std::vector<Site> to_probe;
   const auto wire_range = [&](const Worst& of) {  // the hose's wall is no wire
@@ -453,7 +504,7 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
     to_probe.push_back(of_cycles->site[Worst::cycles]);
   for (const auto& [at, site] : probes_)
     if (at == segment) to_probe.push_back(site);
-  put_probes(to_probe, segment, history, row, sink);
+  put_probes(to_probe, segment, motion, sink);
   if (sink.progress)
     sink.progress(static_cast<double>(place_.first_segment + segment + 1) /
                   static_cast<double>(place_.segments_in_all));
@@ -467,38 +518,34 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   pipeline::in_order(
       workers_.size(), list.size(), found.size(),
       [&](std::size_t part, std::size_t k) {
-        found[k % found.size()] = fibre_history(list[k], segment, means_, history, row, workers_[part]);
+        found[k % found.size()] = fibre_history(list[k], segment, means_, motion, workers_[part]);
       },
       [&](std::size_t k) { sink.fibre(found[k % found.size()]); });
 }
 
 void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
-                            const DeformationHistory& history, std::size_t row, const Sink& sink) {
+                            const SegmentMotion& motion, const Sink& sink) {
   std::vector<Probe> found(workers_.size());
   pipeline::in_order(
       workers_.size(), sites.size(), found.size(),
       [&](std::size_t part, std::size_t k) {
         found[k % found.size()] = {
             site_row(segment, sites[k]),
-            histories_of({&sites[k], 1}, segment, means_, history, row, workers_[part])[0],
-            fibre_history(sites[k], segment, means_, history, row, workers_[part]).shear};
+            histories_of({&sites[k], 1}, segment, means_, motion, workers_[part])[0],
+            fibre_history(sites[k], segment, means_, motion, workers_[part]).shear};
       },
       [&](std::size_t k) { sink.probe(found[k % found.size()]); });
 }
 
-std::vector<Evaluation::Worst> Evaluation::worst_of_bound(Bound& bound, std::size_t segment,
-                                                          const DeformationHistory& history,
-                                                          std::size_t row) {
-  return worst_of(segment, bound.means, history, row, {});
-}
-
 void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
-                           const DeformationHistory& history, std::size_t row,
+                           const SegmentMotion& motion,
                            const std::function<void(const SiteRows&)>& sink) {
   std::set<Site> sites;
-  for (const Worst& layer : worst)
+  for (const Worst& layer : worst) {
     for (int by = 0; by < Worst::measures; ++by)
       if (layer.value[by] >= 0) sites.insert(layer.site[by]);
+    for (const auto& [sum, site] : layer.by_cycles) sites.insert(site);
+  }
   const std::vector<Site> list(sites.begin(), sites.end());
   std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one nesting for all of a piece
   const auto piece = [&](std::size_t k) { return std::pair(list[k].fibre, wires_[list[k].wire].bundle); };
@@ -511,7 +558,7 @@ void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& me
   pipeline::in_parallel(workers_.size(), [&](std::size_t part) {
     for (std::size_t cut = next++; cut + 1 < cuts.size(); cut = next++) {
       const std::size_t first = cuts[cut], count = cuts[cut + 1] - first;
-      list_turns(std::span(list).subspan(first, count), segment, means, history, row, workers_[part],
+      list_turns(std::span(list).subspan(first, count), segment, means, motion, workers_[part],
                  std::span(turning).subspan(first, count));
     }
   });

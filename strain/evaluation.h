@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "strain/bundle_scan.h"
+#include "strain/cable_paths.h"
 #include "strain/friction.h"
 
 namespace dresslife::strain {
@@ -86,7 +87,19 @@ class Evaluation {
   std::size_t held_bytes() const { return workers_.size() * workers_[0].held.bytes(samples_); }
   float worst_range() const { return worst_range_; }
 
-  void add(const DeformationHistory& block);  ///< first pass, in order of time
+  /// First pass, in order of time.
+  void add(const SpanBlock& block);
+  /// Whether cables remember what clamps and friction did, so that what goes on in them has to wait: the blocks
+  /// are then wanted once more, when all have been added.
+  bool wants_again() const { return cables_.remembers() && (means_.needed() || stick_.means.needed() || free_.means.needed()); }
+  void add_again(const DeformationHistory& block);
+  bool any_loose() const { return cables_.any_loose(); }
+  /// As in a site's path: with the dresspack's name before it where there are several.
+  std::string name_of_cable(std::size_t cable) const {
+    return (place_.name.empty() ? "" : place_.name + "/") + cables_.name(cable);
+  }
+  /// The first pass is over.
+  const CablePaths& cables() { return cables_.finish(), cables_; }
 
   /// Second pass: segment `segment` of the span, whose history is `row` of `history`. Call for segments in
   /// order.
@@ -109,6 +122,10 @@ class Evaluation {
     enum By { range, size, tension, range_times_tension, cycles, yielding_cycles, measures };
     std::array<Site, measures> site;
     std::array<float, measures> value{-1, -1, -1, -1, -1, -1};
+    /// Those with the largest sums over cycles, largest first: of many middling cycles no sum knows the damage well
+    /// enough for the first alone to be the worst.
+    std::vector<std::pair<float, Site>> by_cycles;
+    static constexpr std::size_t most_by_cycles = 12;
     void consider(const Seen& seen);
   };
   struct Seen {
@@ -135,37 +152,39 @@ class Evaluation {
 
   /// Wires whose strain is put together one by one: of layers with friction, and all when shear counts.
   bool mixed(const ClampMeans& means) const;
+  void add_means(const DeformationHistory& block);
+  const DeformationColumns& columns_of(Site site, const ClampMeans& means, const SegmentMotion& motion) const;
   void find_probes(const std::vector<pipeline::Probe>& probes);
   BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means,
-                             const std::vector<Fibre>& fibres, Worker& worker) const;
+                             const SegmentMotion& motion, const std::vector<Fibre>& fibres,
+                             Worker& worker) const;
   BundleNesting layer_nesting(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
-                              Worker& worker) const;
+                              const SegmentMotion& motion, Worker& worker) const;
   void scan_bundle(std::size_t bundle, std::size_t segment, const ClampMeans& means,
-                   const DeformationHistory& history, std::size_t row, bool with_rows, Worker& worker,
+                   const SegmentMotion& motion, bool with_rows, Worker& worker,
                    BundleSites& out) const;
   /// Calls use() for every bundle in order; threads share the work.
-  void scan_bundles(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
-                    std::size_t row, bool with_rows, const std::function<void(const BundleSites&)>& use);
+  void scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion, bool with_rows, const std::function<void(const BundleSites&)>& use);
   /// The nesting to `part`, from its parent's states where they are enough.
   BundlePointers from_parent(const BundleNesting& nesting, int part, std::size_t segment,
-                             const ClampMeans& means, const DeformationHistory& history, std::size_t row,
+                             const ClampMeans& means, const SegmentMotion& motion,
                              Worker& worker) const;
   /// Whole histories, in double precision, of sites of one bundle and one fibre.
   std::vector<std::vector<double>> histories_of(std::span<const Site> sites, std::size_t segment,
-                                                const ClampMeans& means, const DeformationHistory& history,
-                                                std::size_t row, Worker& worker) const;
+                                                const ClampMeans& means, const SegmentMotion& motion, Worker& worker) const;
   /// The turning points of such sites, in single precision.
   void list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                  const DeformationHistory& history, std::size_t row, Worker& worker,
+                  const SegmentMotion& motion, Worker& worker,
                   std::span<TurningList> lists) const;
   /// Strain along the fibre and shear of a site, in double precision.
   FibreHistory fibre_history(Site site, std::size_t segment, const ClampMeans& means,
-                             const DeformationHistory& history, std::size_t row, Worker& worker) const;
+                             const SegmentMotion& motion, Worker& worker) const;
   FibreHistory mixed_history(const BundleNesting& nesting, const LayerSlip& slip,
                              const DeformationColumns& columns, std::size_t samples) const;
   /// The nesting to such sites, which are its nodes. sliding: keeps the clamp means that they point to.
   BundleNesting site_nesting(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                             std::vector<std::vector<double>>& sliding, Worker& worker) const;
+                             const SegmentMotion& motion, std::vector<std::vector<double>>& sliding,
+                             Worker& worker) const;
   std::size_t site_row(std::size_t segment, Site site) const {
     return place_.sites_before +
            ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
@@ -175,15 +194,11 @@ class Evaluation {
   static std::span<const float> append_points(SiteRows& rows, std::span<const TurningPoint> points);
   static Seen seen(Site site, const StrainMeasures& of);
   /// The worst sites of every wire layer. sink: where all sites go; may be empty.
-  std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const DeformationHistory& history,
-                              std::size_t row, const std::function<void(const SiteRows&)>& sink);
-  /// The same for a bound.
-  std::vector<Worst> worst_of_bound(Bound& bound, std::size_t segment, const DeformationHistory& history,
-                                    std::size_t row);
-  void put_probes(const std::vector<Site>& sites, std::size_t segment, const DeformationHistory& history,
-                  std::size_t row, const Sink& sink);
+  std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
+                              const std::function<void(const SiteRows&)>& sink);
+  void put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion, const Sink& sink);
   void put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
-                 const DeformationHistory& history, std::size_t row,
+                 const SegmentMotion& motion,
                  const std::function<void(const SiteRows&)>& sink);
 
   const Construction& construction_;
@@ -196,6 +211,9 @@ class Evaluation {
   bool with_planes_;
   ClampMeans means_;
   Bound stick_, free_;
+  CablePaths cables_;
+  CablePaths::Keeper keeper_;
+  std::size_t meant_ = 0;  ///< samples that the means have had
   std::vector<Worker> workers_;          ///< one a thread
   std::vector<BundleSites> found_;       ///< being scanned, or waiting to be used
   std::vector<Wire> wires_;              ///< bundle by bundle

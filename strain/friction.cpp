@@ -58,11 +58,11 @@ std::size_t HeldStrains::bytes(std::size_t samples) const {
   return (rows + scratch) * padded(samples) * sizeof(double);
 }
 
-void HeldStrains::begin(double arc, const DeformationColumns& columns, std::size_t samples) {
+void HeldStrains::begin(double arc, const SegmentMotion& motion) {
   arc_ = arc;
-  columns_ = columns;
-  samples_ = samples;
-  stride_ = padded(samples);
+  motion_ = &motion;
+  samples_ = motion.samples;
+  stride_ = padded(samples_);
   for (Rows& rows : kept_) rows.part = nobody;
 }
 
@@ -79,13 +79,14 @@ void HeldStrains::fill(Rows& rows, int part) {
   BundleNesting nesting = nesting_to(construction_, plan, part, arc_, surface_fibres(0));
   const int level = static_cast<int>(nesting.steps.size()) - 1, powers = this->powers(level);
   nesting.order = powers - 1;
-  means_.attach(nesting, part);
+  means_.attach(nesting, part, *motion_);
   if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself)
     attach(nesting, parent);
   deviations_.resize((powers + 1) * stride_);
   const auto hold_turned = [&](int turn, std::vector<double>& held) {
     kernels().deviations(pointers(nesting), turn, turned_level(construction_, construction_.ancestry(part)),
-                         columns_, 0, samples_, deviations_.data(), stride_);
+                         motion_->columns(construction_, plan, part), 0, samples_, deviations_.data(),
+                         stride_);
     hold(deviations_, powers, stride_, samples_, plan[construction_.parts()[part].layer], held);
   };
   for (int turn = 0; any_turned() && turn < phases_per_pitch; ++turn) hold_turned(turn, rows.turned[turn]);

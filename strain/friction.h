@@ -58,9 +58,8 @@ class HeldStrains {
   /// Memory that it takes in the end, for a motion of so many samples.
   std::size_t bytes(std::size_t samples) const;
 
-  /// Forgets all. columns: of the segment whose centre lies at `arc` [m]; they are read until the next
-  /// begin().
-  void begin(double arc, const DeformationColumns& columns, std::size_t samples);
+  /// Forgets all. motion: of the segment whose centre lies at `arc` [m]; it is read until the next begin().
+  void begin(double arc, const SegmentMotion& motion);
 
   /// Gives each part of `nesting`, which ends in `part`, what friction holds of it: good until a part beside
   /// one of them is asked for.
@@ -82,7 +81,7 @@ class HeldStrains {
   const Construction& construction_;
   const ClampMeans& means_;
   double arc_ = 0;
-  DeformationColumns columns_{};
+  const SegmentMotion* motion_ = nullptr;
   std::size_t samples_ = 0, stride_ = 0;
   std::vector<Rows> kept_;          ///< (level)
   std::vector<double> deviations_;  ///< scratch

@@ -33,15 +33,6 @@ class DeformationHistory {
     return {at, at + stride_, at + 2 * stride_, at + 3 * stride_};
   }
 
-  /// Every `every`-th sample of one segment.
-  DeformationHistory thinned(std::size_t segment, std::size_t every) const {
-    DeformationHistory thin(1, (samples_ + every - 1) / every);
-    for (int channel = 0; channel < 4; ++channel)
-      for (std::size_t k = 0; k < thin.samples_; ++k)
-        thin.values_[channel * thin.stride_ + k] = values_[(segment * 4 + channel) * stride_ + k * every];
-    return thin;
-  }
-
  private:
   std::size_t samples_, stride_;
   std::vector<double> values_;

@@ -75,13 +75,18 @@ BundleNesting nesting_to(const Construction& construction, const std::vector<Lay
   for (const int level_part : line) {
     const Part& of = construction.parts()[level_part];
     NestingLevel step;
-    step.place = construction.placement(of.layer, of.number, of.parent, arc, 0, order);
+    step.place = plan[of.layer].loose
+                     ? make_placement(construction.kinematics(), 0.0, 0.0, 1.0,
+                                      construction.phase(of.layer, of.number, of.parent, arc), order)
+                     : construction.placement(of.layer, of.number, of.parent, arc, 0, order);
     step.rest = child(rest_at_end(nesting), step.place);
     step.slide = sliding_numbers(plan[of.layer], nesting, step.place);
     const bool turns = helical(construction.layers()[of.layer]);
     for (int turn = 0; any_turned && turn < phases_per_pitch; ++turn) {
       const double angle = turns ? 2 * pi * turn / phases_per_pitch : 0;
-      step.turned[turn] = construction.placement(of.layer, of.number, of.parent, arc, angle, order);
+      step.turned[turn] = plan[of.layer].loose
+                              ? step.place
+                              : construction.placement(of.layer, of.number, of.parent, arc, angle, order);
       step.turned_rest[turn] = child(rest_at_end(nesting, turns ? -1 : turn), step.turned[turn]);
     }
     nesting.steps.push_back(step);

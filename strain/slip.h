@@ -3,11 +3,12 @@
 // `stick` glues a component to its parent. `free` lets it slide along its path without friction: its axial
 // strain is then the mean of its glued strain over the length within which it evens out,
 //     (path length now) / (path length at rest) - 1   of that length.
-// - over_pitch: a helix shorter than the free length: the mean over its own phase, at the parent's state in
-// the segment.
-// - clamp_to_clamp: straight (or a pitch beyond the free length) in straight ancestors: the mean over all
-// segments.
-// - along_ancestor: straight in a helical ancestor: the mean over that ancestor's pitch, its own phase held.
+// - clamp_to_clamp: a cable (a part of the first level that holds parts), whatever its lay: what its path, its
+// slack, friction and grips leave (strain/cable_paths.h). And what is straight, or has fewer than four turns
+// between the clamps, in straight ancestors or in a cable: the mean over all segments.
+// - over_pitch: other helices: the mean over its own phase, at the parent's state in the segment.
+// - along_ancestor: straight in a helical ancestor below the first level: the mean over that ancestor's pitch,
+// its own phase held.
 // `friction` keeps the mean of `free` and lets the deviation from it build up to a cap (strain/friction.h).
 // A component's bending and torsion per path length stay as they are.
 #pragma once
@@ -24,6 +25,7 @@ struct LayerSlip {
   Sliding sliding = Sliding::glued;
   int helical_level = 0;  ///< of along_ancestor: level of the nearest helical ancestor
   bool friction = false;  ///< slides only when its deviation from the mean reaches the cap
+  bool loose = false;     ///< a cable that lies where it rests (strain/cable_paths.h); else at its place
   FrictionCap cap;
   double elastic = 0;       ///< with friction: share of the deviation that a jacket holds elastically (W30)
   double radial_share = 1;  ///< of its strain that the bed of the layer leaves (W31)

@@ -1,5 +1,6 @@
 #include "strain/strain_file.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -18,12 +19,25 @@ using pipeline::FileWriter;
 
 constexpr std::size_t block_samples = 512;  // rows read at a time
 constexpr double first_pass_share = 0.05;   // of the work, for the progress display
+constexpr double loose_pass_share = 0.5;    // the same where cables lie loose
+
+/// Some samples of all segments.
+struct MotionBlock {
+  std::size_t first;                         ///< sample
+  std::span<const Deformation> deformation;  ///< (sample, segment)
+  std::span<const double> pull;              ///< (sample, segment, 2), see SpanBlock; empty: not asked for
+};
 
 /// Reads the motion block by block and measures the deformation of every segment.
 class MotionReader {
  public:
   MotionReader(const FileReader& file, const pipeline::Job& job)
-      : file_(file), lengths_(file.read<double>("/segment/length")), samples_(file.rows("/time")) {
+      : file_(file),
+        lengths_(file.read<double>("/segment/length")),
+        samples_(file.rows("/time")),
+        step_(samples_ > 1 ? file.read<double>("/time")[1] - file.read<double>("/time")[0]
+                           : 1 / job.simulation.sample_rate),
+        gravity_(job.simulation.gravity) {
     if (lengths_.empty()) return;
     spans_ = pipeline::motion_spans(file);
     for (std::size_t k = 0; k < spans_.size(); ++k)
@@ -31,18 +45,20 @@ class MotionReader {
   }
 
   std::size_t samples() const { return samples_; }
+  double step() const { return step_; }  ///< between samples [s]
   const std::vector<double>& lengths() const { return lengths_; }
   const std::vector<pipeline::MotionSpan>& spans() const { return spans_; }
   std::vector<double> lengths_of(const pipeline::MotionSpan& span) const {
     return {lengths_.begin() + span.first_segment, lengths_.begin() + span.first_segment + span.segments};
   }
 
-  /// Calls put(first sample, deformations (sample, segment)) for one block after the other.
-  void run(const std::function<void(std::size_t, std::span<const Deformation>)>& put) {
+  /// One block after the other. with_pull: gives that, too.
+  void run(bool with_pull, const std::function<void(const MotionBlock&)>& put) {
     const std::size_t segments = lengths_.size();
     const std::size_t clamps = file_.row_size("/clamp/position") / 3;
     std::vector<double> position, orientation, clamp_position, clamp_orientation;
     std::vector<Deformation> deformation;
+    std::vector<double> pull;
     for (std::size_t first = 0; first < samples_; first += block_samples) {
       const std::size_t count = std::min(block_samples, samples_ - first);
       file_.read_rows("/segment/position", first, count, position);
@@ -64,11 +80,38 @@ class MotionReader {
                              std::span(deformation).subspan(t * segments + begin, size));
         }
       }
-      put(first, deformation);
+      if (with_pull) measure_pull(first, count, orientation, pull);
+      put({first, deformation, pull});
     }
   }
 
  private:
+  /// Gravity less acceleration in each segment's frame; the first and the last sample have their neighbour's
+  /// acceleration.
+  void measure_pull(std::size_t first, std::size_t count, const std::vector<double>& orientation,
+                    std::vector<double>& pull) const {
+    const std::size_t segments = lengths_.size(), row = 3 * segments;
+    const std::size_t before = first > 0 ? 1 : 0, after = first + count < samples_ ? 1 : 0;
+    std::vector<double> position;
+    file_.read_rows("/segment/position", first - before, count + before + after, position);
+    const std::size_t rows = position.size() / row;
+    pull.assign(count * segments * 2, 0.0);
+    for (std::size_t t = 0; t < count; ++t) {
+      const std::size_t middle = rows < 3 ? 0 : std::clamp<std::size_t>(t + before, 1, rows - 2);
+      for (std::size_t i = 0; i < segments; ++i) {
+        Eigen::Vector3d force = gravity_;
+        for (std::size_t d = 0; rows >= 3 && d < 3; ++d) {
+          const double* const at = position.data() + middle * row + 3 * i + d;
+          force[static_cast<Eigen::Index>(d)] -= (at[row] - 2 * at[0] + *(at - row)) / (step_ * step_);
+        }
+        const double* const q = orientation.data() + (t * segments + i) * 4;
+        const Eigen::Vector3d own = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * force;
+        pull[(t * segments + i) * 2] = own.x();
+        pull[(t * segments + i) * 2 + 1] = own.y();
+      }
+    }
+  }
+
   /// Rates of the unloaded dresspack, if it ends freely at the tool end of span k.
   std::optional<Eigen::Vector3d> free_end(const pipeline::Job& job, std::size_t k) const {
     const auto dresspack = static_cast<std::size_t>(spans_[k].dresspack);
@@ -82,6 +125,8 @@ class MotionReader {
   const FileReader& file_;
   std::vector<double> lengths_;
   std::size_t samples_;
+  double step_;
+  Eigen::Vector3d gravity_;
   std::vector<pipeline::MotionSpan> spans_;
   std::vector<DeformationGauge> gauges_;  // (span)
 };
@@ -241,6 +286,56 @@ struct Evaluations {
   }
 };
 
+/// What pulls at the cables of all spans, and what that asks of clamps and copper. Nothing where none slides.
+void write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+  std::vector<std::string> names;
+  std::vector<double> slip;
+  std::vector<std::vector<double>> tension;
+  std::vector<double> cable_moment, hose_moment;
+  double share = 0;
+  for (const auto& evaluation : evaluations) {
+    const CablePaths& cables = evaluation->cables();
+    for (std::size_t k = 0; k < cables.cables(); ++k) {
+      names.push_back(evaluation->name_of_cable(k));
+      const std::array<double, 2> slipped = cables.grip_slip(k);
+      slip.insert(slip.end(), slipped.begin(), slipped.end());
+      tension.push_back(cables.tension(k));
+    }
+    share = std::max(share, cables.largest_force_share());
+    if (!cables.any()) continue;
+    cable_moment.resize(cables.samples(), 0.0);
+    hose_moment.resize(cables.samples(), 0.0);
+    // of several spans the one whose cables ask most of their hose, sample by sample
+    for (std::size_t t = 0; t < cables.samples(); ++t)
+      if (cables.cable_moment()[t] >= cable_moment[t]) {
+        cable_moment[t] = cables.cable_moment()[t];
+        hose_moment[t] = cables.hose_moment()[t];
+      }
+  }
+  if (names.empty()) return;
+  file.set_axis("cable", names.size());
+  file.set_text_width("/cable/name", std::max_element(names.begin(), names.end(), [](const auto& a, const auto& b) {
+                                       return a.size() < b.size();
+                                     })->size());
+  file.append("/cable/name", names);
+  file.append("/cable/grip_slip", slip);
+  std::vector<double> rows;
+  for (std::size_t t = 0; t < cable_moment.size(); ++t)
+    for (const std::vector<double>& of : tension) rows.push_back(of[t]);
+  file.append("/cable/tension", rows);
+  file.append("/clamp/cable_moment", cable_moment);
+  file.append("/clamp/hose_moment", hose_moment);
+  file.attribute("largest_force_share", share);
+  const double most = *std::max_element(cable_moment.begin(), cable_moment.end());
+  const double carried = *std::max_element(hose_moment.begin(), hose_moment.end());
+  file.attribute("clamp_moment_share", carried > 0 ? most / carried : 0.0);
+  if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return;
+  const CablePaths& cables = evaluations[0]->cables();
+  std::vector<std::uint32_t> samples(cables.offset_samples().begin(), cables.offset_samples().end());
+  file.append("/cable/offset_sample", samples);
+  file.append("/cable/offset", cables.offsets());
+}
+
 }  // namespace
 
 std::string write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
@@ -271,19 +366,38 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
           segment >= first_segment && segment < first_segment + per_pass)
         history.set(segment - first_segment, first + k / segments, block[k]);
   };
-  reader.run([&](std::size_t first, std::span<const Deformation> block) {
-    append_deformation(strain, block);
-    const std::size_t count = block.size() / segments;
+  const auto each_span = [&](const MotionBlock& block, const auto& use) {
+    const std::size_t count = block.deformation.size() / segments;
+    std::vector<double> pull;
     for (std::size_t k = 0; k < evaluations.size(); ++k) {
       const auto [begin, size] = std::pair(reader.spans()[k].first_segment, reader.spans()[k].segments);
       DeformationHistory of_span(size, count);
-      for (std::size_t t = 0; t < count; ++t)
-        for (std::size_t i = 0; i < size; ++i) of_span.set(i, t, block[t * segments + begin + i]);
-      evaluations[k]->add(of_span);
+      pull.clear();
+      for (std::size_t t = 0; t < count; ++t) {
+        for (std::size_t i = 0; i < size; ++i) of_span.set(i, t, block.deformation[t * segments + begin + i]);
+        if (block.pull.empty()) continue;
+        const auto own = block.pull.subspan((t * segments + begin) * 2, size * 2);
+        pull.insert(pull.end(), own.begin(), own.end());
+      }
+      use(*evaluations[k], SpanBlock{of_span, pull, reader.step()});
     }
-    keep(0, first, block);
-    progress(first_pass_share * static_cast<double>(first) / static_cast<double>(samples));
+  };
+  const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
+  const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
+  reader.run(loose, [&](const MotionBlock& block) {
+    append_deformation(strain, block.deformation);
+    each_span(block, [](Evaluation& evaluation, const SpanBlock& of_span) { evaluation.add(of_span); });
+    keep(0, block.first, block.deformation);
+    progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
+             static_cast<double>(samples));
   });
+  if (any([](const auto& evaluation) { return evaluation->wants_again(); }))
+    reader.run(false, [&](const MotionBlock& block) {
+      each_span(block, [](Evaluation& evaluation, const SpanBlock& of_span) {
+        if (evaluation.wants_again()) evaluation.add_again(of_span.deformation);
+      });
+    });
+  write_cables(strain, evaluations);
 
   Sink sink;
   sink.sites = [&](const SiteRows& rows) { sites.append(rows); };
@@ -302,13 +416,14 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   std::size_t span = 0, segment = 0;
   sink.progress = [&](double) {
     const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);
-    progress(first_pass_share + (1 - first_pass_share) * share);
+    const double done = loose ? loose_pass_share : first_pass_share;
+    progress(done + (1 - done) * share);
   };
   for (; segment < segments; ++segment) {
     if (segment == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
     const std::size_t row = segment % per_pass;
     if (row == 0 && segment > 0)
-      reader.run([&](std::size_t first, std::span<const Deformation> block) { keep(segment, first, block); });
+      reader.run(false, [&](const MotionBlock& block) { keep(segment, block.first, block.deformation); });
     evaluations[span]->evaluate(segment - reader.spans()[span].first_segment, history, row, sink);
   }
   const auto worst =

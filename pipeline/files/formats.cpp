@@ -211,6 +211,25 @@ Format make_motion_format() {
   return format;
 }
 
+/// Forces of the cables that run from clamp to clamp, and where loose ones lie. Absent where none slides.
+void add_cables(std::vector<Dataset>& datasets) {
+  const auto add = [&](const char* path, Type type, std::vector<std::string> axes, const char* unit,
+                       const char* meaning) { datasets.push_back({path, type, axes, unit, meaning, false, true}); };
+  add("/cable/name", Type::text, {"cable"}, "1",
+      "cables: parts right in the dresspack that hold parts and slide; of each span between two clamps anew");
+  add("/cable/tension", Type::f64, {"sample", "cable"}, "N",
+      "force of each, by the cyclic curve of its wires; where friction makes it differ along it, the largest");
+  add("/cable/grip_slip", Type::f64, {"cable", "2"}, "m",
+      "length that slips through its base and its tool clamp per repeat, both ways added up");
+  add("/cable/offset_sample", Type::u32, {"picture"}, "1", "samples at which /cable/offset tells");
+  add("/cable/offset", Type::f64, {"picture", "cable", "segment", "2"}, "m",
+      "where loose cables lie, from their places toward d1 and d2; only with one span");
+  add("/clamp/cable_moment", Type::f64, {"sample"}, "N m",
+      "of all cables on the hose by their forces, the larger of both clamps");
+  add("/clamp/hose_moment", Type::f64, {"sample"}, "N m",
+      "bending moment that the simulated hose carries there, by its E I");
+}
+
 Format make_strain_format() {
   Format format{"dresslife-strain", 1, "dresslife-strain", "what every wire feels", {}, {}};
   format.datasets = {
@@ -237,6 +256,16 @@ Format make_strain_format() {
   add_site_set(format.datasets, "", "");
   add_site_set(format.datasets, "/bound_stick", "stick_");
   add_site_set(format.datasets, "/bound_free", "free_");
+  add_cables(format.datasets);
+  format.attributes.push_back(
+      {"largest_force_share",
+       "largest force of a cable over that at which it tears (materials' tensile_strength_MPa; 0: not known)",
+       false, true});
+  format.attributes.push_back(
+      {"clamp_moment_share",
+       "largest moment of all cables on the hose at a clamp, over the largest that the simulated hose carries "
+       "there",
+       false, true});
   format.datasets.push_back({"/probe/site", Type::u32, {"probe"}, "1", "site of each probe"});
   format.datasets.push_back(
       {"/probe/strain", Type::f64, {"probe", "sample"}, "1", "whole strain history of each probe"});
@@ -430,10 +459,13 @@ Format make_life_format() {
       {"life_months", "the same at the job's operating hours per week"},
       {"damage_per_repeat", "of the worst site"},
       {"repeat_seconds", "duration of one repeat"},
-      {"life_repeats_all_stick", "bound: every part glued to its parent"},
-      {"life_repeats_all_free", "bound: every part slipping freely"},
+      {"life_repeats_all_stick",
+       "bound: everything in the cables glued; cables themselves as in the job, which may glue them, too"},
+      {"life_repeats_all_free", "bound: everything in the cables slipping freely; cables themselves likewise"},
       {"life_hours_all_stick", "the bound in hours of motion"},
       {"life_hours_all_free", "the bound in hours of motion"},
+      {"largest_force_share", "as in the strain file", false, true},
+      {"clamp_moment_share", "as in the strain file", false, true},
       {"worst_site", "index of the worst site"},
       {"worst_segment_from_tool", "its segment, counted from the tool, 1 first"},
       {"worst_position_from_tool", "its distance from the tool clamp along the dresspack, m"},

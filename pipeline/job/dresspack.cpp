@@ -6,6 +6,28 @@
 
 namespace dresslife::pipeline {
 
+namespace {
+
+/// Keys of a component, of the first level only.
+void describe(Fields& f, Laying& laying) {
+  f.choice("position", laying.position,
+           "in the cross-section of a hose: held at its place, loose where it rests, or auto: loose if the "
+           "part is straight, holds parts, may slide, and the dresspack has an inner_diameter_mm or a "
+           "hose_corrugation");
+  f.number("slack_percent", laying.slack, Need::optional, between(0, 20),
+           "length of the part beyond the path on which it was laid in, when the hose had its rest shape");
+  f.maybe_number("play_mm", laying.play, above(0),
+                 "how far a loose part can leave its place; without it to the wall, what fills the middle and "
+                 "its neighbours");
+  f.maybe_number("base_grip_N", laying.base_grip, above(0),
+                 "force at which the base clamp lets the part slip; without it never");
+  f.maybe_number("tool_grip_N", laying.tool_grip, above(0), "the same of the tool clamp");
+  f.maybe_number("mass_kg_per_m", laying.mass, above(0),
+                 "of a loose part; without it wires of 8900 kg/m3 in a polymer of 1200");
+}
+
+}  // namespace
+
 void describe(Fields& f, Component& component) {
   f.place(component.where);
   f.text("name", component.name, Need::required, "what the part is; equal parts are numbered from 1");
@@ -27,6 +49,7 @@ void describe(Fields& f, Component& component) {
       "presses the part on what it lies against, by jacket and tape; needed where strain.slip is friction");
   f.number("tension_N", component.tension, Need::optional, at_least(0),
            "of the part in the dresspack at rest");
+  describe(f, component.laying);
   f.text("material", component.material, Need::optional,
          "of a wire: a name of config/materials; a part with parts has none");
   f.list("components", component.components, Need::optional, "the layers of parts inside");
@@ -53,6 +76,7 @@ void describe(Fields& f, Corrugation& corrugation) {
 }
 
 void describe(Fields& f, Dresspack& dresspack) {
+  f.place(dresspack.where);
   f.text("name", dresspack.name, Need::required, "name of the dresspack");
   f.text("source", dresspack.source, Need::required, "where the numbers come from");
   f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
@@ -83,8 +107,31 @@ void describe(Fields& f, Dresspack& dresspack) {
       "hose_corrugation");
   f.maybe_group("hose_corrugation", dresspack.hose_corrugation,
                 "profile of the hose's wall, which gives the factor of its strain");
+  f.maybe_number("inner_diameter_mm", dresspack.inner_diameter, above(0),
+                 "of a hose in which parts lie loose; without it that within hose_corrugation; neither: parts "
+                 "are held by a jacket");
+  f.number("core_diameter_mm", dresspack.core_diameter, Need::optional, at_least(0),
+           "of what fills the middle of a hose and is no component");
   f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only");
   f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
+}
+
+std::optional<double> inner_radius(const Dresspack& dresspack) {
+  if (dresspack.inner_diameter) return *dresspack.inner_diameter / 2;
+  if (dresspack.hose_corrugation) return dresspack.diameter / 2 - dresspack.hose_corrugation->height;
+  return {};
+}
+
+bool lies_loose(const Dresspack& dresspack, const Component& component) {
+  switch (component.laying.position) {
+    case Position::held:
+      return false;
+    case Position::loose:
+      return true;
+    case Position::automatic:
+      return inner_radius(dresspack) && component.lay_angle == 0 && !component.components.empty();
+  }
+  return false;
 }
 
 bool is_hose_wall(const Dresspack& dresspack, std::string_view component) {
@@ -140,6 +187,45 @@ void check_hose(const Dresspack& dresspack) {
         "check the three, or give hose_strain_factor");
 }
 
+/// A loose part needs room that is known, and must be straight; deeper parts and wires lie where they are.
+void check_laying(const Dresspack& dresspack, const Component& component, bool first_level) {
+  const Laying& laying = component.laying;
+  const bool lone = component.components.empty();
+  if (!(laying == Laying{}) && (!first_level || lone))
+    throw InputError(component.where,
+                     fmt::format("'{}' has position, slack, play, grip or mass (they are of cables right in the "
+                                 "dresspack; this is {})",
+                                 component.name, lone ? "a wire" : "a part of a cable"),
+                     "give them to the cable");
+  for (const Component& inner : component.components) check_laying(dresspack, inner, false);
+  if (!first_level || !lies_loose(dresspack, component)) return;
+  if (component.lay_angle != 0)
+    throw InputError(component.where,
+                     fmt::format("'{}' is loose and has a lay angle (only straight parts can lie loose)",
+                                 component.name),
+                     "set lay_angle_deg to 0, or position: held");
+  if (!inner_radius(dresspack) && !laying.play)
+    throw InputError(component.where,
+                     fmt::format("'{}' is loose (how much room it has is not known)", component.name),
+                     "give dresspack.inner_diameter_mm or its play_mm");
+}
+
+/// The space in a hose holds what is said to lie in it.
+void check_room(const Dresspack& dresspack) {
+  const auto inner = inner_radius(dresspack);
+  if (!inner) return;
+  if (2 * *inner > dresspack.diameter || *inner <= 0)
+    throw InputError(dresspack.where,
+                     fmt::format("inner_diameter_mm is {:.4g} (diameter_mm is {:.4g})", 2e3 * *inner,
+                                 1e3 * dresspack.diameter),
+                     "the inner one is the smaller");
+  if (dresspack.core_diameter > 2 * *inner)
+    throw InputError(dresspack.where,
+                     fmt::format("core_diameter_mm is {:.4g} (the hose is {:.4g} wide inside)",
+                                 1e3 * dresspack.core_diameter, 2e3 * *inner),
+                     "check core_diameter_mm");
+}
+
 /// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
 void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
   if (rubs(slip[std::min(level, slip.size()) - 1]) && !(component.friction && component.radial_line_load))
@@ -160,6 +246,15 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   for (const Component& component : dresspack.components)
     depth = std::max(depth, check_component(component, &hose));
   check_hose(dresspack);
+  check_room(dresspack);
+  for (const Component& component : dresspack.components) {
+    check_laying(dresspack, component, true);
+    if (component.laying.position == Position::loose && !slides(slip.front()))
+      throw InputError(component.where,
+                       fmt::format("'{}' is loose, and sticks to the hose (strain.slip of its level is {})",
+                                   component.name, word(slip.front())),
+                       "set strain.slip of the first level to free or friction, or position: held");
+  }
   for (const Component& component : dresspack.components) check_friction(component, slip, 1);
   return depth;
 }

@@ -35,6 +35,31 @@ constexpr int sign_of(Hand value) {
   return 0;
 }
 
+/// Where a part of the first level lies in the cross-section of its dresspack.
+enum class Position { automatic, held, loose };
+constexpr std::string_view word(Position value) {
+  switch (value) {
+    case Position::automatic:
+      return "auto";
+    case Position::held:
+      return "held";
+    case Position::loose:
+      return "loose";
+  }
+  return {};
+}
+
+/// How a part of the first level is laid into its dresspack and clamped (strain/README.md, W32 to W37).
+struct Laying {
+  Position position = Position::automatic;
+  double slack = 0;                     ///< length beyond the path on which it was laid in [% of that]
+  std::optional<double> play;           ///< from its place in any direction [m]; absent: what the hose leaves
+  std::optional<double> base_grip;      ///< force at which the base clamp lets it slip [N]; absent: never
+  std::optional<double> tool_grip;      ///< the same of the tool clamp [N]
+  std::optional<double> mass;           ///< per length [kg/m]; absent: of wires and a filling of polymer
+  bool operator==(const Laying&) const = default;
+};
+
 /// K equal parts on one helix, each of which may hold further layers of parts (strain/README.md).
 struct Component {
   std::string name;         ///< "signal cable"; parts are numbered "signal cable 1", ...
@@ -54,6 +79,7 @@ struct Component {
   double measured_at_curvature = 1;                  ///< [1/m]
   double polymer_bending_stiffness = 0;              ///< of it, of jacket and insulation [N m2]
   std::string material;  ///< of a wire; a key of Dresspack::materials; empty for a part with parts
+  Laying laying;         ///< of a part of the first level that holds parts
   std::vector<Component> components;
   Where where;
 };
@@ -82,9 +108,19 @@ struct Dresspack {
   std::string hose_material;                    ///< of the hose's wall; empty: its strain is not evaluated
   std::optional<double> hose_strain_factor;     ///< strain of the wall over that of a smooth hose
   std::optional<Corrugation> hose_corrugation;  ///< gives that factor instead; neither: a smooth hose
+  std::optional<double> inner_diameter;         ///< in which parts can move [m]; absent: see inner_radius()
+  double core_diameter = 0;                     ///< of what fills the middle and is no component [m]
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
+  Where where;
 };
+
+/// Radius of the space in which parts can move [m]: given, or within the corrugation; absent: it is no hose,
+/// its parts are held by a jacket.
+std::optional<double> inner_radius(const Dresspack& dresspack);
+
+/// Whether a part of the first level lies loose: asked for, or straight in a hose.
+bool lies_loose(const Dresspack& dresspack, const Component& component);
 
 /// The hose's wall as a part of the dresspack: "hose 1" to "hose 16" are places around it.
 constexpr std::string_view hose_wall_name = "hose";

@@ -173,18 +173,51 @@ std::string job_text(const std::filesystem::path& file, const std::vector<std::s
 
 namespace {
 
+/// What of a wire's material decides the forces of cables.
+struct ForceKeys {
+  Material material;
+};
+
+void describe(Fields& echo, ForceKeys& keys) {
+  Material& m = keys.material;
+  echo.text("name", m.name, Need::required, "");
+  echo.number("youngs_modulus_GPa", m.youngs_modulus, Need::required, any_number(), "");
+  echo.maybe_number("tensile_strength_MPa", m.tensile_strength, any_number(), "");
+  if (!m.strain_life_table.empty()) return;  // taken as elastic
+  echo.number("fatigue_strength_MPa", m.fatigue_strength, Need::required, any_number(), "");
+  echo.number("fatigue_strength_exponent", m.fatigue_strength_exponent, Need::required, any_number(), "");
+  echo.number("fatigue_ductility", m.fatigue_ductility, Need::required, any_number(), "");
+  echo.number("fatigue_ductility_exponent", m.fatigue_ductility_exponent, Need::required, any_number(), "");
+  echo.maybe_number("cyclic_strength_MPa", m.cyclic_strength, any_number(), "");
+  echo.maybe_number("cyclic_hardening_exponent", m.cyclic_hardening_exponent, any_number(), "");
+}
+
+bool has_wires_of(const std::vector<Component>& components, const std::string& material) {
+  return std::any_of(components.begin(), components.end(), [&](const Component& component) {
+    return component.material == material || has_wires_of(component.components, material);
+  });
+}
+
 /// What of a dresspack decides the strain of its parts.
 struct StrainKeys {
   MountedDresspack mounted;
-  bool friction = false;
+  std::vector<ForceKeys> materials{};
+
+  explicit StrainKeys(const MountedDresspack& of) : mounted(of) {
+    for (const Material& material : of.dresspack.materials)
+      if (has_wires_of(of.dresspack.components, material.name)) materials.push_back({material});
+  }
+  StrainKeys() = default;
 };
 
 void describe(Fields& echo, StrainKeys& keys) {
   Dresspack& dresspack = keys.mounted.dresspack;
   if (!keys.mounted.name.empty()) echo.text("name", keys.mounted.name, Need::required, "");
   echo.list("components", dresspack.components, Need::optional, "");
-  if (keys.friction)  // stiffness of the wires
-    echo.list("materials", dresspack.materials, Need::optional, "");
+  echo.list("materials", keys.materials, Need::optional, "");
+  echo.maybe_number("inner_diameter_mm", dresspack.inner_diameter, any_number(), "");
+  if (dresspack.core_diameter != 0)
+    echo.number("core_diameter_mm", dresspack.core_diameter, Need::optional, any_number(), "");
   if (dresspack.rest_curvature != 0)
     echo.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(), "");
   if (dresspack.hose_material.empty()) return;
@@ -222,6 +255,8 @@ void describe_sim(Fields& echo, Job copy) {
     dresspack.hose_material.clear();
     dresspack.hose_strain_factor.reset();
     dresspack.hose_corrugation.reset();
+    dresspack.inner_diameter.reset();
+    dresspack.core_diameter = 0;
   }
   echo.group("motion", copy.motion, Need::required, "");
   echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
@@ -236,9 +271,8 @@ void describe_sim(Fields& echo, Job copy) {
 }
 
 void describe_strain(Fields& echo, Job copy) {
-  const bool friction = std::any_of(copy.strain.slip.begin(), copy.strain.slip.end(), rubs);
   std::vector<StrainKeys> keys;
-  for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted, friction});
+  for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back(StrainKeys(mounted));
   describe_each(echo, forms_of(copy), keys);
   echo.group("strain", copy.strain, Need::optional, "");
 }

@@ -15,6 +15,8 @@ void describe(Fields& f, Material& material) {
   f.text("name", material.name, Need::required, "name, as the wires call it");
   f.text("source", material.source, Need::required, "where the constants come from");
   f.number("youngs_modulus_GPa", material.youngs_modulus, Need::required, above(0), "E");
+  f.maybe_number("tensile_strength_MPa", material.tensile_strength, above(0),
+                 "at which a wire tears, to hold the forces of cables against");
   f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "nu");
   f.list(
       "strain_life_table", material.strain_life_table, Need::optional,

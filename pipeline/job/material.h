@@ -27,6 +27,7 @@ struct Material {
   double fatigue_ductility_exponent = 0;            ///< c
   std::optional<double> cyclic_strength;            ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
   std::optional<double> cyclic_hardening_exponent;  ///< n'; absent: b / c
+  std::optional<double> tensile_strength;           ///< at which a wire tears [Pa]
   std::optional<double> walker_exponent;            ///< gamma; absent: 0.5, that of SWT
   std::vector<StrainLifePoint>
       strain_life_table;  ///< instead of sigma_f' to n', for polymers; larger strains first

@@ -139,7 +139,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
               {"", 0, 1}};
   Picture picture(
       width, panel.bottom() + 44, "Lives compared",
-      "Life in hours with the bounds all stick and all free, and the first break in 10 to 90 percent.");
+      "Life in hours with the bounds of cables stuck and free inside, and the first break in 10 to 90 percent.");
   for (const Tick& tick : panel.x.ticks(8)) {
     picture.line(panel.across(tick.value), panel.top, panel.across(tick.value), panel.bottom(), "grid");
     picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
@@ -165,23 +165,23 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
   const std::string chart = comparison_chart(rows);
   return fmt::format(
       "<div class=\"wide\"><table>\n<thead><tr><th></th><th>job</th><th class=\"number\">life [h]</th>"
-      "<th class=\"number\">all stick .. all free [h]</th><th class=\"number\">first break in 10 .. 90 % "
+      "<th class=\"number\">inside stuck .. free [h]</th><th class=\"number\">first break in 10 .. 90 % "
       "[h]</th><th "
       "class=\"number\">calendar</th>"
       "<th>breaks first</th><th>what moved then</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}"
       "<p class=\"soft\">Life is that of the wire that is worst off, in hours of motion, by material "
       "constants that are "
       "medians; the calendar counts the job's operating hours per week. "
-      "Parts inside the dresspack rub on each other: glued together (all stick) they live shorter, slipping "
-      "freely (all free) longer, and the truth lies between. Wires scatter, and a dresspack has thousands: "
+      "Parts inside a cable rub on each other: glued together (stuck) they live shorter, slipping "
+      "freely longer, and the truth lies between. Wires scatter, and a dresspack has thousands: "
       "its first break "
       "comes earlier than the worst wire's own life, in 10 to 90 % of such dresspacks between the hours "
       "given (for "
       "parts that slip as in the job). Plan by those, and by the bounds.</p>\n",
       ranking_rows(rows, detailed),
       chart.empty() ? ""
-                    : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the worst wire's life. Blue bar: all "
-                      "stick to all free. Orange: first break in 10 to 90 % of such dresspacks.</p>\n" +
+                    : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the worst wire's life. Blue bar: stuck to "
+                      "free inside. Orange: first break in 10 to 90 % of such dresspacks.</p>\n" +
                           chart);
 }
 
@@ -361,16 +361,27 @@ std::string facts(const RankingRow& row) {
                          printed(row.life_hours), printed(row.life_repeats), row.repeat_seconds,
                          calendar_words(row.life_months)));
   fact("bounds",
-       fmt::format("{} (all stick) .. {} (all free)", hours_words(row.hours_of(row.life_repeats_all_stick)),
+       fmt::format("{} (inside of the cables stuck) .. {} (free)", hours_words(row.hours_of(row.life_repeats_all_stick)),
                    hours_words(row.hours_of(row.life_repeats_all_free))));
   if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
+  if (row.clamp_moment_share) {
+    const std::string tears =
+        row.largest_force_share ? fmt::format("at most {:.2f} of what tears a cable", *row.largest_force_share)
+                                : "strength not known (tensile_strength_MPa of its wires' material)";
+    fact("forces of cables",
+         fmt::format("{}; at the clamps {:.2g} times the moment that the hose carries{}", tears,
+                     *row.clamp_moment_share,
+                     row.force_ok() ? ""
+                                    : ". <b>Above a fifth of either, strains rest on forces that nobody sees in "
+                                      "a dresspack: check slack, play and grips</b>"));
+  }
   const double stuck = row.life_repeats_all_stick / row.life_repeats;
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;
     fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks{}",
                            hours_words(lives[0]), hours_words(lives[1]), hours_words(lives[2]),
                            std::isfinite(lives[0]) && stuck < 1
-                               ? fmt::format("; if every part stuck, roughly from {} on",
+                               ? fmt::format("; if all in the cables stuck, roughly from {} on",
                                              hours_words(lives[0] * stuck))
                                : ""));
   };

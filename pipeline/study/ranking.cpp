@@ -67,6 +67,11 @@ RankingRow read_row(const JobResult& result) {
     row.damage_per_repeat = file.number_attribute("damage_per_repeat");
     read_scatter(file, row);
     read_hose(file, row);
+    if (file.has_attribute("largest_force_share")) {
+      if (const double share = file.number_attribute("largest_force_share"); share > 0)
+        row.largest_force_share = share;
+      row.clamp_moment_share = file.number_attribute("clamp_moment_share");
+    }
     if (file.number_attribute("worst_site") < 0) return row;
     row.worst_segment_from_tool = count_attribute(file, "worst_segment_from_tool");
     row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
@@ -160,6 +165,7 @@ std::string more_story(const RankingRow& row) {
                                 life_text(row.first_wire_hours[0]), life_text(row.first_wire_hours[2])));
   if (damaged && !row.worst_joint.empty()) parts.push_back(joint_words(row));
   if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
+  if (!row.force_ok()) parts.push_back(force_words(row));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -192,17 +198,29 @@ std::string joint_words(const RankingRow& row) {
   return fmt::format("{:.0f} % by {}", 100 * row.worst_joint_share, row.worst_joint);
 }
 
+std::string force_words(const RankingRow& row) {
+  if (row.force_ok()) return "";
+  std::vector<std::string> parts;
+  if (row.largest_force_share.value_or(0) > RankingRow::believable_force)
+    parts.push_back(fmt::format("cables pull with {:.2f} of what tears them", *row.largest_force_share));
+  if (row.clamp_moment_share.value_or(0) > RankingRow::believable_force)
+    parts.push_back(fmt::format("bend the clamps {:.2g} times as much as the hose does",
+                                *row.clamp_moment_share));
+  return fmt::format("WARNING: {}", fmt::join(parts, " and "));
+}
+
 std::string ranking_csv(const std::vector<RankingRow>& rows) {
   std::string text =
       "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,life_months,"
       "life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,worst_time_s,worst_step,"
       "status,message,life_hours_p10,life_hours_p50,life_hours_p90,conductor_life_hours_p10,"
       "conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,hose_segment_from_tool,"
-      "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack,settings\n";
+      "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack,settings,largest_force_share,"
+      "clamp_moment_share,force_ok\n";
   for (const RankingRow& row : rows) {
     if (!row.done()) {
       const bool waits = row.failure == "stale" || row.failure == "to do";
-      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{}\n", csv_cell(row.job),
+      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,\n", csv_cell(row.job),
                           waits ? row.failure : "failed", csv_cell(row.failure), row.settings);
       continue;
     }
@@ -230,6 +248,9 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     cells.push_back(row.worst_joint.empty() ? "" : shortest_text(row.worst_joint_share));
     cells.push_back(row.worst_dresspack);
     cells.push_back(row.settings);
+    for (const auto& share : {row.largest_force_share, row.clamp_moment_share})
+      cells.push_back(share ? shortest_text(*share) : "");
+    cells.push_back(!row.clamp_moment_share ? "" : row.force_ok() ? "yes" : "no");
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }
@@ -241,7 +262,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   std::array<Column, 7> columns{{{"", true, {}},
                                  {"job", false, {}},
                                  {"life [h]", true, {}},
-                                 {"all stick .. all free [h]", true, {}},
+                                 {"inside stuck .. free [h]", true, {}},
                                  {"calendar", true, {}},
                                  {"repeats", true, {}},
                                  {"segment from tool", true, {}}}};

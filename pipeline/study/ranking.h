@@ -36,8 +36,8 @@ struct RankingRow {
   double life_repeats = 0;              ///< repeats of the motion until the worst wire breaks
   double life_hours = 0;                ///< hours of motion
   double life_months = 0;               ///< at the job's operating hours per week
-  double life_repeats_all_stick = 0;    ///< bound: no part slips
-  double life_repeats_all_free = 0;     ///< bound: every part slips freely
+  double life_repeats_all_stick = 0;    ///< bound: nothing in the cables slips
+  double life_repeats_all_free = 0;     ///< bound: everything in the cables slips freely
   double repeat_seconds = 0;            ///< duration of one repeat [s]
   double damage_per_repeat = 0;         ///< of the worst wire
   std::string worst_dresspack;          ///< in which the worst wire lies, among several; empty: the only one
@@ -54,9 +54,17 @@ struct RankingRow {
   std::string worst_joint;  ///< whose motion costs most; "carrying": none between the clamps; empty: unknown
   double worst_joint_share = 0;  ///< of the worst wire's damage; above 1 where other joints relieve
   std::optional<HoseLife> hose;  ///< absent: not evaluated
+  /// What the strains ask of the cables: largest force over that at which one tears, and moment of all of them
+  /// on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not known.
+  std::optional<double> largest_force_share, clamp_moment_share;
+  static constexpr double believable_force = 0.2;  ///< of either; above, the strains need a force nobody sees
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   bool done() const { return failure.empty(); }
+  bool force_ok() const {
+    return largest_force_share.value_or(0) <= believable_force &&
+           clamp_moment_share.value_or(0) <= believable_force;
+  }
   double hours_of(double repeats) const { return repeats * repeat_seconds / 3600; }
 };
 
@@ -75,6 +83,9 @@ std::string hose_life_words(double hours);
 
 /// What the worst joint's motion costs, in words: "41 % by joint_6", "all by joint_4, which others relieve".
 std::string joint_words(const RankingRow& row);
+
+/// "cables pull with 0.34 of what tears them, ..." where forces are not believable; else nothing.
+std::string force_words(const RankingRow& row);
 
 /// The ranking for a terminal, two lines per job and a third on its scatter, joint and hose where they are
 /// known, at most `width` columns; ends with a line feed.

@@ -2,7 +2,7 @@
 //
 // It runs along the hose at a0 + b(s), s the arc of the hose's axis: a0 is the place that the dresspack gives
 // it, b the offset to where it rests now. Both are in the hose's frame (d1, d2), so that the path of a cable
-// that keeps its place follows the hose's twist. Per length of the axis the path gains (README W30)
+// that keeps its place follows the hose's twist. Per length of the axis the path gains (README W32)
 //     g = e + k1 a2 - k2 a1 + |a' + tau J a|^2 / 2,    J a = (-a2, a1),
 // with the hose's elongation e, curvatures k1, k2 and twist tau.
 #pragma once
@@ -29,7 +29,7 @@ struct LooseCable {
   double wall_stiffness = 1e7;   ///< k_w, of what it lies against, force per length and depth [N/m2]
   double friction = 0;           ///< mu, Coulomb, against what it lies on
   double grip = without_limit;   ///< force at which a clamp lets it slip [N]
-  /// Force per length and sideways speed that holds it [N s/m2] (README W34): at 50 mm/s friction of 0.3
+  /// Force per length and sideways speed that holds it [N s/m2] (README W36): at 50 mm/s friction of 0.3
   /// under 0.2 kg/m. It only decides which way the cable goes where several are open.
   double drag = 12;
 
@@ -45,6 +45,7 @@ struct LooseCable {
 /// element i lies between nodes i and i + 1.
 struct CableState {
   double strain = 0;              ///< of its free length, clamp to clamp: mean over it
+  std::vector<double> gain;       ///< of the path over its length in the straight hose (element)
   std::vector<double> tension;    ///< T [N] (element); above 0: pulled
   std::vector<double> press;      ///< on what it lies against [N/m] (node)
   std::vector<double> offset;     ///< b [m] (node, 2)

@@ -279,6 +279,7 @@ void CableLine::end(const HoseLine& hose, const std::vector<Vector2d>& frame, do
   tension_.settle(gain_, pull_);
   const std::size_t nodes = hose.nodes();
   state.strain = pull_.strain;
+  state.gain = gain_;
   state.tension = pull_.tension;
   state.press = press_;
   state.offset.resize(2 * nodes);

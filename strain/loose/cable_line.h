@@ -1,10 +1,10 @@
-// One loose cable between two clamps: where it rests (README W30 to W34).
+// One loose cable between two clamps: where it rests (README W32 to W36).
 //
 // At A(s) in the hose's untwisted frame (strain/loose/hose_line.h) it has the energy
 //     Pi = L W(mean g) + int E I |K - K0 + A''|^2 / 2 - w . A + eta |A - A_before|^2 / 2 + contact ds,
 //     g = e - K . A + |A'|^2 / 2,
 // W that of its tension (strain/loose/tension.h), w weight and inertia per length, eta |..| what holds it
-// sideways (W34), contact k_w depth^2 / 2 with the hose's wall, its core, and the bounds of its place. At the
+// sideways (W36), contact k_w depth^2 / 2 with the hose's wall, its core, and the bounds of its place. At the
 // clamps it stays at its place, in the hose's direction (b = b' = 0).
 //
 // Newton's method: bending and tension tie a node to the two next ones, so the matrix has two bands of 2 x 2
@@ -36,6 +36,8 @@ class CableLine {
   int relax(const HoseLine& hose, int most);
   /// The sample is over. frame: as in begin(). step: since the sample before [s]; 0: there was none.
   void end(const HoseLine& hose, const std::vector<Eigen::Vector2d>& frame, double step, CableState& state);
+
+  void feed_in(double share) { tension_.feed_in(share); }  ///< see CableTension
 
   // What a ring needs of a cable that it takes along (strain/loose/ring.h).
   void measure(const HoseLine& hose);

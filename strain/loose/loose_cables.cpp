@@ -2,8 +2,16 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace dresslife::strain {
+namespace {
+
+constexpr int feeding_rounds = 100;  // in which 1 % of slack in 2 m grows by 0.2 mm each
+constexpr int most_rounds = 200;     // after that, until all lie still: 8 s at 25 Hz
+constexpr double settled = 1e-7;   // change of strain in a round: 0.1 N of a cable of 1 MN
+
+}  // namespace
 
 LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings)
     : settings_(settings), hose_(settings.length, settings.elements), states_(cables.size()) {
@@ -20,6 +28,28 @@ LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSetti
 
 void LooseCables::advance(std::span<const HoseNode> hose, double step) {
   hose_.take(hose, settings_.rest_curvature);
+  if (!started_) settle(step);
+  restless_ += !relax(step);
+}
+
+/// From their places to rest at the first sample. What is too long for its place can lie in many ways; the one
+/// that is found is where it comes to lie when its excess length is fed in bit by bit.
+void LooseCables::settle(double step) {
+  double before = without_limit;
+  for (int round = 0; round < feeding_rounds + most_rounds; ++round) {
+    const double share = std::min(1.0, static_cast<double>(round) / feeding_rounds);
+    for (Ring& ring : rings_) ring.feed_in(share);
+    for (CableLine& line : lines_) line.feed_in(share);
+    relax(step);
+    started_ = false;  // nothing goes on moving from one round to the next
+    double sum = 0;
+    for (const CableState& state : states_) sum += std::abs(state.strain);
+    if (round > feeding_rounds && std::abs(sum - before) < settled * static_cast<double>(lines_.size())) break;
+    before = sum;
+  }
+}
+
+bool LooseCables::relax(double step) {
   const int most = started_ ? CableLine::most_iterations : CableLine::most_iterations_at_start;
   bool rest = true;
   for (Ring& ring : rings_)
@@ -32,8 +62,8 @@ void LooseCables::advance(std::span<const HoseNode> hose, double step) {
     iterations_ += static_cast<std::size_t>(took);
     rest &= took < most;
   }
-  restless_ += !rest;
   started_ = true;
+  return rest;
 }
 
 }  // namespace dresslife::strain

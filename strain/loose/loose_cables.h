@@ -1,4 +1,4 @@
-// Where all cables of one hose lie, sample by sample (README W30 to W35): first each ring turns, then each
+// Where all cables of one hose lie, sample by sample (README W32 to W36): first each ring turns, then each
 // cable goes to the minimum of its energy about its place there.
 #pragma once
 
@@ -38,6 +38,9 @@ class LooseCables {
   std::size_t iterations() const { return iterations_; }  ///< of all cables so far
 
  private:
+  void settle(double step);
+  bool relax(double step);
+
   LooseSettings settings_;
   HoseLine hose_;
   std::vector<CableLine> lines_;

@@ -1,4 +1,4 @@
-// Cables around the axis of a hose that turn as one (README W33).
+// Cables around the axis of a hose that turn as one (README W35).
 //
 // With every cable at its place in the ring, A = e^(i (phi + psi(s))) a0, the turn psi is where the sum of
 // their energies (strain/loose/cable_line.h) is least; psi = psi' = 0 at the clamps. A turn takes all cables
@@ -19,6 +19,9 @@ class Ring {
   Ring(const HoseLine& hose, double rest_curvature);
   void add(const LooseCable& cable, const HoseLine& hose);
   std::size_t cables() const { return lines_.size(); }
+  void feed_in(double share) {  ///< see CableTension
+    for (CableLine& line : lines_) line.feed_in(share);
+  }
 
   /// Turns to the minimum at the next sample. time: since the sample before [s]. goes_on: as it turned then.
   /// Returns whether it has come to rest.

@@ -5,7 +5,7 @@
 // neighbour, so that no two ever overlap. Toward and away from the axis a cable reaches what fills the middle
 // or the next ring inside, and the wall or the next ring outside.
 //
-// It is a reduced model on purpose: see README W33 for what contact between all discs gives instead.
+// It is a reduced model on purpose: see README W35 for what contact between all discs gives instead.
 #pragma once
 
 #include <vector>

@@ -15,6 +15,8 @@ constexpr double large_strain = 1.0;   // beyond, no force is looked for
 
 CableTension::CableTension(const LooseCable& cable, double laid_in)
     : axial_stiffness_(cable.axial_stiffness),
+      slack_(cable.slack),
+      laid_in_(laid_in),
       free_length_rate_((1 + cable.slack) * (1 + laid_in)),
       grip_(cable.grip),
       force_(cable.force) {
@@ -23,6 +25,8 @@ CableTension::CableTension(const LooseCable& cable, double laid_in)
   most_ = strain_of(grip_);
   least_ = strain_of(-grip_);
 }
+
+void CableTension::feed_in(double share) { free_length_rate_ = (1 + share * slack_) * (1 + laid_in_); }
 
 double CableTension::force(double strain) const {
   return force_ ? force_(strain) : axial_stiffness_ * strain;

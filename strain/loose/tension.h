@@ -1,5 +1,5 @@
 // The tension of a cable between two clamps from the stretch of its path, with what its clamps let through
-// (README W31).
+// (README W33).
 //
 // The cable is gripped at both ends and slides along its path in between:
 //     strain = (1 + g) / ((1 + slack) (1 + g0)) - 1 - slipped,   T = force(strain),   |T| <= grip,
@@ -34,6 +34,9 @@ class CableTension {
   /// The same, and remembers what slipped: the sample is over.
   void settle(std::span<const double> gain, Pull& pull);
 
+  /// As if only this share of the slack were in the hose yet; 1: all of it.
+  void feed_in(double share);
+
   double slipped() const { return slipped_; }  ///< through the clamps, over the cable's length; > 0: let out
 
  private:
@@ -41,7 +44,7 @@ class CableTension {
   double strain_of(double force) const;
   double stretch(std::span<const double> gain) const;
 
-  double axial_stiffness_, free_length_rate_, grip_;
+  double axial_stiffness_, slack_, laid_in_, free_length_rate_, grip_;
   std::function<double(double)> force_;
   double most_ = without_limit, least_ = -without_limit;  ///< strains at the grip, pulled and pressed
   double slipped_ = 0;

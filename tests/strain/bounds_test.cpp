@@ -54,7 +54,7 @@ dresslife::pipeline::Material copper_of_the_thesis() {  // S. Backman's thesis (
   return copper;
 }
 
-Lives lives_of(Slip slip, Stress stress) {
+Lives lives_of(const std::vector<Slip>& slip, Stress stress) {
   const dresslife::pipeline::Material copper = copper_of_the_thesis();
   dresslife::pipeline::Fatigue fatigue_settings;
   fatigue_settings.stress = stress;
@@ -66,11 +66,11 @@ Lives lives_of(Slip slip, Stress stress) {
   dresspack.components[0].count = 3;
   const Construction construction(dresspack, Kinematics::exact);
   dresslife::pipeline::Strain settings;
-  settings.slip = {slip};
+  settings.slip = slip;
   settings.gate = 1e-4;
   const DeformationHistory history = moving();
   Evaluation evaluation(construction, settings, std::vector<double>(segments, 2.0 / segments), samples);
-  evaluation.add(history);
+  evaluation.add({history});
   Lives lives;
   auto keep_shortest = [&](Shortest& shortest) {
     return [&](const SiteRows& rows) {
@@ -102,12 +102,19 @@ TEST_CASE("a bound's shortest life is that of all wires under that slip") {
   // strains differ by the third harmonic (W13), up to 6e-5 of their range, damage by some powers of that
   constexpr double waves = 2e-3;
   for (const Stress stress : {Stress::cyclic, Stress::elastic}) {
-    const Lives stick = lives_of(Slip::stick, stress), free = lives_of(Slip::free, stress);
+    const Lives stick = lives_of({Slip::stick}, stress), free = lives_of({Slip::free}, stress);
+    // cables slide in a bound as they do in the job
+    const Lives inside = lives_of({Slip::free, Slip::stick, Slip::stick}, stress);
     check_agree(stick.stick, stick.sites, waves);
     check_agree(free.free, free.sites, waves);
     CHECK(stick.stick.component == stick.sites.component);
     CHECK(free.free.component == free.sites.component);
-    check_agree(free.stick, stick.sites, waves);
+    // The wires of a bound are picked by sums over their cycles that stand for damage, twelve of each layer and
+    // segment: where many middling cycles do it, the thirteenth can be worse.
+    constexpr double picked = 0.02;
+    check_agree(inside.stick, inside.sites, picked);
+    check_agree(free.stick, inside.sites, picked);
+    check_agree(inside.free, free.sites, waves);
     check_agree(stick.free, free.sites, waves);
   }
 }
@@ -149,7 +156,7 @@ std::vector<double> damage_of_sites(const Construction& construction, const Defo
   settings.slip = {slip};
   settings.gate = gate;
   Evaluation evaluation(construction, settings, std::vector<double>(segments, 2.0 / segments), samples);
-  evaluation.add(history);
+  evaluation.add({history});
   std::vector<double> damage;
   Sink sink;
   sink.sites = [&](const SiteRows& rows) {
@@ -255,7 +262,7 @@ TEST_CASE("planes are judged for the wires that are damaged most") {
   settings.slip = {Slip::stick};
   settings.equivalent = dresslife::pipeline::Equivalent::critical_plane;
   Evaluation evaluation(construction, settings, std::vector<double>(segments, 2.0 / segments), samples);
-  evaluation.add(history);
+  evaluation.add({history});
 
   const dresslife::fatigue::DamageCounter counter(copper_of_the_thesis(), {});
   dresslife::fatigue::DamageCounter::Workspace workspace;

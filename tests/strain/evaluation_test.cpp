@@ -53,7 +53,7 @@ Results evaluate(const Construction& construction, const Settings& settings,
                  const DeformationHistory& history, std::size_t segments, double length = 2) {
   Evaluation evaluation(construction, settings, std::vector<double>(segments, length / segments),
                         history.samples());
-  evaluation.add(history);
+  evaluation.add({history});
   Results results;
   Sink sink;
   sink.sites = [&](const SiteRows& rows) { join(results.sites, rows); };
@@ -316,6 +316,8 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
   const Results free = evaluate(construction, settings, history, few_segments);
   settings.slip = {Slip::stick};
   const Results stick = evaluate(construction, settings, history, few_segments);
+  settings.slip = {Slip::free, Slip::stick, Slip::stick};  // cables slide in a bound as they do in the job
+  const Results inside = evaluate(construction, settings, history, few_segments);
 
   auto largest_range = [&](const SiteRows& rows, std::size_t segment) {
     float largest = 0;
@@ -328,9 +330,11 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
     }
     return largest;
   };
+  constexpr std::size_t most_picked = 5 * (5 + 12);  // layers of wires; measures, and the twelve by their cycles
   for (std::size_t segment = 0; segment < few_segments; ++segment) {
     constexpr float close = 1e-3f;  // strains of all wires are waves, without a third harmonic (W13)
-    CHECK(largest_range(free.stick, segment) == Approx(largest_range(stick.sites, segment)).epsilon(close));
+    CHECK(largest_range(free.stick, segment) == Approx(largest_range(inside.sites, segment)).epsilon(close));
+    CHECK(largest_range(stick.stick, segment) == Approx(largest_range(stick.sites, segment)).epsilon(close));
     CHECK(largest_range(stick.free, segment) == Approx(largest_range(free.sites, segment)).epsilon(close));
     double probed = 0;
     for (const Probe& probe : free.probes) {
@@ -342,7 +346,7 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
   }
   for (const Results* results : {&free, &stick}) {
     CHECK(results->stick.segment.size() >= 5 * few_segments);  // five layers, one to five wires of each
-    CHECK(results->free.segment.size() <= 25 * few_segments);
+    CHECK(results->free.segment.size() <= most_picked * few_segments);
     // of each segment the wires of the largest range and of the largest sum over cycles, and one that was
     // named
     REQUIRE(results->probes.size() > few_segments);

@@ -1,0 +1,104 @@
+#include "strain/cable_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dresslife::strain {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// ESTIMATES for what a maker's sheet does not tell: copper; jackets and insulation of polyurethane, PVC or TPE,
+// of which 50 MPa is a soft one at a bend's small strain.
+constexpr double wire_density = 8900, polymer_density = 1200;  // [kg/m3]
+constexpr double polymer_modulus = 50e6;                        // [Pa]
+
+const pipeline::Material* material_named(const pipeline::Dresspack& dresspack, const std::string& name) {
+  const auto found = std::find_if(dresspack.materials.begin(), dresspack.materials.end(),
+                                  [&](const pipeline::Material& material) { return material.name == name; });
+  return found == dresspack.materials.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+CableForce::CableForce(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {
+  const double area = pi * cable.radius * cable.radius;
+  mass_ = polymer_density * area;
+  bending_ = polymer_modulus * area * cable.radius * cable.radius / 4;
+  for (const pipeline::Component& inner : cable.components) add(dresspack, inner, 1, 1);
+  if (!all_strengths_known_) strength_ = 0;
+  bending_ = cable.measured_bending_stiffness.value_or(bending_);
+}
+
+void CableForce::add(const pipeline::Dresspack& dresspack, const pipeline::Component& part, double count,
+                     double cosines) {
+  count *= part.count;
+  cosines *= std::cos(part.lay_angle);
+  for (const pipeline::Component& inner : part.components) add(dresspack, inner, count, cosines);
+  if (!part.components.empty()) return;
+  const double area = count * pi * part.radius * part.radius;
+  mass_ += (wire_density - polymer_density) * area / cosines;
+  const pipeline::Material* material = material_named(dresspack, part.material);
+  all_strengths_known_ &= material && material->tensile_strength;
+  if (!material) return;
+  bending_ += material->youngs_modulus * area * part.radius * part.radius / 4 * cosines;
+  strength_ += area * cosines * material->tensile_strength.value_or(0);
+  Wires wires{area * cosines, cosines * cosines, material->youngs_modulus, 0, 1};
+  if (material->fatigue_strength > 0) {  // else a polymer's table: elastic
+    wires.hardening = material->cyclic_hardening_exponent.value_or(material->fatigue_strength_exponent /
+                                                                   material->fatigue_ductility_exponent);
+    wires.cyclic_strength = material->cyclic_strength.value_or(
+        material->fatigue_strength / std::pow(material->fatigue_ductility, wires.hardening));
+  }
+  const auto same = std::find_if(wires_.begin(), wires_.end(), [&](const Wires& other) {
+    return other.share == wires.share && other.modulus == wires.modulus &&
+           other.cyclic_strength == wires.cyclic_strength && other.hardening == wires.hardening;
+  });
+  if (same == wires_.end())
+    wires_.push_back(wires);
+  else
+    same->area += wires.area;
+}
+
+/// Newton's method in the stress from the elastic one, which is above the root of a convex rising curve, so
+/// that every step goes down to it.
+double CableForce::Wires::stress(double strain) const {
+  const double size = std::abs(strain);
+  double sigma = modulus * size;
+  if (cyclic_strength == 0) return std::copysign(sigma, strain);  // a polymer: elastic
+  sigma = std::min(sigma, cyclic_strength * std::pow(size, hardening));
+  for (int k = 0; k < 60; ++k) {
+    const double plastic = std::pow(sigma / cyclic_strength, 1 / hardening);
+    const double residue = sigma / modulus + plastic - size;
+    const double slope = 1 / modulus + (sigma > 0 ? plastic / (hardening * sigma) : 0);
+    const double down = residue / slope;
+    sigma -= down;
+    if (std::abs(down) <= 1e-13 * sigma) break;
+  }
+  return std::copysign(sigma, strain);
+}
+
+double CableForce::force(double strain) const {
+  double sum = 0;
+  for (const Wires& wires : wires_) sum += wires.area * wires.stress(wires.share * strain);
+  return sum;
+}
+
+double CableForce::strain_at(double wanted) const {
+  if (wanted == 0 || wires_.empty()) return 0;
+  double low = 0, high = 1e-3;
+  while (force(high) < std::abs(wanted) && high < 1e3) high *= 2;
+  while (high - low > 1e-15 + 1e-13 * high) {  // halving: no slope of a sum of powers can mislead it
+    const double middle = (low + high) / 2;
+    (force(middle) < std::abs(wanted) ? low : high) = middle;
+  }
+  return std::copysign((low + high) / 2, wanted);
+}
+
+double CableForce::axial_stiffness() const {
+  double sum = 0;
+  for (const Wires& wires : wires_) sum += wires.area * wires.share * wires.modulus;
+  return sum;
+}
+
+}  // namespace dresslife::strain

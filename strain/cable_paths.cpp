@@ -1,0 +1,361 @@
+#include "strain/cable_paths.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace dresslife::strain {
+namespace {
+
+constexpr std::size_t most_offset_samples = 64;  // pictures of where cables lie
+// Beyond the forces of any cable: what is limited by no less is glued. Not infinite, so that limits add up.
+constexpr double no_force_reaches = 1e7;  // [N]
+
+constexpr double settled = 1e-6;  // change of strain from repeat to repeat: 1 N of a cable of 1 MN
+constexpr int most_repeats = 30;
+constexpr int most_attempts = 20;
+
+/// Place of a part in the cross-section at an arc along the dresspack.
+std::array<double, 2> place_of(const Construction& construction, int part, double arc) {
+  const Part& in = construction.parts()[part];
+  const double radius = construction.layers()[in.layer].helix_radius;
+  const double phase = construction.phase(in.layer, in.number, in.parent, arc);
+  return {radius * std::cos(phase), radius * std::sin(phase)};
+}
+
+}  // namespace
+
+CablePaths::CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, bool rubs,
+                       std::vector<double> lengths, const std::vector<double>& arcs, std::size_t samples)
+    : construction_(construction),
+      lengths_(std::move(lengths)),
+      stride_(padded(samples) + padding),
+      all_(samples) {
+  const std::size_t segments = lengths_.size();
+  std::vector<LooseCable> loose;
+  std::vector<PathMember> held;
+  for (const int part : construction.cables()) {
+    const Part& in = construction.parts()[part];
+    const Layer& layer = construction.layers()[in.layer];
+    if (plan[in.layer].sliding == Sliding::glued && !plan[in.layer].loose) continue;
+    const auto grip = [&](const std::optional<double>& force) {  // elastic force at the strain that it makes
+      return force ? layer.axial_stiffness * layer.force.strain_at(*force) : without_limit;
+    };
+    Cable cable{part,
+                plan[in.layer].loose,
+                false,
+                rubs && (layer.friction > 0 || layer.jacket_stiffness > 0),
+                layer.axial_stiffness,
+                layer.laying.slack / 100,
+                layer.friction,
+                layer.line_load,
+                grip(layer.laying.base_grip),
+                grip(layer.laying.tool_grip),
+                radial_share(layer.axial_stiffness, layer.lay_angle, layer.helix_radius, layer.radial_stiffness),
+                elastic_share(layer.jacket_stiffness, layer.axial_stiffness,
+                              std::accumulate(lengths_.begin(), lengths_.end(), 0.0))};
+    cable.place = place_of(construction, part, arcs.front() - lengths_.front() / 2);
+    cable.place_at_tool = place_of(construction, part, arcs.back() + lengths_.back() / 2);
+    cable.remembers = cable.rubs || std::min(cable.base_grip, cable.tool_grip) < without_limit;
+    cable.strain.assign(stride_, 0.0);
+    if (cable.rubs) {
+      cable.along.assign(segments * samples, 0.0);
+      cable.pressing.assign(segments * samples, 0.0f);
+    }
+    if (cable.loose) {
+      cable.curvature.assign(segments * 2 * samples, 0.0f);
+      LooseCable& lies = loose.emplace_back();
+      lies.place = cable.place;
+      lies.radius = layer.part_radius;
+      lies.axial_stiffness = layer.axial_stiffness;
+      lies.bending_stiffness = layer.force.bending_stiffness();
+      lies.mass_per_length = layer.laying.mass.value_or(layer.force.mass_per_length());
+      lies.slack = cable.slack;
+      lies.grip = std::min(cable.base_grip, cable.tool_grip);
+      lies.play = layer.laying.play.value_or(without_limit);
+      loosened_.push_back(cables_.size());
+    } else {
+      held.push_back({in.layer, in.number});
+      held_.push_back(cables_.size());
+    }
+    cables_.push_back(std::move(cable));
+  }
+  if (!held.empty()) rates_.emplace(construction, plan, dresspack_itself, held, lengths_, arcs);
+  if (!loose.empty()) {
+    fit_in_hose(loose, construction.section());
+    const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
+    loose_.emplace(loose, LooseSettings{length, std::max<std::size_t>(segments, 8),
+                                        construction.rest_curvature()});
+    nodes_.resize(loose_->nodes());
+  }
+  if (any()) hose_curvature_.assign(4 * samples, 0.0f);
+}
+
+const std::string& CablePaths::name(std::size_t cable) const {
+  return construction_.parts()[cables_[cable].part].path;
+}
+
+void CablePaths::add(const SpanBlock& block) {
+  if (!any()) return;
+  assert(next_ + block.deformation.samples() <= all_);
+  const std::size_t last = lengths_.size() - 1;
+  for (int clamp = 0; clamp < 2; ++clamp) {
+    const DeformationColumns at = block.deformation.columns(clamp == 0 ? 0 : last);
+    for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
+      hose_curvature_[(2 * clamp) * all_ + next_ + t] = static_cast<float>(at.curvature1[t]);
+      hose_curvature_[(2 * clamp + 1) * all_ + next_ + t] = static_cast<float>(at.curvature2[t]);
+    }
+  }
+  if (rates_) add_held(block);
+  if (loose_) add_loose(block);
+  next_ += block.deformation.samples();
+}
+
+void CablePaths::add_held(const SpanBlock& block) {
+  const std::size_t count = block.deformation.samples(), stride = padded(count), n = held_.size();
+  std::vector<double> path(n * stride, 0.0), in_segment(n * stride);
+  std::vector<double> rest(n, 0.0);
+  const auto attach = [](BundleNesting&) {};
+  for (std::size_t segment = 0; segment < lengths_.size(); ++segment) {
+    const DeformationColumns columns = block.deformation.columns(segment);
+    const bool apart = std::any_of(held_.begin(), held_.end(), [&](std::size_t c) { return cables_[c].rubs; });
+    if (!apart) {
+      rates_->add(segment, columns, count, attach, path.data(), stride);
+    } else {
+      std::fill(in_segment.begin(), in_segment.end(), 0.0);
+      rates_->add(segment, columns, count, attach, in_segment.data(), stride);
+      for (std::size_t k = 0; k < path.size(); ++k) path[k] += in_segment[k];
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      rest[k] += rates_->rest(segment, k);
+      Cable& cable = cables_[held_[k]];
+      if (!cable.rubs) continue;
+      const Layer& layer = construction_.layers()[construction_.parts()[cable.part].layer];
+      const double sine = std::sin(layer.lay_angle);
+      const double coiled = layer.helix_radius > 0 ? sine * sine / layer.helix_radius : 0;
+      for (std::size_t t = 0; t < count; ++t) {
+        const std::size_t at = segment * all_ + next_ + t;
+        const double ratio = in_segment[k * stride + t] / rates_->rest(segment, k);
+        cable.along[at] = cable.radial_share * (ratio / (1 + cable.slack) - 1);
+        cable.pressing[at] =
+            static_cast<float>(std::hypot(columns.curvature1[t], columns.curvature2[t]) + coiled);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    Cable& cable = cables_[held_[k]];
+    for (std::size_t t = 0; t < count; ++t)
+      cable.strain[next_ + t] = cable.radial_share * (path[k * stride + t] / rest[k] / (1 + cable.slack) - 1);
+  }
+}
+
+void CablePaths::add_loose(const SpanBlock& block) {
+  const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
+  const DeformationHistory& deformation = block.deformation;
+  const std::size_t every = std::max<std::size_t>(1, all_ / most_offset_samples);
+  for (std::size_t t = 0; t < deformation.samples(); ++t) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      // between the centres of two segments, and on in a line beyond the last ones
+      const double along = static_cast<double>(i) / static_cast<double>(elements) * segments - 0.5;
+      const auto low = segments < 2 ? 0
+                                    : std::min(static_cast<std::size_t>(std::max(0.0, std::floor(along))),
+                                               segments - 2);
+      const std::size_t high = std::min(low + 1, segments - 1);
+      const double share = along - static_cast<double>(low);
+      const DeformationColumns a = deformation.columns(low), b = deformation.columns(high);
+      const auto between = [&](const double* x, const double* y) { return x[t] + share * (y[t] - x[t]); };
+      HoseNode& node = nodes_[i];
+      node = {between(a.curvature1, b.curvature1), between(a.curvature2, b.curvature2),
+              between(a.twist, b.twist), between(a.elongation, b.elongation), {}};
+      if (block.pull.empty()) continue;
+      const double* pull_a = block.pull.data() + (t * segments + low) * 2;
+      const double* pull_b = block.pull.data() + (t * segments + high) * 2;
+      for (int d = 0; d < 2; ++d) node.pull[d] = pull_a[d] + share * (pull_b[d] - pull_a[d]);
+    }
+    loose_->advance(nodes_, block.step);
+    for (std::size_t k = 0; k < loosened_.size(); ++k) put_loose(loosened_[k], k, next_ + t);
+    if ((next_ + t) % every != 0) continue;
+    offset_samples_.push_back(next_ + t);
+    offsets_.resize(offset_samples_.size() * cables_.size() * segments * 2, 0.0);
+    double* const of_sample = offsets_.data() + (offset_samples_.size() - 1) * cables_.size() * segments * 2;
+    for (std::size_t k = 0; k < loosened_.size(); ++k)
+      for (std::size_t i = 0; i < segments; ++i)
+        for (std::size_t d = 0; d < 2; ++d) {
+          const std::vector<double>& offset = loose_->state(k).offset;
+          of_sample[(loosened_[k] * segments + i) * 2 + d] =
+              (offset[2 * (i * elements / segments) + d] + offset[2 * ((i + 1) * elements / segments) + d]) / 2;
+        }
+  }
+}
+
+void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size_t sample) {
+  Cable& cable = cables_[index];
+  const CableState& state = loose_->state(state_index);
+  const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
+  const double free_length = (1 + cable.slack) * (1 - construction_.rest_curvature() * cable.place[0]);
+  double mean = 0;
+  for (const double gain : state.gain) mean += gain / static_cast<double>(elements);
+  cable.strain[sample] = (1 + mean) / free_length - 1;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const std::size_t first = i * elements / segments, end = std::max(first + 1, (i + 1) * elements / segments);
+    for (std::size_t d = 0; d < 2; ++d) {  // trapezoids over its elements
+      double sum = 0;
+      for (std::size_t e = first; e < end; ++e)
+        sum += (state.curvature[2 * e + d] + state.curvature[2 * (e + 1) + d]) / 2;
+      cable.curvature[(2 * i + d) * all_ + sample] = static_cast<float>(sum / (end - first));
+    }
+    if (!cable.rubs) continue;
+    double gain = 0, press = 0;
+    for (std::size_t e = first; e < end; ++e) {
+      gain += state.gain[e] / (end - first);
+      press += (state.press[e] + state.press[e + 1]) / 2 / (end - first);
+    }
+    cable.along[i * all_ + sample] = (1 + gain) / free_length - 1;
+    cable.pressing[i * all_ + sample] = static_cast<float>(press);
+  }
+}
+
+bool CablePaths::remembers() const {
+  return std::any_of(cables_.begin(), cables_.end(), [](const Cable& cable) { return cable.remembers; });
+}
+
+void CablePaths::finish() {
+  if (finished_) return;
+  finished_ = true;
+  for (Cable& cable : cables_)
+    if (cable.remembers) slide(cable);
+  if (any()) weigh();
+}
+
+/// Goes through the motion again and again until it ends as it ended before: what is in memory then is where a
+/// repeat begins.
+void CablePaths::slide(Cable& cable) {
+  const std::size_t segments = cable.rubs ? lengths_.size() : 1;
+  std::vector<double> lengths = lengths_;
+  if (!cable.rubs) lengths = {std::accumulate(lengths_.begin(), lengths_.end(), 0.0)};
+  SlidingLine line(lengths, cable.axial_stiffness, cable.base_grip, cable.tool_grip);
+  std::vector<double> unslid(segments), limits(segments), held(segments, 0.0);
+  const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
+  std::array<double, 2> before{};
+  std::vector<double> ended(segments, without_limit);
+  bool last = false;
+  for (int repeat = 1; !last; ++repeat) {
+    before = {line.travel_at_base(), line.travel_at_tool()};
+    double moved = 0;
+    for (std::size_t i = 0; i < segments; ++i) {
+      moved = std::max(moved, std::abs(line.strain(i) - ended[i]));
+      ended[i] = line.strain(i);
+    }
+    last = repeat > 2 && (moved < settled || repeat == most_repeats);
+    for (std::size_t t = 0; t < next_; ++t) {
+      if (!cable.rubs) {
+        unslid[0] = cable.strain[t];
+        line.next(unslid, limits);
+      } else {
+        double mean = 0;
+        for (std::size_t i = 0; i < segments; ++i) mean += cable.along[i * all_ + t] * lengths_[i] / length;
+        for (std::size_t i = 0; i < segments; ++i) {
+          held[i] = cable.elastic * (cable.along[i * all_ + t] - mean);
+          unslid[i] = cable.along[i * all_ + t] - held[i];
+        }
+        for (int attempt = 0; attempt < most_attempts; ++attempt) {  // limits hang on the tension itself
+          double changed = 0;
+          for (std::size_t i = 1; i < segments; ++i) {
+            const double pressing = (cable.pressing[(i - 1) * all_ + t] + cable.pressing[i * all_ + t]) / 2;
+            const double tension = std::max(0.0, (line.force()[i - 1] + line.force()[i]) / 2);
+            const double load = cable.line_load + (cable.loose ? pressing : tension * pressing);
+            const double limit =
+                std::min(no_force_reaches, cable.friction * load * (lengths_[i - 1] + lengths_[i]) / 2);
+            changed = std::max(changed, std::abs(limit - limits[i]));
+            limits[i] = limit;
+          }
+          if (attempt > 0 && changed < settled * cable.axial_stiffness) break;
+          line.attempt(unslid, limits);
+        }
+        line.keep();
+      }
+      if (!last) continue;
+      if (!cable.rubs) cable.strain[t] = line.strain(0);
+      for (std::size_t i = 0; cable.rubs && i < segments; ++i)
+        cable.along[i * all_ + t] = line.strain(i) + held[i];
+    }
+  }
+  cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
+}
+
+/// The moment of all cables on the hose where they are clamped, and the share of what they bear.
+void CablePaths::weigh() {
+  cable_moment_.assign(next_, 0.0);
+  hose_moment_.assign(next_, 0.0);
+  const std::size_t last = lengths_.size() - 1;
+  std::vector<double> moment(4 * next_, 0.0);  // (clamp, 2, sample) about d1 and d2
+  for (const Cable& cable : cables_) {
+    const Layer& layer = construction_.layers()[construction_.parts()[cable.part].layer];
+    for (std::size_t t = 0; t < next_; ++t) {
+      std::array<double, 2> force;
+      force[0] = layer.force.force(cable.rubs ? cable.along[t] : cable.strain[t]);
+      force[1] = cable.rubs ? layer.force.force(cable.along[last * all_ + t]) : force[0];
+      for (int clamp = 0; clamp < 2; ++clamp) {
+        const auto& place = clamp == 0 ? cable.place : cable.place_at_tool;
+        moment[(2 * clamp) * next_ + t] += force[clamp] * place[1];
+        moment[(2 * clamp + 1) * next_ + t] -= force[clamp] * place[0];
+        if (layer.force.strength() > 0)
+          largest_force_share_ =
+              std::max(largest_force_share_, std::abs(force[clamp]) / layer.force.strength());
+      }
+    }
+  }
+  for (int clamp = 0; clamp < 2; ++clamp)
+    for (std::size_t t = 0; t < next_; ++t) {
+      const double* const own = moment.data() + 2 * clamp * next_ + t;
+      cable_moment_[t] = std::max(cable_moment_[t], std::hypot(own[0], own[next_]));
+      const float* const bent = hose_curvature_.data() + 2 * clamp * all_ + t;
+      hose_moment_[t] = std::max(hose_moment_[t], construction_.hose_bending_stiffness() *
+                                                      std::hypot(bent[0], bent[all_]));
+    }
+}
+
+std::vector<double> CablePaths::tension(std::size_t index) const {
+  const Cable& cable = cables_[index];
+  const Layer& layer = construction_.layers()[construction_.parts()[cable.part].layer];
+  std::vector<double> tension(next_);
+  for (std::size_t t = 0; t < next_; ++t) {
+    double largest = cable.rubs ? 0 : cable.strain[t];
+    for (std::size_t i = 0; cable.rubs && i < lengths_.size(); ++i)
+      if (std::abs(cable.along[i * all_ + t]) > std::abs(largest)) largest = cable.along[i * all_ + t];
+    tension[t] = layer.force.force(largest);
+  }
+  return tension;
+}
+
+const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t segment,
+                                            const DeformationColumns& hose, std::size_t first,
+                                            std::size_t count) {
+  motion_.samples = count;
+  motion_.hose = hose;
+  if (!paths.any()) return motion_;
+  const std::size_t cables = paths.construction_.cables().size(), all = paths.all_;
+  const std::size_t stride = padded(count) + padding;
+  motion_.strain.assign(cables, nullptr);
+  motion_.loose.assign(cables, {});
+  rows_.resize(3 * paths.cables_.size());
+  for (std::size_t k = 0; k < paths.cables_.size(); ++k) {
+    const Cable& cable = paths.cables_[k];
+    const auto index = static_cast<std::size_t>(paths.construction_.cable_of(cable.part));
+    const auto row = [&](std::size_t kind, const auto& from, std::size_t at) {
+      std::vector<double>& to = rows_[3 * k + kind];
+      to.assign(stride, 0.0);
+      for (std::size_t t = 0; t < count; ++t) to[t] = from[at + first + t];
+      return to.data();
+    };
+    const double* strain = cable.rubs ? row(0, cable.along, segment * all) : cable.strain.data() + first;
+    motion_.strain[index] = strain;
+    if (cable.loose)
+      motion_.loose[index] = {row(1, cable.curvature, 2 * segment * all),
+                              row(2, cable.curvature, (2 * segment + 1) * all), hose.twist, strain};
+  }
+  return motion_;
+}
+
+}  // namespace dresslife::strain

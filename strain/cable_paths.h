@@ -1,0 +1,116 @@
+// How the cables of one span move, pull and stretch between its two clamps (README W32 to W37): all that is
+// known of parts of the first level that hold parts and slide, before the wires in them are looked at.
+//
+// A cable at its place has the path that its place gives it (W5); a loose one lies where it rests (loose/).
+// Either slides along its path under friction and grips (sliding_line.h), and its force is that of the wires
+// in it (cable_force.h). What clamps and friction keep in memory is that of a motion repeated for long: it is
+// gone through twice, and the second time counts.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "strain/loose/loose_cables.h"
+#include "strain/path_rates.h"
+#include "strain/segment_motion.h"
+#include "strain/sliding_line.h"
+
+namespace dresslife::strain {
+
+/// Samples of a span: what the hose does in each segment, and what pulls at things in it.
+struct SpanBlock {
+  const DeformationHistory& deformation;
+  /// Gravity less acceleration along d1 and d2 (sample, segment, 2) [m/s2]; empty: nothing pulls.
+  std::span<const double> pull{};
+  double step = 0.04;  ///< time between samples [s]
+};
+
+class CablePaths {
+ public:
+  /// plan: of all layers. rubs: friction along the cables. lengths, arcs: of the span's segments [m].
+  CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, bool rubs,
+             std::vector<double> lengths, const std::vector<double>& arcs, std::size_t samples);
+
+  /// Whether there is any cable that slides.
+  bool any() const { return !cables_.empty(); }
+  bool any_loose() const { return loose_.has_value(); }
+  /// Whether what clamps and friction did stays in memory: strains are known after finish() only.
+  bool remembers() const;
+
+  void add(const SpanBlock& block);  ///< in order of time
+  void finish();                     ///< all samples are there; again: changes nothing
+
+  // ---- after finish() --------------------------------------------------------------------------------------
+
+  /// One segment at `count` samples from `first` on. hose: its columns there. Good until the next call of this
+  /// keeper.
+  class Keeper {
+   public:
+    const SegmentMotion& of(const CablePaths& paths, std::size_t segment, const DeformationColumns& hose,
+                            std::size_t first, std::size_t count);
+
+   private:
+    SegmentMotion motion_;
+    std::vector<std::vector<double>> rows_;
+  };
+
+  std::size_t samples() const { return next_; }
+  std::size_t cables() const { return cables_.size(); }
+  const std::string& name(std::size_t cable) const;
+  /// Largest force along each cable, by size, with its sign (sample) [N].
+  std::vector<double> tension(std::size_t cable) const;
+  /// Over the force at which it tears; 0: not known. The largest of all samples and cables.
+  double largest_force_share() const { return largest_force_share_; }
+  /// Both ways along, in a repeat of the motion, at base and tool clamp [m].
+  std::array<double, 2> grip_slip(std::size_t cable) const { return cables_[cable].grip_slip; }
+  /// Of all cables on the hose, and of the hose as it was simulated: the larger of both clamps (sample) [N m].
+  const std::vector<double>& cable_moment() const { return cable_moment_; }
+  const std::vector<double>& hose_moment() const { return hose_moment_; }
+  /// Where loose cables lie at some samples: offset from their places (cable, segment, 2) [m].
+  const std::vector<std::size_t>& offset_samples() const { return offset_samples_; }
+  const std::vector<double>& offsets() const { return offsets_; }  ///< (sample, cable, segment, 2)
+  /// Samples at which a loose cable had not come to rest.
+  std::size_t restless() const { return loose_ ? loose_->restless() : 0; }
+
+ private:
+  struct Cable {
+    int part;
+    bool loose, remembers, rubs;
+    double axial_stiffness, slack, friction, line_load, base_grip, tool_grip;
+    double radial_share;  ///< of its strain that the bed of its layer leaves (W31)
+    double elastic;       ///< share of the deviation from the mean that a jacket holds (W30)
+    std::array<double, 2> place{};           ///< of its axis at the clamps' ends [m]: at the base clamp
+    std::array<double, 2> place_at_tool{};
+    std::array<double, 2> grip_slip{};
+    std::vector<double> strain{};  ///< (sample) of all segments; before finish(): unslid
+    std::vector<double> along{};   ///< (segment, sample) the same, each segment its own: with friction
+    std::vector<float> pressing{}; ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
+    std::vector<float> curvature{};  ///< (segment, 2, sample) of a loose one's own path [1/m]
+  };
+
+  void add_held(const SpanBlock& block);
+  void add_loose(const SpanBlock& block);
+  void put_loose(std::size_t cable, std::size_t state, std::size_t sample);
+  void slide(Cable& cable);
+  void weigh();
+
+  const Construction& construction_;
+  std::vector<double> lengths_;
+  std::size_t stride_, all_, next_ = 0;
+  bool finished_ = false;
+  std::vector<Cable> cables_;
+  std::vector<std::size_t> held_;           ///< of cables_, in the order of rates_
+  std::optional<PathRates> rates_;
+  std::vector<std::size_t> loosened_;       ///< of cables_, in the order of loose_
+  std::optional<LooseCables> loose_;
+  std::vector<HoseNode> nodes_;
+  std::vector<float> hose_curvature_;       ///< (clamp, 2, sample) at the base and the tool end [1/m]
+  std::vector<double> cable_moment_, hose_moment_, offsets_;
+  std::vector<std::size_t> offset_samples_;
+  double largest_force_share_ = 0;
+};
+
+}  // namespace dresslife::strain

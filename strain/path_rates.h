@@ -1,0 +1,52 @@
+// How long the paths of parts are that lie in one parent, segment by segment: what those need that slide from
+// clamp to clamp (README W10, W34).
+//
+// Within a segment the parent's deformation is that of its centre, and the phase of what has a lay goes on: the
+// path rate is the mean over places along the segment, close enough that a turn has at least six of them, and
+// at least four; one where nothing on the way has a lay. The mean over evenly spaced places of a turn is exact
+// for its first harmonics, and what is left over of a turn at a segment's ends is known to (pi/6)^2 / 6 of it.
+#pragma once
+
+#include <vector>
+
+#include "strain/history.h"
+#include "strain/nesting.h"
+
+namespace dresslife::strain {
+
+/// One part, or one place around a layer of wires.
+struct PathMember {
+  int layer, number;
+  double turn = 0;  ///< [rad]
+};
+
+class PathRates {
+ public:
+  /// lengths, arcs: rest length and centre of each segment [m].
+  PathRates(const Construction& construction, const std::vector<LayerSlip>& plan, int parent,
+            std::vector<PathMember> members, const std::vector<double>& lengths,
+            const std::vector<double>& arcs);
+
+  std::size_t members() const { return count_; }
+  /// Path length of member n in a segment at rest [m].
+  double rest(std::size_t segment, std::size_t member) const { return rest_[segment * count_ + member]; }
+
+  /// attach: gives the nesting to the parent what its parts that slide need. Adds the path lengths in a
+  /// segment at samples [0, samples) of the columns to path (member, sample) with stride [m].
+  template <class Attach>
+  void add(std::size_t segment, const DeformationColumns& columns, std::size_t samples, const Attach& attach,
+           double* path, std::size_t stride) {
+    for (BundleNesting& nesting : places_[segment]) {
+      attach(nesting);
+      kernels().add_path_rates(pointers(nesting), columns, 0, samples, weights_[segment], path, stride);
+    }
+  }
+
+ private:
+  std::size_t count_;
+  std::vector<std::vector<BundleNesting>> places_;  ///< (segment, place)
+  std::vector<double> weights_;                     ///< (segment) length that a place stands for [m]
+  std::vector<double> rest_;                        ///< (segment, member) [m]
+};
+
+}  // namespace dresslife::strain

@@ -1,0 +1,110 @@
+#include "strain/sliding_line.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace dresslife::strain {
+namespace {
+
+// Beyond a clamp that can let go lies an end without force: an element so much softer than the part that no
+// force stays in it but a millionth.
+constexpr double soft_end = 1e6;
+constexpr double at_limit = 1 - 1e-5;  // of a grip: reached, but for the soft end and rounding
+
+}  // namespace
+
+SlidingLine::SlidingLine(std::vector<double> lengths, double axial_stiffness, double base_grip,
+                         double tool_grip)
+    : lengths_(std::move(lengths)),
+      stiffness_(axial_stiffness),
+      base_grip_(base_grip),
+      tool_grip_(tool_grip),
+      slid_(lengths_.size(), 0.0),
+      force_(slid_),
+      tried_(slid_),
+      least_(slid_),
+      soft_weight_(soft_end * std::accumulate(lengths_.begin(), lengths_.end(), 0.0) / axial_stiffness) {
+  assert(!lengths_.empty() && axial_stiffness > 0 && base_grip >= 0 && tool_grip >= 0);
+}
+
+/// The sum may end in a force that differs by up to `limit`.
+void SlidingLine::widen(double limit) {
+  below_shift_ -= limit;
+  above_shift_ += limit;
+  below_.push_back({lowest_at_ - limit - below_shift_, -slope_});
+  above_.push_back({lowest_at_ + limit - above_shift_, slope_});
+  slope_ = at_zero_ = 0;
+}
+
+/// Adds weight (T - target)^2 / 2 to the sum, and finds where it is least now.
+void SlidingLine::add(double weight, double target) {
+  slope_ += weight;
+  at_zero_ -= weight * target;
+  const auto cross = [&](std::vector<Knot>& from, double from_shift, std::vector<Knot>& to, double to_shift,
+                         double sign) {
+    const Knot knot = from.back();
+    const double at = knot.at + from_shift, value = slope_ * at + at_zero_;
+    from.pop_back();
+    to.push_back({at - to_shift, knot.bend});
+    slope_ += sign * knot.bend;
+    at_zero_ = value - slope_ * at;
+  };
+  for (;;) {
+    lowest_at_ = -at_zero_ / slope_;
+    if (!below_.empty() && lowest_at_ < below_.back().at + below_shift_)
+      cross(below_, below_shift_, above_, above_shift_, -1);
+    else if (!above_.empty() && lowest_at_ > above_.back().at + above_shift_)
+      cross(above_, above_shift_, below_, below_shift_, 1);
+    else
+      return;
+  }
+}
+
+void SlidingLine::attempt(std::span<const double> unslid, std::span<const double> limits) {
+  const std::size_t n = lengths_.size();
+  assert(unslid.size() == n && limits.size() == n);
+  below_.clear();
+  above_.clear();
+  below_shift_ = above_shift_ = slope_ = at_zero_ = 0;
+  const double weightless = 1 / stiffness_;
+  if (base_grip_ < without_limit) {
+    add(soft_weight_, 0);
+    widen(base_grip_);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0) widen(limits[i]);
+    tried_[i] = unslid[i] + slid_[i];
+    add(lengths_[i] * weightless, stiffness_ * tried_[i]);
+    least_[i] = lowest_at_;
+  }
+  force_[n - 1] = least_[n - 1];
+  if (tool_grip_ < without_limit) {
+    widen(tool_grip_);
+    add(soft_weight_, 0);
+    force_[n - 1] = std::clamp(least_[n - 1], lowest_at_ - tool_grip_, lowest_at_ + tool_grip_);
+  }
+  for (std::size_t i = n - 1; i-- > 0;)
+    force_[i] = std::clamp(least_[i], force_[i + 1] - limits[i + 1], force_[i + 1] + limits[i + 1]);
+}
+
+void SlidingLine::keep() {
+  const std::size_t n = lengths_.size();
+  double gained = 0;  // length of part between the clamps
+  for (std::size_t i = 0; i < n; ++i) {
+    slid_[i] += strain(i) - tried_[i];
+    gained += lengths_[i] * (tried_[i] - strain(i));
+  }
+  const bool base = std::abs(force_[0]) > at_limit * base_grip_;
+  const bool tool = std::abs(force_[n - 1]) > at_limit * tool_grip_;
+  if (!base && !tool) return;
+  const double share = base && tool ? 0.5 : 1;  // of two that let go alike nobody knows which did
+  for (const auto& [slips, side] : {std::pair(base, 0), std::pair(tool, 1)})
+    if (slips) {
+      let_in_[side] += share * gained;
+      travel_[side] += share * std::abs(gained);
+    }
+}
+
+}  // namespace dresslife::strain

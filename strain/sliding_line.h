@@ -1,0 +1,68 @@
+// The strain along one part that slides in what it lies in, whatever its lay: from the stretch of its path,
+// friction along it and the grips of its clamps (README W34).
+//
+// Element i of the path has gained g_i over the path on which the part was laid in, with slack; if nothing
+// slid, its strain would be gamma_i = (1 + g_i) / (1 + slack) - 1. The part slides along its path, by u at the
+// nodes between elements, and has the strain eps_i = gamma_i + (u_{i+1} - u_i) / l_i. Its force T_i = E A eps_i
+// changes from element to element by no more than friction takes up at the node between them,
+//     |T_i - T_{i-1}| <= f_i,
+// at either clamp it is at most the grip, and a node slides only where its limit is reached, the way that
+// friction opposes. Over a step that is the minimum of the elastic energy and what friction takes; its dual,
+//     sum l_i (T_i - E A (eps_i before + gamma_i's change))^2 / (2 E A)  ->  least, under the limits above,
+// is a projection. Dynamic programming solves it exactly: with d_i(T) the slope of the least sum up to element
+// i that ends in T, piecewise linear and rising, a limit f moves its two sides apart by 2 f around its zero,
+// and an element adds a line (N. Johnson, J. Comput. Graph. Stat. 22 (2013), for the same sums in statistics).
+// No friction: T is everywhere the same, that of the mean. Limits beyond all forces: glued.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "strain/loose/cable.h"
+
+namespace dresslife::strain {
+
+class SlidingLine {
+ public:
+  /// lengths: of the elements at rest [m]. axial_stiffness: E A [N]. grips: forces at base and tool clamp [N].
+  SlidingLine(std::vector<double> lengths, double axial_stiffness, double base_grip, double tool_grip);
+
+  /// The next sample. unslid: gamma (element). limits: f at the node between elements i - 1 and i at i; [N]
+  /// (element, the first one is not read).
+  void next(std::span<const double> unslid, std::span<const double> limits) {
+    attempt(unslid, limits);
+    keep();
+  }
+  /// The same in two steps, where limits hang on the forces: attempts change nothing but force().
+  void attempt(std::span<const double> unslid, std::span<const double> limits);
+  void keep();
+
+  std::span<const double> force() const { return force_; }  ///< (element) [N]
+  double strain(std::size_t element) const { return force_[element] / stiffness_; }
+  /// Length that went in at the base and the tool clamp in all [m]; below 0: was pulled out.
+  double let_in_at_base() const { return let_in_[0]; }
+  double let_in_at_tool() const { return let_in_[1]; }
+  /// Both, either way added up [m].
+  double travel_at_base() const { return travel_[0]; }
+  double travel_at_tool() const { return travel_[1]; }
+
+ private:
+  /// Where the slope of the least sum bends: it rises by `bend` more above `at` less the side's shift.
+  struct Knot {
+    double at, bend;
+  };
+
+  void widen(double limit);
+  void add(double weight, double target);
+
+  std::vector<double> lengths_;
+  double stiffness_, base_grip_, tool_grip_;
+  std::vector<double> slid_;   ///< (element) (u_{i+1} - u_i) / l_i
+  std::vector<double> force_, tried_, least_;
+  double soft_weight_;
+  std::vector<Knot> below_, above_;
+  double below_shift_ = 0, above_shift_ = 0, slope_ = 0, at_zero_ = 0, lowest_at_ = 0;
+  double let_in_[2]{}, travel_[2]{};
+};
+
+}  // namespace dresslife::strain
