@@ -156,6 +156,14 @@ std::string Evaluation::summary(std::size_t sites) const {
                      wires_[worst_.wire].path);
 }
 
+bool Evaluation::cables_slide() const {
+  for (std::size_t k = 0; k < means_.plan().size(); ++k)
+    if (construction_.layers()[k].is_cable() &&
+        (means_.plan()[k].loose || means_.plan()[k].sliding != Sliding::glued))
+      return true;
+  return false;
+}
+
 void Evaluation::add(const SpanBlock& block) {
   cables_.add(block);
   if (!cables_.remembers()) add_means(block.deformation);

@@ -94,6 +94,8 @@ class Evaluation {
   bool wants_again() const { return cables_.remembers() && (means_.needed() || stick_.means.needed() || free_.means.needed()); }
   void add_again(const DeformationHistory& block);
   bool any_loose() const { return cables_.any_loose(); }
+  /// Whether cables slide in the job itself, and not in a bound only.
+  bool cables_slide() const;
   /// As in a site's path: with the dresspack's name before it where there are several.
   std::string name_of_cable(std::size_t cable) const {
     return (place_.name.empty() ? "" : place_.name + "/") + cables_.name(cable);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "pipeline/files/motion_layout.h"
+#include "pipeline/job/believable.h"
 #include "pipeline/job/job.h"
 #include "strain/evaluation.h"
 
@@ -286,14 +287,29 @@ struct Evaluations {
   }
 };
 
+std::string force_warning(double force_share, double moment_share) {
+  std::string warning;
+  const auto tell = [&](double share, const char* what) {
+    if (share > pipeline::believable_share)
+      warning += fmt::format("\nwarning: {:.2g} times {} (more than {:g}: strains rest on forces that nobody sees in a "
+                             "dresspack); check slack, play, grips and position of its cables",
+                             share, what, pipeline::believable_share);
+  };
+  tell(force_share, "what tears a cable pulls at one");
+  tell(moment_share, "the hose's own moment is what all cables put on a clamp");
+  return warning;
+}
+
 /// What pulls at the cables of all spans, and what that asks of clamps and copper. Nothing where none slides.
-void write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+/// Returns a warning where nobody would see such forces.
+std::string write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   std::vector<std::string> names;
   std::vector<double> slip;
   std::vector<std::vector<double>> tension;
   std::vector<double> cable_moment, hose_moment;
   double share = 0;
   for (const auto& evaluation : evaluations) {
+    if (!evaluation->cables_slide()) continue;
     const CablePaths& cables = evaluation->cables();
     for (std::size_t k = 0; k < cables.cables(); ++k) {
       names.push_back(evaluation->name_of_cable(k));
@@ -312,7 +328,7 @@ void write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation
         hose_moment[t] = cables.hose_moment()[t];
       }
   }
-  if (names.empty()) return;
+  if (names.empty()) return "";
   file.set_axis("cable", names.size());
   file.set_text_width("/cable/name", std::max_element(names.begin(), names.end(), [](const auto& a, const auto& b) {
                                        return a.size() < b.size();
@@ -329,11 +345,13 @@ void write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation
   const double most = *std::max_element(cable_moment.begin(), cable_moment.end());
   const double carried = *std::max_element(hose_moment.begin(), hose_moment.end());
   file.attribute("clamp_moment_share", carried > 0 ? most / carried : 0.0);
-  if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return;
+  const std::string warning = force_warning(share, carried > 0 ? most / carried : 0);
+  if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warning;
   const CablePaths& cables = evaluations[0]->cables();
   std::vector<std::uint32_t> samples(cables.offset_samples().begin(), cables.offset_samples().end());
   file.append("/cable/offset_sample", samples);
   file.append("/cable/offset", cables.offsets());
+  return warning;
 }
 
 }  // namespace
@@ -397,7 +415,7 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
         if (evaluation.wants_again()) evaluation.add_again(of_span.deformation);
       });
     });
-  write_cables(strain, evaluations);
+  const std::string warning = write_cables(strain, evaluations);
 
   Sink sink;
   sink.sites = [&](const SiteRows& rows) { sites.append(rows); };
@@ -429,7 +447,7 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),
                        [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
-  return (*worst)->summary(evaluations.back()->sites_so_far());
+  return (*worst)->summary(evaluations.back()->sites_so_far()) + warning;
 }
 
 }  // namespace dresslife::strain

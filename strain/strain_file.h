@@ -17,7 +17,8 @@ namespace dresslife::strain {
 /// read again for the next segments.
 constexpr std::size_t default_history_bytes = std::size_t{128} << 20;
 
-/// Writes every dataset of strain.h5 and returns a line on the worst site. threads: any number gives the same
+/// Writes every dataset of strain.h5 and returns a line on the worst site, after warnings of forces that are not
+/// believed. threads: any number gives the same
 /// bytes. progress: share of the work done.
 /// Errors: InputError for a motion without samples, a dresspack without wires, and those of Construction and
 /// Evaluation.

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/job/believable.h"
+
 namespace dresslife::pipeline {
 
 /// A job of a study as it ended.
@@ -57,13 +59,12 @@ struct RankingRow {
   /// What the strains ask of the cables: largest force over that at which one tears, and moment of all of them
   /// on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not known.
   std::optional<double> largest_force_share, clamp_moment_share;
-  static constexpr double believable_force = 0.2;  ///< of either; above, the strains need a force nobody sees
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   bool done() const { return failure.empty(); }
   bool force_ok() const {
-    return largest_force_share.value_or(0) <= believable_force &&
-           clamp_moment_share.value_or(0) <= believable_force;
+    return largest_force_share.value_or(0) <= believable_share &&
+           clamp_moment_share.value_or(0) <= believable_share;
   }
   double hours_of(double repeats) const { return repeats * repeat_seconds / 3600; }
 };

@@ -2,6 +2,7 @@
 #include "strain/strain_file.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -171,6 +172,37 @@ TEST_CASE(
              threads);
     CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "threads.h5"));
   }
+}
+
+TEST_CASE("forces of cables that slide are in the file, and warned of where nobody would see them") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  const auto forces_with = [&](std::vector<std::string> sets) {
+    sets.insert(sets.begin(), "strain.slip=free");
+    return evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with(sets));
+  };
+  const std::string gripped = forces_with({});
+  CHECK(gripped.find("\nwarning: ") != std::string::npos);
+  CHECK(gripped.find("what tears a cable") != std::string::npos);
+  {
+    const FileReader file(scratch / "strain.h5", pipeline::strain_format());
+    CHECK(file.read<std::string>("/cable/name") == std::vector<std::string>{"cable 1", "cable 2", "cable 3"});
+    const auto tension = file.read<double>("/cable/tension");
+    REQUIRE(tension.size() == samples * 3);
+    const double most = std::abs(*std::max_element(tension.begin(), tension.end(), [](double a, double b) {
+      return std::abs(a) < std::abs(b);
+    }));
+    const double area = 6 * 3.14159265 * 0.1e-3 * 0.1e-3 * std::cos(25 * 3.14159265 / 180);
+    CHECK(file.number_attribute("largest_force_share") == Approx(most / (230e6 * area)));
+    for (const double slip : file.read<double>("/cable/grip_slip")) CHECK(slip == 0);
+  }
+  CHECK(forces_with({"dresspack.components.1.base_grip_N=1", "dresspack.components.1.tool_grip_N=1"})
+            .find("what tears a cable") == std::string::npos);
+  const FileReader file(scratch / "strain.h5", pipeline::strain_format());
+  for (const double slip : file.read<double>("/cable/grip_slip")) CHECK(slip > 0);
+  // cables that stick to the hose have no force of their own to tell
+  evaluate(scratch / "motion.h5", scratch / "stuck.h5", job_with());
+  CHECK_FALSE(FileReader(scratch / "stuck.h5", pipeline::strain_format()).has("/cable/name"));
 }
 
 TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {
