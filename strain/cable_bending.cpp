@@ -15,12 +15,6 @@ constexpr int phases = 36;                // around a layer: whole harmonics are
 constexpr double small_curvature = 1e-4;  // [1/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
 constexpr double no_friction = 0, all_friction = 1e12;  // levels
 
-const pipeline::Material* material_of(const pipeline::Dresspack& dresspack, const std::string& name) {
-  for (const pipeline::Material& material : dresspack.materials)
-    if (material.name == name) return &material;
-  return nullptr;
-}
-
 }  // namespace
 
 /// A part of the cable at rest and slightly bent.
@@ -76,7 +70,7 @@ void CableBending::add(const pipeline::Dresspack& dresspack, const pipeline::Com
       for (const pipeline::Component& inner : layer.components) add(dresspack, inner, bent);
       continue;
     }
-    const pipeline::Material* const material = material_of(dresspack, layer.material);
+    const pipeline::Material* const material = pipeline::find_material(dresspack, layer.material);
     if (material == nullptr) continue;
     const auto rate = [&](const Series<double>& of, const Series<double>& at_rest) {
       return (of.at[0] - at_rest.at[0]) / small_curvature;

@@ -13,18 +13,13 @@ constexpr double pi = std::numbers::pi;
 constexpr double wire_density = 8900, polymer_density = 1200;  // [kg/m3]
 constexpr double polymer_modulus = 50e6;                        // [Pa]
 
-const pipeline::Material* material_named(const pipeline::Dresspack& dresspack, const std::string& name) {
-  const auto found = std::find_if(dresspack.materials.begin(), dresspack.materials.end(),
-                                  [&](const pipeline::Material& material) { return material.name == name; });
-  return found == dresspack.materials.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 CableForce::CableForce(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {
   const double area = pi * cable.radius * cable.radius;
   mass_ = polymer_density * area;
-  bending_ = polymer_modulus * area * cable.radius * cable.radius / 4;
+  bending_ = cable.polymer_bending_stiffness > 0 ? cable.polymer_bending_stiffness
+                                                 : polymer_modulus * area * cable.radius * cable.radius / 4;
   for (const pipeline::Component& inner : cable.components) add(dresspack, inner, 1, 1);
   if (!all_strengths_known_) strength_ = 0;
   bending_ = cable.measured_bending_stiffness.value_or(bending_);
@@ -38,7 +33,7 @@ void CableForce::add(const pipeline::Dresspack& dresspack, const pipeline::Compo
   if (!part.components.empty()) return;
   const double area = count * pi * part.radius * part.radius;
   mass_ += (wire_density - polymer_density) * area / cosines;
-  const pipeline::Material* material = material_named(dresspack, part.material);
+  const pipeline::Material* material = pipeline::find_material(dresspack, part.material);
   all_strengths_known_ &= material && material->tensile_strength;
   if (!material) return;
   bending_ += material->youngs_modulus * area * part.radius * part.radius / 4 * cosines;
@@ -93,12 +88,6 @@ double CableForce::strain_at(double wanted) const {
     (force(middle) < std::abs(wanted) ? low : high) = middle;
   }
   return std::copysign((low + high) / 2, wanted);
-}
-
-double CableForce::axial_stiffness() const {
-  double sum = 0;
-  for (const Wires& wires : wires_) sum += wires.area * wires.share * wires.modulus;
-  return sum;
 }
 
 }  // namespace dresslife::strain

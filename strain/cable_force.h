@@ -21,10 +21,9 @@ class CableForce {
   double force(double strain) const;      ///< sum of A sigma [N]
   double strain_at(double force) const;   ///< its inverse, for a force of any sign [N]
   double strength() const { return strength_; }  ///< at which it tears [N]; 0: not known
-  double axial_stiffness() const;                ///< E A at no strain [N]
   double mass_per_length() const { return mass_; }  ///< wires of 8900 kg/m3 in a polymer of 1200 [kg/m]
-  /// E I of its wires, each about its own axis, in a round of polymer of 50 MPa [N m2]: a cable whose parts
-  /// slide past one another.
+  /// E I: measured, else of its wires, each about its own axis, and of its polymer, given or a round of 50 MPa: a
+  /// cable whose parts slide past one another [N m2].
   double bending_stiffness() const { return bending_; }
 
  private:

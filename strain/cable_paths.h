@@ -61,11 +61,14 @@ class CablePaths {
   std::size_t cables() const { return cables_.size(); }
   const std::string& name(std::size_t cable) const;
   /// Largest force along each cable, by size, with its sign (sample) [N].
-  std::vector<double> tension(std::size_t cable) const;
+  const std::vector<double>& tension(std::size_t cable) const { return cables_[cable].tension; }
   /// Over the force at which it tears; 0: not known. The largest of all samples and cables.
   double largest_force_share() const { return largest_force_share_; }
   /// Both ways along, in a repeat of the motion, at base and tool clamp [m].
   std::array<double, 2> grip_slip(std::size_t cable) const { return cables_[cable].grip_slip; }
+  /// Largest moment of all cables on the hose at a clamp, over the largest that the simulated hose carries there; 0:
+  /// it carries none.
+  double clamp_moment_share() const { return clamp_moment_share_; }
   /// Of all cables on the hose, and of the hose as it was simulated: the larger of both clamps (sample) [N m].
   const std::vector<double>& cable_moment() const { return cable_moment_; }
   const std::vector<double>& hose_moment() const { return hose_moment_; }
@@ -85,6 +88,7 @@ class CablePaths {
     std::array<double, 2> place{};           ///< of its axis at the clamps' ends [m]: at the base clamp
     std::array<double, 2> place_at_tool{};
     std::array<double, 2> grip_slip{};
+    std::vector<double> tension{};  ///< (sample)
     std::vector<double> strain{};  ///< (sample) of all segments; before finish(): unslid
     std::vector<double> along{};   ///< (segment, sample) the same, each segment its own: with friction
     std::vector<float> pressing{}; ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
@@ -110,7 +114,7 @@ class CablePaths {
   std::vector<float> hose_curvature_;       ///< (clamp, 2, sample) at the base and the tool end [1/m]
   std::vector<double> cable_moment_, hose_moment_, offsets_;
   std::vector<std::size_t> offset_samples_;
-  double largest_force_share_ = 0;
+  double largest_force_share_ = 0, clamp_moment_share_ = 0;
 };
 
 }  // namespace dresslife::strain

@@ -23,9 +23,8 @@ std::string element(const Layer& layer, int number) {
 
 double axial_stiffness(const pipeline::Dresspack& dresspack, const pipeline::Component& part) {
   if (part.components.empty()) {
-    for (const pipeline::Material& material : dresspack.materials)
-      if (material.name == part.material) return material.youngs_modulus * pi * part.radius * part.radius;
-    return 0;
+    const pipeline::Material* const material = pipeline::find_material(dresspack, part.material);
+    return material ? material->youngs_modulus * pi * part.radius * part.radius : 0;
   }
   double sum = 0;
   for (const pipeline::Component& inner : part.components)

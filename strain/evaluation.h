@@ -91,7 +91,9 @@ class Evaluation {
   void add(const SpanBlock& block);
   /// Whether cables remember what clamps and friction did, so that what goes on in them has to wait: the blocks
   /// are then wanted once more, when all have been added.
-  bool wants_again() const { return cables_.remembers() && (means_.needed() || stick_.means.needed() || free_.means.needed()); }
+  bool wants_again() const {
+    return cables_.remembers() && (means_.needed() || stick_.means.needed() || free_.means.needed());
+  }
   void add_again(const DeformationHistory& block);
   bool any_loose() const { return cables_.any_loose(); }
   /// Whether cables slide in the job itself, and not in a bound only.
@@ -100,8 +102,9 @@ class Evaluation {
   std::string name_of_cable(std::size_t cable) const {
     return (place_.name.empty() ? "" : place_.name + "/") + cables_.name(cable);
   }
-  /// The first pass is over.
-  const CablePaths& cables() { return cables_.finish(), cables_; }
+  /// What the cables do. Precondition: end_first_pass(), or evaluate(), which does the same.
+  const CablePaths& cables() const { return cables_; }
+  void end_first_pass() { cables_.finish(); }
 
   /// Second pass: segment `segment` of the span, whose history is `row` of `history`. Call for segments in
   /// order.

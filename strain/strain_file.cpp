@@ -36,8 +36,7 @@ class MotionReader {
       : file_(file),
         lengths_(file.read<double>("/segment/length")),
         samples_(file.rows("/time")),
-        step_(samples_ > 1 ? file.read<double>("/time")[1] - file.read<double>("/time")[0]
-                           : 1 / job.simulation.sample_rate),
+        step_(step_of(file, job)),
         gravity_(job.simulation.gravity) {
     if (lengths_.empty()) return;
     spans_ = pipeline::motion_spans(file);
@@ -87,6 +86,13 @@ class MotionReader {
   }
 
  private:
+  static double step_of(const FileReader& file, const pipeline::Job& job) {
+    std::vector<double> two;
+    if (file.rows("/time") < 2) return 1 / job.simulation.sample_rate;
+    file.read_rows("/time", 0, 2, two);
+    return two[1] - two[0];
+  }
+
   /// Gravity less acceleration in each segment's frame; the first and the last sample have their neighbour's
   /// acceleration.
   void measure_pull(std::size_t first, std::size_t count, const std::vector<double>& orientation,
@@ -212,6 +218,9 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
                   [](double length) { return !(length > 0); }))
     throw pipeline::InputError(motion.where(), "has a segment whose rest length is not above 0",
                                "run dresslife-sim again");
+  if (!(reader.step() > 0))
+    throw pipeline::InputError(motion.where(), "has a second sample that is not later than the first",
+                               "run dresslife-sim again");
   if (reader.spans().back().dresspack + 1 != job.dresspacks.size())
     throw pipeline::InputError(motion.where(),
                                fmt::format("holds {} dresspacks (its job has {})",
@@ -305,9 +314,9 @@ std::string force_warning(double force_share, double moment_share) {
 std::string write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   std::vector<std::string> names;
   std::vector<double> slip;
-  std::vector<std::vector<double>> tension;
+  std::vector<const std::vector<double>*> tension;
   std::vector<double> cable_moment, hose_moment;
-  double share = 0;
+  double force_share = 0, moment_share = 0;
   for (const auto& evaluation : evaluations) {
     if (!evaluation->cables_slide()) continue;
     const CablePaths& cables = evaluation->cables();
@@ -315,18 +324,14 @@ std::string write_cables(FileWriter& file, const std::vector<std::unique_ptr<Eva
       names.push_back(evaluation->name_of_cable(k));
       const std::array<double, 2> slipped = cables.grip_slip(k);
       slip.insert(slip.end(), slipped.begin(), slipped.end());
-      tension.push_back(cables.tension(k));
+      tension.push_back(&cables.tension(k));
     }
-    share = std::max(share, cables.largest_force_share());
-    if (!cables.any()) continue;
-    cable_moment.resize(cables.samples(), 0.0);
-    hose_moment.resize(cables.samples(), 0.0);
-    // of several spans the one whose cables ask most of their hose, sample by sample
-    for (std::size_t t = 0; t < cables.samples(); ++t)
-      if (cables.cable_moment()[t] >= cable_moment[t]) {
-        cable_moment[t] = cables.cable_moment()[t];
-        hose_moment[t] = cables.hose_moment()[t];
-      }
+    force_share = std::max(force_share, cables.largest_force_share());
+    // the moments of the span whose cables ask most of their hose
+    if (!cable_moment.empty() && cables.clamp_moment_share() <= moment_share) continue;
+    moment_share = cables.clamp_moment_share();
+    cable_moment = cables.cable_moment();
+    hose_moment = cables.hose_moment();
   }
   if (names.empty()) return "";
   file.set_axis("cable", names.size());
@@ -337,15 +342,13 @@ std::string write_cables(FileWriter& file, const std::vector<std::unique_ptr<Eva
   file.append("/cable/grip_slip", slip);
   std::vector<double> rows;
   for (std::size_t t = 0; t < cable_moment.size(); ++t)
-    for (const std::vector<double>& of : tension) rows.push_back(of[t]);
+    for (const std::vector<double>* of : tension) rows.push_back((*of)[t]);
   file.append("/cable/tension", rows);
   file.append("/clamp/cable_moment", cable_moment);
   file.append("/clamp/hose_moment", hose_moment);
-  file.attribute("largest_force_share", share);
-  const double most = *std::max_element(cable_moment.begin(), cable_moment.end());
-  const double carried = *std::max_element(hose_moment.begin(), hose_moment.end());
-  file.attribute("clamp_moment_share", carried > 0 ? most / carried : 0.0);
-  const std::string warning = force_warning(share, carried > 0 ? most / carried : 0);
+  file.attribute("largest_force_share", force_share);
+  file.attribute("clamp_moment_share", moment_share);
+  const std::string warning = force_warning(force_share, moment_share);
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warning;
   const CablePaths& cables = evaluations[0]->cables();
   std::vector<std::uint32_t> samples(cables.offset_samples().begin(), cables.offset_samples().end());
@@ -409,6 +412,7 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
     progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
              static_cast<double>(samples));
   });
+  for (const auto& evaluation : evaluations) evaluation->end_first_pass();
   if (any([](const auto& evaluation) { return evaluation->wants_again(); }))
     reader.run(false, [&](const MotionBlock& block) {
       each_span(block, [](Evaluation& evaluation, const SpanBlock& of_span) {

@@ -134,6 +134,12 @@ bool lies_loose(const Dresspack& dresspack, const Component& component) {
   return false;
 }
 
+const Material* find_material(const Dresspack& dresspack, std::string_view name) {
+  const auto found = std::find_if(dresspack.materials.begin(), dresspack.materials.end(),
+                                  [&](const Material& material) { return material.name == name; });
+  return found == dresspack.materials.end() ? nullptr : &*found;
+}
+
 bool is_hose_wall(const Dresspack& dresspack, std::string_view component) {
   return !dresspack.hose_material.empty() && component.starts_with(hose_wall_name) &&
          component.find_first_not_of("0123456789", hose_wall_name.size() + 1) == std::string_view::npos &&

@@ -122,6 +122,9 @@ std::optional<double> inner_radius(const Dresspack& dresspack);
 /// Whether a part of the first level lies loose: asked for, or straight in a hose.
 bool lies_loose(const Dresspack& dresspack, const Component& component);
 
+/// One of dresspack.materials by its name; null: there is none.
+const Material* find_material(const Dresspack& dresspack, std::string_view name);
+
 /// The hose's wall as a part of the dresspack: "hose 1" to "hose 16" are places around it.
 constexpr std::string_view hose_wall_name = "hose";
 /// Whether a part's path in this dresspack names a place of the hose's wall, not a wire.

@@ -27,7 +27,6 @@ struct LooseCable {
   double mass_per_length = 0;    ///< [kg/m]
   double slack = 0;              ///< length beyond the path on which it was laid in, over it
   double wall_stiffness = 1e7;   ///< k_w, of what it lies against, force per length and depth [N/m2]
-  double friction = 0;           ///< mu, Coulomb, against what it lies on
   double grip = without_limit;   ///< force at which a clamp lets it slip [N]
   /// Force per length and sideways speed that holds it [N s/m2] (README W36): at 50 mm/s friction of 0.3
   /// under 0.2 kg/m. It only decides which way the cable goes where several are open.

@@ -44,18 +44,8 @@ struct Lives {
   Shortest sites, stick, free;
 };
 
-dresslife::pipeline::Material copper_of_the_thesis() {  // S. Backman's thesis (2018), table 2
-  dresslife::pipeline::Material copper;
-  copper.youngs_modulus = 117e9;
-  copper.fatigue_strength = 983e6;
-  copper.fatigue_strength_exponent = -0.112;
-  copper.fatigue_ductility = 2.43;
-  copper.fatigue_ductility_exponent = -0.6;
-  return copper;
-}
-
 Lives lives_of(const std::vector<Slip>& slip, Stress stress) {
-  const dresslife::pipeline::Material copper = copper_of_the_thesis();
+  const dresslife::pipeline::Material copper = test_dresspacks::copper();
   dresslife::pipeline::Fatigue fatigue_settings;
   fatigue_settings.stress = stress;
   fatigue_settings.mean_stress = MeanStress::swt;
@@ -150,7 +140,7 @@ std::vector<double> plain_history(const Construction& construction, const Bundle
 
 std::vector<double> damage_of_sites(const Construction& construction, const DeformationHistory& history,
                                     Slip slip, double gate) {
-  const dresslife::fatigue::DamageCounter counter(copper_of_the_thesis(), {});
+  const dresslife::fatigue::DamageCounter counter(test_dresspacks::copper(), {});
   dresslife::fatigue::DamageCounter::Workspace workspace;
   dresslife::pipeline::Strain settings;
   settings.slip = {slip};
@@ -180,7 +170,7 @@ TEST_CASE("the damage of a wire is that of a plain reference in double precision
   dresspack.components[0].count = 2;
   const Construction construction(dresspack, Kinematics::exact);
   const DeformationHistory history = moving();
-  const dresslife::pipeline::Material copper = copper_of_the_thesis();
+  const dresslife::pipeline::Material copper = test_dresspacks::copper();
   const double default_gate = dresslife::pipeline::Strain{}.gate;
   const std::vector<double> damage = damage_of_sites(construction, history, Slip::stick, default_gate);
   const double largest = *std::max_element(damage.begin(), damage.end());
@@ -264,7 +254,7 @@ TEST_CASE("planes are judged for the wires that are damaged most") {
   Evaluation evaluation(construction, settings, std::vector<double>(segments, 2.0 / segments), samples);
   evaluation.add({history});
 
-  const dresslife::fatigue::DamageCounter counter(copper_of_the_thesis(), {});
+  const dresslife::fatigue::DamageCounter counter(test_dresspacks::copper(), {});
   dresslife::fatigue::DamageCounter::Workspace workspace;
   std::vector<double> damage;
   std::vector<std::pair<int, int>> layer_of;

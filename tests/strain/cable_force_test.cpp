@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "strain/cable_force.h"
+#include "tests/strain/dresspacks.h"
 
 using namespace dresslife;
 using strain::CableForce;
@@ -14,52 +15,18 @@ constexpr double pi = std::numbers::pi;
 
 pipeline::Dresspack copper_only() {
   pipeline::Dresspack dresspack;
-  pipeline::Material copper;
-  copper.name = "copper";
-  copper.youngs_modulus = 117e9;
-  copper.fatigue_strength = 983e6;
-  copper.fatigue_strength_exponent = -0.112;
-  copper.fatigue_ductility = 2.43;
-  copper.fatigue_ductility_exponent = -0.6;
-  copper.tensile_strength = 230e6;
-  dresspack.materials.push_back(copper);
+  dresspack.materials = {test_dresspacks::copper()};
   return dresspack;
 }
 
-pipeline::Component wires(int count, double lay_degrees = 0) {
-  pipeline::Component wire;
-  wire.name = "wire";
-  wire.material = "copper";
-  wire.count = count;
-  wire.radius = 75e-6;
-  wire.helix_radius = 0.5e-3;
-  wire.lay_angle = lay_degrees * pi / 180;
-  return wire;
-}
-
-pipeline::Component cable(std::vector<pipeline::Component> parts) {
-  pipeline::Component cable;
-  cable.name = "cable";
-  cable.radius = 5.3e-3;
-  cable.components = std::move(parts);
-  return cable;
-}
-
-/// Seven conductors of 92 wires, as in table 1 of the thesis.
-pipeline::Component signal_cable() {
-  pipeline::Component conductor = cable({wires(92, 5)});
-  conductor.name = "conductor";
-  conductor.count = 7;
-  conductor.radius = 1.175e-3;
-  conductor.helix_radius = 2.825e-3;
-  conductor.lay_angle = 25 * pi / 180;
-  return cable({conductor});
-}
+const pipeline::Component signal_cable = test_dresspacks::thesis_dresspack().components[0];
 
 }  // namespace
 
 TEST_CASE("a straight wire pulls as its cyclic curve says, and back") {
-  const CableForce force(copper_only(), cable({wires(1)}));
+  pipeline::Component one_wire = test_dresspacks::part("cable", 1, 5.3e-3, 0, 0);
+  one_wire.components = {test_dresspacks::wires("", 1, 75e-6, 0.5e-3, 0, pipeline::Hand::right)};
+  const CableForce force(copper_only(), one_wire);
   const double area = pi * 75e-6 * 75e-6, hardening = 0.112 / 0.6, K = 983e6 / std::pow(2.43, hardening);
   for (const double sigma : {1e6, 50e6, 150e6, 300e6, 500e6}) {
     const double strain = sigma / 117e9 + std::pow(sigma / K, 1 / hardening);
@@ -67,16 +34,16 @@ TEST_CASE("a straight wire pulls as its cyclic curve says, and back") {
     CHECK(force.force(-strain) == Approx(-area * sigma).epsilon(1e-10));
     CHECK(force.strain_at(area * sigma) == Approx(strain).epsilon(1e-9));
   }
-  CHECK(force.axial_stiffness() == Approx(area * 117e9));
+  CHECK(force.force(1e-9) == Approx(1e-9 * area * 117e9));
   CHECK(force.strength() == Approx(area * 230e6));
 }
 
 TEST_CASE("the thesis' cable tears at 2.4 kN, and a strain of 1.2 .. 2 % would take 3.4 .. 3.8 kN") {
-  const CableForce force(copper_only(), signal_cable());
+  const CableForce force(copper_only(), signal_cable);
   const double area = 7 * 92 * pi * 75e-6 * 75e-6;  // 11.4 mm2
   const double cosines = std::cos(25 * pi / 180) * std::cos(5 * pi / 180);
   CHECK(force.strength() == Approx(area * 230e6 * cosines));
-  CHECK(force.axial_stiffness() == Approx(area * 117e9 * std::pow(cosines, 3)));
+  CHECK(force.force(1e-9) == Approx(1e-9 * area * 117e9 * std::pow(cosines, 3)));
   // wires have cos^2 of the cable's strain, and the stress of their curve there
   const double hardening = 0.112 / 0.6, K = 983e6 / std::pow(2.43, hardening);
   for (const double strain : {0.012, 0.02}) {
@@ -88,8 +55,22 @@ TEST_CASE("the thesis' cable tears at 2.4 kN, and a strain of 1.2 .. 2 % would t
   CHECK(force.force(0.02) == Approx(3.8e3).epsilon(0.05));
 }
 
+TEST_CASE("a loose cable's own stiffness is what was measured, else its wires' in the polymer that is given or guessed") {
+  pipeline::Component cable = signal_cable;
+  const double wires = 644 * 117e9 * pi / 4 * std::pow(75e-6, 4) * std::cos(25 * pi / 180) * std::cos(5 * pi / 180);
+  const double round = 50e6 * pi / 4 * std::pow(5.3e-3, 4);
+  CHECK(CableForce(copper_only(), cable).bending_stiffness() == Approx(wires + round));
+  cable.polymer_bending_stiffness = 0.02;
+  CHECK(CableForce(copper_only(), cable).bending_stiffness() == Approx(wires + 0.02));
+  cable.measured_bending_stiffness = 0.2;
+  CHECK(CableForce(copper_only(), cable).bending_stiffness() == 0.2);
+  // of the 88.2 mm2 of its section wires of 11.4 mm2 take 12.6, since they cross it at an angle: 0.112 kg/m of copper and
+  // 0.091 of polymer
+  CHECK(CableForce(copper_only(), cable).mass_per_length() == Approx(0.203).margin(0.0005));
+}
+
 TEST_CASE("a strength that one material lacks is not known") {
   pipeline::Dresspack dresspack = copper_only();
   dresspack.materials[0].tensile_strength.reset();
-  CHECK(CableForce(dresspack, signal_cable()).strength() == 0);
+  CHECK(CableForce(dresspack, signal_cable).strength() == 0);
 }

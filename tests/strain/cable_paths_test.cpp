@@ -34,15 +34,7 @@ Dresspack thesis_hose() {
   dresspack.bending_stiffness = 25;
   dresspack.inner_diameter = 0.051;
   dresspack.core_diameter = 0.026;
-  dresslife::pipeline::Material copper;
-  copper.name = "copper";
-  copper.youngs_modulus = 117e9;
-  copper.fatigue_strength = 983e6;
-  copper.fatigue_strength_exponent = -0.112;
-  copper.fatigue_ductility = 2.43;
-  copper.fatigue_ductility_exponent = -0.6;
-  copper.tensile_strength = 230e6;
-  dresspack.materials = {copper};
+  dresspack.materials = {test_dresspacks::copper()};
   rub(dresspack.components[0].components);
   dresspack.components[0].measured_bending_stiffness = 0.2;
   return dresspack;
@@ -212,10 +204,31 @@ TEST_CASE("forces of held cables are told beside their moment on the hose") {
   for (const double moment : run.paths.cable_moment()) most = std::max(most, moment);
   CHECK(most > 100);  // [N m], of a hose that carries 25 N m2 x 1 1/m
   CHECK(*std::max_element(run.paths.hose_moment().begin(), run.paths.hose_moment().end()) < 25);
+  CHECK(run.paths.clamp_moment_share() ==
+        most / *std::max_element(run.paths.hose_moment().begin(), run.paths.hose_moment().end()));
   Dresspack with_slack = thesis_hose();
   with_slack.components[0].laying.slack = 1;
   Run loose(with_slack, Slip::free, 20, 20);
   CHECK(loose.paths.largest_force_share() < 0.2);
+}
+
+TEST_CASE("with friction along it a cable's largest force counts, wherever it is") {
+  Dresspack dresspack = held_hose();
+  dresspack.components[0].friction = 0.3;
+  dresspack.components[0].radial_line_load = 2000;  // 0.3 x 2000 N/m x 2 m: as much as its ends feel
+  Run run(dresspack, Slip::friction, 20, 20);
+  double largest = 0;
+  const CableForce& force = run.construction.layers()[0].force;
+  for (std::size_t k = 0; k < 10; ++k)
+    for (std::size_t i = 0; i < segments; ++i)
+      for (std::size_t t = 0; t < 20; ++t)
+        largest = std::max(largest, std::abs(force.force(run.strain(k, i, t))));
+  CHECK(run.paths.largest_force_share() == Approx(largest / force.strength()));
+  double ends = 0;
+  for (std::size_t k = 0; k < 10; ++k)
+    for (const std::size_t i : {std::size_t{0}, segments - 1})
+      for (std::size_t t = 0; t < 20; ++t) ends = std::max(ends, std::abs(force.force(run.strain(k, i, t))));
+  CHECK(ends < 0.99 * largest);  // else this would not tell the two apart
 }
 
 TEST_CASE("the same cables come out in blocks of any size") {

@@ -33,6 +33,19 @@ inline Component wires(const std::string& label, int count, double radius, doubl
   return component;
 }
 
+/// Of the thesis' table 2, with the strength of annealed wire.
+inline dresslife::pipeline::Material copper() {
+  dresslife::pipeline::Material copper;
+  copper.name = "copper";
+  copper.youngs_modulus = 117e9;
+  copper.fatigue_strength = 983e6;
+  copper.fatigue_strength_exponent = -0.112;
+  copper.fatigue_ductility = 2.43;
+  copper.fatigue_ductility_exponent = -0.6;
+  copper.tensile_strength = 230e6;
+  return copper;
+}
+
 /// The welding dresspack of the thesis' table 1, all wire layers.
 inline Dresspack thesis_dresspack() {
   Component conductor = part("conductor", 7, 0.001175, 0.002825, 25);

@@ -32,7 +32,7 @@ Eigen::Vector3d rate_at(std::size_t t) {
 }
 
 /// A dresspack that bends and twists uniformly, in samples of motion.h5.
-void write_motion(const std::filesystem::path& name, std::size_t count = samples) {
+void write_motion(const std::filesystem::path& name, std::size_t count = samples, double step = 0.04) {
   FileWriter file(name, pipeline::motion_format());
   file.set_axis("segment", segments);
   file.set_axis("clamp", 2);
@@ -60,7 +60,7 @@ void write_motion(const std::filesystem::path& name, std::size_t count = samples
       advance(i + 1 < segments ? l : l / 2);
     }
     put(clamp_position, clamp_orientation);
-    file.append("/time", std::vector<double>{0.04 * t});
+    file.append("/time", std::vector<double>{step * t});
     file.append("/segment/position", position);
     file.append("/segment/orientation", orientation);
     file.append("/clamp/position", clamp_position);
@@ -211,6 +211,10 @@ TEST_CASE("a motion without samples or a dresspack without wires is refused in w
   CHECK_THAT(
       pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
       Catch::Contains("holds no samples"));
+  write_motion(scratch / "motion.h5", 3, 0);
+  CHECK_THAT(
+      pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
+      Catch::Contains("not later than the first"));
   write_motion(scratch / "motion.h5");
   pipeline::Job bare = job_with();
   bare.dresspacks[0].dresspack.components.clear();
