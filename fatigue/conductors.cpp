@@ -35,6 +35,8 @@ Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
   Conductors result;
   std::unordered_map<std::string, std::size_t> known;
   const std::vector<std::size_t> worst = worst_site_of_wires(all, component);
+  result.of_component.assign(worst.size(), no_site);
+  result.wire_of_component.assign(worst.size(), 0);
   for (std::size_t wire = 0; wire < worst.size(); ++wire) {
     if (worst[wire] == no_site) continue;  // the hose's wall
     const std::string path = conductor_of(component.values[wire], layer_names);
@@ -44,11 +46,30 @@ Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
       result.bundle.emplace_back();
       result.worst.push_back(worst[wire]);
     }
+    result.of_component[wire] = entry->second;
+    result.wire_of_component[wire] = result.bundle[entry->second].damage.size();
     result.bundle[entry->second].damage.push_back(all.damage[worst[wire]]);
     std::size_t& leader = result.worst[entry->second];
     if (all.worse(worst[wire], leader)) leader = worst[wire];
   }
   return result;
+}
+
+std::vector<PlacesOfConductor> places_of(const SiteDamage& all, const TextColumn& component, const Conductors& conductors,
+                                         std::size_t segments,
+                                         const std::function<std::size_t(std::size_t)>& segment_of) {
+  std::vector<PlacesOfConductor> places;
+  for (const Bundle& bundle : conductors.bundle)
+    places.push_back({std::vector<double>(bundle.damage.size() * segments, 0.0)});
+  for (std::size_t site = 0; site < all.damage.size(); ++site) {
+    const auto wire = static_cast<std::size_t>(component.index[site]);
+    const std::size_t conductor = conductors.of_component[wire];
+    if (conductor == no_site || !all.is_wire(site)) continue;
+    const std::size_t wires = conductors.bundle[conductor].damage.size();
+    double& damage = places[conductor].damage[segment_of(site) * wires + conductors.wire_of_component[wire]];
+    damage = std::max(damage, all.damage[site]);
+  }
+  return places;
 }
 
 std::vector<double> sharing_rates(std::size_t wires, const std::function<double(double)>& scaled_damage) {
@@ -60,25 +81,29 @@ std::vector<double> sharing_rates(std::size_t wires, const std::function<double(
   return rates;
 }
 
-LifeScatter life_scatter(const Conductors& conductors, const pipeline::Fatigue& settings) {
+LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesOfConductor>& places,
+                         std::size_t segments, const pipeline::Fatigue& settings) {
   LifeScatter result;
-  std::vector<double> all_wires;
-  for (const Bundle& bundle : conductors.bundle)
-    all_wires.insert(all_wires.end(), bundle.damage.begin(), bundle.damage.end());
-  for (std::size_t i = 0; i < percentiles.size(); ++i)
-    result.first_wire[i] = life_until(all_wires, 1, settings.scatter_log10, percentiles[i]);
+  const Scatter scatter{settings.scatter_log10, settings.scatter_shared};
+  std::vector<std::vector<double>> wires;  // (dresspack)
+  for (const Bundle& bundle : conductors.bundle) {
+    if (bundle.dresspack >= wires.size()) wires.resize(bundle.dresspack + 1);
+    std::vector<double>& its = wires[bundle.dresspack];
+    its.insert(its.end(), bundle.damage.begin(), bundle.damage.end());
+  }
+  result.first_wire = first_wire_lives(wires, scatter);
+  result.first_place = first_place_lives(places, conductors.bundle, segments, settings.failed_wires_percent, scatter,
+                                         sharing_draws);
+  result.place = median_place_lives(places, conductors.bundle, segments, settings.failed_wires_percent);
   if (settings.load_sharing) {
-    SharedLives shared =
-        shared_lives(conductors.bundle, settings.failed_wires_percent, settings.scatter_log10, sharing_draws);
+    SharedLives shared = shared_lives(conductors.bundle, settings.failed_wires_percent, scatter, sharing_draws);
     result.conductor = std::move(shared.conductor);
     result.first_conductor = shared.first_conductor;
     return result;
   }
   for (const Bundle& bundle : conductors.bundle)
-    result.conductor.push_back(
-        conductor_lives(bundle, settings.failed_wires_percent, settings.scatter_log10));
-  result.first_conductor =
-      first_conductor_lives(conductors.bundle, settings.failed_wires_percent, settings.scatter_log10);
+    result.conductor.push_back(conductor_lives(bundle, settings.failed_wires_percent, scatter));
+  result.first_conductor = first_conductor_lives(conductors.bundle, settings.failed_wires_percent, scatter);
   return result;
 }
 

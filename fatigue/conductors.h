@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fatigue/places.h"
 #include "fatigue/scatter.h"
 #include "fatigue/strain_file.h"
 #include "fatigue/verdict.h"
@@ -20,12 +21,19 @@ struct Conductors {
   std::vector<std::string> path;   ///< (conductor) in order of appearance
   std::vector<Bundle> bundle;      ///< (conductor)
   std::vector<std::size_t> worst;  ///< (conductor) its site with the largest damage
+  /// (component) the conductor that a wire lies in, no_site for the hose's wall; and which of its wires it is.
+  std::vector<std::size_t> of_component, wire_of_component;
 };
 
 /// All wires of a set of sites; component (site) names each one's wire. A wire's damage is that of its worst
 /// site.
 Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
                          const std::vector<std::string>& layer_names);
+
+/// Damage of all wires everywhere, (conductor). segment_of(site) < segments.
+std::vector<PlacesOfConductor> places_of(const SiteDamage& all, const TextColumn& component, const Conductors& conductors,
+                                         std::size_t segments,
+                                         const std::function<std::size_t(std::size_t)>& segment_of);
 
 /// (F16) With k of n wires broken the rest strain n/(n-k) times as much; rate[k] is the damage then, over the
 /// damage before, of the conductor's worst wire, whose damage under a scaled history is
@@ -36,9 +44,12 @@ std::vector<double> sharing_rates(std::size_t wires, const std::function<double(
 /// Percentiles of the life of one kind.
 struct LifeScatter {
   Percentiles first_wire, first_conductor;  ///< of the whole dresspack
+  FirstPlace first_place;                   ///< the planner's: one that lost its share at one place
   std::vector<FailureLives> conductor;      ///< (conductor)
+  std::vector<double> place;                ///< (conductor) median_place_lives()
 };
 /// Lives in repeats. Precondition for load_sharing: bundles with rates.
-LifeScatter life_scatter(const Conductors& conductors, const pipeline::Fatigue& settings);
+LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesOfConductor>& places,
+                         std::size_t segments, const pipeline::Fatigue& settings);
 
 }  // namespace dresslife::fatigue

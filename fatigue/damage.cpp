@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "fatigue/log_table.h"
+#include "fatigue/relaxation.h"
 #include "fatigue/stress_path.h"
 
 namespace dresslife::fatigue {
@@ -27,9 +28,17 @@ std::vector<Reversal> numbered(std::span<const Reversal> path) {
   return result;
 }
 
+/// What goes from the stress of a whole history when `share` of its offset is left (F22): the middle of its outermost
+/// loop, whose tips are its largest and its smallest strain.
+double relaxed_by(std::span<const Reversal> path, std::span<const double> stress, double share) {
+  const auto [low, high] = std::minmax_element(
+      path.begin(), path.end(), [](const Reversal& a, const Reversal& b) { return a.strain < b.strain; });
+  return (1 - share) * (stress[low - path.begin()] / 2 + stress[high - path.begin()] / 2);
+}
+
 /// Cycles with the stress from curve(strain >= 0) under Masing's rule and damage(eps_a, s_max, s_m).
 template <class Curve, class Damage>
-std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Counting counting,
+std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Counting counting, double share,
                                        const Curve& curve, const Damage& damage) {
   if (reversals.empty()) return {};
   const bool repeating = is_repeated(counting);
@@ -38,6 +47,8 @@ std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Coun
   MemoryPath memory(curve);
   std::vector<double> stress;
   for (const Reversal& r : path) stress.push_back(memory.go_to(r.strain));
+  if (repeating && share != 1)
+    for (const double gone = relaxed_by(path, stress, share); double& s : stress) s -= gone;
   const std::vector<Reversal> positions = numbered(path);
 
   std::vector<DamagingCycle> result;
@@ -56,11 +67,11 @@ std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Coun
 
 std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
                                            const pipeline::Material& material,
-                                           const pipeline::Fatigue& settings) {
+                                           const pipeline::Fatigue& settings, double share) {
   if (!material.strain_life_table.empty()) {
     const StrainLifeTable table(material.strain_life_table);
     return list_cycles(
-        reversals, settings.counting, [&](double strain) { return material.youngs_modulus * strain; },
+        reversals, settings.counting, 1, [&](double strain) { return material.youngs_modulus * strain; },
         [&](double amplitude, double, double) {
           return amplitude <= settings.endurance_strain ? 0 : table.damage(amplitude);
         });
@@ -70,7 +81,7 @@ std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
   const auto curve = [&](double strain) {
     return yields(settings.stress) ? cyclic.stress(strain) : material.youngs_modulus * strain;
   };
-  return list_cycles(reversals, settings.counting, curve,
+  return list_cycles(reversals, settings.counting, share, curve,
                      [&](double amplitude, double stress_max, double stress_mean) {
                        return life.damage({amplitude, stress_max, stress_mean});
                      });
@@ -358,11 +369,16 @@ double sum_half_cycles(std::span<const float> strains, const Range& stress_range
   return sum;
 }
 
+/// The outermost loop's offset and half its range of stress, with the largest strain taken for tension.
+struct OuterLoop {
+  double offset, half_range;
+};
+
 }  // namespace
 
 struct DamageCounter::Tables {
   Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set)
-      : material(m), settings(f), lockstep(lockstep_for(set)) {
+      : material(m), settings(f), relaxation(m, f), lockstep(lockstep_for(set)) {
     if (m.strain_life_table.empty()) {
       metal.emplace(m, f);
     } else {
@@ -373,9 +389,17 @@ struct DamageCounter::Tables {
   template <class Use>
   auto with_functions(const Use& use) const;
   void fill_side_by_side();
+  double stress_range(double range) const {
+    return metal && yields(settings.stress) ? metal->branch(range) : material.youngs_modulus * range;
+  }
+  template <class Rule>
+  double first_stress(double largest, double range, double share) const;
+  template <class Rule>
+  double expected_share(double largest, double range, const OuterLoop& loop) const;
 
   pipeline::Material material;
   pipeline::Fatigue settings;
+  Relaxation relaxation;
   std::optional<MetalTables> metal;  // one of the two
   std::optional<StrainLifeTable> measured;
   const Lockstep& lockstep;
@@ -411,6 +435,31 @@ auto DamageCounter::Tables::with_functions(const Use& use) const {
   return with_damage([modulus = material.youngs_modulus](double range) { return modulus * range; });
 }
 
+/// (F22) at the largest strain.
+template <class Rule>
+double DamageCounter::Tables::first_stress(double largest, double range, double share) const {
+  const double kept = stress_range(2 * std::fabs(largest)) / 2;
+  if (share == 1) return kept;
+  const double relaxed = stress_range(range) / 2;
+  if (share < 0) share = expected_share<Rule>(largest, range, {kept - relaxed, relaxed});
+  return relaxed + share * (kept - relaxed);
+}
+
+/// Of a life that the outermost loop alone would have, once in every repeat. Other loops shorten it, by a tenth or by
+/// ten; the share changes by that to the power r.
+template <class Rule>
+double DamageCounter::Tables::expected_share(double largest, double range, const OuterLoop& loop) const {
+  if (relaxation.complete()) return 0;
+  const double exponent = relaxation.exponent(range / 2);
+  if (exponent == 0) return 1;
+  if (range / 2 <= settings.endurance_strain) return 0;
+  const double offset = std::copysign(loop.offset, largest);
+  const double life = rough_relaxing_life(std::exp(exponent * std::log(10)), std::exp(exponent * std::log(5.5)), [&](double share) {
+    return Rule::damage(*metal, range / 2, loop.half_range + share * offset, share * offset);
+  });
+  return mean_share(life, exponent);
+}
+
 /// Tables are read side by side; what is none, one load at a time.
 void DamageCounter::Tables::fill_side_by_side() {
   LockstepTables& to = side_by_side;
@@ -431,6 +480,10 @@ void DamageCounter::Tables::fill_side_by_side() {
     return;
   }
   with_rule(settings.mean_stress, [&](auto rule) {
+    if (!relaxation.never())
+      to.first_stress = [](const void* self, double largest, double range, double share) {
+        return static_cast<const Tables*>(self)->first_stress<decltype(rule)>(largest, range, share);
+      };
     if (rule.read(*metal, to)) return;
     to.damage_of = [](const void* self, double amplitude, double max, double mean) {
       return decltype(rule)::damage(*static_cast<const Tables*>(self)->metal, amplitude, max, mean);
@@ -457,13 +510,13 @@ void DamageCounter::operator()(std::span<const StrainList> histories, std::span<
     for (std::size_t k = 0; amiss >> k != 0; ++k)
       if (amiss >> k & 1) {
         const std::vector<float> period = alternating_period({group[k].strain, group[k].size});
-        damage[first + k] = (*this)(period, workspace);
+        damage[first + k] = (*this)(period, workspace, group[k].share);
       }
   }
 }
 
-double DamageCounter::operator()(std::span<const float> strains, Workspace& workspace) const {
-  const StrainList list{strains.data(), strains.size()};
+double DamageCounter::operator()(std::span<const float> strains, Workspace& workspace, double share) const {
+  const StrainList list{strains.data(), strains.size(), share};
   double damage = 0;
   (*this)(std::span(&list, 1), std::span(&damage, 1), workspace);
   return damage;
@@ -480,13 +533,45 @@ double DamageCounter::damage_once(const StrainList& list, Workspace& workspace) 
   std::vector<Reversal> reversals;
   for (const float strain : strains)
     reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});
-  return sum_of_damage(cycles(reversals));
+  return sum_of_damage(cycles(reversals, 1));
 }
 
-std::vector<DamagingCycle> DamageCounter::cycles(std::span<const Reversal> reversals) const {
+bool DamageCounter::settles() const {
+  return tables_->side_by_side.first_stress != nullptr && !tables_->relaxation.complete();
+}
+
+namespace {
+
+double amplitude_of(std::span<const float> strains) {
+  if (strains.empty()) return 0;
+  const auto [low, high] = std::minmax_element(strains.begin(), strains.end());
+  return (double{*high} - double{*low}) / 2;
+}
+
+}  // namespace
+
+double DamageCounter::settled_damage(std::span<const float> strains, Workspace& workspace) const {
+  if (!settles()) return (*this)(strains, workspace);
+  std::vector<StrainList> lists;
+  const double life = relaxing_life(tables_->relaxation.exponent(amplitude_of(strains)),
+                                    [&](std::span<const double> share, std::span<double> damage) {
+                                      lists.clear();
+                                      for (const double left : share)
+                                        lists.push_back({strains.data(), strains.size(), left});
+                                      (*this)(lists, damage, workspace);
+                                    });
+  return 1 / life;
+}
+
+double DamageCounter::share_over(double repeats, std::span<const float> strains) const {
+  if (tables_->relaxation.never()) return 1;
+  return settles() ? mean_share(repeats, tables_->relaxation.exponent(amplitude_of(strains))) : 0;
+}
+
+std::vector<DamagingCycle> DamageCounter::cycles(std::span<const Reversal> reversals, double share) const {
   return tables_->with_functions([&](const auto& stress_range, const auto& damage) {
     const auto curve = [&](double strain) { return stress_range(2 * strain) / 2; };
-    return list_cycles(reversals, tables_->settings.counting, curve, damage);
+    return list_cycles(reversals, tables_->settings.counting, share, curve, damage);
   });
 }
 

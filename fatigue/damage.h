@@ -3,7 +3,8 @@
 // Two evaluations of the same model: evaluate_cycles() lists every cycle with its stress and damage, exact;
 // DamageCounter sums a history's damage from tables, for the millions of histories of a dresspack.
 // Assumptions: damage adds up linearly, in any order; the repeated history starts from the largest |strain|
-// on the cyclic curve (README.md, F4), so that each repeat is like the one before.
+// on the cyclic curve (README.md, F4), and from there the stress that it is off centre by may relax (relaxation.h),
+// so that each repeat is nearly like the one before.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +29,10 @@ struct DamagingCycle {
 };
 
 /// Every cycle of a history under `settings.counting`, in the order in which they close; exact stress and
-/// life.
+/// life. Of the stress that a repeated history is off centre by (F22) `share` is left.
 std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
                                            const pipeline::Material& material,
-                                           const pipeline::Fatigue& settings);
+                                           const pipeline::Fatigue& settings, double share = 1);
 
 /// (10) over listed cycles.
 double sum_of_damage(std::span<const DamagingCycle> cycles);
@@ -65,21 +66,30 @@ class DamageCounter {
     std::vector<std::uint32_t> open;
     std::vector<LockstepLine> lines;
   };
-  /// Damage per repeat of the history with these reversal strains. Relative difference from the sum over
+  /// Damage per repeat of the history with these reversal strains; where its mean stress relaxes, with the share of the
+  /// offset that is expected over its life, or with the `share` that is given. Relative difference from the sum over
   /// evaluate_cycles(): below `table_error` for b <= -0.05.
-  double operator()(std::span<const float> strains, Workspace& workspace) const;
+  double operator()(std::span<const float> strains, Workspace& workspace,
+                    double share = StrainList::expected_share) const;
   static constexpr double table_error = 1e-5;
   /// The same of many histories, (history): several times as fast. Each one's damage is the same whatever the
   /// others are.
   void operator()(std::span<const StrainList> histories, std::span<double> damage,
                   Workspace& workspace) const;
 
+  /// Whether the mean over a life is another than operator() gives: where the offset falls from repeat to repeat.
+  bool settles() const;
+  /// 1 / life (F23): what operator() gives but where the offset falls.
+  double settled_damage(std::span<const float> strains, Workspace& workspace) const;
+  /// Mean share of the offset over a life of so many repeats.
+  double share_over(double repeats, std::span<const float> strains) const;
+
   /// Whether rises and falls must alternate: where the history is counted once, as half cycles.
   bool must_alternate() const;
 
   /// The history's cycles with stress and damage by the same tables, in the order in which they close. Their
-  /// sum is what operator() gives, to rounding.
-  std::vector<DamagingCycle> cycles(std::span<const Reversal> reversals) const;
+  /// sum is what operator() gives with this share, to rounding.
+  std::vector<DamagingCycle> cycles(std::span<const Reversal> reversals, double share = 1) const;
 
  private:
   double damage_once(const StrainList& strains, Workspace& workspace) const;

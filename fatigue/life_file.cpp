@@ -69,18 +69,35 @@ struct Context {
     return site == no_site ? 0 : dresspack[static_cast<std::size_t>(sites.segment(site))];
   }
 
+  /// Along its dresspack [m].
+  double from_tool(std::size_t segment) const {
+    const auto [first, end] = segments_of(dresspack[segment]);
+    return position_from_tool({segment_length.begin() + static_cast<std::ptrdiff_t>(first),
+                               segment_length.begin() + static_cast<std::ptrdiff_t>(end)},
+                              segment - first);
+  }
   double repeat_seconds() const { return time.empty() ? 0 : time.back() - time.front(); }
   const std::string* step_at(std::size_t sample) const {
     return step[sample] < 0 ? nullptr : &step_text[step[sample]];
   }
   /// They add up to the site's damage, also where that is another one's ratio (F21).
+  /// Where mean stress relaxes, with what is left of it in the mean of its life.
   std::vector<DamagingCycle> cycles_of(std::size_t site) const {
     if (site == no_site) return {};
-    std::vector<DamagingCycle> cycles = counters.of(site).cycles(reversals_of(site));
-    if (planes && !planes->empty() && !planes->of(site))
+    const double share = offset_share(site);
+    std::vector<DamagingCycle> cycles = counters.of(site).cycles(reversals_of(site), share);
+    if (share < 1 || (planes && !planes->empty() && !planes->of(site)))
       if (const double counted = sum_of_damage(cycles); counted > 0)
         for (DamagingCycle& cycle : cycles) cycle.damage *= damage.damage[site] / counted;
     return cycles;
+  }
+  double offset_share(std::size_t site) const {
+    return counters.of(site).share_over(life_in_repeats(damage.damage[site]), strains_of(site));
+  }
+  std::vector<float> strains_of(std::size_t site) const {
+    std::vector<float> strains;
+    for (const Reversal& reversal : reversals_of(site)) strains.push_back(static_cast<float>(reversal.strain));
+    return strains;
   }
   /// Of the strain that the site was judged by.
   std::vector<Reversal> reversals_of(std::size_t site) const {
@@ -235,12 +252,12 @@ void write_layers(const Context& c) {
 std::vector<double> sharing_rates_of(const Context& c, std::size_t worst, std::size_t wires) {
   const DamageCounter& counter = c.counters.of(worst);
   DamageCounter::Workspace workspace;
-  std::vector<float> strains, scaled;
-  for (const Reversal& r : c.reversals_of(worst)) strains.push_back(static_cast<float>(r.strain));
+  const std::vector<float> strains = c.strains_of(worst);
+  std::vector<float> scaled;
   return sharing_rates(wires, [&](double factor) {
     scaled.clear();
     for (const float strain : strains) scaled.push_back(static_cast<float>(factor * strain));
-    return counter(scaled, workspace);
+    return counter.settled_damage(scaled, workspace);
   });
 }
 
@@ -249,9 +266,10 @@ Conductors loaded_conductors(const Context& c) {
   for (const pipeline::MountedDresspack& mounted : c.job.dresspacks)
     for (const std::string& layer : layer_names(mounted.dresspack)) layers.push_back(layer);
   Conductors conductors = conductors_of(c.damage, c.component, layers);
-  for (std::size_t k = 0; c.job.fatigue.load_sharing && k < conductors.path.size(); ++k) {
+  for (std::size_t k = 0; k < conductors.path.size(); ++k) {
     Bundle& bundle = conductors.bundle[k];
-    bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
+    bundle.dresspack = c.dresspack_of(conductors.worst[k]);
+    if (c.job.fatigue.load_sharing) bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
   }
   return conductors;
 }
@@ -268,12 +286,24 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   put(c.life, "/conductor/wires", wires);
   put(c.life, "/conductor/worst_site", as_index(conductors.worst));
   put(c.life, "/conductor/life", lives);
+  put(c.life, "/conductor/place_life", scatter.place);
   const std::array<const char*, percentiles.size()> ends{"p10", "p50", "p90"};
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    c.life.attribute(fmt::format("life_hours_{}", ends[i]), hours(scatter.first_wire[i], c.repeat_seconds()));
+    c.life.attribute(fmt::format("life_hours_{}", ends[i]), hours(scatter.first_place.lives[i], c.repeat_seconds()));
+    c.life.attribute(fmt::format("first_wire_life_hours_{}", ends[i]),
+                     hours(scatter.first_wire[i], c.repeat_seconds()));
     c.life.attribute(fmt::format("conductor_life_hours_{}", ends[i]),
                      hours(scatter.first_conductor[i], c.repeat_seconds()));
   }
+}
+
+/// The planner's place beside the lives; where no conductor can fail it has no name.
+void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first) {
+  const double p10 = hours(first.lives[0], c.repeat_seconds());
+  c.life.attribute("life_months_p10", months(p10, c.job.fatigue.operating_hours_per_week));
+  const bool known = first.conductor < conductors.path.size();
+  c.life.attribute("failing_conductor", known ? conductors.path[first.conductor] : "");
+  c.life.attribute("failing_position_from_tool", known ? c.from_tool(first.segment) : 0.0);
 }
 
 /// The whole strain history of the worst wire; empty where only its turning points are known.
@@ -380,10 +410,8 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   worst.life_hours = hours(worst.repeats, c.repeat_seconds());
   worst.life_months = months(worst.life_hours, c.job.fatigue.operating_hours_per_week);
   const std::size_t segment = c.sites.segment(site);
-  const auto [first, end] = c.segments_of(c.dresspack[segment]);
-  worst.segment_from_tool = double(end - segment);
-  worst.position_from_tool =
-      position_from_tool({c.segment_length.begin() + first, c.segment_length.begin() + end}, segment - first);
+  worst.segment_from_tool = double(c.segments_of(c.dresspack[segment]).end - segment);
+  worst.position_from_tool = c.from_tool(segment);
   worst.component = c.component[site];
   const auto most = std::max_element(cycles.begin(), cycles.end(),
                                      [](const auto& a, const auto& b) { return a.damage < b.damage; });
@@ -399,8 +427,24 @@ void copy_forces(const Context& c) {
     if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
 }
 
+/// What mean stress makes of the worst wire's life: the same history with all of it for ever, and with none.
+void write_mean_stress(const Context& c) {
+  if (c.worst == no_site) return;
+  const pipeline::Material& material = pipeline::material_of(c.job, c.sites.material()[c.worst]);
+  pipeline::Fatigue without = c.job.fatigue;
+  without.mean_stress = pipeline::MeanStress::none;
+  const std::vector<Reversal> reversals = c.reversals_of(c.worst);
+  const auto told = [&](const pipeline::Fatigue& settings) {
+    const double damage = sum_of_damage(evaluate_cycles(reversals, material, settings));
+    return hours(life_in_repeats(damage), c.repeat_seconds());
+  };
+  c.life.attribute("life_hours_mean_stress_kept", told(c.job.fatigue));
+  c.life.attribute("life_hours_without_mean_stress", told(without));
+  c.life.attribute("mean_stress_left", c.offset_share(c.worst));
+}
+
 /// The worst wire's life, place and moment. Returns the summary for the terminal.
-std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles) {
+std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles, const FirstPlace& planned) {
   const Worst worst = worst_of(c, c.worst, cycles);
   c.life.attribute("life_repeats", worst.repeats);
   c.life.attribute("life_hours", worst.life_hours);
@@ -413,13 +457,20 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
   c.life.attribute("worst_time", worst.time);
   c.life.attribute("worst_component", worst.component);
   c.life.attribute("worst_step", worst.step);
+  write_mean_stress(c);
   copy_forces(c);
   if (c.worst == no_site) return "no wire was evaluated";
   if (worst.damage == 0) return "no wire is damaged";
-  return fmt::format("{} h ({} repeats, {} months) until {} breaks, {:.2f} m from the tool{}",
-                     pipeline::readable(worst.life_hours), pipeline::readable(worst.repeats),
-                     pipeline::readable(worst.life_months), worst.component, worst.position_from_tool,
-                     worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
+  const double p10 = hours(planned.lives[0], c.repeat_seconds());
+  return fmt::format(
+      "{} ({} months) until 10 % of such dresspacks have a conductor {} at one place; worst wire: {} h ({} "
+      "repeats) until {} breaks, {:.2f} m from the tool{}",
+      std::isinf(p10) ? "for ever" : pipeline::readable(p10) + " h",
+      pipeline::readable(months(p10, c.job.fatigue.operating_hours_per_week)),
+      c.job.fatigue.failed_wires_percent > 0 ? fmt::format("without {:g} % of its wires", c.job.fatigue.failed_wires_percent)
+                                             : "with a broken wire",
+      pipeline::readable(worst.life_hours), pipeline::readable(worst.repeats), worst.component, worst.position_from_tool,
+      worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
 }
 
 /// The hose's wall beside the wires. Returns what the terminal is told; nothing without a wall.
@@ -456,6 +507,22 @@ bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
                      [&](pipeline::Slip own) { return own == slip; });
 }
 
+SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextColumn& component,
+                           const std::function<void(double)>& progress) {
+  const SiteCounters counters(sites, component, c.job);
+  SiteDamage damage = damage_of(sites, counters, c.threads, progress);
+  settle(
+      damage, counters, c.segment_length.size(),
+      [&](std::size_t site) { return static_cast<std::size_t>(sites.segment(site)); },
+      [&](std::size_t site) {
+        std::vector<float> strains;
+        for (const Reversal& reversal : sites.reversals_of(site)) strains.push_back(static_cast<float>(reversal.strain));
+        return strains;
+      },
+      c.threads);
+  return damage;
+}
+
 void write_bound(const Context& c, const std::string& name, pipeline::Slip slip,
                  const std::function<void(double)>& progress) {
   const SiteSet sites(c.strain, "/bound_" + name);
@@ -464,8 +531,7 @@ void write_bound(const Context& c, const std::string& name, pipeline::Slip slip,
                                "make the file anew with dresslife-strain");
   }
   const TextColumn component = read_column(c.strain, "/bound_" + name + "/site/component");
-  const SiteDamage damage =
-      is_own_slip(c.job, slip) ? c.damage : damage_of(sites, {sites, component, c.job}, c.threads, progress);
+  const SiteDamage damage = is_own_slip(c.job, slip) ? c.damage : damage_of_bound(c, sites, component, progress);
   const std::size_t worst = damage.worst_wire();
   const double repeats = life_in_repeats(worst == no_site ? 0 : damage.damage[worst]);
   c.life.attribute("life_repeats_all_" + name, repeats);
@@ -496,16 +562,19 @@ void write_shear(const Context& c) {
   c.life.attribute("worst_shear_range", *high - *low);
 }
 
-/// Judges the planes, where the strain file asks for it, in the place of the equivalent strain.
-void judge_planes(Context& c) {
+/// Judges the planes, where the strain file asks for it, in the place of the equivalent strain; then lets mean stress
+/// relax over each site's life.
+void judge(Context& c) {
   c.planes.emplace(c.strain, c.sites, c.counters, c.job, c.threads);
-  if (c.planes->empty()) return;
   const Layers layers = layers_of(c);
-  const std::size_t of_segment = layers.name.size();
-  c.planes->apply(c.damage, of_segment * c.segment_length.size(), [&](std::size_t site) {
+  const std::size_t of_segment = layers.name.size(), groups = of_segment * c.segment_length.size();
+  const auto group_of = [&](std::size_t site) {
     const std::size_t layer = layers.of_component[c.component.index[site]];
     return layer == no_site ? no_site : static_cast<std::size_t>(c.sites.segment(site)) * of_segment + layer;
-  });
+  };
+  if (!c.planes->empty()) c.planes->apply(c.damage, groups, group_of);
+  settle(
+      c.damage, c.counters, groups, group_of, [&](std::size_t site) { return c.strains_of(site); }, c.threads);
 }
 
 std::vector<std::string> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
@@ -542,12 +611,17 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   check_dresspacks(c);
   // The three sets are about equally large.
   c.damage = damage_of(c.sites, c.counters, threads, [&](double share) { progress(share / 3); });
-  judge_planes(c);
+  judge(c);
   c.worst = c.damage.worst_wire();
   c.worst_wall = c.damage.worst_wall();
   const Conductors conductors = loaded_conductors(c);
   std::future<LifeScatter> scatter =
-      pipeline::beside<LifeScatter>([&] { return life_scatter(conductors, c.job.fatigue); });
+      pipeline::beside<LifeScatter>([&, segments = c.segment_length.size()] {
+        return life_scatter(conductors,
+                            places_of(c.damage, c.component, conductors, segments,
+                                      [&](std::size_t site) { return static_cast<std::size_t>(c.sites.segment(site)); }),
+                            segments, c.job.fatigue);
+      });
   write_bound(c, "stick", pipeline::Slip::stick, [&](double share) { progress((1 + share) / 3); });
   write_bound(c, "free", pipeline::Slip::free, [&](double share) { progress((2 + share) / 3); });
   const auto cycles = c.cycles_of(c.worst);
@@ -556,11 +630,13 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_segments(c);
   write_dresspacks(c);
   write_layers(c);
-  write_scatter(c, conductors, scatter.get());
+  const LifeScatter lives = scatter.get();
+  write_scatter(c, conductors, lives);
+  write_first_place(c, conductors, lives.first_place);
   write_shear(c);
   write_program(c, cycles);
   write_causes(c, cycles, write_worst_strain(c));
-  const std::string summary = write_worst(c, cycles);
+  const std::string summary = write_worst(c, cycles, lives.first_place);
   return {warnings_of(c, cycles), summary + write_hose(c)};
 }
 

@@ -3,41 +3,17 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <numbers>
+
+#include "fatigue/life_distribution.h"
 
 namespace dresslife::fatigue {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double farthest = 9;          // standard deviations: beyond lies 1e-19 of all wires
-constexpr double log_accuracy = 1e-10;  // of ln life
-
-std::vector<double> medians(std::span<const double> damage) {
-  std::vector<double> lives;
-  for (const double d : damage) {
-    if (d > 0) lives.push_back(1 / d);
-  }
-  std::sort(lives.begin(), lives.end());
-  return lives;
-}
-
-/// Where a probability that grows with time passes `share`.
-double bisect(double low, double high, double share, const std::function<double(double)>& probability) {
-  double a = std::log(low), b = std::log(high);
-  while (b - a > log_accuracy) {
-    const double middle = (a + b) / 2;
-    (probability(std::exp(middle)) < share ? a : b) = middle;
-  }
-  return std::exp((a + b) / 2);
-}
-
-std::vector<double> shares_at(double time, std::span<const double> lives, double scatter) {
-  std::vector<double> shares;
-  for (const double life : lives) shares.push_back(broken_share(time, life, scatter));
-  return shares;
-}
 
 /// The life at which a share of the draws (sorted) has failed.
 double quantile(const std::vector<double>& sorted, double share) {
@@ -67,20 +43,35 @@ std::uint64_t mixed(std::uint64_t x) {  // splitmix64 (Steele, Lea and Flood 201
 /// Uniform in (0, 1).
 double uniform_of(std::uint64_t bits) { return (double(bits >> 11) + 0.5) * 0x1p-53; }
 
-/// Lives at which 1, 2, ... wires of a conductor have broken in one draw, (wire).
-void draw_breaks(const Bundle& bundle, std::uint64_t first_stream, std::uint64_t draw, double scatter,
-                 std::vector<double>& breaks) {
+/// log10 of the factor that all wires of a dresspack have in common in a draw; their streams count from 0 up.
+double common_of(std::size_t dresspack, std::uint64_t draw, Scatter scatter) {
+  return scatter.common() > 0 ? scatter.common() * normal_of(~std::uint64_t{dresspack}, draw) : 0;
+}
+
+/// Factors of the lives of a conductor's wires in one draw, (wire).
+void draw_factors(const Bundle& bundle, std::uint64_t first_stream, std::uint64_t draw, Scatter scatter,
+                  std::vector<double>& factors) {
+  factors.clear();
+  const double common = common_of(bundle.dresspack, draw, scatter);
+  for (std::size_t wire = 0; wire < bundle.damage.size(); ++wire)
+    factors.push_back(std::pow(10, common + scatter.own() * normal_of(first_stream + wire, draw)));
+}
+
+/// Lives at which 1, 2, ... `count` of wires with this damage have broken, (wire). rate: Bundle's.
+void order_breaks(std::span<const double> damage, std::span<const double> factors, std::span<const double> rate,
+                  std::size_t count, std::vector<double>& breaks) {
   breaks.clear();
-  for (std::size_t wire = 0; wire < bundle.damage.size(); ++wire) {
-    const double median = bundle.damage[wire] > 0 ? 1 / bundle.damage[wire] : infinity;
-    breaks.push_back(median * std::pow(10, scatter * normal_of(first_stream + wire, draw)));
-  }
-  std::sort(breaks.begin(), breaks.end());
-  if (bundle.rate.empty()) return;
+  for (std::size_t wire = 0; wire < damage.size(); ++wire)
+    breaks.push_back(damage[wire] > 0 ? factors[wire] / damage[wire] : infinity);
+  const auto last = breaks.begin() + static_cast<std::ptrdiff_t>(count);
+  if (count < breaks.size()) std::nth_element(breaks.begin(), last - 1, breaks.end());
+  std::sort(breaks.begin(), last);
+  breaks.resize(count);
+  if (rate.empty()) return;
   double before = 0, life = 0;
   for (std::size_t k = 0; k < breaks.size(); ++k) {  // (F16)
     const double next = breaks[k];
-    life += (next - before) / bundle.rate[k];
+    life += (next - before) / rate[k];
     before = next;
     breaks[k] = life;
     if (next == infinity) break;
@@ -94,85 +85,92 @@ double broken_share(double time, double median_life, double scatter_log10) {
   return std::erfc(-std::log10(time / median_life) / (scatter_log10 * std::numbers::sqrt2)) / 2;
 }
 
-// Event after event: with p the next one's probability, P(k) becomes P(k) (1-p) + P(k-1) p. Only the counts
-// below `count` are followed; what leaves them has reached it.
-double at_least(std::span<const double> probability, std::size_t count) {
-  if (count == 0) return 1;
-  std::vector<double> exactly(count, 0.0);
-  exactly[0] = 1;
-  double reached = 0;
-  for (const double p : probability) {
-    reached += exactly[count - 1] * p;
-    for (std::size_t k = count - 1; k > 0; --k) exactly[k] += p * (exactly[k - 1] - exactly[k]);
-    exactly[0] *= 1 - p;
-  }
-  return reached;
-}
-
 std::size_t wires_of_share(double percent, std::size_t wires) {
   const double count = std::ceil(percent / 100 * double(wires) * (1 - 1e-12));  // 10 % of 70 are 7, not 8
   return std::clamp<std::size_t>(static_cast<std::size_t>(count), 1, std::max<std::size_t>(wires, 1));
 }
 
-double life_until(std::span<const double> damage, std::size_t count, double scatter_log10, double share) {
+double life_until(std::span<const double> damage, std::size_t count, Scatter scatter, double share) {
   assert(count >= 1);
-  const std::vector<double> lives = medians(damage);
-  if (lives.size() < count) return infinity;
-  if (scatter_log10 == 0) return lives[count - 1];
-  const double spread = std::pow(10, farthest * scatter_log10);
-  return bisect(lives.front() / spread, lives[count - 1] * spread, share,
-                [&](double time) { return at_least(shares_at(time, lives, scatter_log10), count); });
+  const auto wires = std::make_shared<const Wires>(damage);
+  if (wires->damaged() < count) return infinity;
+  if (scatter.log10 == 0) return wires->life(count - 1);
+  return life_of_share({distribution_of(wires, count, scatter)}, share);
 }
 
-FailureLives conductor_lives(const Bundle& bundle, double failed_percent, double scatter_log10) {
+Percentiles first_wire_lives(std::span<const std::vector<double>> damage, Scatter scatter) {
+  std::vector<LifeDistribution> each;
+  double shortest = infinity;
+  for (const std::vector<double>& of_dresspack : damage) {
+    const auto wires = std::make_shared<const Wires>(of_dresspack);
+    if (wires->damaged() == 0) continue;
+    shortest = std::min(shortest, wires->life(0));
+    each.push_back(distribution_of(wires, 1, scatter));
+  }
+  Percentiles result;
+  result.fill(shortest);
+  return scatter.log10 == 0 ? result : first_of(each);
+}
+
+FailureLives conductor_lives(const Bundle& bundle, double failed_percent, Scatter scatter) {
   FailureLives lives{};
   const auto counts = counts_of(bundle, failed_percent);
+  const auto wires = std::make_shared<const Wires>(bundle.damage);
   for (std::size_t failure = 0; failure < failures; ++failure) {
-    for (std::size_t i = 0; i < percentiles.size(); ++i)
-      lives[failure][i] = life_until(bundle.damage, counts[failure], scatter_log10, percentiles[i]);
+    lives[failure].fill(infinity);
+    if (wires->damaged() < counts[failure]) continue;
+    lives[failure].fill(wires->life(counts[failure] - 1));
+    if (scatter.log10 > 0) lives[failure] = first_of({distribution_of(wires, counts[failure], scatter)});
   }
   return lives;
 }
 
-Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent,
-                                  double scatter_log10) {
-  std::vector<std::vector<double>> lives;
-  std::vector<std::size_t> counts;
-  double low = infinity, high = infinity;
+Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent, Scatter scatter) {
+  struct Conductor {
+    Wires wires;
+    std::size_t count;
+  };
+  std::map<std::size_t, std::vector<Conductor>> dresspacks;
+  double shortest = infinity;
   for (const Bundle& bundle : bundles) {
-    const std::size_t count = wires_of_share(failed_percent, bundle.damage.size());
-    std::vector<double> own = medians(bundle.damage);
-    if (own.size() < count) continue;
-    low = std::min(low, own.front());
-    high = std::min(high, own[count - 1]);
-    lives.push_back(std::move(own));
-    counts.push_back(count);
+    Conductor conductor{Wires(bundle.damage), wires_of_share(failed_percent, bundle.damage.size())};
+    if (conductor.wires.damaged() < conductor.count) continue;
+    shortest = std::min(shortest, conductor.wires.life(conductor.count - 1));
+    dresspacks[bundle.dresspack].push_back(std::move(conductor));
   }
   Percentiles result;
-  result.fill(high);
-  if (lives.empty() || scatter_log10 == 0) return result;
-  const double spread = std::pow(10, farthest * scatter_log10);
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = bisect(low / spread, high * spread, percentiles[i], [&](double time) {
-      double all_last = 1;
-      for (std::size_t k = 0; k < lives.size(); ++k)
-        all_last *= 1 - at_least(shares_at(time, lives[k], scatter_log10), counts[k]);
-      return 1 - all_last;
-    });
+  result.fill(shortest);
+  if (scatter.log10 == 0) return result;
+  const double own = scatter.own() * std::numbers::ln10;
+  std::vector<LifeDistribution> each;
+  for (const auto& [dresspack, conductors] : dresspacks) {
+    double low = infinity, high = infinity;
+    for (const Conductor& conductor : conductors) {
+      low = std::min(low, conductor.wires.log_life(own > 0 ? 0 : conductor.count - 1));
+      high = std::min(high, conductor.wires.log_life(conductor.count - 1));
+    }
+    each.emplace_back(
+        [&conductors, own, memory = std::vector<double>()](double log_time) mutable {
+          double all_last = 1;
+          for (const Conductor& conductor : conductors)
+            all_last *= 1 - conductor.wires.failed(log_time, conductor.count, own, memory);
+          return 1 - all_last;
+        },
+        low - LifeDistribution::farthest * own, high + LifeDistribution::farthest * own, scatter.common() * std::numbers::ln10);
   }
-  return result;
+  return first_of(each);
 }
 
-SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent, double scatter_log10,
-                         int draws) {
+SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent, Scatter scatter, int draws) {
   SharedLives result;
-  std::vector<double> first(draws, infinity), breaks;
+  std::vector<double> first(draws, infinity), factors, breaks;
   std::uint64_t stream = 0;
   for (const Bundle& bundle : bundles) {
     const auto counts = counts_of(bundle, failed_percent);
     std::array<std::vector<double>, failures> lives;
     for (int draw = 0; draw < draws; ++draw) {
-      draw_breaks(bundle, stream, draw, scatter_log10, breaks);
+      draw_factors(bundle, stream, draw, scatter, factors);
+      order_breaks(bundle.damage, factors, bundle.rate, bundle.damage.size(), breaks);
       for (std::size_t failure = 0; failure < failures; ++failure)
         lives[failure].push_back(breaks[counts[failure] - 1]);
       first[draw] = std::min(first[draw], lives[1].back());
@@ -183,6 +181,31 @@ SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent,
   }
   result.first_conductor = quantiles(first);
   return result;
+}
+
+Percentiles shared_place_lives(std::span<const Bundle> bundles, std::span<const PlaceOfConductor> places,
+                               double failed_percent, Scatter scatter, int draws, const DamageAt& damage_at) {
+  std::vector<std::uint64_t> stream;  // (conductor), as shared_lives() draws them
+  std::uint64_t next = 0;
+  for (const Bundle& bundle : bundles) {
+    stream.push_back(next);
+    next += bundle.damage.size();
+  }
+  std::vector<double> first, factors, breaks;
+  for (int draw = 0; draw < draws; ++draw) {
+    double soonest = infinity;
+    std::size_t drawn = bundles.size();
+    for (const auto& [conductor, segment] : places) {
+      const Bundle& bundle = bundles[conductor];
+      if (drawn != conductor) draw_factors(bundle, stream[conductor], draw, scatter, factors);
+      drawn = conductor;
+      order_breaks(damage_at(conductor, segment), factors, bundle.rate,
+                   wires_of_share(failed_percent, bundle.damage.size()), breaks);
+      soonest = std::min(soonest, breaks.back());
+    }
+    first.push_back(soonest);
+  }
+  return quantiles(first);
 }
 
 double normal_of(std::uint64_t stream, std::uint64_t draw) {  // Box and Muller 1958

@@ -7,21 +7,24 @@
 // and k of n wires with the upper tail of the Poisson-binomial distribution of their p (F15); percentiles are
 // found by bisection in log t. All lives are in repeats of the motion.
 //
-// Assumptions: wires are independent of each other (one spool's common part of the scatter is left out); the
-// places of one wire are not (one z, since a segment is no piece of metal of its own); a wire counts as
-// broken wherever along the dresspack it breaks.
+// Of the variance s^2 a share c is common to all wires of a dresspack (F25): z = sqrt(c) z_common + sqrt(1 - c) z_own. With
+// z_common given, (F15) holds with sqrt(1 - c) s; its distribution over ln t is spread by the common factor in closed form,
+// straight between tabulated points.
+//
+// Assumptions: wires are else independent of each other; the places of one wire are not (one z, since a segment is no piece of
+// metal of its own). A wire counts as broken wherever along the dresspack it breaks, but in first_place_lives(), where
+// a conductor's share must have broken in one segment.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
-namespace dresslife::fatigue {
+#include "fatigue/life_distribution.h"
 
-/// Shares of all dresspacks that have failed by the life that is told.
-constexpr std::array<double, 3> percentiles{0.1, 0.5, 0.9};
-using Percentiles = std::array<double, percentiles.size()>;
+namespace dresslife::fatigue {
 
 /// When a conductor has failed: its first wire, a share of its wires, or all of them.
 constexpr std::size_t failures = 3;
@@ -30,29 +33,29 @@ using FailureLives = std::array<Percentiles, failures>;
 /// Share of wires of this median life that have broken by `time`. s = 0: 0 before, 1 from the median on.
 double broken_share(double time, double median_life, double scatter_log10);
 
-/// P(at least `count` of independent events happen), (event) -> probability. 0 <= count.
-double at_least(std::span<const double> probability, std::size_t count);
-
 /// Wires that must break before a share of `wires` has: at least one.
 std::size_t wires_of_share(double percent, std::size_t wires);
 
 /// Life by which at least `count` of the wires have broken in `share` of all cases. damage (wire): per
 /// repeat, by the median curves. Infinite when fewer wires are damaged at all. Precondition: count >= 1.
-double life_until(std::span<const double> damage, std::size_t count, double scatter_log10, double share);
+double life_until(std::span<const double> damage, std::size_t count, Scatter scatter, double share);
+
+/// Lives by which at least one wire has broken, of wires that lie in several dresspacks: (dresspack) (wire) damage.
+Percentiles first_wire_lives(std::span<const std::vector<double>> damage, Scatter scatter);
 
 /// The wires of one conductor.
 struct Bundle {
   std::vector<double> damage;  ///< (wire) per repeat of its worst place
+  std::size_t dresspack = 0;   ///< conductors of different ones share no common factor
   /// (broken) how much faster the rest is damaged when so many have broken; empty: no faster.
   std::vector<double> rate;
 };
 
 /// Lives of one conductor whose wires do not take over load: (F15).
-FailureLives conductor_lives(const Bundle& bundle, double failed_percent, double scatter_log10);
+FailureLives conductor_lives(const Bundle& bundle, double failed_percent, Scatter scatter);
 
 /// Life by which the first of several conductors has lost `failed_percent` of its wires.
-Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent,
-                                  double scatter_log10);
+Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed_percent, Scatter scatter);
 
 /// What happens when the rest of a conductor takes over the load of its broken wires (F16).
 struct SharedLives {
@@ -63,8 +66,17 @@ struct SharedLives {
 /// The same with Bundle::rate, by `draws` draws of all wires with a fixed seed. With k broken, every wire
 /// left is damaged rate[k] times as fast; in the time that runs faster by that factor the wires break as if
 /// nothing were shared, so one sorting of a draw gives all its breaks.
-SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent, double scatter_log10,
-                         int draws);
+SharedLives shared_lives(std::span<const Bundle> bundles, double failed_percent, Scatter scatter, int draws);
+
+/// A conductor in one segment, and what its wires suffer there per repeat, (wire).
+struct PlaceOfConductor {
+  std::size_t conductor, segment;
+};
+using DamageAt = std::function<std::span<const double>(std::size_t conductor, std::size_t segment)>;
+
+/// By the same draws, when the first of these places, those of a conductor in a row, has lost `failed_percent` of its wires.
+Percentiles shared_place_lives(std::span<const Bundle> bundles, std::span<const PlaceOfConductor> places,
+                               double failed_percent, Scatter scatter, int draws, const DamageAt& damage_at);
 
 /// A number from the standard normal distribution, the same for the same pair on every machine.
 double normal_of(std::uint64_t stream, std::uint64_t draw);

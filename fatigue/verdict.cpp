@@ -80,6 +80,11 @@ const DamageCounter& SiteCounters::of(std::size_t site) const {
   return wall >= 0 ? wall_[wall] : by_material_[material_[site]];
 }
 
+bool SiteCounters::settle() const {
+  return std::any_of(by_material_.begin(), by_material_.end(),
+                     [](const DamageCounter& counter) { return counter.settles(); });
+}
+
 namespace {
 
 /// Of the sites [begin, end), as many of one material in a row as there are at a time.
@@ -132,6 +137,32 @@ std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t group
     if (leader == no_site || all.worse(site, leader)) leader = site;
   }
   return worst;
+}
+
+void settle(SiteDamage& all, const SiteCounters& counters, std::size_t groups,
+            const std::function<std::size_t(std::size_t)>& group_of,
+            const std::function<std::vector<float>(std::size_t)>& strains_of, std::size_t threads) {
+  if (!counters.settle()) return;
+  const std::vector<std::size_t> worst = worst_by_group(all, groups, group_of);
+  std::vector<std::vector<float>> strains;  // read on one thread: the file is not to be shared
+  for (const std::size_t site : worst)
+    strains.push_back(site == no_site ? std::vector<float>() : strains_of(site));
+  std::vector<double> settled(groups, 0.0);
+  std::vector<DamageCounter::Workspace> workspaces(threads);
+  pipeline::in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t group = part; group < groups; group += threads)
+      if (worst[group] != no_site)
+        settled[group] = counters.of(worst[group]).settled_damage(strains[group], workspaces[part]);
+  });
+  std::vector<double> factor(groups, 1.0);
+  for (std::size_t group = 0; group < groups; ++group)
+    if (worst[group] != no_site && all.damage[worst[group]] > 0)
+      factor[group] = settled[group] / all.damage[worst[group]];
+  for (std::size_t site = 0; site < all.damage.size(); ++site) {
+    const std::size_t group = group_of(site);
+    if (group == no_site) continue;
+    all.damage[site] = site == worst[group] ? settled[group] : all.damage[site] * factor[group];
+  }
 }
 
 std::vector<std::size_t> worst_wires(const SiteDamage& all, std::size_t count) {

@@ -45,8 +45,8 @@ std::optional<int> read_command_line(const StageInfo& info, int argc, char** arg
             ->type_name("FILE");
     if (job) noted->needs(job);
   }
-  app.add_option("--job-time", flags.seconds, "give up after so long")->type_name("SECONDS");
-  app.add_option("--job-memory", flags.megabytes, "take no more memory than this")->type_name("MB");
+  app.add_option("--job-time", call.limits.seconds, "give up after so long")->type_name("SECONDS");
+  app.add_option("--job-memory", call.limits.megabytes, "take no more memory than this")->type_name("MB");
   app.add_flag("--quiet", call.quiet, "no progress, no notes");
   app.set_version_flag("--version", [&info] { return version_text(info.program); });
   app.add_option_function<std::string>(
@@ -68,6 +68,7 @@ std::optional<int> read_command_line(const StageInfo& info, int argc, char** arg
   call.output = output;
   call.job_file = job_file;
   flags.receipt = receipt;
+  call.of_a_study = !receipt.empty();
   return {};
 }
 

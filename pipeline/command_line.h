@@ -1,7 +1,6 @@
 // The command line of a stage. A file of its own because the parser takes long to compile.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -13,7 +12,6 @@ namespace dresslife::pipeline {
 struct StageFlags {
   bool force = false;
   std::filesystem::path receipt;
-  std::uint64_t seconds = 0, megabytes = 0;
 };
 
 /// Fills `call` and `flags`. Returns the exit status when that is all: the line is wrong, or has asked for

@@ -7,6 +7,11 @@
 
 namespace dresslife::pipeline {
 
+/// Each stage of a job may take so much.
+struct StageLimits {
+  std::uint64_t seconds = 0, megabytes = 0;  ///< 0: no limit
+};
+
 /// Opens what of standard input, output and error is closed: a file opened later would take its number, and
 /// what is said would go into it. A file that may not grow any more fails its write instead of ending the
 /// program.

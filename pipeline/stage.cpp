@@ -1,5 +1,6 @@
 #include "pipeline/stage.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include "pipeline/files/receipt.h"
 #include "pipeline/installation.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/sources.h"
 #include "pipeline/limits.h"
 #include "pipeline/threads.h"
 
@@ -101,27 +103,33 @@ void run_with_receipt(const StageCall& call, const std::filesystem::path& receip
   Digests digests;
   Receipt wanted;
   wanted.recipe =
-      recipe_of(settings.text, settings.files, std::filesystem::read_symlink("/proc/self/exe"), digests);
+      recipe_of(settings.text, settings.files, program_file(), digests);
   wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
   const std::optional<Receipt> known = read_receipt(receipt_file);
   const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
                     is_as_noted(*known, call.output);
   if (made) {
     wanted.output = known->output;
+    wanted.told = known->told;
   } else {
     std::filesystem::remove(receipt_file);  // it tells of a file that is about to go
     body();
     wanted.output = told_checksum(call.output).value_or("damaged");
+    if (*call.info.part == Part::fatigue) wanted.told = told_by(call.output, life_format());
   }
   check_inputs_unchanged(call);
   write_receipt(receipt_file, wanted, call.output);
 }
 
+/// Until a stage knows what its job takes (pipeline/memory.h): its job and its input are read with this much.
+constexpr std::uint64_t enough_to_begin_mb = 64;
+
 void run_body(StageCall& call, const StageFlags& flags,
               const std::function<void(const StageCall&, Progress&)>& body) {
-  limit_time(call.info.program, flags.seconds);
-  limit_memory(flags.megabytes);
+  limit_time(call.info.program, call.limits.seconds);
+  limit_memory(call.limits.megabytes > 0 ? std::max(call.limits.megabytes, enough_to_begin_mb) : 0);
   Progress progress(call.info.program, call.quiet);
+  const Sources documents;  // what is read for the receipt is what the stage works with, read once
   const auto watch = [&](const std::filesystem::path& file) { call.inputs.push_back(input_as_it_is(file)); };
   watch(call.input);
   if (!call.job_file.empty()) watch(call.job_file);
@@ -189,6 +197,9 @@ int guarded(const std::string& program, const std::function<int()>& body) {
 Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before) {
   const std::string own_text = input.text_attribute("job");
   const std::string own_name = input.where().file + " (attribute job)";
+  // In a study it is the same text, which need not be understood twice.
+  if (!call.job_file.empty() && call.sets.empty() && read_source(call.job_file) == own_text)
+    return read_job(call.job_file);
   const Job own = job_from(parse_yaml(own_text, own_name));
   const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets)
                                         : read_job(call.job_file, call.sets);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/files/files.h"
+#include "pipeline/limits.h"
 #include "pipeline/progress.h"
 #include "pipeline/whole_file.h"
 
@@ -49,6 +50,8 @@ struct StageInput {
 
 struct StageCall {
   StageInfo info;
+  StageLimits limits{};
+  bool of_a_study = false;  ///< what is said goes into a log
   std::filesystem::path input, output;
   std::filesystem::path job_file;  ///< of --job; empty: the job in the input file
   std::vector<std::string> sets;

@@ -55,10 +55,12 @@ install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/dresslife/config)
 install(FILES ${shared}/dresslife/commit DESTINATION ${CMAKE_INSTALL_DATADIR}/dresslife OPTIONAL)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)  # Debian's name for it
+# HDF5 is within the programs, and its licence asks to be told with them.
+install(FILES /usr/share/doc/libhdf5-dev/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright.hdf5 OPTIONAL)
 # The pages keep their places among each other, so that their links lead on.
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} *.md)
 file(GLOB_RECURSE inner_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-     sim/*.md strain/*.md fatigue/*.md pipeline/*.md config/*.md config/*.png)
+     sim/*.md strain/*.md fatigue/*.md pipeline/*.md config/*.md config/*.png pipeline/*.png)
 foreach(page ${pages} ${inner_pages})
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
@@ -78,4 +80,5 @@ one, where along the hose, and which motion does it: simulates the hose,
 works out the strain of every wire, counts cycles and sums up damage.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "ninja-build")  # runs the stages of a study
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libjs-three")  # draws the 3D view of pages
 include(CPack)

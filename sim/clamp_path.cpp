@@ -18,6 +18,11 @@ Frame clamp_frame(const pipeline::Clamp& clamp) {
   return rolled({clamp.position, Quaternion(axes)}, clamp.roll.value_or(0));
 }
 
+std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
+  if (!setup.motion.clamp_poses.empty()) return std::make_unique<RecordedPath>(setup.motion.clamp_poses);
+  return std::make_unique<RobotPath>(setup);
+}
+
 RobotPath::RobotPath(const pipeline::Setup& setup)
     : kinematics_(setup.robot),
       motion_(resolved_motion(setup.motion), setup.robot),

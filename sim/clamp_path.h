@@ -107,6 +107,9 @@ class RecordedPath final : public ClampPath {
   std::unique_ptr<CubicSpline> poses_;
 };
 
+/// Of a job's motion: recorded clamps, or those of its robot. Throws what their constructors do.
+std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup);
+
 /// Frame of a clamp in the frame of its link (R2), (R3); roll [rad] is added to the clamp's own (absent = 0).
 Frame clamp_frame(const pipeline::Clamp& clamp);
 

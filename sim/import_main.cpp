@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 
 #include "pipeline/limits.h"
 #include "pipeline/stage.h"
@@ -30,7 +31,8 @@ pipeline::Motion request(const pipeline::StageCall& call) {
   pipeline::Motion motion;
   if (!given[frames].empty()) motion = pipeline::motion_from(pipeline::read_yaml(given[frames].back()));
   motion.program = call.input;
-  motion.source = "imported from " + call.input.filename().string();
+  const std::filesystem::path input = std::filesystem::absolute(call.input).lexically_normal();
+  motion.source = "imported from " + (input.has_filename() ? input : input.parent_path()).filename().string();
   if (!given[routine].empty()) motion.routine = given[routine].back();
   for (const std::string& written : given[assume]) {
     const auto [line, take] = halves("--assume", written, written.rfind('='), "main.mod:12=then");

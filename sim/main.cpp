@@ -3,8 +3,22 @@
 
 #include "pipeline/job/job.h"
 #include "pipeline/stage.h"
+#include "sim/memory.h"
 #include "sim/motion_file.h"
+#include "sim/preview.h"
+#include "sim/prescribed.h"
 #include "sim/simulate.h"
+
+namespace {
+
+void preview(const dresslife::pipeline::StageCall& call, const dresslife::pipeline::Job& job) {
+  dresslife::pipeline::FileWriter file(call.output, dresslife::pipeline::preview_format());
+  dresslife::sim::write_preview(job, file);
+  dresslife::pipeline::stamp(file, call, job, "");
+  file.commit();
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace dresslife;
@@ -15,11 +29,26 @@ int main(int argc, char** argv) {
       .output = "motion.h5",
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
       .input_is_job = true,
+      .options = {{"--preview", "",
+                   "simulate nothing; write what stands where, and which lengths suit (preview.h5)"}},
       .part = pipeline::Part::sim};
   return pipeline::run_stage(info, argc, argv,
                              [](const pipeline::StageCall& call, pipeline::Progress& progress) {
                                const pipeline::Job job = pipeline::read_job(call.input, call.sets);
+                               if (!call.options.front().empty() && job.motion.is_prescribed())
+                                 throw pipeline::InputError(
+                                     job.motion.where, "a prescribed deformation has no cell to preview (nothing moves)",
+                                     "run it, and look at its page");
+                               if (!call.options.front().empty()) return preview(call, job);
+                               if (job.motion.is_prescribed()) {
+                                 pipeline::FileWriter file(call.output, pipeline::motion_format());
+                                 sim::write_prescribed(job, file, [&](double share) { progress.show(share); });
+                                 pipeline::stamp(file, call, job, "");
+                                 file.commit();
+                                 return;
+                               }
                                const sim::Simulation simulation(job);
+                               pipeline::heed_memory(call, sim::memory_of(simulation), progress);
                                std::optional<pipeline::FileWriter> file;
                                std::optional<sim::MotionFile> motion;
                                const auto begin = [&](int) {  // a repeat that does not count leaves nothing
@@ -32,7 +61,7 @@ int main(int argc, char** argv) {
                                const sim::RunSummary summary =
                                    simulation.run({[&](const sim::Sample& sample) { motion->add(sample); },
                                                    begin, [&](double share) { progress.show(share); }});
-                               motion->finish(simulation, summary);
+                               motion->finish(summary, [&](double time) { return simulation.path().step(time); });
                                for (const std::string& line : sim::remarks(simulation, summary))
                                  progress.note(line);
                                pipeline::stamp(*file, call, job, "");

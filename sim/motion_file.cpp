@@ -64,15 +64,15 @@ void MotionFile::add(const Sample& sample) {
   rows("/check/net_twist", std::array{sample.net_twist});
 }
 
-void MotionFile::finish(const Simulation& simulation, const RunSummary& summary) {
+void MotionFile::finish(const RunSummary& summary, const std::function<int(double)>& step_at) {
   file_.attribute("repeats", summary.repeats);
   if (summary.returns) file_.attribute("repeat_distance", summary.distance);
-  file_.attribute("time_step", summary.time_step);
+  if (summary.time_step > 0) file_.attribute("time_step", summary.time_step);
   if (std::isfinite(summary.curvature_error)) file_.attribute("curvature_error", summary.curvature_error);
   add_extremes("/check/curvature", summary.curvature);
   add_extremes("/check/twist", summary.twist);
   add_extremes("/check/tension", summary.tension);
-  add_checks(simulation, summary.checks);
+  add_checks(summary.checks, step_at);
   add_touch_of_motion();
 }
 
@@ -86,7 +86,7 @@ void MotionFile::add_extremes(const std::string& group, const std::vector<Extrem
   file_.append(group + "_time", std::span<const double>(times));
 }
 
-void MotionFile::add_checks(const Simulation& simulation, const std::vector<Check>& checks) {
+void MotionFile::add_checks(const std::vector<Check>& checks, const std::function<int(double)>& step_at) {
   std::vector<std::string> names, units;
   std::vector<double> values, limits, times, positions;
   std::vector<std::int32_t> warnings, steps, dresspacks;
@@ -97,7 +97,7 @@ void MotionFile::add_checks(const Simulation& simulation, const std::vector<Chec
     limits.push_back(check.limit);
     warnings.push_back(check.warning);
     times.push_back(check.time);
-    steps.push_back(simulation.path().step(check.time));
+    steps.push_back(step_at(check.time));
     positions.push_back(check.position);
     dresspacks.push_back(check.dresspack);
   }

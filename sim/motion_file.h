@@ -1,6 +1,7 @@
 // Samples of a run into motion.h5 (the format's table is in pipeline/files/formats.cpp).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,15 +16,15 @@ class MotionFile {
   MotionFile(pipeline::FileWriter& file, const RunDescription& description);
 
   void add(const Sample& sample);
-  /// After the last sample: checks, and what the run says of itself.
-  void finish(const Simulation& simulation, const RunSummary& summary);
+  /// After the last sample: checks, and what the run says of itself. step_at: line of the program at a time [s].
+  void finish(const RunSummary& summary, const std::function<int(double)>& step_at);
 
  private:
   void add_robot(const Pose& pose);
   void add_touch(const Touch& touch);
   void add_touch_of_motion();
   void add_extremes(const std::string& group, const std::vector<Extreme>& extremes);
-  void add_checks(const Simulation& simulation, const std::vector<Check>& checks);
+  void add_checks(const std::vector<Check>& checks, const std::function<int(double)>& step_at);
 
   pipeline::FileWriter& file_;
   const RunDescription description_;

@@ -100,7 +100,8 @@ class Mounting {
   [[noreturn]] void fail(int dresspack, const std::string& what) const {
     throw InputError(routing(dresspack).where,
                      fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
-                     "check the free length and the clamps' places and directions in the mounting pose");
+                     "check the free length and the clamps' places and directions in the mounting pose (dresslife preview "
+                     "shows them)");
   }
 
   Pose mounting_pose() const { return robot_ ? robot_->pose(robot_->mounting_pose()) : path_.at(0); }

@@ -1,10 +1,8 @@
 // RecordedPath of clamp_path.h: reading clamp poses from CSV.
 #include <algorithm>
-#include <charconv>
-#include <fstream>
-#include <string_view>
 
 #include "sim/clamp_path.h"
+#include "sim/csv_rows.h"
 
 namespace dresslife::sim {
 namespace {
@@ -33,45 +31,13 @@ constexpr double length_tolerance = 1e-3;
 /// Dot product of neighbouring rows' quaternions at a turn of 120 deg.
 constexpr double smallest_dot = 0.5;
 
-struct Cell {
-  std::string_view text;
-  int column = 0;  // of its first character, from 1
-};
-
-std::vector<Cell> cells_of(std::string_view line) {
-  std::vector<Cell> cells;
-  for (size_t begin = 0; begin <= line.size();) {
-    const size_t comma = std::min(line.find(',', begin), line.size());
-    size_t first = begin, last = comma;
-    while (first < last && line[first] == ' ') ++first;
-    while (last > first && line[last - 1] == ' ') --last;
-    cells.push_back({line.substr(first, last - first), static_cast<int>(first) + 1});
-    begin = comma + 1;
-  }
-  return cells;
-}
-
-std::optional<double> number_in(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
-}
-
 class Rows {
  public:
   explicit Rows(const std::filesystem::path& file) : where_{file.string(), 0, 0} {
-    std::ifstream input(file);
-    if (!input) throw InputError(where_, "clamp_poses cannot be read", "check the file's name and rights");
-    for (std::string line; std::getline(input, line);) {
-      ++where_.line;
-      if (where_.line == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // byte order mark
-      std::replace_if(
-          line.begin(), line.end(), [](char c) { return c == '\r' || c == '\t'; }, ' ');
-      if (line.find_first_not_of(' ') == std::string::npos || line.starts_with('#')) continue;
-      add(cells_of(line));
-    }
+    where_.line = read_csv(file, "clamp_poses", [&](const std::vector<CsvCell>& cells, int line) {
+      where_.line = line;
+      add(cells);
+    });
     if (times.empty()) throw InputError(where_, "clamp_poses holds no row", "write t and 14 numbers per row");
   }
 
@@ -83,10 +49,10 @@ class Rows {
     throw InputError({where_.file, where_.line, column}, what, remedy);
   }
 
-  void add(const std::vector<Cell>& cells) {
+  void add(const std::vector<CsvCell>& cells) {
     const bool header = times.empty() && !header_seen_ &&
                         std::none_of(cells.begin(), cells.end(),
-                                     [](const Cell& cell) { return number_in(cell.text).has_value(); });
+                                     [](const CsvCell& cell) { return number_in(cell.text).has_value(); });
     if (header) {
       header_seen_ = true;
       return;
@@ -104,7 +70,7 @@ class Rows {
     poses.push_back(pose);
   }
 
-  double value_of(const Cell& cell, int column) const {
+  double value_of(const CsvCell& cell, int column) const {
     const std::optional<double> value = number_in(cell.text);
     if (!value || !std::isfinite(*value))
       fail(cell.column, fmt::format("'{}' is not a finite number ({})", cell.text, column_names[column]),

@@ -12,11 +12,6 @@ namespace {
 
 using pipeline::InputError;
 
-std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
-  if (!setup.motion.clamp_poses.empty()) return std::make_unique<RecordedPath>(setup.motion.clamp_poses);
-  return std::make_unique<RobotPath>(setup);
-}
-
 constexpr double same_step = 1e-9;  // [s]
 constexpr double exact_lead = 0.1;  // share of the repeat that leads in that has the motion's own step
 
@@ -108,7 +103,7 @@ void Simulation::check_reach() const {
                                pipeline::dresspack_words(setup_, span.dresspack), 1e3 * worst, moment(when),
                                between.empty() ? "routing.free_length_m is" : "its length" + between + " is",
                                length, length + worst),
-                   "give it more free length, with slack to bend, or move a clamp");
+                   "give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)");
 }
 
 std::string Simulation::between_clamps(const Span& span) const {
@@ -132,7 +127,8 @@ void Simulation::check_taut(const RodState& state, double time) const {
                    fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
                                pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span),
                                moment(time), 1e3 * elongation * span.properties.length, 1e2 * elongation),
-                   "give it more free length, or keep the motion from winding it around the robot");
+                   "give it more free length, or keep the motion from winding it around the robot (dresslife preview shows "
+                   "the clamps)");
 }
 
 std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {

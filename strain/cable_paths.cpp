@@ -30,7 +30,7 @@ std::array<double, 2> place_of(const Construction& construction, int part, doubl
 
 }  // namespace
 
-CablePaths::CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, bool rubs,
+CablePaths::CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, const CablesInJob& job,
                        std::vector<double> lengths, const std::vector<double>& arcs, std::size_t samples)
     : construction_(construction),
       lengths_(std::move(lengths)),
@@ -49,13 +49,14 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     Cable cable{part,
                 plan[in.layer].loose,
                 false,
-                rubs && (layer.friction > 0 || layer.jacket_stiffness > 0),
+                job.rub && (layer.friction > 0 || layer.jacket_stiffness > 0),
+                job.stick,
                 layer.axial_stiffness,
                 layer.laying.slack / 100,
                 layer.friction,
                 layer.line_load,
                 grip(layer.laying.base_grip),
-                grip(layer.laying.tool_grip),
+                job.free_tool_end ? grip(layer.laying.tool_grip.value_or(0)) : grip(layer.laying.tool_grip),
                 radial_share(layer.axial_stiffness, layer.lay_angle, layer.helix_radius, layer.radial_stiffness),
                 elastic_share(layer.jacket_stiffness, layer.axial_stiffness,
                               std::accumulate(lengths_.begin(), lengths_.end(), 0.0))};
@@ -63,6 +64,8 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     cable.place_at_tool = place_of(construction, part, arcs.back() + lengths_.back() / 2);
     cable.remembers = cable.rubs || std::min(cable.base_grip, cable.tool_grip) < without_limit;
     cable.strain.assign(stride_, 0.0);
+    if (cable.sticks)
+      for (std::vector<double>& of : cable.stuck) of.assign(samples, 0.0);
     if (cable.rubs) {
       cable.along.assign(segments * samples, 0.0);
       cable.pressing.assign(segments * samples, 0.0f);
@@ -123,7 +126,7 @@ void CablePaths::add_held(const SpanBlock& block) {
   const auto attach = [](BundleNesting&) {};
   for (std::size_t segment = 0; segment < lengths_.size(); ++segment) {
     const DeformationColumns columns = block.deformation.columns(segment);
-    const bool apart = std::any_of(held_.begin(), held_.end(), [&](std::size_t c) { return cables_[c].rubs; });
+    const bool apart = std::any_of(held_.begin(), held_.end(), [&](std::size_t c) { return cables_[c].rubs || cables_[c].sticks; });
     if (!apart) {
       rates_->add(segment, columns, count, attach, path.data(), stride);
     } else {
@@ -134,6 +137,8 @@ void CablePaths::add_held(const SpanBlock& block) {
     for (std::size_t k = 0; k < n; ++k) {
       rest[k] += rates_->rest(segment, k);
       Cable& cable = cables_[held_[k]];
+      if (cable.sticks)
+        add_stuck(cable, segment, std::span(in_segment).subspan(k * stride, count), rates_->rest(segment, k));
       if (!cable.rubs) continue;
       const Layer& layer = construction_.layers()[construction_.parts()[cable.part].layer];
       const double sine = std::sin(layer.lay_angle);
@@ -151,6 +156,17 @@ void CablePaths::add_held(const SpanBlock& block) {
     Cable& cable = cables_[held_[k]];
     for (std::size_t t = 0; t < count; ++t)
       cable.strain[next_ + t] = cable.radial_share * (path[k * stride + t] / rest[k] / (1 + cable.slack) - 1);
+  }
+}
+
+/// path: length in the segment (sample of the block) [m]. rest: that at rest [m].
+void CablePaths::add_stuck(Cable& cable, std::size_t segment, std::span<const double> path, double rest) {
+  auto& [largest, at_base, at_tool] = cable.stuck;
+  for (std::size_t t = 0; t < path.size(); ++t) {
+    const double strain = cable.radial_share * (path[t] / rest - 1);
+    if (std::abs(strain) > std::abs(largest[next_ + t])) largest[next_ + t] = strain;
+    if (segment == 0) at_base[next_ + t] = strain;
+    if (segment + 1 == lengths_.size()) at_tool[next_ + t] = strain;
   }
 }
 
@@ -297,15 +313,16 @@ void CablePaths::weigh() {
     const CableForce& force = construction_.layers()[construction_.parts()[cable.part].layer].force;
     cable.tension.resize(next_);
     for (std::size_t t = 0; t < next_; ++t) {
-      double largest = cable.rubs ? 0 : cable.strain[t];
+      double largest = cable.sticks ? cable.stuck[0][t] : cable.rubs ? 0 : cable.strain[t];
       for (std::size_t i = 0; cable.rubs && i <= last; ++i)
         if (std::abs(cable.along[i * all_ + t]) > std::abs(largest)) largest = cable.along[i * all_ + t];
       cable.tension[t] = force.force(largest);
       if (force.strength() > 0)
         largest_force_share_ = std::max(largest_force_share_, std::abs(cable.tension[t]) / force.strength());
       for (int clamp = 0; clamp < 2; ++clamp) {
-        const double pull =
-            cable.rubs ? force.force(cable.along[(clamp == 0 ? 0 : last) * all_ + t]) : cable.tension[t];
+        const double pull = cable.sticks ? force.force(cable.stuck[clamp + 1][t])
+                            : cable.rubs ? force.force(cable.along[(clamp == 0 ? 0 : last) * all_ + t])
+                                         : cable.tension[t];
         const auto& place = clamp == 0 ? cable.place : cable.place_at_tool;
         moment[(2 * clamp) * next_ + t] += pull * place[1];
         moment[(2 * clamp + 1) * next_ + t] -= pull * place[0];

@@ -28,13 +28,21 @@ struct SpanBlock {
   double step = 0.04;  ///< time between samples [s]
 };
 
+/// What cables do along the hose in the job itself.
+struct CablesInJob {
+  bool rub = false;    ///< slide with friction
+  bool stick = false;  ///< to the hose, each segment with its own strain: they slide in a bound only
+  /// The hose ends freely at its tool end: nothing holds its cables there but a tool_grip_N that is given.
+  bool free_tool_end = false;
+};
+
 class CablePaths {
  public:
-  /// plan: of all layers. rubs: friction along the cables. lengths, arcs: of the span's segments [m].
-  CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, bool rubs,
+  /// plan: of all layers, as they slide. lengths, arcs: of the span's segments [m].
+  CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, const CablesInJob& job,
              std::vector<double> lengths, const std::vector<double>& arcs, std::size_t samples);
 
-  /// Whether there is any cable that slides.
+  /// Whether there is any cable that can slide.
   bool any() const { return !cables_.empty(); }
   bool any_loose() const { return loose_.has_value(); }
   /// Whether what clamps and friction did stays in memory: strains are known after finish() only.
@@ -75,13 +83,15 @@ class CablePaths {
   /// Where loose cables lie at some samples: offset from their places (cable, segment, 2) [m].
   const std::vector<std::size_t>& offset_samples() const { return offset_samples_; }
   const std::vector<double>& offsets() const { return offsets_; }  ///< (sample, cable, segment, 2)
+  /// Share of the curvature of loose cables that a path of as many nodes as segments misses; 0: none lies loose.
+  double mesh_error() const { return loose_ ? loose_->mesh_error() : 0; }
   /// Samples at which a loose cable had not come to rest.
   std::size_t restless() const { return loose_ ? loose_->restless() : 0; }
 
  private:
   struct Cable {
     int part;
-    bool loose, remembers, rubs;
+    bool loose, remembers, rubs, sticks;
     double axial_stiffness, slack, friction, line_load, base_grip, tool_grip;
     double radial_share;  ///< of its strain that the bed of its layer leaves (W31)
     double elastic;       ///< share of the deviation from the mean that a jacket holds (W30)
@@ -91,6 +101,7 @@ class CablePaths {
     std::vector<double> tension{};  ///< (sample)
     std::vector<double> strain{};  ///< (sample) of all segments; before finish(): unslid
     std::vector<double> along{};   ///< (segment, sample) the same, each segment its own: with friction
+    std::array<std::vector<double>, 3> stuck{};  ///< (sample) strain where it sticks: the largest, at base, at tool
     std::vector<float> pressing{}; ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
     std::vector<float> curvature{};  ///< (segment, 2, sample) of a loose one's own path [1/m]
   };
@@ -98,6 +109,7 @@ class CablePaths {
   void add_held(const SpanBlock& block);
   void add_loose(const SpanBlock& block);
   void put_loose(std::size_t cable, std::size_t state, std::size_t sample);
+  void add_stuck(Cable& cable, std::size_t segment, std::span<const double> path, double rest);
   void slide(Cable& cable);
   void weigh();
 

@@ -94,7 +94,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
               lengths_, arcs_, samples}},
       free_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::free, total(lengths_)),
              lengths_, arcs_, samples}},
-      cables_(construction, free_.means.plan(), rubs(settings.slip.front()), lengths_, arcs_, samples) {
+      cables_(construction, free_.means.plan(),
+              {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end}, lengths_, arcs_, samples) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
@@ -154,14 +155,6 @@ std::string Evaluation::summary(std::size_t sites) const {
   return fmt::format("{} sites; largest strain range {:.3f} %, segment {} from the tool, {}", sites,
                      100 * worst_range_, place_.segments_in_all - place_.first_segment - worst_segment_,
                      wires_[worst_.wire].path);
-}
-
-bool Evaluation::cables_slide() const {
-  for (std::size_t k = 0; k < means_.plan().size(); ++k)
-    if (construction_.layers()[k].is_cable() &&
-        (means_.plan()[k].loose || means_.plan()[k].sliding != Sliding::glued))
-      return true;
-  return false;
 }
 
 void Evaluation::add(const SpanBlock& block) {

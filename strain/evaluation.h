@@ -58,6 +58,7 @@ struct SpanPlace {
   std::size_t first_segment = 0;    ///< in its dresspack
   std::size_t segments_in_all = 0;  ///< of its dresspack; 0: the span is all
   double first_arc = 0;             ///< of the span's base end, from the dresspack's base clamp [m]
+  bool free_tool_end = false;       ///< no clamp holds it there
   // Of the dresspacks before it in the file:
   std::size_t segments_before = 0, sites_before = 0;
   std::string name{};  ///< of its dresspack among several: begins the paths of its wires; empty: the only one
@@ -96,8 +97,7 @@ class Evaluation {
   }
   void add_again(const DeformationHistory& block);
   bool any_loose() const { return cables_.any_loose(); }
-  /// Whether cables slide in the job itself, and not in a bound only.
-  bool cables_slide() const;
+  bool any_cables() const { return cables_.any(); }
   /// As in a site's path: with the dresspack's name before it where there are several.
   std::string name_of_cable(std::size_t cable) const {
     return (place_.name.empty() ? "" : place_.name + "/") + cables_.name(cable);

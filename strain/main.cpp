@@ -3,6 +3,7 @@
 #include "pipeline/job/overlap.h"
 #include "pipeline/stage.h"
 #include "pipeline/threads.h"
+#include "strain/memory.h"
 #include "strain/strain_file.h"
 
 int main(int argc, char** argv) {
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
         for (const pipeline::MountedDresspack& mounted : job.dresspacks)
           for (const std::string& warning : pipeline::overlap_warnings(mounted.dresspack))
             progress.note(warning);
+        pipeline::heed_memory(call, strain::memory_of(motion, job, pipeline::thread_count()), progress);
         pipeline::FileWriter file(call.output, pipeline::strain_format());
         const std::string summary = strain::write_strain(motion, job, file, pipeline::thread_count(),
                                                          [&](double share) { progress.show(share); });

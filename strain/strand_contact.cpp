@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/errors.h"
+
 namespace dresslife::strain {
 namespace {
 
@@ -49,8 +51,11 @@ StrandContact::StrandContact(const Strand& strand, Contacts contacts) {
     const double R = layer.helix_radius, EA = layer.youngs_modulus * section(layer);
     const double sine = std::sin(layer.lay_angle), cosine = std::cos(layer.lay_angle);
     const double turn = sine / cosine / R;  // kappa_i
-    load += layer.count / (2 * pi) * strand.tension * EA * cosine * cosine / stretch_stiffness * sine * sine /
-            R / cosine;
+    if (layer.jacket_stiffness > 0)
+      throw pipeline::InputError({}, "a strand on contacts that give has no jacket that holds its wires elastically",
+                                 "leave out jacket_stiffness, or use StrandBending, which has it");
+    const double own_press = strand.tension * EA * cosine * cosine / stretch_stiffness * sine * sine / R;
+    load += layer.count / (2 * pi) * (own_press + layer.line_load) / cosine;
     const Layer own{cosine * cosine * R, layer.count * EA * cosine * R, turn * cosine,
                     layer.count * EA * turn / (2 * pi)};
     const bool lines = inner.helix_radius == 0;

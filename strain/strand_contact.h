@@ -32,7 +32,7 @@ class StrandContact {
   enum class Contacts { elastic, rigid };
 
   /// Layers lie in alternating hands, all but the core on helices. `cap` and `outer_layers_press` do not
-  /// count.
+  /// count. Errors: InputError for a jacket's stiffness.
   StrandContact(const Strand& strand, Contacts contacts);
 
   /// The moment [N m] once the curvature [1/m], in one plane, has moved on to `curvature`.

@@ -29,6 +29,7 @@ forgets() {
 }
 
 forgets pipeline/job/fatigue.h MeanStress 1 fatigue/damage.cpp fatigue/strain_life.cpp
+forgets pipeline/job/fatigue.h MeanStressRelaxation 1 fatigue/relaxation.cpp
 forgets pipeline/job/fatigue.h Stress 2
 forgets pipeline/job/fatigue.h Counting 2
 forgets pipeline/job/strain.h DeformationMeasure 2

@@ -112,19 +112,20 @@ struct Top {
 };
 
 /// Goes through one period of a history in each lane, which starts and ends with its largest strain L >= 0;
-/// where that was compression the lane is mirrored. Row 0 holds the mirrored tip of the outermost loop, -L on
-/// the cyclic curve: the path never goes beyond it, so nothing closes below L, and when a step back to L has
-/// closed everything, the branch from there leads to L again.
+/// where that was compression the lane is mirrored. Row 0 holds -L with the stress from which a branch leads to that
+/// at L: the path never goes beyond it, so nothing closes below L, and when a step back to L has closed everything,
+/// the branch from there leads to L again, whatever of its stress has relaxed.
 template <bool one_by_one>
 class Loops {
  public:
   DRESSLIFE_INLINE Loops(const LockstepTables& tables, const Pack& largest, const Pack& sign,
-                         const OpenRows& rows)
+                         const double* first_stress, const OpenRows& rows)
       : tables_(tables), rows_(rows), mirrored_(greater(Pack{}, sign)) {
-    const Pack first = branch_of(2 * largest) / 2;
+    const Pack branch_to_largest = branch_of(2 * largest);
+    const Pack first = first_stress ? load<Pack>(first_stress) : branch_to_largest / 2;
     constexpr double more = 1 + 0x1p-52, smallest = 0x1p-1000;
     rows_.put(-1, Pack(__builtin_inf()), first);
-    rows_.put(0, -largest * more - smallest, -first);
+    rows_.put(0, -largest * more - smallest, first - branch_to_largest);
     rows_.put(1, largest, first);
     top_ = Top::of(rows_, 1);
   }
@@ -212,7 +213,24 @@ struct Period {
   float largest = 0;      ///< L
   float sign = 1;         ///< -1: mirrored
   std::size_t steps = 0;  ///< from L to L
+  double first_stress = 0;  ///< at L, where LockstepTables has a function for it
 };
+
+/// Largest minus smallest strain. Precondition: not empty.
+inline double range_of(const StrainList& list) {
+  FloatPack low(list.strain[0]), high(list.strain[0]);
+  const std::size_t whole = list.size - list.size % float_lanes;
+  for (std::size_t i = 0; i < whole; i += float_lanes) {
+    const FloatPack now = load_some(list.strain + i, float_lanes);
+    low = smaller(low, now), high = larger(high, now);
+  }
+  float lowest = -largest_lane(-low), highest = largest_lane(high);
+  for (std::size_t i = whole; i < list.size; ++i) {
+    lowest = list.strain[i] < lowest ? list.strain[i] : lowest;
+    highest = list.strain[i] > highest ? list.strain[i] : highest;
+  }
+  return double{highest} - double{lowest};
+}
 
 /// Writes the strains after the first L, and up to float_lanes numbers more. Only the joint of the history's
 /// end ... a b and its begin c d ... needs care: a reversal there that the next one continues, or repeats, is
@@ -249,12 +267,12 @@ constexpr std::size_t steps_at_once = lanes > 2 ? lanes : 2;
 /// Damage of the lanes in `which`. Returns those that go the wrong way somewhere.
 template <bool one_by_one>
 unsigned sum_lanes(const LockstepTables& tables, const Periods& periods, unsigned which, double* damage) {
-  double largest[lanes] = {}, sign[lanes] = {};
+  double largest[lanes] = {}, sign[lanes] = {}, first_stress[lanes] = {};
   std::size_t steps = 0;
   for (std::size_t j = 0; j < lanes; ++j)
     if (which >> j & 1) {
       const Period& period = periods.of[j];
-      largest[j] = period.largest, sign[j] = period.sign;
+      largest[j] = period.largest, sign[j] = period.sign, first_stress[j] = period.first_stress;
       steps = period.steps > steps ? period.steps : steps;
     }
   steps += steps % 2;
@@ -262,7 +280,8 @@ unsigned sum_lanes(const LockstepTables& tables, const Periods& periods, unsigne
     for (std::size_t i = which >> j & 1 ? periods.of[j].steps : 0; i < steps; ++i)
       periods.strains[j * periods.stride + i] = static_cast<float>(largest[j]);
 
-  Loops<one_by_one> loops(tables, load<Pack>(largest), load<Pack>(sign), periods.open);
+  Loops<one_by_one> loops(tables, load<Pack>(largest), load<Pack>(sign),
+                          tables.first_stress ? first_stress : nullptr, periods.open);
   for (std::size_t first = 0; first < steps; first += steps_at_once) {
     float rows[steps_at_once * lanes];
     for (std::size_t i = 0; i < steps_at_once; i += lanes)
@@ -302,7 +321,11 @@ unsigned sum(const LockstepTables& tables, const StrainList* histories, std::siz
                   reinterpret_cast<double*>(memory + stack) + lanes};
   unsigned by_table = 0, one_by_one = 0;  // lanes
   for (std::size_t j = 0; j < count; ++j) {
-    periods.of[j] = rotated(histories[j], periods.strains + j * periods.stride);
+    Period& period = periods.of[j];
+    period = rotated(histories[j], periods.strains + j * periods.stride);
+    if (tables.first_stress != nullptr && period.steps > 0)
+      period.first_stress = tables.first_stress(tables.material, double{period.sign} * double{period.largest},
+                                                range_of(histories[j]), histories[j].share);
     const bool far = beyond_table(tables, 2 * double{periods.of[j].largest});
     (far || tables.damage_of != nullptr ? one_by_one : by_table) |= 1u << j;
   }

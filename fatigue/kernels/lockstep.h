@@ -34,12 +34,19 @@ struct LockstepTables {
   const void* material = nullptr;  ///< handed to the functions
 
   double endurance = 0;  ///< amplitudes up to it do no damage
+
+  /// Size of the stress at the largest |strain| of a history that a part of its offset (F22) has left, where it is
+  /// not null; else there it lies on the cyclic curve. largest: with its sign; share: StrainList's.
+  double (*first_stress)(const void* material, double largest, double range, double share) = nullptr;
 };
 
 /// Strains of the reversals of one history [1].
 struct StrainList {
   const float* strain;
   std::size_t size;
+  double share = expected_share;  ///< of the offset that is left
+  /// That which is expected over the history's life.
+  static constexpr double expected_share = -1;
 };
 
 /// Memory of the loop, as wide as the widest register.

@@ -1,6 +1,7 @@
 #include "pipeline/files/digest.h"
 
 #include <fmt/format.h>
+#include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <xxhash.h>
 
@@ -17,7 +18,9 @@ namespace {
 
 class Sha256 {
  public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+  Sha256() : context_(nullptr, EVP_MD_CTX_free) {
+    OPENSSL_init_crypto(OPENSSL_INIT_NO_LOAD_CONFIG, nullptr);  // no setting of the machine's changes a digest
+    context_.reset(EVP_MD_CTX_new());
     if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
       throw std::runtime_error("SHA-256 is not available");
   }
@@ -45,7 +48,7 @@ std::string sha256(std::string_view bytes) {
 
 namespace {
 
-constexpr std::size_t block_bytes = 1 << 20;
+constexpr std::size_t block_bytes = 1 << 16;  // larger ones cost short files more to clear than to read
 
 /// Gives a file's bytes to `digest`, block by block.
 template <class Digest>

@@ -494,6 +494,7 @@ struct FileReader::Impl {
   std::filesystem::path name;
   const Format* format = nullptr;
   InputBytes input;  // closed after the library has let go of it
+  std::uint64_t bytes = 0;  // of the file: nothing that it holds is larger
   Handle file;
   std::map<std::string, Open> open;
   std::map<std::string, std::size_t> axes;
@@ -510,9 +511,19 @@ struct FileReader::Impl {
     return found->second;
   }
 
-  std::string text_of(hid_t object, const std::string& attribute) const {
-    const Handle id(H5Aopen(object, attribute.c_str(), H5P_DEFAULT), H5Aclose);
+  /// One value of an attribute: no other number of them is read into the place of one.
+  Handle one_value(hid_t object, const std::string& attribute) const {
+    Handle id(H5Aopen(object, attribute.c_str(), H5P_DEFAULT), H5Aclose);
     if (!id.valid()) fail(fmt::format("attribute '{}' is missing", attribute));
+    const Handle space(H5Aget_space(id), H5Sclose);
+    if (H5Sget_simple_extent_npoints(space) != 1)
+      fail(fmt::format("attribute '{}' holds {} values (must be one)", attribute,
+                       H5Sget_simple_extent_npoints(space)));
+    return id;
+  }
+
+  std::string text_of(hid_t object, const std::string& attribute) const {
+    const Handle id = one_value(object, attribute);
     const Handle type(H5Aget_type(id), H5Tclose);
     if (H5Tget_class(type) != H5T_STRING) fail(fmt::format("attribute '{}' is not text", attribute));
     if (H5Tis_variable_str(type) > 0) {
@@ -523,20 +534,28 @@ struct FileReader::Impl {
       H5free_memory(words);
       return text;
     }
-    std::string text(H5Tget_size(type), '\0');
+    const std::size_t length = H5Tget_size(type);
+    if (length > bytes)
+      fail(fmt::format("attribute '{}' is a text of {} bytes in a file of {} (the file is damaged)", attribute,
+                       length, bytes));
+    std::string text(length, '\0');
     if (H5Aread(id, type, text.data()) < 0) fail(fmt::format("attribute '{}' cannot be read", attribute));
     text.resize(std::min(text.size(), text.find('\0')));
     return text;
+  }
+
+  /// number: of the memory type that is named.
+  void read_number(const std::string& attribute, hid_t type, void* number) const {
+    if (H5Aread(one_value(file, attribute), type, number) < 0)
+      fail(fmt::format("attribute '{}' is missing or not a number", attribute));
   }
 
   void check_format() {
     if (H5Aexists(file, "format") <= 0) fail("is not a dresslife file (it has no attribute 'format')");
     const std::string written = text_of(file, "format");
     if (written != format->name) fail(fmt::format("holds '{}' ('{}' is expected)", written, format->name));
-    const Handle id(H5Aopen(file, "format_version", H5P_DEFAULT), H5Aclose);
     int version = 0;
-    if (!id.valid() || H5Aread(id, H5T_NATIVE_INT, &version) < 0)
-      fail("attribute 'format_version' is missing");
+    read_number("format_version", H5T_NATIVE_INT, &version);
     if (version > format->version)
       throw InputError(
           {name.string()},
@@ -612,28 +631,47 @@ struct FileReader::Impl {
     const Handle creation(H5Dget_create_plist(made.id), H5Pclose);
     const Handle type(H5Dget_type(made.id), H5Tclose);
     const Handle space(H5Dget_space(made.id), H5Sclose);
-    hsize_t bytes = H5Tget_size(type);
+    hsize_t promised = H5Tget_size(type);
     for (const hsize_t length : made.lengths)
-      if (__builtin_mul_overflow(bytes, length, &bytes)) fail(fmt::format("dataset {} is too large", path));
+      if (__builtin_mul_overflow(promised, length, &promised))
+        fail(fmt::format("dataset {} is too large", path));
     const H5D_layout_t layout = H5Pget_layout(creation);
     if (H5Pget_external_count(creation) != 0 || layout == H5D_VIRTUAL)
       fail(fmt::format("dataset {} lies in other files (the data must lie in the file itself)", path));
-    if (bytes == 0) return;
+    if (promised == 0) return;
     if (layout != H5D_CHUNKED) {
-      if (H5Dget_storage_size(made.id) != bytes) fail(fmt::format("dataset {} was never filled", path));
+      if (H5Dget_storage_size(made.id) != promised) fail(fmt::format("dataset {} was never filled", path));
+      if (promised > bytes)
+        fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
       return;
     }
     std::vector<hsize_t> chunk(made.lengths.size());
     H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
     hsize_t needed = 1, found = 0, chunk_size = H5Tget_size(type);
     for (std::size_t i = 0; i < chunk.size(); ++i) {
-      needed *= (made.lengths[i] + chunk[i] - 1) / chunk[i];
-      chunk_size *= chunk[i];
+      const hsize_t along = made.lengths[i] / chunk[i] + (made.lengths[i] % chunk[i] != 0);
+      if (__builtin_mul_overflow(needed, along, &needed) ||
+          __builtin_mul_overflow(chunk_size, chunk[i], &chunk_size))
+        fail(fmt::format("dataset {} is too large", path));
     }
     if (chunk_size > most_chunk_bytes)
       fail(fmt::format("dataset {} has chunks of {} bytes", path, chunk_size));
+    check_fits(made, creation, needed, chunk_size);
     if (H5Dget_num_chunks(made.id, space, &found) < 0 || found != needed)
       fail(fmt::format("dataset {} has {} of its {} chunks (the file is damaged)", path, found, needed));
+  }
+
+  /// Each chunk takes its place in the file, and what lies there unpacked is no smaller than it was: no dataset
+  /// has more chunks than the file has room for, nor are those that exist larger than the file.
+  void check_fits(const Open& made, hid_t creation, hsize_t chunks, hsize_t chunk_size) const {
+    constexpr hsize_t least_index_bytes = 4;  // of a chunk: at least its length stands somewhere
+    const std::string& path = made.description->path;
+    const hsize_t least = H5Pget_nfilters(creation) > 0 ? least_index_bytes : chunk_size;
+    if (chunks > bytes / least)
+      fail(fmt::format("dataset {} promises {} chunks of {} bytes in a file of {} (the file is damaged)", path,
+                       chunks, chunk_size, bytes));
+    if (H5Dget_storage_size(made.id) > bytes)
+      fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
   }
 
   /// Rows of a chunk if it is packed as this program does it; other layouts of the same numbers go through
@@ -661,16 +699,16 @@ struct FileReader::Impl {
   }
 
   void read_packed(const Open& from, std::size_t first, std::size_t count, float* out) const {
-    std::vector<char> bytes;
+    std::vector<char> packed;
     std::vector<float> numbers(from.packed_rows);
     for (std::size_t row = first, end = first + count; row < end;) {
       const hsize_t chunk = row / from.packed_rows * from.packed_rows;
       hsize_t size = 0;
       std::uint32_t unfiltered = 0;
       const bool found = H5Dget_chunk_storage_size(from.id, &chunk, &size) >= 0;
-      bytes.resize(size);
-      if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, &chunk, &unfiltered, bytes.data()) < 0 ||
-          unfiltered || !unpack_chunk(bytes, *from.description->decimals, std::span(numbers)))
+      packed.resize(size);
+      if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, &chunk, &unfiltered, packed.data()) < 0 ||
+          unfiltered || !unpack_chunk(packed, *from.description->decimals, std::span(numbers)))
         fail(fmt::format("dataset {} cannot be read (the file is damaged)", from.description->path));
       const std::size_t here = std::min<std::size_t>(end, chunk + from.packed_rows) - row;
       std::copy_n(numbers.data() + (row - chunk), here, out);
@@ -749,6 +787,7 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
                      fmt::format("check the path, or make it with {}", format.made_by));
   const std::string remedy = fmt::format("make the file anew with {}", format.made_by);
   impl_->input = InputBytes(file);
+  impl_->bytes = static_cast<std::uint64_t>(std::max<std::int64_t>(0, state_of(impl_->input.descriptor()).size));
   impl_->checksum = impl_->input.read_checksum(remedy);
   if (scope == Scope::everything) impl_->input.check(impl_->checksum, remedy);
   const Handle access(access_for_reading(impl_->input.descriptor()), H5Pclose);
@@ -828,10 +867,8 @@ std::string FileReader::text_attribute(const std::string& name) const {
 }
 
 double FileReader::number_attribute(const std::string& name) const {
-  const Handle id(H5Aopen(impl_->file, name.c_str(), H5P_DEFAULT), H5Aclose);
   double value = 0;
-  if (!id.valid() || H5Aread(id, H5T_NATIVE_DOUBLE, &value) < 0)
-    impl_->fail(fmt::format("attribute '{}' is missing or not a number", name));
+  impl_->read_number(name, H5T_NATIVE_DOUBLE, &value);
   return value;
 }
 
@@ -843,16 +880,32 @@ Where FileReader::where() const { return {impl_->name.string()}; }
 
 const std::string& FileReader::checksum() const { return impl_->checksum; }
 
-bool is_dresslife_file(const std::filesystem::path& file) {
+namespace {
+
+/// The root attribute `format`; empty: not one of ours.
+std::string written_format(const std::filesystem::path& file) {
   silence_library();
-  if (begins_with_checksum(file)) return true;
   const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!opened.valid() || H5Aexists(opened, "format") <= 0) return false;
+  if (!opened.valid() || H5Aexists(opened, "format") <= 0) return "";
   const Handle attribute(H5Aopen(opened, "format", H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(attribute), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return false;
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "";
   std::string format(H5Tget_size(type), '\0');
-  return H5Aread(attribute, type, format.data()) >= 0 && format.starts_with("dresslife-");
+  if (H5Aread(attribute, type, format.data()) < 0 || !format.starts_with("dresslife-")) return "";
+  return format.c_str();  // padded with zeros
+}
+
+}  // namespace
+
+bool is_dresslife_file(const std::filesystem::path& file) {
+  return begins_with_checksum(file) || !written_format(file).empty();
+}
+
+const Format* format_of(const std::filesystem::path& file) {
+  const std::string written = written_format(file);
+  for (const Format* format : {&motion_format(), &strain_format(), &life_format(), &preview_format()})
+    if (format->name == written) return format;
+  return nullptr;
 }
 
 }  // namespace dresslife::pipeline

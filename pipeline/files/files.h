@@ -55,8 +55,9 @@ struct Format {
 const Format& motion_format();
 const Format& strain_format();
 const Format& life_format();
+const Format& preview_format();
 
-/// All three formats as Markdown.
+/// All formats as Markdown.
 std::string file_manual();
 
 class FileReader;
@@ -154,5 +155,8 @@ class FileReader {
 
 /// Whether a file was made by one of our stages, whole or not.
 bool is_dresslife_file(const std::filesystem::path& file);
+
+/// Which of the three it says it is; null: none of them, or no file.
+const Format* format_of(const std::filesystem::path& file);
 
 }  // namespace dresslife::pipeline

@@ -216,9 +216,9 @@ void add_cables(std::vector<Dataset>& datasets) {
   const auto add = [&](const char* path, Type type, std::vector<std::string> axes, const char* unit,
                        const char* meaning) { datasets.push_back({path, type, axes, unit, meaning, false, true}); };
   add("/cable/name", Type::text, {"cable"}, "1",
-      "cables: parts right in the dresspack that hold parts and slide; of each span between two clamps anew");
+      "cables: parts right in the dresspack that hold parts; of each span between two clamps anew");
   add("/cable/tension", Type::f64, {"sample", "cable"}, "N",
-      "force of each, by the cyclic curve of its wires; where friction makes it differ along it, the largest");
+      "force of each, by the cyclic curve of its wires; where it differs along it, the largest");
   add("/cable/grip_slip", Type::f64, {"cable", "2"}, "m",
       "length that slips through its base and its tool clamp per repeat, both ways added up");
   add("/cable/offset_sample", Type::u32, {"picture"}, "1", "samples at which /cable/offset tells");
@@ -265,6 +265,11 @@ Format make_strain_format() {
       {"clamp_moment_share",
        "largest moment of all cables on the hose at a clamp, over the largest that the simulated hose carries "
        "there",
+       false, true});
+  format.attributes.push_back(
+      {"loose_mesh_error",
+       "share of loose cables' curvature that as many places along the hose as it has segments miss: an estimate, root of "
+       "mean squares over the motion, of the worst cable",
        false, true});
   format.datasets.push_back({"/probe/site", Type::u32, {"probe"}, "1", "site of each probe"});
   format.datasets.push_back(
@@ -370,6 +375,13 @@ Format make_life_format() {
        "10, 50 and 90 % of cases (columns)",
        true,
        true},
+      {"/conductor/place_life",
+       Type::f64,
+       {"conductor"},
+       "1",
+       "repeats until fatigue.failed_wires_percent of its wires have broken in one segment, all lives median and no load shared",
+       true,
+       true},
       {"/worst/strain",
        Type::f64,
        {"sample"},
@@ -472,14 +484,27 @@ Format make_life_format() {
       {"worst_component", "path of its wire", true},
       {"worst_time", "time at which its most damaging cycle closes, s"},
       {"worst_step", "program line being executed then", true},
+      {"life_hours_mean_stress_kept", "the same wire's life if none of its mean stress relaxed", false, true},
+      {"life_hours_without_mean_stress", "the same wire's life by (8), mean stress left out", false, true},
+      {"mean_stress_left",
+       "mean over its life of the share that is left of the stress by which it is off centre (fatigue/README.md, F22)",
+       false, true},
       {"worst_dresspack", "the dresspack that it lies in, among several; the segment above is counted in it",
        true, true},
-      {"life_hours_p10", "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)", false,
-       true},
-      {"life_hours_p50",
-       "the same of half of them: earlier than life_hours, since any of many wires may be the first", false,
-       true},
+      {"life_hours_p10",
+       "the planner's: by then 10 % of such dresspacks have a conductor that has lost fatigue.failed_wires_percent of its "
+       "wires in one segment. In files without first_wire_life_hours_p10 these three tell of the first broken wire",
+       false, true},
+      {"life_hours_p50", "the same of half of them", false, true},
       {"life_hours_p90", "the same of 90 %", false, true},
+      {"life_months_p10", "the first of them at the job's operating hours per week", false, true},
+      {"failing_conductor", "where a share of wires breaks soonest by their medians: path of the conductor", true, true},
+      {"failing_position_from_tool", "and its distance from the tool clamp along the dresspack, m", false, true},
+      {"first_wire_life_hours_p10", "by then 10 % of such dresspacks have a broken wire (fatigue.scatter_log10)", false,
+       true},
+      {"first_wire_life_hours_p50",
+       "the same of half of them: earlier than life_hours, since any of many wires may be the first", false, true},
+      {"first_wire_life_hours_p90", "the same of 90 %", false, true},
       {"worst_shear_range",
        "largest less smallest shear strain of the worst site's surface, by its wire's torsion", false, true},
       {"worst_plane_angle", "/plane/angle of the worst site, rad; absent where it was not judged", false,
@@ -538,6 +563,49 @@ const char* type_text(Type type) {
   return "";
 }
 
+/// What the motion and the preview file both hold, as in the motion file.
+void copy_from_motion(Format& format) {
+  for (const char* path :
+       {"/time", "/segment/position", "/segment/length", "/segment/dresspack", "/dresspack/name",
+        "/clamp/position", "/clamp/segment", "/robot/joint_position", "/robot/link_pose", "/program/step",
+        "/program/text"})
+    format.datasets.push_back(motion_format().find(path));
+}
+
+Format make_preview_format() {
+  Format format{"dresslife-preview", 1, "dresslife-sim --preview", "what stands where before a run", {}, {}};
+  copy_from_motion(format);
+  for (Dataset& dataset : format.datasets)
+    if (dataset.path == "/segment/position")
+      dataset.meaning = "segment centres of smooth curves of the right lengths between the clamps, in the world";
+  const auto add = [&](Dataset dataset) { format.datasets.push_back(std::move(dataset)); };
+  add({"/span/dresspack", Type::i32, {"span"}, "1", "dresspack of each span between two clamps that hold it"});
+  add({"/span/name", Type::text, {"span"}, "1", "between which clamps; empty: the only span"});
+  add({"/span/length", Type::f64, {"span"}, "m", "length of dresspack in it, unstretched"});
+  add({"/span/way", Type::f64, {"sample", "span"}, "m", "straight way between its clamps, through its rings; 0 at a free end"});
+  add({"/span/working_length",
+       Type::f64,
+       {"span", "4"},
+       "m",
+       "least and most length with the slack that the checks ask for: in the first sample's pose, then over the program; "
+       "0: a free end"});
+  add({"/scan/span", Type::i32, {"scan"}, "1", "span of each length that was tried", false, true});
+  add({"/scan/length", Type::f64, {"scan"}, "m", "length", false, true});
+  add({"/scan/bend_radius",
+       Type::f64,
+       {"scan"},
+       "m",
+       "least bend radius of the dresspack at rest in some poses of the program, with its weight, without contact; "
+       "0: it finds no rest",
+       false,
+       true});
+  format.attributes = {
+      {"refusal", "why the simulation refuses the job; empty: it takes it", true},
+      {"refusal_time", "when, s; absent: not at a time of the program", false, true},
+  };
+  return format;
+}
+
 }  // namespace
 
 const Dataset& Format::find(std::string_view path) const {
@@ -560,9 +628,14 @@ const Format& life_format() {
   return format;
 }
 
+const Format& preview_format() {
+  static const Format format = make_preview_format();
+  return format;
+}
+
 std::string file_manual() {
   std::string text;
-  for (const Format* format : {&motion_format(), &strain_format(), &life_format()}) {
+  for (const Format* format : {&motion_format(), &strain_format(), &life_format(), &preview_format()}) {
     text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version,
                         format->purpose, format->made_by);
     text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";

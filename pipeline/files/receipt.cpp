@@ -3,13 +3,15 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-#include <cstdio>
-#include <fstream>
+#include <algorithm>
 
 #include "pipeline/errors.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/digest.h"
+#include "pipeline/files/files.h"
+#include "pipeline/files/words.h"
 
 namespace dresslife::pipeline {
 
@@ -43,33 +45,102 @@ std::string recipe_of(std::string_view settings, const std::vector<std::filesyst
   return digest.hex();
 }
 
-std::optional<Receipt> read_receipt(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  Receipt receipt;
-  FileState& state = receipt.state;
-  std::string word[4], end;
-  if (!(in >> word[0] >> receipt.recipe >> word[1] >> receipt.input >> word[2] >> receipt.output >> word[3] >>
-        state.size >> state.modified_ns >> state.changed_ns >> state.inode >> end) ||
-      word[0] != "recipe" || word[1] != "input" || word[2] != "output" || word[3] != "state" || end != "end")
-    return std::nullopt;
-  receipt.written_ns = state_of(file).changed_ns;
-  return receipt;
+std::vector<Told> told_by(const std::filesystem::path& file, const Format& format) {
+  const FileReader reader(file, format, FileReader::Scope::attributes);
+  std::vector<Told> all;
+  for (const AttributeInfo& attribute : format.attributes) {
+    if (!reader.has_attribute(attribute.name)) continue;
+    Told& told = all.emplace_back();
+    told.name = attribute.name;
+    if (attribute.is_text)
+      told.text = reader.text_attribute(attribute.name);
+    else
+      told.number = reader.number_attribute(attribute.name);
+  }
+  return all;
 }
 
 namespace {
 
+/// A short file at one go, and when it was changed last.
+std::optional<std::string> whole_text(const std::filesystem::path& file, std::int64_t& changed_ns) {
+  constexpr std::int64_t longest = 1 << 20;
+  const int opened = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (opened < 0) return std::nullopt;
+  const FileState state = state_of(opened);
+  changed_ns = state.changed_ns;
+  std::string text(static_cast<std::size_t>(std::clamp<std::int64_t>(state.size, 0, longest)), '\0');
+  const bool read = state.exists() && state.size <= longest && read_at(opened, text.data(), text.size(), 0);
+  ::close(opened);
+  return read ? std::optional(std::move(text)) : std::nullopt;
+}
+
+/// In one line, and back.
+std::string in_line(const std::string& text) {
+  std::string line;
+  for (const char letter : text) line += letter == '\n' ? "\\n" : letter == '\\' ? "\\\\" : std::string(1, letter);
+  return line;
+}
+std::string out_of_line(std::string_view line) {
+  std::string text;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool escaped = line[i] == '\\' && i + 1 < line.size();
+    text += !escaped ? line[i] : line[i + 1] == 'n' ? '\n' : line[i + 1];
+    i += escaped;
+  }
+  return text;
+}
+
+/// All but the digest at the end.
 std::string text_of(const Receipt& receipt) {
   const FileState& state = receipt.state;
-  return fmt::format("recipe {}\ninput {}\noutput {}\nstate {} {} {} {}\nend\n", receipt.recipe,
-                     receipt.input, receipt.output, state.size, state.modified_ns, state.changed_ns,
-                     state.inode);
+  std::string text =
+      fmt::format("recipe {}\ninput {}\noutput {}\nstate {} {} {} {}\n", receipt.recipe, receipt.input,
+                  receipt.output, state.size, state.modified_ns, state.changed_ns, state.inode);
+  for (const Told& told : receipt.told)
+    text += told.text.empty() ? fmt::format("number {} {}\n", told.name, told.number)
+                              : fmt::format("text {} {}\n", told.name, in_line(told.text));
+  return text;
 }
 
 }  // namespace
 
+std::optional<Receipt> read_receipt(const std::filesystem::path& file) {
+  Receipt receipt;
+  const std::optional<std::string> text = whole_text(file, receipt.written_ns);
+  if (!text) return std::nullopt;
+  const std::size_t end = text->rfind("end ");
+  if (end == std::string::npos || text->substr(end) != fmt::format("end {}\n", xxh3(text->substr(0, end))))
+    return std::nullopt;
+  for (Words lines(std::string_view(*text).substr(0, end)); lines.any();) {
+    const std::string_view what = lines.until(' ');
+    if (what == "recipe") {
+      receipt.recipe = lines.until('\n');
+    } else if (what == "input") {
+      receipt.input = lines.until('\n');
+    } else if (what == "output") {
+      receipt.output = lines.until('\n');
+    } else if (what == "state") {
+      receipt.state.size = lines.number<std::int64_t>(' ');
+      receipt.state.modified_ns = lines.number<std::int64_t>(' ');
+      receipt.state.changed_ns = lines.number<std::int64_t>(' ');
+      receipt.state.inode = lines.number<std::uint64_t>('\n');
+    } else {
+      Told& told = receipt.told.emplace_back();
+      told.name = lines.until(' ');
+      if (what == "text")
+        told.text = out_of_line(lines.until('\n'));
+      else
+        told.number = lines.number<double>('\n');
+    }
+  }
+  return receipt;
+}
+
 void write_receipt(const std::filesystem::path& file, Receipt receipt, const std::filesystem::path& output) {
   receipt.state = state_of(output);
-  write_text_if_changed(file, text_of(receipt), Sync::never);
+  const std::string text = text_of(receipt);
+  write_text_if_changed(file, text + fmt::format("end {}\n", xxh3(text)), Sync::never);
   // A receipt that says what it said before is now as young as this look at the output.
   if (state_of(file).changed_ns <= receipt.state.changed_ns) ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);
 }

@@ -4,7 +4,10 @@
 #include <cstdlib>
 
 #include "pipeline/installation.h"
+#include "pipeline/job/cable.h"
+#include "pipeline/job/data_sheet.h"
 #include "pipeline/job/fields.h"
+#include "pipeline/job/sources.h"
 #include "pipeline/job/urdf.h"
 
 namespace dresslife::pipeline {
@@ -27,7 +30,7 @@ std::vector<fs::path> folders_beside(const std::string& folder, const Where& nam
     fs::path here = fs::absolute(folder_of(origin) / "any", failure).lexically_normal().parent_path();
     for (; !here.empty(); here = here.parent_path()) {
       for (const fs::path& candidate : {here / folder, here / "config" / folder})
-        if (fs::is_directory(candidate, failure)) folders.push_back(candidate);
+        if (is_folder(candidate)) folders.push_back(candidate);
       if (here == here.root_path()) break;
     }
   }
@@ -113,7 +116,37 @@ void read_urdf(Node& entry) {
   entry = std::move(robot);
 }
 
-void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0) {
+void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0);
+
+/// `cable: ...` of a dresspack (cable.h); the entry's other keys go over what becomes of it.
+void read_cable(Node& entry, const Where& job, int depth) {
+  const Node cable = *entry.find("cable");
+  const Node* from = cable.is_scalar() ? &cable : cable.find("from");
+  Node alone;
+  if (from) {
+    const Node* part = cable.find("part");
+    for (const Entry& other : cable.entries)
+      if (other.key != "from" && other.key != "part")
+        throw InputError(other.where, fmt::format("unknown key 'dresspack.cable.{}' beside from", other.key),
+                         "give from and part, or the cable itself without from");
+    Node dresspack = catalogue_entry("dresspacks", from->text, from->where, job);
+    resolve(dresspack, "dresspacks", job, depth + 1);
+    alone = cable_alone(dresspack, part ? part->text : std::string(), part ? part->where : cable.where);
+  } else if (cable.is_map()) {
+    alone = cable_alone(cable);
+  } else {
+    throw InputError(cable.where, "dresspack.cable is neither a name nor a map",
+                     "name a dresspack, or give name, radius_mm and components of the cable");
+  }
+  Node over = entry;
+  std::erase_if(over.entries, [](const Entry& e) { return e.key == "cable"; });
+  const Where where = entry.where;
+  merge(alone, over);
+  alone.where = where;
+  entry = std::move(alone);
+}
+
+void resolve(Node& entry, const std::string& folder, const Where& job, int depth) {
   if (depth > 16) throw InputError(entry.where, "'from' goes in a circle", "let one entry stand alone");
   if (entry.is_scalar()) {
     entry = catalogue_entry(folder, entry.text, entry.where, job);
@@ -121,6 +154,7 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
     return;
   }
   const Node* from = entry.is_map() ? entry.find("from") : nullptr;
+  if (!from && entry.is_map() && entry.find("cable") && folder == "dresspacks") return read_cable(entry, job, depth);
   if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
   if (!from) return;
   Node base = catalogue_entry(folder, from->text, from->where, job);
@@ -152,17 +186,16 @@ void collect_materials(const Node& components, std::vector<const Node*>& names) 
   }
 }
 
-void add_materials(Node* dresspack, const Node& job) {
-  if (!dresspack || !dresspack->is_map()) return;
+void add_materials(Node& dresspack, const Node& job) {
   std::vector<const Node*> names;
-  if (const Node* components = dresspack->find("components")) collect_materials(*components, names);
-  if (const Node* hose = dresspack->find("hose_material")) names.push_back(hose);
+  if (const Node* components = dresspack.find("components")) collect_materials(*components, names);
+  if (const Node* hose = dresspack.find("hose_material")) names.push_back(hose);
   if (const Node* fatigue = job.find("fatigue"))
     if (const Node* material = fatigue->find("material")) names.push_back(material);
   std::vector<Node> wanted;
   for (const Node* name : names) wanted.push_back(*name);  // the tree changes below
 
-  Node& materials = (*dresspack)["materials"];
+  Node& materials = dresspack["materials"];
   if (materials.kind == Node::Kind::null) materials.kind = Node::Kind::list;
   for (const Node& name : wanted) {
     const bool there = std::any_of(materials.items.begin(), materials.items.end(), [&](const Node& material) {
@@ -180,7 +213,14 @@ void add_materials(Node* dresspack, const Node& job) {
     materials.items.push_back(std::move(material));
   }
   if (materials.items.empty())
-    std::erase_if(dresspack->entries, [](const Entry& e) { return e.key == "materials"; });
+    std::erase_if(dresspack.entries, [](const Entry& e) { return e.key == "materials"; });
+}
+
+/// Cables by their data sheets as layers, and the materials that all wires name.
+void complete_dresspack(Node* dresspack, const Node& job) {
+  if (!dresspack || !dresspack->is_map()) return;
+  expand_data_sheets(*dresspack);
+  add_materials(*dresspack, job);
 }
 
 Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
@@ -201,16 +241,6 @@ Node* step_into(Node& node, const std::string& word, const Where& where, const s
   return &added;
 }
 
-/// A command line has no lines to point at.
-void place_at(Node& node, const Where& where) {
-  node.where = where;
-  for (Node& item : node.items) place_at(item, where);
-  for (Entry& entry : node.entries) {
-    entry.where = where;
-    place_at(entry.value, where);
-  }
-}
-
 }  // namespace
 
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
@@ -222,20 +252,20 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
     return entry;
   }
   if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
-    return read_yaml((folder_of(named_at) / name).lexically_normal());
+    return read_document((folder_of(named_at) / name).lexically_normal());
   std::vector<std::string> names;
   const auto found_in = [&](const fs::path& place) {
     std::error_code failure;
     const fs::path file = place / (name + ".yaml");
-    if (fs::is_regular_file(file, failure))
+    if (is_file(file))
       return file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file);
     for (const auto& item : fs::directory_iterator(place, failure))
       if (item.path().extension() == ".yaml") names.push_back(item.path().stem().string());
     return fs::path();
   };
   for (const fs::path& place : folders_beside(folder, named_at, job))
-    if (const fs::path file = found_in(place); !file.empty()) return read_yaml(file);
-  if (const fs::path file = found_in(shipped_catalogue() / folder); !file.empty()) return read_yaml(file);
+    if (const fs::path file = found_in(place); !file.empty()) return read_document(file);
+  if (const fs::path file = found_in(shipped_catalogue() / folder); !file.empty()) return read_document(file);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   throw InputError(named_at, fmt::format("'{}' is not in the catalogue (config/{})", name, folder),
@@ -250,7 +280,7 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     const std::string word = path.substr(begin, dot - begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
     // A catalogue entry is looked up as soon as a path leads into it.
-    if (begin > 0 && word != "from")
+    if (begin > 0 && word != "from" && word != "cable")
       if (const char* folder = shelf_of(path.substr(0, begin - 1))) resolve(*node, folder, job.where);
     node = step_into(*node, word, where, path);
     begin = dot + 1;
@@ -264,7 +294,7 @@ void apply_set(Node& job, const std::string& set) {
   if (equals == std::string::npos || equals == 0)
     throw InputError(where, "is not key.path=value", "write for example --set simulation.segments=80");
   Node value = parse_yaml(set.substr(equals + 1), where.file);
-  place_at(value, where);
+  place_at(value, where);  // a command line has no lines to point at
   set_value(job, set.substr(0, equals), std::move(value), where);
 }
 
@@ -272,13 +302,13 @@ void apply_set(Node& job, const std::string& set) {
 void resolve_job(Node& job) {
   for (const Shelf& shelf : shelves)
     if (Node* entry = job.find(shelf.key)) resolve(*entry, shelf.folder, job.where);
-  add_materials(job.find("dresspack"), job);
+  complete_dresspack(job.find("dresspack"), job);
   Node* list = job.find("dresspacks");
   if (!list) return;
   for (Node& mounted : list->items) {
     Node* entry = mounted.find("dresspack");
     if (entry) resolve(*entry, shelf_of("dresspack"), job.where);
-    add_materials(entry, job);
+    complete_dresspack(entry, job);
   }
 }
 

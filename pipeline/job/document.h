@@ -39,6 +39,9 @@ struct Entry {
 Node scalar(std::string text);
 Node list_of(std::vector<Node> items);
 
+/// Gives a whole tree one place: of what was not written where errors could point at.
+void place_at(Node& node, const Where& where);
+
 /// Reads a document. Errors: InputError at the place that is not YAML, or not allowed here.
 Node parse_yaml(const std::string& text, const std::string& file);
 Node read_yaml(const std::filesystem::path& file);

@@ -65,6 +65,7 @@ void describe(Fields& f, Component& component) {
            "to which the straight part was bent for it");
   f.number("polymer_bending_stiffness_Nm2", component.polymer_bending_stiffness, Need::optional, at_least(0),
            "of it that jacket and insulation make");
+  f.list("ratings", component.ratings, Need::optional, "of a cable: what its maker promises in test rigs");
 }
 
 void describe(Fields& f, Corrugation& corrugation) {
@@ -79,19 +80,22 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.place(dresspack.where);
   f.text("name", dresspack.name, Need::required, "name of the dresspack");
   f.text("source", dresspack.source, Need::required, "where the numbers come from");
+  f.boolean("cable_alone", dresspack.cable_alone, Need::optional,
+            "it is one cable by itself, as `cable:` makes it; stiffness, mass and damping may be left out where a "
+            "rig or a deformation moves it");
+  const Need need = dresspack.cable_alone ? Need::optional : Need::required;
+  const Range range = dresspack.cable_alone ? at_least(0) : above(0);
   f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
-  f.number("mass_kg_per_m", dresspack.mass_per_length, Need::required, above(0), "of the filled hose");
-  f.number("bending_stiffness_Nm2", dresspack.bending_stiffness, Need::required, above(0),
-           "EI of the filled hose");
-  f.number("torsional_stiffness_Nm2", dresspack.torsional_stiffness, Need::required, above(0),
-           "GJ of the filled hose");
-  f.number("axial_stiffness_N", dresspack.axial_stiffness, Need::required, above(0), "EA of the filled hose");
+  f.number("mass_kg_per_m", dresspack.mass_per_length, need, range, "of the filled hose");
+  f.number("bending_stiffness_Nm2", dresspack.bending_stiffness, need, range, "EI of the filled hose");
+  f.number("torsional_stiffness_Nm2", dresspack.torsional_stiffness, need, range, "GJ of the filled hose");
+  f.number("axial_stiffness_N", dresspack.axial_stiffness, need, range, "EA of the filled hose");
   f.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(),
            "of the delivered hose when nothing pulls on it, toward the x axis of its base clamp, which "
            "base_clamp.roll_deg turns; its parts are free of strain in that shape");
-  f.number("damping_time_ms", dresspack.damping_time, Need::required, at_least(0),
+  f.number("damping_time_ms", dresspack.damping_time, need, at_least(0),
            "Kelvin-Voigt time of bending and twist, from a decay test");
-  f.text("damping_source", dresspack.damping_source, Need::required,
+  f.text("damping_source", dresspack.damping_source, need,
          "where the damping comes from: life depends on it");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
            "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts");
@@ -114,6 +118,8 @@ void describe(Fields& f, Dresspack& dresspack) {
            "of what fills the middle of a hose and is no component");
   f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only");
   f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
+  f.list("ratings", dresspack.ratings, Need::optional,
+         "of a dresspack that is one cable, without a hose: what its maker promises in test rigs");
 }
 
 std::optional<double> inner_radius(const Dresspack& dresspack) {
@@ -242,7 +248,28 @@ void check_friction(const Component& component, const std::vector<Slip>& slip, s
   for (const Component& inner : component.components) check_friction(inner, slip, level + 1);
 }
 
+/// Ratings are of whole cables. A copy of each is checked: what the job says stays as written.
+void check_ratings(const std::vector<Rating>& ratings) {
+  for (Rating rating : ratings) {
+    if (!rating.rig.where.line) rating.rig.where = rating.where;
+    check_rig(rating.rig);
+  }
+}
+void check_ratings(const Component& component, bool first_level) {
+  if (!component.ratings.empty() && (!first_level || component.components.empty()))
+    throw InputError(component.ratings.front().where,
+                     fmt::format("'{}' has ratings (they are of cables right in the dresspack)", component.name),
+                     "give them to the cable");
+  check_ratings(component.ratings);
+  for (const Component& inner : component.components) check_ratings(inner, false);
+}
+
 }  // namespace
+
+void drop_ratings(Dresspack& dresspack) {
+  dresspack.ratings.clear();
+  for (Component& component : dresspack.components) component.ratings.clear();
+}
 
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   Component hose;
@@ -253,6 +280,11 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
     depth = std::max(depth, check_component(component, &hose));
   check_hose(dresspack);
   check_room(dresspack);
+  if (!dresspack.ratings.empty() && inner_radius(dresspack))
+    throw InputError(dresspack.ratings.front().where, "ratings stand beside a hose (they are of a cable)",
+                     "give them to the cable in dresspack.components");
+  check_ratings(dresspack.ratings);
+  for (const Component& component : dresspack.components) check_ratings(component, true);
   for (const Component& component : dresspack.components) {
     check_laying(dresspack, component, true);
     if (component.laying.position == Position::loose && !slides(slip.front()))

@@ -8,6 +8,7 @@
 
 #include "pipeline/job/document.h"
 #include "pipeline/job/material.h"
+#include "pipeline/job/rating.h"
 #include "pipeline/job/strain.h"
 
 namespace dresslife::pipeline {
@@ -80,6 +81,7 @@ struct Component {
   double polymer_bending_stiffness = 0;              ///< of it, of jacket and insulation [N m2]
   std::string material;  ///< of a wire; a key of Dresspack::materials; empty for a part with parts
   Laying laying;         ///< of a part of the first level that holds parts
+  std::vector<Rating> ratings;  ///< likewise, a cable
   std::vector<Component> components;
   Where where;
 };
@@ -94,6 +96,7 @@ struct Corrugation {
 
 struct Dresspack {
   std::string name, source;
+  bool cable_alone = false;  ///< it is one cable by itself (cable.h), whose stiffness and mass may be missing (0)
   double diameter = 0;                          ///< outer, of the hose [m]
   double mass_per_length = 0;                   ///< of the filled hose [kg/m]
   double bending_stiffness = 0;                 ///< EI [N m2]
@@ -112,6 +115,7 @@ struct Dresspack {
   double core_diameter = 0;                     ///< of what fills the middle and is no component [m]
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
+  std::vector<Rating> ratings;      ///< of a dresspack that is a cable itself
   Where where;
 };
 
@@ -134,8 +138,11 @@ void describe(Fields& f, Component& component);
 void describe(Fields& f, Corrugation& corrugation);
 void describe(Fields& f, Dresspack& dresspack);
 
+/// Takes out what no stage reads.
+void drop_ratings(Dresspack& dresspack);
+
 /// Levels of parts in it. slip: of the job, which says where friction must be known. Errors: InputError at
-/// the part that does not fit into its parent, or lacks what its slip needs.
+/// the part that does not fit into its parent, lacks what its slip needs, or has what its level does not.
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip);
 
 }  // namespace dresslife::pipeline

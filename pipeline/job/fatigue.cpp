@@ -7,6 +7,9 @@ namespace dresslife::pipeline {
 void describe(Fields& f, Fatigue& fatigue) {
   f.choice("stress", fatigue.stress, "Ramberg-Osgood with Masing memory, or E times strain");
   f.choice("mean_stress", fatigue.mean_stress, "correction of the strain-life curve");
+  f.choice("mean_stress_relaxation", fatigue.mean_stress_relaxation,
+           "of a repeated history's mean stress: never; by the power law of the materials that have a "
+           "relaxation_threshold_strain; or all of it before the first cycle");
   f.choice("counting", fatigue.counting, "rainflow of an endlessly repeated motion, or of one run");
   f.number("endurance_strain", fatigue.endurance_strain, Need::optional, between(0, 0.1),
            "amplitudes up to this do no damage");
@@ -20,6 +23,9 @@ void describe(Fields& f, Fatigue& fatigue) {
       "scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
       "standard deviation of log10 of a wire's life; ESTIMATE: lives of 20 equal wires spread over 0.75 of a "
       "decade");
+  f.number("scatter_shared", fatigue.scatter_shared, Need::optional, between(0, 1),
+           "share of the variance of scatter_log10 that all wires of a dresspack, one spool or batch, have in "
+           "common; ESTIMATE");
   f.number("failed_wires_percent", fatigue.failed_wires_percent, Need::optional, between(0, 100),
            "a conductor fails when so many of its wires are broken; 0: with the first");
   f.boolean("load_sharing", fatigue.load_sharing, Need::optional,

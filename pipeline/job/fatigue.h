@@ -48,6 +48,20 @@ constexpr std::string_view word(MeanStress value) {
   return {};
 }
 
+/// What becomes of the stress that a repeated history is off centre by (fatigue/README.md, F22).
+enum class MeanStressRelaxation { none, power_law, complete };
+constexpr std::string_view word(MeanStressRelaxation value) {
+  switch (value) {
+    case MeanStressRelaxation::none:
+      return "none";
+    case MeanStressRelaxation::power_law:
+      return "power_law";
+    case MeanStressRelaxation::complete:
+      return "complete";
+  }
+  return {};
+}
+
 enum class Counting { repeating, half_cycles };
 constexpr std::string_view word(Counting value) {
   switch (value) {
@@ -72,12 +86,14 @@ constexpr bool is_repeated(Counting value) {
 struct Fatigue {
   Stress stress = Stress::cyclic;
   MeanStress mean_stress = MeanStress::swt;
+  MeanStressRelaxation mean_stress_relaxation = MeanStressRelaxation::power_law;
   Counting counting = Counting::repeating;
   double endurance_strain = 0;  ///< amplitudes up to this do no damage
   std::string material;         ///< of every wire (not of the hose) instead of its own; empty: its own
   int listed_sites = 20;        ///< worst sites whose cycles are written
   double operating_hours_per_week = 80;  ///< turns hours into months
   double scatter_log10 = 0.2;            ///< standard deviation of log10 of a wire's life
+  double scatter_shared = 0.5;           ///< share of its variance that all wires of a dresspack have in common
   double failed_wires_percent = 10;      ///< a conductor fails when so many of its wires have
   bool load_sharing = false;             ///< the rest of a conductor takes over the load of its broken wires
 };

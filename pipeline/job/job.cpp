@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "pipeline/job/catalogue.h"
+#include "pipeline/job/data_sheet.h"
 #include "pipeline/job/fields.h"
 #include "pipeline/job/overlap.h"
+#include "pipeline/job/sources.h"
 #include "pipeline/job/urdf.h"
 
 namespace dresslife::pipeline {
@@ -24,13 +26,14 @@ Forms forms_of(const Job& job) {
 void describe_keys(Fields& f, Job& job, const Forms& forms) {
   // The motion first: whether it brings its own clamp poses decides whether a robot is needed.
   f.group("motion", job.motion, Need::required, "a name of config/programs, a file, or the entry itself");
-  f.group("robot", job.robot, job.motion.clamp_poses.empty() ? Need::required : Need::optional,
+  f.group("robot", job.robot, job.motion.needs_robot() ? Need::required : Need::optional,
           "a name of config/robots, a file, or the entry itself", !job.robot.joints.empty());
   if (forms.one) {
     MountedDresspack& only = job.dresspacks.front();
     f.group("dresspack", only.dresspack, Need::required,
             "a name of config/dresspacks, a file, or the entry itself");
-    f.group("routing", only.routing, Need::required, "clamps and free length");
+    f.group("routing", only.routing, job.motion.rig ? Need::optional : Need::required,
+            "clamps and free length", !job.motion.rig);
   }
   if (forms.list)
     f.list("dresspacks", job.dresspacks, forms.one ? Need::optional : Need::required,
@@ -88,6 +91,47 @@ void check_shared(const std::vector<MountedDresspack>& dresspacks) {
   }
 }
 
+/// A prescribed deformation is that of one dresspack of known length; nobody reads what would carry, touch or
+/// hold it.
+void check_prescribed(const Job& job, const Node& document) {
+  const char* key = job.motion.rig ? "motion.rig" : "motion.deformation";
+  const auto refuse = [&](const Where& where, const std::string& what) {
+    throw InputError(where, fmt::format("{} beside {} (which says how the dresspack deforms)", what, key),
+                     "leave it out");
+  };
+  for (const char* other : {"robot", "cell"})
+    if (const Node* given = document.find(other)) refuse(given->where, fmt::format("{} is given", other));
+  if (job.dresspacks.size() > 1)
+    throw InputError(job.motion.where,
+                     fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),
+                     "keep one dresspack");
+  const Node* routing = document.find("routing");
+  if (job.motion.rig && routing) refuse(routing->where, "routing is given");
+  for (const Entry& entry : routing ? routing->entries : std::vector<Entry>{})
+    if (entry.key != "free_length_m" && entry.key != "tool_end" && entry.key != "pre_twist_deg" &&
+        entry.key != "tool_mass_kg")
+      refuse(entry.where, "routing." + entry.key + " is given");
+  const Routing& only = job.dresspacks.front().routing;
+  if (only.pre_twist != 0 || only.tool_mass != 0 || !is_clamped(only.tool_end))
+    refuse(only.where, "an end that is free or twisted is given");
+}
+
+/// A simulated cable has the mass and the stiffness that a rig does without.
+void check_simulated(const Dresspack& dresspack) {
+  const std::pair<const char*, double> needed[] = {{"mass_kg_per_m", dresspack.mass_per_length},
+                                                   {"bending_stiffness_Nm2", dresspack.bending_stiffness},
+                                                   {"torsional_stiffness_Nm2", dresspack.torsional_stiffness},
+                                                   {"axial_stiffness_N", dresspack.axial_stiffness}};
+  for (const auto& [key, value] : needed)
+    if (value <= 0)
+      throw InputError(dresspack.where,
+                       fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
+                       "give it, or let motion.rig or motion.deformation move the cable");
+  if (dresspack.damping_source.empty())
+    throw InputError(dresspack.where, "dresspack.damping_source is missing (a cable that is simulated needs it)",
+                     "give damping_time_ms and where it comes from");
+}
+
 void check_dresspacks(const Job& job, const Where& strain) {
   if (!forms_of(job).one) check_names(job.dresspacks);
   if (job.dresspacks.size() > 1 && !job.motion.clamp_poses.empty())
@@ -97,7 +141,10 @@ void check_dresspacks(const Job& job, const Where& strain) {
                      "describe the motion by a robot, or keep one dresspack");
   int depth = 0;
   for (const MountedDresspack& mounted : job.dresspacks) {
-    check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
+    if (!job.motion.is_prescribed()) {
+      check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
+      check_simulated(mounted.dresspack);
+    }
     depth = std::max(depth, check_dresspack(mounted.dresspack, job.strain.slip));
     check_materials(mounted.dresspack.materials);
     overlap_warnings(mounted.dresspack);  // dresslife-strain tells them; gross overlap is refused here
@@ -114,13 +161,17 @@ void check(const Job& job, const Node& document) {
   auto where = [&](const char* key) {
     return document.find(key) ? document.find(key)->where : document.where;
   };
-  if (job.motion.clamp_poses.empty()) check_robot(job.robot, where("robot"));
+  if (job.motion.is_prescribed()) check_prescribed(job, document);
+  if (job.motion.needs_robot()) check_robot(job.robot, where("robot"));
   for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
   check_boxes(job.cell.boxes, where("cell"));
   check_motion(job.motion, job.robot);
   check_dresspacks(job, where("strain"));
   check_simulation(job.simulation, where("simulation"));
 }
+
+/// strain.gate of a job with a rig that names none: above the rounding of strains in single precision (W26).
+constexpr double gate_of_rigs = 1e-6;
 
 /// Exactly one of the two forms in which a job gives its dresspacks.
 void check_forms(const Node& document) {
@@ -132,7 +183,9 @@ void check_forms(const Node& document) {
           alone->where,
           fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
           "keep one of the two");
-    if (!list && !alone)
+    const Node* motion = document.find("motion");
+    const bool of_rig = key == std::string_view("routing") && motion && motion->find("rig");
+    if (!list && !alone && !of_rig)
       throw InputError(document.where, fmt::format("{} is missing (and there is no list dresspacks)", key),
                        "give dresspack and routing, or a list dresspacks of name, dresspack, routing");
   }
@@ -155,12 +208,20 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   if (document.find("dresspacks")) job.dresspacks.clear();
   read_fields(document, job);
   for (MountedDresspack& mounted : job.dresspacks) place_clamps(mounted.routing, job.robot);
+  if (job.motion.rig) {
+    check_rig(*job.motion.rig);
+    const Node* strain = document.find("strain");
+    // Millions of cycles below the usual gate are what a rig is for, and its few samples cost nothing.
+    if (!strain || !strain->find("gate")) job.strain.gate = gate_of_rigs;
+  }
   check(job, document);
+  if (job.motion.rig)
+    job.dresspacks.front().routing.free_length = rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
   return job;
 }
 
 Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets) {
-  return job_from(read_yaml(file), sets);
+  return job_from(read_document(file), sets);
 }
 
 Setup setup_from(Node document) { return job_from(std::move(document)); }
@@ -249,6 +310,8 @@ void describe_each(Fields& echo, const Forms& forms, std::vector<Keys> keys) {
 void describe_sim(Fields& echo, Job copy) {
   const Forms forms = forms_of(copy);
   for (MountedDresspack& mounted : copy.dresspacks) {
+    drop_ratings(mounted.dresspack);
+    if (copy.motion.is_prescribed()) break;  // its wires say how a pull stretches the cable
     Dresspack& dresspack = mounted.dresspack;
     dresspack.components.clear();
     dresspack.materials.clear();
@@ -262,7 +325,7 @@ void describe_sim(Fields& echo, Job copy) {
   echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
   if (forms.one) {
     echo.group("dresspack", copy.dresspacks.front().dresspack, Need::required, "");
-    echo.group("routing", copy.dresspacks.front().routing, Need::required, "");
+    echo.group("routing", copy.dresspacks.front().routing, Need::required, "", !copy.motion.rig);
   } else {
     echo.list("dresspacks", copy.dresspacks, Need::required, "");
   }
@@ -272,7 +335,10 @@ void describe_sim(Fields& echo, Job copy) {
 
 void describe_strain(Fields& echo, Job copy) {
   std::vector<StrainKeys> keys;
-  for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back(StrainKeys(mounted));
+  for (MountedDresspack& mounted : copy.dresspacks) {
+    drop_ratings(mounted.dresspack);
+    keys.push_back(StrainKeys(mounted));
+  }
   describe_each(echo, forms_of(copy), keys);
   echo.group("strain", copy.strain, Need::optional, "");
 }
@@ -295,18 +361,33 @@ std::string part_text(const Job& job, Part part) {
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {
   std::vector<std::filesystem::path> files;
-  std::error_code failure;
-  for (const auto& file : {job.motion.clamp_poses, job.motion.program})
-    if (!file.empty() && !std::filesystem::is_directory(file, failure)) files.push_back(file);
+  for (const auto& file : {job.motion.clamp_poses, job.motion.deformation, job.motion.program})
+    if (!file.empty() && !is_folder(file)) files.push_back(file);
   for (const ProgramFile& module : job.motion.modules) {
     files.push_back(module.file);
-    for (const auto& file : program_files(module.file)) files.push_back(file);
+    for (const auto& file : files_of_program(module.file)) files.push_back(file);
   }
-  for (const auto& file : program_files(job.motion.program)) files.push_back(file);
+  for (const auto& file : files_of_program(job.motion.program)) files.push_back(file);
   for (const Link& link : job.robot.links)
     for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);
   for (const MeshFile& mesh : job.cell.meshes) files.push_back(mesh.file);
   return files;
+}
+
+Dresspack read_dresspack(const std::filesystem::path& file) {
+  Node job;
+  job["dresspack"] = read_yaml(file);
+  job.where = {file.string()};
+  const Node& written = *job.find("dresspack");
+  if (!written.is_map() || written.find("dresspack") || written.find("dresspacks"))
+    throw InputError({file.string()}, "holds no dresspack", "name a file of the keys of job.dresspack");
+  resolve_job(job);
+  Dresspack dresspack;
+  read_fields(*job.find("dresspack"), dresspack);
+  check_dresspack(dresspack, {Slip::free});
+  check_materials(dresspack.materials);
+  overlap_warnings(dresspack);  // gross overlap is refused
+  return dresspack;
 }
 
 std::string job_manual() {
@@ -314,7 +395,8 @@ std::string job_manual() {
     Job job;
     describe_keys(f, job, {true, true});
   };
-  return field_manual("job", both_forms) + field_manual<UrdfRequest>("job.robot from a URDF");
+  return field_manual("job", both_forms) + field_manual<UrdfRequest>("job.robot from a URDF") +
+         field_manual<DataSheet>("dresspack.components from a data sheet (key data_sheet)");
 }
 
 namespace {

@@ -10,6 +10,7 @@
 
 namespace dresslife::pipeline {
 
+struct Dresspack;
 struct Job;
 struct Setup;
 
@@ -31,6 +32,10 @@ std::string part_text(const Job& job, Part part);
 
 /// Files beyond the job and the catalogue that dresslife-sim reads.
 std::vector<std::filesystem::path> files_beside(const Job& job);
+
+/// A dresspack's file by itself, with its materials, checked as in a job whose parts may all slide. Errors:
+/// InputError.
+Dresspack read_dresspack(const std::filesystem::path& file);
 
 /// Every key of a job, as Markdown tables.
 std::string job_manual();

@@ -35,6 +35,11 @@ void describe(Fields& f, Material& material) {
                  "n'; without it b/c");
   f.maybe_number("walker_exponent", material.walker_exponent, between(0, 1),
                  "gamma of mean_stress walker; without it 0.5");
+  f.maybe_number("relaxation_threshold_strain", material.relaxation_threshold_strain, between(1e-6, 1),
+                 "strain amplitude above which mean stress relaxes, for mean_stress_relaxation power_law; without "
+                 "it never");
+  f.maybe_number("relaxation_exponent", material.relaxation_exponent, between(0, 1),
+                 "of the number of repeats, at twice that amplitude; without it 0.085");
 }
 
 void check_materials(const std::vector<Material>& materials) {

@@ -29,6 +29,8 @@ struct Material {
   std::optional<double> cyclic_hardening_exponent;  ///< n'; absent: b / c
   std::optional<double> tensile_strength;           ///< at which a wire tears [Pa]
   std::optional<double> walker_exponent;            ///< gamma; absent: 0.5, that of SWT
+  std::optional<double> relaxation_threshold_strain;  ///< above it mean stress relaxes; absent: never
+  std::optional<double> relaxation_exponent;          ///< at twice the threshold; absent: 0.085
   std::vector<StrainLifePoint>
       strain_life_table;  ///< instead of sigma_f' to n', for polymers; larger strains first
   Where where;

@@ -109,6 +109,10 @@ void describe(Fields& f, Motion& motion) {
   f.path("clamp_poses", motion.clamp_poses, Need::optional,
          "CSV with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and tool "
          "clamp (s, m)");
+  f.path("deformation", motion.deformation, Need::optional,
+         "CSV with curvature, twist and elongation of the dresspack over time instead of steps; nothing is "
+         "simulated (sim/README.md, \"Prescribed deformation\")");
+  f.maybe_group("rig", motion.rig, "a test rig that bends or twists the dresspack instead of steps");
 }
 
 namespace {
@@ -171,9 +175,11 @@ void check_frames(const Motion& motion) {
 }  // namespace
 
 void check_motion(const Motion& motion, const Robot& robot) {
-  if (!motion.clamp_poses.empty() + !motion.steps.empty() + !motion.program.empty() != 1)
-    throw InputError(motion.where, "motion must have one of steps, program or clamp_poses",
-                     "give one of the three");
+  if (!motion.clamp_poses.empty() + !motion.steps.empty() + !motion.program.empty() +
+          !motion.deformation.empty() + motion.rig.has_value() !=
+      1)
+    throw InputError(motion.where, "motion must have one of steps, program, clamp_poses, deformation or rig",
+                     "give one of the five");
   check_frames(motion);
   for (const MotionStep& step : motion.steps) check_step(step, robot);
   if (!motion.steps.empty() && !motion.steps.front().is_move())
@@ -202,7 +208,10 @@ bool ends_like_a_program(const fs::path& file) {
 
 constexpr std::size_t most_files = 20'000;  // of a folder: many times a controller's backup
 
-bool is_krl(const fs::path& file) { return lower_extension(file) == ".src" || lower_extension(file) == ".dat"; }
+bool is_krl(const fs::path& file) {
+  static const std::set<std::string> ends{".src", ".dat", ".sub"};
+  return ends.contains(lower_extension(file));
+}
 
 /// The folder R1 of the KUKA backup that a file lies in; empty: none.
 fs::path krl_robot_of(const fs::path& file) {
@@ -217,7 +226,8 @@ std::vector<fs::path> krl_files_beside(const fs::path& program) {
   std::error_code failure;
   const fs::path robot = krl_robot_of(program);
   const fs::path folder = !robot.empty() ? robot : program.has_parent_path() ? program.parent_path() : ".";
-  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failure), end;
+  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failure),
+       end;
        !failure && at != end && files.size() < most_files; at.increment(failure)) {
     if (robot.empty() && at->is_directory(failure)) at.disable_recursion_pending();
     if (!at->is_regular_file(failure) || !is_krl(at->path())) continue;

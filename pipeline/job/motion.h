@@ -1,5 +1,5 @@
-// The motion: a program's moves and dwells, a robot program as it lies on a controller, or recorded clamp
-// poses.
+// The motion: a program's moves and dwells, a robot program as it lies on a controller, recorded clamp poses, or
+// how the dresspack deforms: prescribed, or by a test rig.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/job/document.h"
+#include "pipeline/job/rig.h"
 #include "pipeline/job/robot.h"
 
 namespace dresslife::pipeline {
@@ -120,7 +121,14 @@ struct Motion {
   int passes = 0;                     ///< of the program's endless main loop; 0: until it repeats itself
   double spot_time = 1;               ///< dwell of a spot weld in a program [s]
   std::filesystem::path clamp_poses;  ///< CSV with both clamps' poses instead of steps; empty: none
+  std::filesystem::path deformation;  ///< CSV with the dresspack's own deformation instead; empty: none
+  std::optional<Rig> rig;             ///< that deforms it instead
   Where where;
+
+  /// Whether the deformation is given, so that nothing is simulated.
+  bool is_prescribed() const { return !deformation.empty() || rig.has_value(); }
+  /// Whether a robot carries the clamps.
+  bool needs_robot() const { return clamp_poses.empty() && !is_prescribed(); }
 };
 
 void describe(Fields& f, MotionStep& step);

@@ -44,7 +44,7 @@ std::string what_fits(const Component& of) {
 
 void add_warnings(const Component& of, std::vector<std::string>& warnings) {
   for (const Component& inner : of.components) add_warnings(inner, warnings);
-  if (of.count < 2 || of.helix_radius == 0 || fits(of, of.lay_angle, of.count, allowed)) return;
+  if (!overlaps(of)) return;
   const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
   const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
   const std::string what = fmt::format(
@@ -68,6 +68,10 @@ double neighbour_distance(double helix_radius, double lay_angle, int count) {
     nearest = std::min(nearest, 2 * R * R * (1 - std::cos(turned + phi)) + along * along);
   }
   return std::sqrt(nearest);
+}
+
+bool overlaps(const Component& component) {
+  return component.helix_radius > 0 && !fits(component, component.lay_angle, component.count, allowed);
 }
 
 std::vector<std::string> overlap_warnings(const Dresspack& dresspack) {

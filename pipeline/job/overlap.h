@@ -16,6 +16,9 @@ namespace dresslife::pipeline {
 /// Between the axes of neighbours in a layer of `count` > 1 parts [m].
 double neighbour_distance(double helix_radius, double lay_angle, int count);
 
+/// Whether the parts of a component overlap by more than overlap_warnings() allows.
+bool overlaps(const Component& component);
+
 /// One line for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
 /// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit.
 /// Errors: InputError for parts nearer than half of their diameter. Insulation gives, but two such parts

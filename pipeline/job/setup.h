@@ -26,7 +26,7 @@ struct MountedDresspack {
 void describe(Fields& f, MountedDresspack& mounted);
 
 struct Setup {
-  Robot robot;  ///< no joints with clamp_poses
+  Robot robot;  ///< no joints where the motion needs none
   Motion motion;
   std::vector<MountedDresspack> dresspacks = std::vector<MountedDresspack>(1);  ///< at least one
   Cell cell;

@@ -15,6 +15,7 @@ constexpr Unit dimensionless{"", "", 1, 1e12};
 constexpr std::array units{
     Unit{"m", "m", 1, 1e3},  // a hall
     Unit{"mm", "mm", 1e-3, 1e6},
+    Unit{"mm2", "mm2", 1e-6, 1e12},
     Unit{"deg", "deg", degree, 1e6},          // 2,800 turns of an endless axis
     Unit{"deg_per_s", "deg/s", degree, 1e5},  // a grinding spindle
     Unit{"deg_per_s2", "deg/s2", degree, 1e7},

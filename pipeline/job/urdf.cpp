@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "pipeline/job/fields.h"
+#include "pipeline/job/sources.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -501,11 +502,10 @@ class Chain {
   fs::path mesh_file(const std::string& name, const Where& where) const {
     const std::string package = "package://", plain = "file://";
     const fs::path folder = fs::absolute(request_.urdf).lexically_normal().parent_path();
-    std::error_code failure;
     fs::path looked_for;
     if (!name.starts_with(package)) {
       looked_for = folder / (name.starts_with(plain) ? name.substr(plain.size()) : name);
-      if (fs::is_regular_file(looked_for, failure)) return looked_for;
+      if (is_file(looked_for)) return looked_for;
     } else {
       const fs::path inside = name.substr(package.size());  // PACKAGE/path
       std::vector<fs::path> places;
@@ -513,7 +513,7 @@ class Chain {
       for (fs::path above = folder; above != above.parent_path(); above = above.parent_path())
         places.push_back(above.parent_path());
       for (const fs::path& place : places)
-        if (fs::is_regular_file(place / inside, failure)) return place / inside;
+        if (is_file(place / inside)) return place / inside;
       looked_for = places.empty() ? inside : places.front() / inside;
     }
     fail(where, fmt::format("mesh '{}' is not there (looked for {})", name, looked_for.string()),
@@ -532,7 +532,7 @@ class Chain {
 
 }  // namespace
 
-Node robot_from_urdf(const UrdfRequest& request) { return robot_from_urdf(request, read_text(request.urdf)); }
+Node robot_from_urdf(const UrdfRequest& request) { return robot_from_urdf(request, read_source(request.urdf)); }
 
 Node robot_from_urdf(const UrdfRequest& request, const std::string& text) {
   const std::string file = request.urdf.string();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numeric>
 
@@ -10,6 +11,7 @@
 #include "pipeline/installation.h"
 #include "pipeline/job/document.h"
 #include "pipeline/readable.h"
+#include "pipeline/report/chart_style.h"
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/motion_checks.h"
 #include "pipeline/report/plot.h"
@@ -24,11 +26,7 @@ constexpr std::size_t most_detailed = 40;
 constexpr std::size_t most_compared = 40;
 constexpr std::size_t listed_lines = 10, listed_layers = 12;
 
-constexpr const char* style = R"(
-:root { color-scheme: light dark; --page: #ffffff; --ink: #1b1f24; --soft: #5b6570; --rule: #d5dae0; --grid: #e6e9ed;
-  --blue: #0072b2; --hot: #c94f00; --band: #eef1f5; --band-2: #d9dfe7; --arm: #c3ccd6; --arm-2: #b3bdc9; }
-@media (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e8eaed; --soft: #a0a9b4; --rule: #3a424c;
-  --grid: #2a3037; --blue: #56b4e9; --hot: #f08c3a; --band: #242a31; --band-2: #37404a; --arm: #4a5562; --arm-2: #57636f; } }
+constexpr const char* page_style = R"(
 body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
   font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
 h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem; border-top: 2px solid var(--rule); }
@@ -42,17 +40,6 @@ th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { t
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: .5rem 0; } dt { color: var(--soft); } dd { margin: 0; }
 details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8rem; line-height: 1.35; }
-svg { display: block; width: 100%; height: auto; font: 12px system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
-svg text { fill: var(--ink); } svg .tick, svg .axis-title { fill: var(--soft); } svg .cell { fill: var(--soft); font-size: 11px; }
-svg .note { paint-order: stroke; stroke: var(--page); stroke-width: 4px; stroke-linejoin: round; }
-svg path { fill: none; } svg .grid { stroke: var(--grid); } svg .mark { stroke: var(--soft); } svg .leader { stroke: var(--hot); stroke-dasharray: 3 3; }
-svg .curve { stroke: var(--blue); stroke-width: 1.2; stroke-linejoin: round; } svg .curve-hot { stroke: var(--hot); stroke-width: 1.6; }
-svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg .light { fill: var(--band); } svg .dark { fill: var(--band-2); }
-svg line { stroke-linecap: round; } svg .arm { stroke: var(--arm); } svg .arm-2 { stroke: var(--arm-2); } svg .halo { stroke: var(--page); stroke-linecap: butt; }
-svg .hose { stroke: var(--blue); } svg .hose-hot { stroke: var(--hot); }
-svg .costly { fill: var(--hot); fill-opacity: .55; }
-svg .scatter { stroke: var(--hot); stroke-width: 5; }
-svg .whisker { stroke: var(--blue); stroke-width: 5; stroke-opacity: .35; stroke-linecap: round; }
 @media print { details { display: none; } h2 { break-before: page; } }
 )";
 
@@ -77,6 +64,18 @@ std::string place_words(const RankingRow& row) {
 
 bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
 
+/// To a page beside the job's results, where there is one.
+std::string page_link(const RankingRow& row, const std::string& page, const std::string& words) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(row.life_file.parent_path() / page, ignored)) return "";
+  std::string address;
+  for (const char c : row.job)
+    address += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.'
+                   ? std::string(1, c)
+                   : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return fmt::format("<p><a href=\"{}/{}\">{}</a></p>\n", address, page, words);
+}
+
 // ---- ranking ----------------------------------------------------------------------------------------------
 
 std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
@@ -89,7 +88,7 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
       text += fmt::format(
           "<tr><td class=\"number\">-</td><td>{}</td><td colspan=\"6\"><span class=\"failed\">failed</span> "
           "{}</td></tr>\n",
-          name, escaped(row.failure));
+          name, escaped(row.failure) + page_link(row, "preview.html", "See where"));
       continue;
     }
     const std::string where = !damaged(row)
@@ -107,23 +106,28 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
         "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\"><b>{}</b></td><td "
         "class=\"number\">{} .. {}</td>"
         "<td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
-        i + 1, name, life_cell(row.life_hours), life_cell(row.hours_of(row.life_repeats_all_stick)),
-        life_cell(row.hours_of(row.life_repeats_all_free)), first_break_cell(row),
-        calendar_cell(row.life_months), where, moved);
+        i + 1, name, life_cell(row.headline_hours()), life_cell(row.headline_hours_of(row.life_repeats_all_stick)),
+        life_cell(row.headline_hours_of(row.life_repeats_all_free)), first_break_cell(row),
+        calendar_cell(row.headline_months()), where, moved);
   }
   return text;
 }
 
-/// Lives beside each other on one axis of decades: a dot, the bounds as a bar behind it, and when first wires
-/// break in 10 to 90 % of such dresspacks.
+/// Where a job's life lies for 10 to 90 % of such dresspacks: the planner's, of older files the first wire's.
+const std::array<double, 3>& spread_of(const RankingRow& row) {
+  return row.planned() ? row.planned_hours : row.first_wire_hours;
+}
+
+/// Lives beside each other on one axis of decades: a dot, the bounds as a bar behind it, and what 10 to 90 % of such
+/// dresspacks reach.
 std::string comparison_chart(const std::vector<RankingRow>& rows) {
   std::vector<const RankingRow*> shown;
   double low = INFINITY, high = 0;
   for (const RankingRow& row : rows) {
     if (!row.done() || !damaged(row) || shown.size() == most_compared) continue;
     shown.push_back(&row);
-    for (const double hours : {row.life_hours, row.hours_of(row.life_repeats_all_stick),
-                               row.hours_of(row.life_repeats_all_free), row.first_wire_hours[0]}) {
+    for (const double hours : {row.headline_hours(), row.headline_hours_of(row.life_repeats_all_stick),
+                               row.headline_hours_of(row.life_repeats_all_free), spread_of(row)[0], spread_of(row)[2]}) {
       if (!(hours > 0) || std::isinf(hours)) continue;
       low = std::min(low, hours);
       high = std::max(high, hours);
@@ -139,7 +143,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
               {"", 0, 1}};
   Picture picture(
       width, panel.bottom() + 44, "Lives compared",
-      "Life in hours with the bounds of cables stuck and free inside, and the first break in 10 to 90 percent.");
+      "Life in hours with the bounds of cables stuck and free inside, and what 10 to 90 percent of dresspacks reach.");
   for (const Tick& tick : panel.x.ticks(8)) {
     picture.line(panel.across(tick.value), panel.top, panel.across(tick.value), panel.bottom(), "grid");
     picture.text(panel.across(tick.value), panel.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
@@ -150,13 +154,13 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
     const RankingRow& row = *shown[i];
     const double y = panel.top + row_height * (static_cast<double>(i) + 0.5);
     picture.text(names - 10, y + 4, shortened(row.job, 32), "name", Picture::Anchor::end);
-    const auto x = [&](double repeats) { return panel.across(row.hours_of(repeats)); };
+    const auto x = [&](double repeats) { return panel.across(row.headline_hours_of(repeats)); };
     picture.line(x(row.life_repeats_all_stick), y, x(row.life_repeats_all_free), y, "whisker");
-    if (row.first_wire_hours[0] > 0 && std::isfinite(row.first_wire_hours[2]))
-      picture.line(panel.across(row.first_wire_hours[0]), y, panel.across(row.first_wire_hours[2]), y,
-                   "scatter");
-    picture.dot(x(row.life_repeats), y, 5, "dot",
-                fmt::format("{}: {} h", row.job, life_cell(row.life_hours)));
+    const std::array<double, 3>& spread = spread_of(row);
+    if (spread[0] > 0 && std::isfinite(spread[2]))
+      picture.line(panel.across(spread[0]), y, panel.across(spread[2]), y, "scatter");
+    picture.dot(panel.across(row.headline_hours()), y, 5, "dot",
+                fmt::format("{}: {} h", row.job, life_cell(row.headline_hours())));
   }
   return picture.svg();
 }
@@ -164,24 +168,22 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
 std::string ranking_section(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   const std::string chart = comparison_chart(rows);
   return fmt::format(
-      "<div class=\"wide\"><table>\n<thead><tr><th></th><th>job</th><th class=\"number\">life [h]</th>"
+      "<div class=\"wide\"><table>\n<thead><tr><th></th><th>job</th><th class=\"number\">p10 life [h]</th>"
       "<th class=\"number\">inside stuck .. free [h]</th><th class=\"number\">first break in 10 .. 90 % "
       "[h]</th><th "
       "class=\"number\">calendar</th>"
       "<th>breaks first</th><th>what moved then</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}"
-      "<p class=\"soft\">Life is that of the wire that is worst off, in hours of motion, by material "
-      "constants that are "
-      "medians; the calendar counts the job's operating hours per week. "
+      "<p class=\"soft\">The p10 life is the planner's, in hours of motion: by then 10 % of such dresspacks have a "
+      "conductor that has lost its share of wires (fatigue.failed_wires_percent) at one place; the calendar counts the "
+      "job's operating hours per week. "
       "Parts inside a cable rub on each other: glued together (stuck) they live shorter, slipping "
-      "freely longer, and the truth lies between. Wires scatter, and a dresspack has thousands: "
-      "its first break "
-      "comes earlier than the worst wire's own life, in 10 to 90 % of such dresspacks between the hours "
-      "given (for "
-      "parts that slip as in the job). Plan by those, and by the bounds.</p>\n",
+      "freely longer, and the truth lies between; these bounds are told by the ratio of the worst wires' lives. "
+      "Wires scatter, and a dresspack has thousands: its first break comes earlier, in 10 to 90 % of such dresspacks "
+      "between the hours given. Material constants are medians.</p>\n",
       ranking_rows(rows, detailed),
       chart.empty() ? ""
-                    : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the worst wire's life. Blue bar: stuck to "
-                      "free inside. Orange: first break in 10 to 90 % of such dresspacks.</p>\n" +
+                    : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the life that 10 % of such dresspacks do not "
+                      "reach. Blue bar: the same stuck to free inside. Orange: what 10 to 90 % reach.</p>\n" +
                           chart);
 }
 
@@ -353,16 +355,36 @@ std::string facts(const RankingRow& row) {
   const auto fact = [&](const std::string& name, const std::string& value) {
     list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
   };
-  fact("life",
+  if (row.planned()) {
+    const std::array<double, 3>& lives = row.planned_hours;
+    fact("life", std::isinf(lives[0])
+                     ? "no damage at any place to the share of wires with which a conductor fails"
+                     : fmt::format("<b>{} h</b> of motion = {} by the calendar until 10 % of such dresspacks have a "
+                                   "conductor that has lost its share of wires at one place; {} until half have, {} until "
+                                   "90 %{}",
+                                   printed(lives[0]), calendar_words(row.planned_months), hours_words(lives[1]),
+                                   hours_words(lives[2]),
+                                   row.failing_conductor.empty()
+                                       ? ""
+                                       : fmt::format("; likeliest {}, {:.2f} m from the tool",
+                                                     escaped(row.failing_conductor), row.failing_position_from_tool)));
+  }
+  fact(row.planned() ? "worst wire" : "life",
        std::isinf(row.life_hours)
            ? "no damage"
-           : fmt::format("<b>{} h</b> of motion = {} repeats of {:.1f} s = {} by the calendar, median of the "
+           : fmt::format("{}{} h{} of motion = {} repeats of {:.1f} s = {} by the calendar, median of the "
                          "worst wire",
-                         printed(row.life_hours), printed(row.life_repeats), row.repeat_seconds,
-                         calendar_words(row.life_months)));
+                         row.planned() ? "" : "<b>", printed(row.life_hours), row.planned() ? "" : "</b>",
+                         printed(row.life_repeats), row.repeat_seconds, calendar_words(row.life_months)));
+  if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
   fact("bounds",
-       fmt::format("{} (inside of the cables stuck) .. {} (free)", hours_words(row.hours_of(row.life_repeats_all_stick)),
-                   hours_words(row.hours_of(row.life_repeats_all_free))));
+       fmt::format("{} (inside of the cables stuck) .. {} (free)",
+                   hours_words(row.headline_hours_of(row.life_repeats_all_stick)),
+                   hours_words(row.headline_hours_of(row.life_repeats_all_free))));
+  if (row.hours_mean_stress_kept)
+    fact("mean stress", fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
+                                    hours_words(*row.hours_mean_stress_kept),
+                                    hours_words(*row.hours_without_mean_stress)));
   if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
   if (row.clamp_moment_share) {
     const std::string tears =
@@ -477,23 +499,12 @@ std::string checks(const RankingRow& row) {
 std::string job_section(const RankingRow& row, std::size_t rank) {
   std::string body;
   try {
-    body = facts(row) + scene(row) + checks(row) + charts(row);
+    body = page_link(row, "page.html", "See it move, and where and when the damage comes about") + facts(row) + scene(row) + checks(row) + charts(row);
   } catch (const InputError& problem) {
     body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
   }
   return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}</section>\n", rank, rank, escaped(row.job),
                      body);
-}
-
-/// Which jobs have a section of their own: all that are done, or in large studies the best and the worst of
-/// them.
-std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
-  const auto done = static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
-  std::vector<bool> detailed(rows.size(), false);
-  for (std::size_t i = 0; i < done; ++i)
-    detailed[i] = done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2;
-  return detailed;
 }
 
 std::string summary(const std::vector<RankingRow>& rows) {
@@ -510,6 +521,15 @@ std::string summary(const std::vector<RankingRow>& rows) {
 
 }  // namespace
 
+std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
+  const auto done = static_cast<std::size_t>(
+      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
+  std::vector<bool> detailed(rows.size(), false);
+  for (std::size_t i = 0; i < done; ++i)
+    detailed[i] = done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2;
+  return detailed;
+}
+
 std::string report_page(const std::string& study, const std::vector<RankingRow>& rows) {
   const std::vector<bool> detailed = detailed_jobs(rows);
   std::string page = fmt::format(
@@ -517,7 +537,7 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: dresspack "
       "life</title>\n"
       "<style>{}</style>\n</head>\n<body>\n<h1>{}: dresspack life by motion</h1>\n",
-      escaped(study), style, escaped(study));
+      escaped(study), std::string(chart_style()) + page_style, escaped(study));
   page += summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (detailed[i]) page += job_section(rows[i], i + 1);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "pipeline/files/files.h"
-#include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job_text.h"
 #include "pipeline/job/setup.h"
+#include "pipeline/report/hose_line.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -97,24 +97,13 @@ void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Setup
   }
 }
 
-/// Base clamp, segment centres, tool clamp of each dresspack.
+/// Of each dresspack.
 std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size_t sample) {
   std::vector<double> clamps, centres;
   file.read_rows("/clamp/position", sample, 1, clamps);
   file.read_rows("/segment/position", sample, 1, centres);
-  const auto at = [](const std::vector<double>& of, std::size_t i) {
-    return Vector3d(of[3 * i], of[3 * i + 1], of[3 * i + 2]);
-  };
-  const std::vector<MotionSpan> spans = motion_spans(file);
-  std::vector<std::vector<Vector3d>> points(spans.back().dresspack + 1);
-  for (std::size_t k = 0; k < spans.size(); ++k) {
-    const MotionSpan& span = spans[k];
-    std::vector<Vector3d>& of = points[span.dresspack];
-    if (of.empty()) of.push_back(at(clamps, span.base_clamp));
-    for (std::size_t i = 0; i < span.segments; ++i) of.push_back(at(centres, span.first_segment + i));
-    if (k + 1 == spans.size() || spans[k + 1].dresspack != span.dresspack)
-      of.push_back(at(clamps, span.tool_clamp));
-  }
+  std::vector<std::vector<Vector3d>> points;
+  for (const HoseLine& line : hose_lines(file)) points.push_back(line.in(clamps, centres));
   return points;
 }
 

@@ -40,6 +40,7 @@ fs::path beside(const Stage& stage, const char* ending) {
 fs::path receipt_file(const Stage& stage) { return beside(stage, ".receipt"); }
 fs::path log_file(const Stage& stage) { return beside(stage, ".log"); }
 constexpr const char* failure_file = ".stage/failure";
+constexpr const char* memory_file = ".stage/memory";  // of the study: who may take how much (pipeline/memory.h)
 std::string program_name(const Stage& stage) { return std::string("dresslife-") + stage.name; }
 
 void check_programs(const StudyPlaces& places) {
@@ -76,31 +77,6 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
   std::getline(lines, key);
   std::getline(lines, reason);
   return key == failure_key(state) ? reason : "";
-}
-
-/// Looks at the receipts of the recipes that the state holds already.
-void look_at(JobState& state, const fs::path& folder) {
-  state.damaged.clear();
-  state.compared.clear();
-  state.failure = noted_failure(state, folder);
-  state.has_results = std::any_of(stages.begin(), stages.end(), [&](const Stage& stage) {
-    return state_of(folder / stage.output).exists();
-  });
-  std::string made_before = "-";
-  for (state.next = 0; state.next < stage_count; ++state.next) {
-    const Stage& stage = stages[state.next];
-    std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
-    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != made_before) return;
-    // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
-    if (!state.failure.empty()) receipt->state = {};
-    const FileState now = state_of(folder / stage.output);
-    if (!is_as_noted(*receipt, folder / stage.output)) {
-      if (now.exists()) state.damaged = stage.output;
-      return;
-    }
-    if (now != receipt->state || !receipt->state_suffices()) state.compared.push_back(state.next);
-    made_before = receipt->output;
-  }
 }
 
 std::string rules(const StageLimits& limits) {
@@ -216,6 +192,7 @@ class Ninja {
     ::setenv("NINJA_STATUS", "@%f/%t ", 1);  // a line "@finished/total description" per stage
     // Through the environment goes whatever a folder may be named.
     ::setenv("DRESSLIFE_PROGRAMS", fs::absolute(places.programs).c_str(), 1);
+    ::setenv("DRESSLIFE_MEMORY", (fs::absolute(places.folder) / memory_file).c_str(), 1);
     ::setenv("DRESSLIFE_PARENT", std::to_string(::getpid()).c_str(), 1);
     ::dup2(said, STDOUT_FILENO);
     ::dup2(said, STDERR_FILENO);
@@ -239,9 +216,39 @@ std::string JobState::words() const {
   return has_results ? "stale" : "to do";
 }
 
+void look_at(JobState& state, const fs::path& folder) {
+  state.damaged.clear();
+  state.compared.clear();
+  state.told.clear();
+  state.failure = noted_failure(state, folder);
+  state.has_results = std::any_of(stages.begin(), stages.end(), [&](const Stage& stage) {
+    return state_of(folder / stage.output).exists();
+  });
+  std::string made_before = "-";
+  for (state.next = 0; state.next < stage_count; ++state.next) {
+    const Stage& stage = stages[state.next];
+    std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
+    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != made_before) return;
+    // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
+    if (!state.failure.empty()) receipt->state = {};
+    const FileState now = state_of(folder / stage.output);
+    if (!is_as_noted(*receipt, folder / stage.output)) {
+      if (now.exists()) state.damaged = stage.output;
+      return;
+    }
+    if (now != receipt->state || !receipt->state_suffices()) state.compared.push_back(state.next);
+    made_before = receipt->output;
+    state.told = std::move(receipt->told);
+  }
+}
+
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places) {
-  check_programs(places);
   Digests digests;
+  return states_of(study, places, digests);
+}
+
+std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, Digests& digests) {
+  check_programs(places);
   std::vector<JobState> states(study.jobs.size());
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
@@ -252,11 +259,21 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places) {
   return states;
 }
 
+void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states) {
+  for (std::size_t k = 0; k < states.size(); ++k)
+    for (const std::size_t stage : states[k].compared) {
+      const fs::path folder = places.job(study.jobs[k].name);
+      renew_receipt(folder / receipt_file(stages[stage]), folder / stages[stage].output);
+    }
+}
+
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
                        const StageLimits& limits) {
   fs::create_directories(places.folder / ".stage");
   for (const char* memory : {".ninja_log", ".ninja_deps"})  // of times, which decide nothing here
     fs::remove_all(places.folder / ".stage" / memory);
+  fs::remove_all(places.folder / memory_file);  // of stages that have ended
+  renew_receipts(study, places, states);
   std::string graph = rules(limits);
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
@@ -264,8 +281,6 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     const fs::path folder = places.job(job.name);
     fs::create_directories(folder / ".stage");
     write_text_if_changed(folder / "job.yaml", job_text(*job.job), Sync::never);
-    for (const std::size_t stage : states[k].compared)
-      renew_receipt(folder / receipt_file(stages[stage]), folder / stages[stage].output);
     if (states[k].done()) continue;
     for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
       fs::remove(folder / log_file(stages[stage]));

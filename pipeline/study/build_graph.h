@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/files/receipt.h"
+#include "pipeline/limits.h"
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {
@@ -39,6 +41,7 @@ struct JobState {
   std::string damaged;   ///< "life.h5": is not what its stage wrote
   std::string failure;   ///< why the last attempt with these recipes failed
   bool has_results = false;           ///< of any settings
+  std::vector<Told> told;             ///< of a job that is done, what its life.h5 says
   std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared, as no times vouch for them
   bool done() const { return next == stage_count; }
   /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings, "to do" without
@@ -49,11 +52,13 @@ struct JobState {
 /// The state of every job that can run (others: an empty state), from what lies in the folder; nothing is
 /// written. Errors: InputError when a program is missing.
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places);
+std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, Digests& digests);
 
-/// Each stage of a job may take so much.
-struct StageLimits {
-  std::uint64_t seconds = 0, megabytes = 0;  ///< 0: no limit
-};
+/// Brings a state up to date whose recipes are known.
+void look_at(JobState& state, const std::filesystem::path& folder);
+
+/// Notes of outputs whose bytes had to be compared that they need no look the next time.
+void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states);
 
 /// Writes every job's job.yaml and build.ninja. Errors: InputError when the folder cannot be written.
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,

@@ -17,18 +17,57 @@
 namespace dresslife::pipeline {
 namespace {
 
-void read_scatter(const FileReader& file, RankingRow& row) {
+/// What the root of a life file says: as its receipt tells, else as it stands in the file.
+class LifeRoot {
+ public:
+  explicit LifeRoot(const JobResult& result) : result_(result) {
+    if (result.told.empty()) file_.emplace(result.life_file, life_format(), FileReader::Scope::attributes);
+  }
+  bool has_attribute(const std::string& name) const {
+    return file_ ? file_->has_attribute(name) : find(name) != nullptr;
+  }
+  double number_attribute(const std::string& name) const {
+    return file_ ? file_->number_attribute(name) : told(name).number;
+  }
+  std::string text_attribute(const std::string& name) const {
+    return file_ ? file_->text_attribute(name) : told(name).text;
+  }
+  Where where() const { return {result_.life_file.string()}; }
+
+ private:
+  const Told* find(const std::string& name) const {
+    const auto found = std::find_if(result_.told.begin(), result_.told.end(),
+                                    [&](const Told& one) { return one.name == name; });
+    return found == result_.told.end() ? nullptr : &*found;
+  }
+  const Told& told(const std::string& name) const {
+    if (const Told* const found = find(name)) return *found;
+    throw InputError(where(), fmt::format("attribute '{}' is missing", name),
+                     "make the file anew with dresslife-fatigue");
+  }
+
+  const JobResult& result_;
+  std::optional<FileReader> file_;
+};
+
+void read_scatter(const LifeRoot& file, RankingRow& row) {
   const std::array<const char*, 3> ends{"p10", "p50", "p90"};
   const auto read = [&](const std::string& name, double& value) {
     if (file.has_attribute(name)) value = file.number_attribute(name);
   };
+  const bool plans = file.has_attribute("first_wire_life_hours_p10");  // else life_hours_p10 is the first wire's
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    read(fmt::format("life_hours_{}", ends[i]), row.first_wire_hours[i]);
+    read(fmt::format("life_hours_{}", ends[i]), plans ? row.planned_hours[i] : row.first_wire_hours[i]);
+    if (plans) read(fmt::format("first_wire_life_hours_{}", ends[i]), row.first_wire_hours[i]);
     read(fmt::format("conductor_life_hours_{}", ends[i]), row.conductor_hours[i]);
   }
+  if (!plans) return;
+  read("life_months_p10", row.planned_months);
+  row.failing_conductor = file.text_attribute("failing_conductor");
+  row.failing_position_from_tool = file.number_attribute("failing_position_from_tool");
 }
 
-int count_attribute(const FileReader& file, const std::string& name) {
+int count_attribute(const LifeRoot& file, const std::string& name) {
   constexpr double most = 1e9;
   const double value = file.number_attribute(name);
   if (!(std::abs(value) <= most))
@@ -37,7 +76,7 @@ int count_attribute(const FileReader& file, const std::string& name) {
   return static_cast<int>(value);
 }
 
-void read_hose(const FileReader& file, RankingRow& row) {
+void read_hose(const LifeRoot& file, RankingRow& row) {
   if (!file.has_attribute("hose_life_hours")) return;
   HoseLife hose;
   hose.hours = file.number_attribute("hose_life_hours");
@@ -57,7 +96,7 @@ RankingRow read_row(const JobResult& result) {
   row.settings = result.settings;
   if (!row.done()) return row;
   try {
-    const FileReader file(result.life_file, life_format(), FileReader::Scope::attributes);
+    const LifeRoot file(result);
     row.life_repeats = file.number_attribute("life_repeats");
     row.life_hours = file.number_attribute("life_hours");
     row.life_months = file.number_attribute("life_months");
@@ -71,6 +110,10 @@ RankingRow read_row(const JobResult& result) {
       if (const double share = file.number_attribute("largest_force_share"); share > 0)
         row.largest_force_share = share;
       row.clamp_moment_share = file.number_attribute("clamp_moment_share");
+    }
+    if (file.has_attribute("life_hours_mean_stress_kept")) {
+      row.hours_mean_stress_kept = file.number_attribute("life_hours_mean_stress_kept");
+      row.hours_without_mean_stress = file.number_attribute("life_hours_without_mean_stress");
     }
     if (file.number_attribute("worst_site") < 0) return row;
     row.worst_segment_from_tool = count_attribute(file, "worst_segment_from_tool");
@@ -91,6 +134,8 @@ RankingRow read_row(const JobResult& result) {
 
 bool better(const RankingRow& one, const RankingRow& other) {
   if (one.done() != other.done()) return one.done();
+  if (one.done() && one.headline_hours() != other.headline_hours())
+    return one.headline_hours() > other.headline_hours();
   if (one.done() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
   return one.job < other.job;
 }
@@ -138,8 +183,8 @@ std::string life_text(double life) { return std::isinf(life) ? "no damage" : rea
 std::string calendar_text(double months) { return std::isinf(months) ? "no damage" : calendar_words(months); }
 
 std::string bounds_text(const RankingRow& row) {
-  return fmt::format("{} .. {}", life_text(row.hours_of(row.life_repeats_all_stick)),
-                     life_text(row.hours_of(row.life_repeats_all_free)));
+  return fmt::format("{} .. {}", life_text(row.headline_hours_of(row.life_repeats_all_stick)),
+                     life_text(row.headline_hours_of(row.life_repeats_all_free)));
 }
 
 std::string segment_text(const RankingRow& row) {
@@ -160,8 +205,10 @@ std::string story(const RankingRow& row) {
 std::string more_story(const RankingRow& row) {
   std::vector<std::string> parts;
   const bool damaged = !row.worst_component.empty() && row.damage_per_repeat > 0;
+  if (damaged && row.planned())
+    parts.push_back(fmt::format("p50 {}, p90 {} h", life_text(row.planned_hours[1]), life_text(row.planned_hours[2])));
   if (damaged && !std::isnan(row.first_wire_hours[0]))
-    parts.push_back(fmt::format("first break after {} .. {} h in 10 .. 90 %",
+    parts.push_back(fmt::format("first wire after {} .. {} h",
                                 life_text(row.first_wire_hours[0]), life_text(row.first_wire_hours[2])));
   if (damaged && !row.worst_joint.empty()) parts.push_back(joint_words(row));
   if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
@@ -185,12 +232,32 @@ std::string hose_life_words(double hours) {
                                   : readable(hours) + " h";
 }
 
+std::string relative_words(const RelativeLife& relative) {
+  const double hours = relative.hours();
+  return fmt::format("one hour does the damage of {} rated cycles of {}; {} rated: {} ({})", readable(relative.cycles_per_hour),
+                     relative.cable, readable(relative.rated_cycles), std::isinf(hours) ? "no damage" : readable(hours) + " h",
+                     relative.rig);
+}
+
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
   std::vector<RankingRow> rows;
   rows.reserve(results.size());
   for (const JobResult& result : results) rows.push_back(read_row(result));
   std::stable_sort(rows.begin(), rows.end(), better);
   return rows;
+}
+
+std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
+                                   const std::vector<JobState>& states) {
+  std::vector<JobResult> results;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const StudyJob& job = study.jobs[k];
+    JobResult result{job.name, places.life(job.name), job.failure, states[k].settings, states[k].told};
+    if (job.failure.empty() && !states[k].done())
+      result.failure = states[k].failure.empty() ? states[k].words() : states[k].failure;
+    results.push_back(std::move(result));
+  }
+  return read_ranking(results);
 }
 
 std::string joint_words(const RankingRow& row) {
@@ -216,11 +283,14 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "status,message,life_hours_p10,life_hours_p50,life_hours_p90,conductor_life_hours_p10,"
       "conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,hose_segment_from_tool,"
       "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack,settings,largest_force_share,"
-      "clamp_moment_share,force_ok\n";
+      "clamp_moment_share,force_ok,life_hours_mean_stress_kept,life_hours_without_mean_stress,"
+      "life_months_p10,life_hours_p10_all_stick,life_hours_p10_all_free,first_wire_life_hours_p10,"
+      "first_wire_life_hours_p50,first_wire_life_hours_p90,failing_conductor,failing_position_from_tool_m,"
+      "rated_cycles_per_hour,relative_life_hours,rated_cable\n";
   for (const RankingRow& row : rows) {
     if (!row.done()) {
       const bool waits = row.failure == "stale" || row.failure == "to do";
-      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,\n", csv_cell(row.job),
+      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,,,,,,,,,,,,,,\n", csv_cell(row.job),
                           waits ? row.failure : "failed", csv_cell(row.failure), row.settings);
       continue;
     }
@@ -239,7 +309,8 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
                                    row.worst_step,
                                    "done",
                                    ""};
-    for (const auto* lives : {&row.first_wire_hours, &row.conductor_hours})
+    const auto& first = row.planned() ? row.planned_hours : row.first_wire_hours;
+    for (const auto* lives : {&first, &row.conductor_hours})
       for (const double life : *lives) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
     cells.push_back(row.hose ? shortest_text(row.hose->hours) : "");
     cells.push_back(row.hose ? std::to_string(row.hose->segment_from_tool) : "");
@@ -251,6 +322,17 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     for (const auto& share : {row.largest_force_share, row.clamp_moment_share})
       cells.push_back(share ? shortest_text(*share) : "");
     cells.push_back(!row.clamp_moment_share ? "" : row.force_ok() ? "yes" : "no");
+    for (const auto& hours : {row.hours_mean_stress_kept, row.hours_without_mean_stress})
+      cells.push_back(hours ? shortest_text(*hours) : "");
+    for (const double planned : {row.planned_months, row.headline_hours_of(row.life_repeats_all_stick),
+                                 row.headline_hours_of(row.life_repeats_all_free)})
+      cells.push_back(row.planned() ? shortest_text(planned) : "");
+    for (const double life : row.first_wire_hours) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
+    cells.push_back(row.failing_conductor);
+    cells.push_back(row.failing_conductor.empty() ? "" : shortest_text(row.failing_position_from_tool));
+    cells.push_back(row.relative ? shortest_text(row.relative->cycles_per_hour) : "");
+    cells.push_back(row.relative ? shortest_text(row.relative->hours()) : "");
+    cells.push_back(row.relative ? row.relative->cable : "");
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }
@@ -261,7 +343,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   constexpr std::size_t longest_name = 32;
   std::array<Column, 7> columns{{{"", true, {}},
                                  {"job", false, {}},
-                                 {"life [h]", true, {}},
+                                 {"p10 life [h]", true, {}},
                                  {"inside stuck .. free [h]", true, {}},
                                  {"calendar", true, {}},
                                  {"repeats", true, {}},
@@ -272,10 +354,10 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const std::array<std::string, 7> cells =
         row.done() ? std::array<std::string, 7>{std::to_string(rank),
                                                 "",
-                                                life_text(row.life_hours),
+                                                life_text(row.headline_hours()),
                                                 bounds_text(row),
-                                                calendar_text(row.life_months),
-                                                life_text(row.life_repeats),
+                                                calendar_text(row.headline_months()),
+                                                life_text(row.headline_repeats()),
                                                 segment_text(row)}
                    : std::array<std::string, 7>{"-", "", "failed", "", "", "", ""};
     for (std::size_t i = 0; i < columns.size(); ++i)
@@ -295,6 +377,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     text += indent + (rows[i].done() ? shortened(second, width - indent.size()) : second) + '\n';
     const std::string third = rows[i].done() ? one_line(more_story(rows[i])) : "";
     if (!third.empty()) text += indent + shortened(third, width - indent.size()) + '\n';
+    if (rows[i].done() && rows[i].relative)
+      text += indent + shortened(one_line(relative_words(*rows[i].relative)), width - indent.size()) + '\n';
   }
   return text;
 }

@@ -1,8 +1,9 @@
-// The outcome of a study: its jobs by life, best first. Reads the root attributes of each life.h5
-// (formats.cpp) and nothing else, so that a study of ten thousand jobs is gathered in seconds.
+// The outcome of a study: its jobs by life, best first. What the root of each life.h5 says (formats.cpp) stands in its
+// receipt, too, so that a study of ten thousand jobs is gathered in less than a second.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "pipeline/job/believable.h"
+#include "pipeline/study/build_graph.h"
 
 namespace dresslife::pipeline {
 
@@ -19,6 +21,7 @@ struct JobResult {
   std::filesystem::path life_file;
   std::string failure;     ///< why there is no life file, one line; empty: the job is done
   std::string settings{};  ///< of which it is the result (JobState)
+  std::vector<Told> told{};  ///< by its receipt; empty: to be read from the file
 };
 
 /// The hose's wall of a job, whose life is told beside that of the wires.
@@ -27,6 +30,14 @@ struct HoseLife {
   int segment_from_tool = 0;      ///< of its worst place, 1 is nearest to the tool
   double position_from_tool = 0;  ///< [m]
   std::string component, step;    ///< "hose 5"; the program line that costs most
+};
+
+/// Of a cable with a rating: what the program does beside its rig (relative_life.h).
+struct RelativeLife {
+  std::string cable, rig;      ///< in words
+  double cycles_per_hour = 0;  ///< of the rig, that do the damage of one hour of the program
+  double rated_cycles = 0;
+  double hours() const { return rated_cycles / cycles_per_hour; }
 };
 
 /// What the ranking says of one job. Lives are infinite where there is no damage.
@@ -51,6 +62,11 @@ struct RankingRow {
   /// Hours of motion by which 10, 50, 90 % of such dresspacks have a broken wire, and a failed conductor;
   /// NaN: the file does not tell.
   std::array<double, 3> first_wire_hours{unknown, unknown, unknown};
+  /// The planner's: by then 10, 50, 90 % have a conductor that has lost its share of wires at one place.
+  std::array<double, 3> planned_hours{unknown, unknown, unknown};
+  double planned_months = unknown;   ///< of the first of them, by the calendar
+  std::string failing_conductor;     ///< where that is likeliest; empty: unknown or nowhere
+  double failing_position_from_tool = 0;  ///< [m]
   std::array<double, 3> conductor_hours{unknown, unknown, unknown};
   double worst_shear_range = 0;  ///< of the worst wire's surface; 0: unknown
   std::string worst_joint;  ///< whose motion costs most; "carrying": none between the clamps; empty: unknown
@@ -59,6 +75,9 @@ struct RankingRow {
   /// What the strains ask of the cables: largest force over that at which one tears, and moment of all of them
   /// on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not known.
   std::optional<double> largest_force_share, clamp_moment_share;
+  /// The worst wire's life if its mean stress never relaxed, and if mean stress did nothing; absent: not known.
+  std::optional<double> hours_mean_stress_kept, hours_without_mean_stress;
+  std::optional<RelativeLife> relative;  ///< of the rating that it reaches soonest; absent: no cable has one
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   bool done() const { return failure.empty(); }
@@ -67,11 +86,25 @@ struct RankingRow {
            clamp_moment_share.value_or(0) <= believable_share;
   }
   double hours_of(double repeats) const { return repeats * repeat_seconds / 3600; }
+  bool planned() const { return !std::isnan(planned_hours[0]); }
+  /// What jobs are ranked by: the planner's life in 10 % of dresspacks; of older files the worst wire's.
+  double headline_hours() const { return planned() ? planned_hours[0] : life_hours; }
+  double headline_months() const { return planned() ? planned_months : life_months; }
+  double headline_repeats() const { return planned() ? planned_hours[0] * 3600 / repeat_seconds : life_repeats; }
+  /// The same had the worst wire lived so many repeats: a bound, by the ratio of the worst wires' lives.
+  double headline_hours_of(double repeats) const {
+    const bool comparable = planned() && std::isfinite(life_repeats) && std::isfinite(planned_hours[0]);
+    return comparable ? planned_hours[0] * (repeats / life_repeats) : hours_of(repeats);
+  }
 };
 
 /// One row per job, best life first, equal lives by name, failed jobs last. A life file that is missing or
 /// cannot be read makes a failed row with the reason; nothing is thrown.
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
+
+/// Of a study: only what is done is gathered; of the others the rows say how they stand.
+std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
+                                   const std::vector<JobState>& states);
 
 /// ranking.csv: a header and one row per job, quoted after RFC 4180 with line feeds; numbers read back
 /// exactly, "inf" where there is no damage; empty cells for a job that is not done: its `status` is failed,
@@ -81,6 +114,9 @@ std::string ranking_csv(const std::vector<RankingRow>& rows);
 
 /// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".
 std::string hose_life_words(double hours);
+
+/// "one hour does the damage of 1,200 rated cycles of lead; 5,000,000 rated: 4,200 h (torsion: ..)"
+std::string relative_words(const RelativeLife& relative);
 
 /// What the worst joint's motion costs, in words: "41 % by joint_6", "all by joint_4, which others relieve".
 std::string joint_words(const RankingRow& row);

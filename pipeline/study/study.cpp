@@ -6,6 +6,7 @@
 #include "pipeline/job/catalogue.h"
 #include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/sources.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -123,27 +124,56 @@ void check_keys(const Node& study) {
                      "add 'base: ...': a job of config/jobs, a file, or the job itself");
 }
 
+void check_name(const std::string& job, const Where& where) {
+  for (const char* own : {"build.ninja", "ranking.csv", "report.html"})
+    if (job == own)
+      throw InputError(where, fmt::format("a job is named '{}' (a file of the study itself)", own),
+                       "give it another name");
+}
+
+/// A job by itself is a study of one.
+bool is_job(const Node& document) {
+  if (!document.is_map() || document.find("base")) return false;
+  return document.find("motion") || document.find("robot") || document.find("routing");
+}
+
+/// The job from which the others deviate.
+Node base_of(const Node& study) {
+  const Node& written = *study.find("base");
+  return written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, study.where) : written;
+}
+
+std::string name_of(const Node& document, const std::filesystem::path& file) {
+  const Node* name = document.find("name");
+  return folder_name(name && name->is_scalar() && !name->text.empty() ? name->text : file.stem().string());
+}
+
 }  // namespace
 
-Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets) {
-  const Node document = read_yaml(file);
-  check_keys(document);
-  Study study;
-  const Node* name = document.find("name");
-  study.name =
-      folder_name(name && name->is_scalar() && !name->text.empty() ? name->text : file.stem().string());
+std::string study_name(const std::filesystem::path& file) {
+  const Node document = read_document(file);
+  if (!is_job(document)) check_keys(document);
+  return is_job(document) ? folder_name(file.stem().string()) : name_of(document, file);
+}
 
-  const Node& written = *document.find("base");
-  const Node base =
-      written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where) : written;
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  const Node document = read_document(file);
+  Study study;
+  if (is_job(document)) {
+    study.name = folder_name(file.stem().string());
+    check_name(study.name, document.where);
+    study.jobs.push_back(make_job(document, Variant{}, study.name, sets));
+    return study;
+  }
+  check_keys(document);
+  study.name = name_of(document, file);
+
+  const Node base = base_of(document);
   std::set<std::string> names;
   for (const Variant& variant :
        all_combinations(named_changes(document.find("jobs")), document.find("vary"))) {
     study.jobs.push_back(make_job(base, variant, study.name, sets));
-    for (const char* own : {"build.ninja", "ranking.csv", "report.html"})
-      if (study.jobs.back().name == own)
-        throw InputError(document.where, fmt::format("a job is named '{}' (a file of the study itself)", own),
-                         "give it another name");
+    check_name(study.jobs.back().name, document.where);
     if (!names.insert(study.jobs.back().name).second)
       throw InputError(document.where, fmt::format("two jobs are named '{}'", study.jobs.back().name),
                        "give each combination another name");

@@ -19,7 +19,7 @@ struct Job;
 
 struct StudyJob {
   std::string name;                ///< unique in the study, fit for a folder
-  std::shared_ptr<const Job> job;  ///< when it can be run
+  std::shared_ptr<const Job> job;  ///< when it can be run, in a study that was expanded
   std::string failure;             ///< else: the one line that says why not
 };
 
@@ -28,8 +28,12 @@ struct Study {
   std::vector<StudyJob> jobs;  ///< in the order of the file
 };
 
-/// Reads and expands a study. sets: `--set` for every job, after the study's own changes.
-/// Errors: InputError for the study itself; a job that cannot be run is told in its `failure`.
+/// The name of a study, without expanding it. Errors: InputError.
+std::string study_name(const std::filesystem::path& file);
+
+/// Reads and expands a study; a job by itself is a study of one. sets: `--set` for every job, after the
+/// study's own changes. Errors: InputError for the study itself; a job that cannot be run is told in its
+/// `failure`.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 
 /// The keys of a study file, as Markdown.

@@ -1,29 +1,22 @@
-// Triangle meshes as obstacles: reading them, and where a piece of hose is near them.
+// Triangle meshes as obstacles: where a piece of hose is near them.
 //
 // A piece of hose is the axis of a capsule. Contacts are the local minima of the distance between the axis
 // and the surface: per triangle the nearest pair of points q (axis) and m (mesh), kept if no triangle at m is
 // nearer to q. Edges inside a flat face and the far sides of corners therefore push nowhere. Distances are
 // unsigned, so neither the triangles' sense nor a closed surface matters, as long as the axis itself stays
 // outside: an overlap of a radius. An axis that crosses the surface is reported as deep as a diameter.
-//
-// The two formats are read here: STL (binary, ASCII) and OBJ (v, f) are a list of triangles each. Assimp
-// would read both, and forty more, for a dependency larger than the whole project.
 #pragma once
 
-#include <array>
-#include <filesystem>
 #include <functional>
 #include <vector>
 
+#include "pipeline/job/mesh_file.h"
 #include "sim/rod/rotation.h"
 
 namespace dresslife::sim {
 
-using Triangle = std::array<Vector3, 3>;
-
-/// Triangles of an .stl or .obj file, in its units. Faces of more corners are cut into fans. Errors:
-/// InputError that names the file, for OBJ and ASCII STL also the line.
-std::vector<Triangle> read_triangles(const std::filesystem::path& file);
+using pipeline::read_triangles;
+using pipeline::Triangle;
 
 /// Nearest points of an axis and a triangle.
 struct NearestToTriangle {

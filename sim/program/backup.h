@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "sim/program/import.h"
 
@@ -14,7 +15,8 @@ struct Backup {
   Language language = Language::rapid;
   std::vector<std::filesystem::path> files;  ///< the first one gives the program its name
   std::string routine;                       ///< where it begins; empty: the language's own start
-  std::vector<std::string> missing;  ///< files that the folder's own list names and that are not there
+  std::vector<std::string> missing = {};  ///< files that the folder's own list names and that are not there
+  std::map<std::string, std::string> written_beside = {};  ///< names that another task writes -> where
 };
 
 /// Whether a program is given as a folder or as a list of files.

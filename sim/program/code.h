@@ -65,6 +65,7 @@ struct Statement {
     label,        ///< name
     jump,         ///< GOTO name: a label of the routine, in one of the blocks around
     finish,       ///< the program ends here
+    end_cycle,    ///< what the controller runs again and again begins anew (RAPID's ExitCycle)
     declare       ///< name, type in `text`, arguments: value or none, then the dimensions
   };
   Kind kind = Kind::instruction;
@@ -130,6 +131,7 @@ struct Code {
   std::map<std::string, Expression> values;  ///< that the user gives; names in lower case, without blanks
   /// "file.mod:12" or "12" -> the value by which an undecided TEST or SWITCH chooses.
   std::map<std::string, Expression> choices;
+  std::map<std::string, std::string> written_beside;  ///< ImportOptions::written_beside, and submit programs
   std::string start;  ///< routine to run, in lower case; empty: the language's own
   std::vector<Expression> start_arguments;
 

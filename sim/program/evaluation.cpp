@@ -1,6 +1,7 @@
 // Expressions: evaluation, variables, assignment.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "sim/program/interpreter.h"
@@ -224,11 +225,12 @@ std::string Interpreter::written(const Expression& expression) const {
   return line.substr(0, end);
 }
 
-void Interpreter::set(const std::string& name, Value value) {
+void Interpreter::set(const std::string& name, Value value, const Place& written) {
   charge(value.weight());
   Variable& variable = globals_[name];
   variable.state = Variable::State::ready;
   variable.assigned = true;
+  variable.written = written;
   variable.value = std::move(value);
 }
 
@@ -278,7 +280,23 @@ std::string Interpreter::path_of(const Expression& expression) {
   return path;
 }
 
+/// What a program beside this one may have written in the meantime; absent: none writes there.
+std::optional<Value> Interpreter::value_written_beside(const Expression& expression) {
+  const Expression* base = &expression;
+  while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
+  const auto written = code_.written_beside.find(base->text);
+  const bool own =
+      !locals_.empty() && locals_.back().contains(base->text);  // data lists are read without a routine
+  if (written == code_.written_beside.end() || own) return {};
+  const std::string path = path_of(expression);
+  if (std::optional<Value> value = given(path)) return value;
+  return unknown_value(path.empty() ? base->text : path,
+                       fmt::format("may be written by {}, which runs beside", written->second));
+}
+
 Value Interpreter::name_value(const Expression& expression) {
+  if (!code_.written_beside.empty())
+    if (std::optional<Value> value = value_written_beside(expression)) return *value;
   if (expression.kind != Kind::name) {
     if (const std::string path = path_of(expression); !path.empty()) {
       if (const Value* value = variable(path)) return *value;
@@ -288,6 +306,7 @@ Value Interpreter::name_value(const Expression& expression) {
     const Value whole = locate(expression.items[0]) ? Value{} : name_value(expression.items[0]);
     if (expression.kind == Kind::field && whole.kind == Value::Kind::list)
       if (const Value* part = whole.field(expression.text)) return *part;
+    if (std::optional<Value> character = character_of(expression)) return *character;
   }
   if (const Value* value = locate(expression)) {
     charge(value->weight());
@@ -299,7 +318,19 @@ Value Interpreter::name_value(const Expression& expression) {
   const std::string path = path_of(expression);
   if (path.empty()) return unknown_index(expression);
   if (std::optional<Value> value = given(path)) return *value;
-  return unknown_value(path, "is a name that no file read declares");
+  return unknown_value(path, path.starts_with("$") ? "is a variable of the system that no file read sets"
+                                                   : "is a name that no file read declares");
+}
+
+/// KRL: s[2] of a text that was assigned to s[].
+std::optional<Value> Interpreter::character_of(const Expression& expression) {
+  if (expression.kind != Kind::element || expression.items.size() != 2) return {};
+  const Value* whole = locate(expression.items[0]);
+  if (!whole || whole->kind != Value::Kind::text) return {};
+  const std::string text = whole->text;
+  const auto index = number(expression.items[1]);
+  if (!index || !(*index >= 1 && *index <= static_cast<double>(text.size()))) return {};
+  return text_value(text.substr(static_cast<std::size_t>(*index) - 1, 1));
 }
 
 /// An element whose index is unknown is as unknown as that.
@@ -335,6 +366,11 @@ void Interpreter::assign(const Expression& target, Value value) {
       variable->written = target.place;
       variable->assigned = true;
     }
+    return;
+  }
+  if (Value* whole = target.kind == Kind::element ? locate(target.items[0]) : nullptr;
+      whole && whole->kind == Value::Kind::text) {  // KRL: a letter of a text
+    *whole = unknown_value(path_of(target.items[0]), "is written letter by letter");
     return;
   }
   const std::string path = path_of(target);
@@ -437,6 +473,11 @@ Value Interpreter::unary(const Expression& expression) {
     return negative;
   }
   if (expression.text == "+") return value;
+  if (expression.text == "b_not" && value.numeric == Value::Numeric::integer && value.is_number()) {
+    Value inverted = value;
+    inverted.number = -value.number - 1;  // of a number in two's complement
+    return inverted;
+  }
   return unknown_value(value);
 }
 
@@ -454,6 +495,8 @@ Value compared(const std::string& op, const Value& a, const Value& b) {
   return {};
 }
 
+constexpr double widest = 4294967295.0;  // whole number of which KRL takes the bits
+
 Value computed(const std::string& op, const Value& first, const Value& second) {
   using Numeric = Value::Numeric;
   const double a = first.number, b = second.number;
@@ -465,6 +508,10 @@ Value computed(const std::string& op, const Value& first, const Value& second) {
   if (op == "/") value = whole ? std::trunc(a / b) : a / b;
   if (op == "div") value = std::trunc(a / b);
   if (op == "mod") value = std::fmod(a, b);
+  if (op.starts_with("b_") && whole && std::abs(a) <= widest && std::abs(b) <= widest) {
+    const auto bits = static_cast<std::int64_t>(a), others = static_cast<std::int64_t>(b);
+    value = static_cast<double>(op == "b_and" ? bits & others : op == "b_or" ? bits | others : bits ^ others);
+  }
   if (!std::isfinite(value)) return {};
   Value result = number_value(value);
   const bool typed = first.numeric != Numeric::any && second.numeric != Numeric::any;
@@ -472,9 +519,23 @@ Value computed(const std::string& op, const Value& first, const Value& second) {
   return result;
 }
 
-/// pos + pos, pos - pos, pos * number, number * pos, pos * pos (vector product).
+/// orient * orient: turned by the second within the first.
+Value computed_turns(const Value& a, const Value& b) {
+  const auto turn = [](const Value& v) {
+    return Quaternion(v.items[0].number, v.items[1].number, v.items[2].number, v.items[3].number);
+  };
+  const Quaternion product = turn(a) * turn(b);
+  Value result = a;
+  const double parts[] = {product.w(), product.x(), product.y(), product.z()};
+  for (std::size_t i = 0; i < 4; ++i) result.items[i].number = parts[i];
+  return result;
+}
+
+/// pos + pos, pos - pos, pos * number, number * pos, pos * pos (vector product), orient * orient.
 Value computed_lists(const std::string& op, const Value& a, const Value& b) {
   const Value& list = a.kind == Value::Kind::list ? a : b;
+  const bool turns = op == "*" && a.items.size() == 4 && b.items.size() == 4;
+  if (turns && a.depth() == 1 && b.depth() == 1 && a.known() && b.known()) return computed_turns(a, b);
   if (list.items.size() != 3 || list.depth() != 1 || !a.known() || !b.known()) return {};
   Value result = list;
   if (a.kind == b.kind && b.items.size() == 3) {

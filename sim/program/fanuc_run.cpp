@@ -149,7 +149,11 @@ void FanucRun::call_statement(const std::string& text, bool beside) {
   FanucCursor at(text);
   const std::string name = lower_case(at.name());
   const FanucListing* listing = outlook_.program(name);
-  if (beside) return note(fmt::format("RUN {}: runs beside this program", name), listing != nullptr);
+  if (beside) {
+    note(fmt::format("RUN {}: runs beside this program", name), listing != nullptr);
+    if (!listing) return values_.forget_registers();
+    return forget(outlook_.effects(*listing, 0, listing->statements.size()));
+  }
   if (!listing) return unread("CALL " + name);
   call(*listing, arguments_in(at));
 }
@@ -195,6 +199,11 @@ void FanucRun::action(const std::string& text) {
   if (word == "jmp") return jump(at, true);
   if (word == "call" || word == "run") return call_statement(std::string(at.rest()), word == "run");
   if (word == "wait") return wait(at);
+  if (word == "monitor") {  // a list of WHEN condition, action
+    note(fmt::format("MONITOR {}: what it does may come at any time, and is left out", lower_case(at.name())),
+         true);
+    return values_.forget_registers();
+  }
   if (word == "abort") {
     note("ABORT: the program ends here");
     throw Stop{};
@@ -424,6 +433,8 @@ void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
   at.skip_to('=');
   if (!index || !index->number || index->group != 1)
     return note(word + ": a frame of another group or number", true);
+  if (whole(*index->number) == 0)
+    return note(word + "[0] is fixed, nothing can be assigned to it: the controller stops here", true);
   set_frame(word == "utool", whole(*index->number), position_sum(at));
 }
 
@@ -451,6 +462,12 @@ bool FanucRun::no_matter(const FanucEffects& effects) {
     note("IF, SELECT, FOR: waits for a time on what is known only while the robot runs; left out", true);
   else
     note("IF, SELECT, FOR: a branch on what is known only while the robot runs, without moves");
+  forget(effects);
+  return true;
+}
+
+/// What may have been written is unknown from here on.
+void FanucRun::forget(const FanucEffects& effects) {
   if (effects.any_register) values_.forget_registers();
   for (int number : effects.registers) values_.forget_register(number);
   for (int number : effects.positions) values_.forget_position(number);
@@ -461,7 +478,6 @@ bool FanucRun::no_matter(const FanucEffects& effects) {
     if (const auto number = at.take_sign('[') ? at.number() : std::nullopt)
       frames_[{tool, whole(*number)}].reset();
   }
-  return true;
 }
 
 /// Whether the called program that runs moves nothing wherever it jumps: then it ends here, and what it may

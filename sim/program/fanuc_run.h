@@ -78,6 +78,7 @@ class FanucRun {
   void if_statement(FanucCursor& at);
   void undecided(const std::string& action);
   bool no_matter(const FanucEffects& effects);
+  void forget(const FanucEffects& effects);
   bool whole_program_no_matter();
   void ask(const std::string& what);
   void select();

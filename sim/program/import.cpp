@@ -179,6 +179,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
     case Language::krl: {
       Code code;
       code.files = std::move(files);
+      code.written_beside = options.written_beside;
       language == Language::rapid ? add_rapid_types(code) : add_krl_types(code);
       parse_files(code, language, problems);
       add_requests(code, options, language == Language::krl, problems);
@@ -262,6 +263,7 @@ Program read_program(const pipeline::Motion& motion) {
     const Backup backup = backup_of(motion.program, motion.routine);
     language = backup.language;
     options.routine = backup.routine;
+    options.written_beside = backup.written_beside;
     for (const std::filesystem::path& file : backup.files) files.push_back(source_of(file));
     if (files.empty())
       throw pipeline::InputError({motion.program.string()}, "holds none of the files that its lists name",

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <tuple>
 #include <utility>
 
 #include "sim/program/tokens.h"
@@ -24,7 +23,6 @@ constexpr std::size_t instruction_work = 10;  // of a move, in statements
 constexpr int searched_passes = 200;
 constexpr long searched_work = ImportLimits::executed / 3;
 constexpr std::size_t searched_moves = 20'000;
-constexpr int repeats_for_certainty = 3;
 
 std::string passes_text(long passes) { return passes == 1 ? "one pass" : fmt::format("{} passes", passes); }
 
@@ -72,6 +70,7 @@ void Interpreter::run(const Routine& routine) {
     locals_.emplace_back();
     start(routine);
   } catch (const Stop&) {
+  } catch (const EndOfCycle&) {  // of what is not run again
   }
   for (const auto& [line, assumption] : options_.assume)
     if (!used_assumptions_.contains(line))
@@ -99,6 +98,8 @@ void Interpreter::start(const Routine& routine) {
                          names));
     return;
   }
+  started_ = &routine;
+  within_itself_.emplace(program_.instructions);
   if (dialect_.begins_again(routine) && code_.start_arguments.empty())
     run_cycles(routine);
   else
@@ -260,6 +261,8 @@ Interpreter::Flow Interpreter::execute(const Statement& statement) {
       return Flow::jump;
     case Kind::finish:
       throw Stop{};
+    case Kind::end_cycle:
+      throw EndOfCycle{};
     case Kind::declare:
       declare(statement);
       break;
@@ -473,77 +476,8 @@ Interpreter::Flow Interpreter::run_until(const Statement& statement) {
   }
 }
 
-namespace {
-
-/// Whether two moves are the same motion; where they stand in the program does not count.
-bool same_motion(const Instruction& a, const Instruction& b) {
-  const auto same_pose = [](const Frame& x, const Frame& y) {
-    return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
-  };
-  const auto settings = [](const Instruction& i) {
-    return std::tie(i.kind, i.target.joints, i.target.configuration, i.target.external_axes, i.tool,
-                    i.work_object, i.speed.axis_percent, i.speed.tool, i.speed.orientation, i.speed.duration,
-                    i.zone.distance, i.zone.percent, i.acceleration_percent, i.dwell);
-  };
-  return settings(a) == settings(b) && same_pose(a.target.pose, b.target.pose) && same_pose(a.via, b.via);
-}
-
-/// The passes of an endless loop so far.
-class Passes {
- public:
-  explicit Passes(const std::vector<Instruction>& moves) : moves_(moves), ends_{moves.size()} {}
-
-  void add(std::uint64_t state) {
-    ends_.push_back(moves_.size());
-    states_.push_back(state);
-  }
-  std::size_t count() const { return states_.size(); }
-  std::size_t end(std::size_t pass) const { return ends_[pass]; }  ///< moves up to the end of pass 1, 2, ..
-  bool same_motion(std::size_t a, std::size_t b) const {
-    return std::equal(moves_.begin() + begin(a), moves_.begin() + stop(a), moves_.begin() + begin(b),
-                      moves_.begin() + stop(b), sim::same_motion);
-  }
-  /// The last pass ends as an earlier one did and moved as it did: from here on everything repeats.
-  bool repeats() const {
-    const std::size_t last = count();
-    for (std::size_t pass = 1; pass < last; ++pass)
-      if (states_[pass - 1] == states_[last - 1] && same_motion(pass, last)) return true;
-    return false;
-  }
-  /// Variables that only count never come back. Passes whose motion repeats, judged by the moves alone:
-  /// how many there are up to the end of the first period; 0: no period is seen.
-  std::size_t by_motion() const {
-    const std::size_t last = count();
-    for (std::size_t period = 1; period * (repeats_for_certainty + 1) <= last; ++period) {
-      std::size_t first =
-          last - period;  // the earliest pass from which on each equals the one a period later
-      while (first >= 1 && same_motion(first, first + period)) --first;
-      if (first + 1 + repeats_for_certainty * period <= last) return first + period;
-    }
-    return 0;
-  }
-  /// How many passes the motion is.
-  std::size_t kept(std::size_t wanted) const {
-    if (wanted) return wanted;
-    if (repeats()) return count() - 1;
-    if (const std::size_t periodic = by_motion()) return periodic;
-    std::size_t first = 1;  // that moves
-    while (first < count() && end(first) == end(0)) ++first;
-    return first;
-  }
-
- private:
-  long begin(std::size_t pass) const { return static_cast<long>(ends_[pass - 1]); }
-  long stop(std::size_t pass) const { return static_cast<long>(ends_[pass]); }
-  const std::vector<Instruction>& moves_;
-  std::vector<std::size_t> ends_;
-  std::vector<std::uint64_t> states_;
-};
-
-}  // namespace
-
 /// A sum over all that the program has assigned.
-std::uint64_t Interpreter::state() const {
+std::uint64_t Interpreter::state(bool with_locals) const {
   std::uint64_t sum = 14695981039346656037u;  // FNV-1a
   const auto take = [&](const void* bytes, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
@@ -564,7 +498,8 @@ std::uint64_t Interpreter::state() const {
   };
   scope(globals_);
   for (const Scope& variables : module_data_) scope(variables);
-  for (const Scope& variables : locals_) scope(variables);
+  if (with_locals)
+    for (const Scope& variables : locals_) scope(variables);
   return sum;
 }
 
@@ -594,7 +529,16 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
                           program_.instructions.size() - before > searched_moves;
     if (!wanted && !leaves && searched) break;
   }
-  if (!wanted && !leaves && program_.instructions.size() == before) return Flow::next;
+  if (!wanted && program_.instructions.size() == before) {
+    const bool could_move = moves(statement, module_);
+    note(statement.place,
+         could_move
+             ? "an endless loop that makes none of its moves: what it hangs on is written from outside; "
+               "choose with --assume"
+             : "an endless loop: what stands behind it is never run",
+         could_move);
+    throw Stop{};
+  }
   const std::size_t kept = passes.kept(wanted);
   const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
   program_.instructions.resize(passes.end(kept));
@@ -608,16 +552,23 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
 
 /// Runs the routine; true: it ended the program instead of itself.
 bool Interpreter::ends_within(const Routine& routine) {
+  within_itself_.emplace(program_.instructions);
   try {
     call(routine, {}, routine.place);
   } catch (const Stop&) {
-    locals_.resize(1);
-    routines_.clear();
-    loops_.clear();
-    module_ = -1;
+    leave_all_routines();
     return true;
+  } catch (const EndOfCycle&) {
+    leave_all_routines();
   }
   return false;
+}
+
+void Interpreter::leave_all_routines() {
+  locals_.resize(1);
+  routines_.clear();
+  loops_.clear();
+  module_ = -1;
 }
 
 /// A routine that begins again at its end: as an endless loop around it. What cannot be told of a later cycle
@@ -760,7 +711,10 @@ Value Interpreter::declared_value(const Statement& statement) {
       complain(written.place,
                fmt::format("has not the {} components of a {}", type->fields.size(), type->name),
                "write all of them");
-    if (statement.arguments.size() > 1) return value;
+    if (statement.arguments.size() > 1) {
+      if (type) shape_elements(value, type, statement.arguments.size() - 1);
+      return value;
+    }
     Value stored = dialect_.initial(statement.text);
     dialect_.store(stored, std::move(value));
     return stored;
@@ -777,6 +731,15 @@ Value Interpreter::declared_value(const Statement& statement) {
   return value;
 }
 
+/// Of an array: a list of so many levels.
+void Interpreter::shape_elements(Value& value, const RecordType* type, std::size_t levels) const {
+  if (levels == 0 || value.kind != Value::Kind::list) {
+    shape(value, type);
+    return;
+  }
+  for (Value& item : value.items) shape_elements(item, type, levels - 1);
+}
+
 /// The parameter that an argument goes to, by its name or as the next; null: there is none.
 const Parameter* Interpreter::parameter_of(const Routine& routine, const Expression& argument,
                                            std::size_t& position) {
@@ -791,7 +754,9 @@ const Parameter* Interpreter::parameter_of(const Routine& routine, const Express
 
 Value Interpreter::call(const Routine& routine, const std::vector<Expression>& arguments,
                         const Place& place) {
+  if (&routine == started_ && !routines_.empty()) call_within_itself(routine);
   if (static_cast<int>(routines_.size()) >= ImportLimits::calls) {
+    if (within_itself_->by_motion() > 0) end_within_itself(*started_);  // its data count, its motion repeats
     complain(place,
              fmt::format("calls {} {} routines deep (without end?)", routine.written, ImportLimits::calls),
              "mend the recursion");
@@ -833,6 +798,24 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
         argument->kind == Expression::Kind::element)
       assign(*argument, variables[parameter->name].value);
   return result;
+}
+
+/// Where main is called again with the data as they were at an earlier call, or where its motion repeats, it
+/// is called for ever: that is a cycle, and nothing behind the calls is ever run.
+void Interpreter::call_within_itself(const Routine& routine) {
+  Passes& passes = *within_itself_;
+  constexpr bool with_locals = false;  // those of the calls around are never seen again
+  passes.add(state(with_locals));
+  const auto wanted = static_cast<std::size_t>(options_.passes);
+  if (wanted ? passes.count() >= wanted : passes.repeats()) end_within_itself(routine);
+}
+
+void Interpreter::end_within_itself(const Routine& routine) {
+  const std::size_t kept = within_itself_->kept(static_cast<std::size_t>(options_.passes));
+  program_.instructions.resize(within_itself_->end(kept));
+  note(routine.place, fmt::format("{} is called within itself for ever; the motion is {}", routine.written,
+                                  passes_text(static_cast<long>(kept))));
+  throw Stop{};
 }
 
 // ---- what a branch may do ---------------------------------------------------------------------------------
@@ -938,7 +921,7 @@ bool Interpreter::leaves(const Statement& statement, bool in_loop) const {
 bool Interpreter::holds_loop_exit(const std::vector<Statement>& body) const {
   for (const Statement& statement : body) {
     if (statement.kind == Kind::leave_loop || statement.kind == Kind::give_back ||
-        statement.kind == Kind::jump || statement.kind == Kind::finish)
+        statement.kind == Kind::jump || statement.kind == Kind::finish || statement.kind == Kind::end_cycle)
       return true;
     if (statement.kind != Kind::branch && statement.kind != Kind::choose) continue;
     for (const Branch& branch : statement.branches)

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "sim/program/code.h"
+#include "sim/program/passes.h"
 
 namespace dresslife::sim {
 
@@ -129,7 +130,8 @@ class Interpreter {
   void make_unknown(const Expression& target, const std::string& why);
   /// The same for all that a call of a routine may write to, as it stands in a module.
   void forget_writes_of(const Statement& call, int module, const std::string& why);
-  void set(const std::string& name, Value value);  ///< of the module
+  /// Of all modules, as it was written there.
+  void set(const std::string& name, Value value, const Place& written = {});
   void forget(const std::string& name);
   void assign(const Expression& target, Value value);
   /// "$vel.cp", "p[3].x": under which a part of an undeclared variable is kept; empty: an index is unknown.
@@ -156,7 +158,8 @@ class Interpreter {
 
  private:
   enum class Flow { next, leave_loop, give_back, jump };
-  struct Stop {};  // thrown: the program ends, or goes past a limit
+  struct Stop {};        // thrown: the program ends, or goes past a limit
+  struct EndOfCycle {};  // thrown: the controller begins its routine again
   struct Variable {
     enum class State { declared, being_read, ready };
     const Datum* datum = nullptr;  // null: made by an assignment
@@ -173,6 +176,7 @@ class Interpreter {
   void start(const Routine& routine);
   void run_cycles(const Routine& routine);
   bool ends_within(const Routine& routine);
+  void leave_all_routines();
   Flow execute(const std::vector<Statement>& body);
   Flow execute_routine(const Routine& routine);
   std::string rivals(const Place& a, const Place& b) const;
@@ -193,7 +197,9 @@ class Interpreter {
                                        std::size_t& position);
   static Expression counter_of(const Statement& statement);
   Value call(const Routine& routine, const std::vector<Expression>& arguments, const Place& place);
-  std::uint64_t state() const;
+  std::uint64_t state(bool with_locals = true) const;
+  void call_within_itself(const Routine& routine);
+  [[noreturn]] void end_within_itself(const Routine& routine);
   void ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers);
   template <class Answers>
   const typename Answers::mapped_type* answer(const Answers& answers, const Place& place);
@@ -216,10 +222,13 @@ class Interpreter {
   Value name_value(const Expression& expression);
   Value call_value(const Expression& expression);
   Value unknown_index(const Expression& expression);
+  std::optional<Value> character_of(const Expression& expression);
+  std::optional<Value> value_written_beside(const Expression& expression);
   Value why_unknown(const Expression& expression);
   Value unary(const Expression& expression);
   Value binary(const Expression& expression);
   Value aggregate(const Expression& expression);
+  void shape_elements(Value& value, const RecordType* type, std::size_t levels) const;
   Value* locate(const Expression& expression);
   Variable* find(const std::string& name);
   Scope& scope_of(const std::string& path);
@@ -248,7 +257,9 @@ class Interpreter {
     Place place;
     long passes = 0;
   };
-  std::vector<Loop> loops_;  // that are running, outermost first
+  const Routine* started_ = nullptr;
+  std::optional<Passes> within_itself_;  // of the routine that was started, by its calls of itself
+  std::vector<Loop> loops_;              // that are running, outermost first
   std::vector<const Routine*> routines_;
   Value result_;
   const Statement* jump_ = nullptr;  // on its way to its label

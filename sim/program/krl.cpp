@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "sim/program/krl_arc.h"
 #include "sim/program/krl_dialect.h"
 #include "sim/program/krl_spline.h"
 #include "sim/program/tokens.h"
@@ -30,6 +31,8 @@ bool has(const Statement& statement, const char* word) {
 /// A distance of SAPO_PTP that stands for "the percentage counts alone" [mm].
 constexpr double no_distance = 1e5;
 
+constexpr double most_angle = 3600;  // of CA [deg]
+
 }  // namespace
 
 Krl::Krl(const Code& code, const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects)
@@ -51,10 +54,17 @@ std::optional<Value> Krl::constant(const std::string& name) {
   if (name == "$nullframe" || name == "$world") return frame_value(Frame{});
   if (name == "$num_ax") return number_value(6);
   if (name == "$t1" || name == "$t2") return truth_value(false);  // what wears cables is automatic operation
+  if (name == "$on_path") return truth_value(false);              // a program runs from its first line
   const bool axes = name == "$axis_act" || name == "$axis_act_meas" || name == "$axis_int";
   if (!axes && name != "$pos_act" && name != "$pos_act_mes" && name != "$pos_int") return named_frame(name);
   const auto numbers = axes ? axes_ : place_before(current_frames(*run_));
-  if (numbers) return record(*numbers, axes ? "axis" : "frame");
+  if (numbers) {
+    Value place = record(*numbers, axes ? "e6axis" : "e6pos");
+    for (std::size_t i = 0; i < external_.size(); ++i)
+      if (const Value* part = external_[i] ? place.field(external_names[i]) : nullptr)
+        store(const_cast<Value&>(*part), number_value(*external_[i]));
+    return place;
+  }
   if (std::optional<Value> given = run_->given(name)) return given;
   return unknown_value(name, "is where the robot stands");
 }
@@ -150,6 +160,21 @@ bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instr
   return true;
 }
 
+/// $ORI_TYPE = #CONSTANT: the tool keeps the orientation that it has, whatever the target says.
+bool Krl::keeps_orientation(const Place& place, bool unknown, Interpreter& run) {
+  const Value* type = run.variable("$ori_type");
+  const std::string kind = type && type->kind == Value::Kind::text ? type->text : "";
+  if (kind == "#joint")
+    run.note(place, "turns the tool by the wrist's axes ($ORI_TYPE #JOINT): it is turned evenly", true);
+  if (kind != "#constant") return false;
+  if (unknown)
+    run.note(
+        place,
+        "keeps the orientation ($ORI_TYPE #CONSTANT) of a place that nobody knows: the target's is taken",
+        true);
+  return !unknown;
+}
+
 bool Krl::read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
                       Interpreter& run) {
   const Value value = run.evaluate(written);
@@ -159,8 +184,9 @@ bool Krl::read_target(const Expression& written, From from, const Frames& frames
       ask_for_part(written, *unknown, run);
       return false;
     }
-  const bool joint = axes.any();
-  if (!joint && !frame.any()) {
+  const bool outside = coordinates(value, external_names).any();  // PTP {E1 200}: the robot stays
+  const bool joint = axes.any() || (!frame.any() && outside && axes_);
+  if (!joint && !frame.any() && !outside) {
     ask_for_target(written, value, run);
     return false;
   }
@@ -174,7 +200,10 @@ bool Krl::read_target(const Expression& written, From from, const Frames& frames
                  "write the target's angles, or #TOOL");
     return false;
   }
-  const auto numbers = joint ? moved(axes, from, axes_) : moved(frame, from, place_before(frames));
+  const auto before = place_before(frames);
+  auto numbers = joint ? moved(axes, from, axes_) : moved(frame, from, before);
+  if (numbers && move.kind != Instruction::Kind::joint && keeps_orientation(written.place, !before, run))
+    std::copy(before->begin() + 3, before->end(), numbers->begin() + 3);
   if (!numbers) {
     run.complain(written.place, "gives some coordinates only (the others of the place before are not known)",
                  "write all six");
@@ -381,6 +410,47 @@ bool Krl::ask_for_frames(const Frames& frames, const Statement& statement, Inter
   return true;
 }
 
+/// The arc, on by the angle of CA where there is one, and with a tool that turns with the way where it does.
+void Krl::go_round(const Statement& statement, const Expression* whole_angle,
+                   const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run) {
+  const Value* type = run.variable("$circ_type");
+  const bool by_path = type && type->kind == Value::Kind::text && type->text == "#path";
+  const bool turning = by_path && start && keeps_orientation(statement.place, false, run);
+  if (by_path && !turning)
+    run.note(statement.place, "turns the tool with the way ($CIRC_TYPE #PATH): it is turned evenly", true);
+  if (!whole_angle && !turning) return run.emit(move, statement);
+  const Value given = whole_angle ? run.evaluate(*whole_angle) : number_value(0);
+  if (!given.is_number() || !start) {
+    run.complain(statement.place,
+                 start ? "goes round by a CA that is known only while the robot runs" + run.because(given)
+                       : "goes round by CA from a place that is not known",
+                 "write a constant, and a LIN before");
+    return;
+  }
+  const Frame from = frame_from(*start), to = move.target.pose;
+  const auto arc = arc_through(from.position, move.via.position, to.position);
+  constexpr double taught_alike = 0.1 * degree;  // as well as points are taught
+  if (!arc || std::abs(given.number) > most_angle) {
+    run.complain(
+        statement.place,
+        arc ? "goes round by more than ten turns" : "has no circle: its points lie on a line, or two are one",
+        "mend the points");
+  } else if (!turning && from.orientation.angularDistance(to.orientation) > taught_alike) {
+    run.complain(statement.place, "turns the tool while it goes round by CA (KUKA's law is not public)",
+                 "write the end of the arc as the target, without CA");
+  } else {
+    const std::vector<Frame> poses =
+        poses_along(*arc, from, whole_angle ? given.number * degree : arc->angle, turning);
+    const MoveZone zone = move.zone;
+    for (std::size_t i = 0; i + 1 < poses.size(); i += 2) {
+      move.via = poses[i], move.target.pose = poses[i + 1];
+      move.zone = i + 2 < poses.size() ? MoveZone{0, 100} : zone;
+      run.emit(move, statement);
+    }
+    if (!poses.empty()) numbers_ = numbers_of(poses.back());
+  }
+}
+
 void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
   Instruction move;
   move.kind = kind;
@@ -389,11 +459,11 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
                                                       : From::place;
   const Expression* target = nullptr;
   const Expression* via = nullptr;
+  const Expression* angle = nullptr;  // of the whole arc
   for (const Expression& argument : statement.arguments) {
     if (argument.option == "ca") {
-      run.complain(argument.place, "CIRC with CA ends elsewhere than at its target",
-                   "write the end of the arc as the target, without CA");
-      return;
+      angle = &argument;
+      continue;
     }
     via = target;
     target = &argument;
@@ -408,6 +478,7 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
   }
   const Frames frames = current_frames(run);
   if (kind == Instruction::Kind::circular && !read_via(*via, from, frames, move, run)) return;
+  const auto start = place_before(frames);
   const bool whole = read_target(*target, from, frames, move, run);
   if (!read_speed(statement, move, run) || !whole) return;
   read_zone(statement, move, run);
@@ -428,7 +499,10 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
   if (statement.name.starts_with("spl") && has(statement, "in_spline"))
     spline_points_.insert(run.program().instructions.size());
   add_origins(*target, frames, move, run);
-  run.emit(move, statement);
+  if (kind == Instruction::Kind::circular)
+    go_round(statement, angle, start, move, run);
+  else
+    run.emit(move, statement);
   for (const long number : braking_) handlers_happen(number, run);
 }
 
@@ -484,9 +558,10 @@ void Krl::interrupt(const Statement& statement, Interpreter& run) {
 
 /// What WITH sets counts for this move only.
 bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
-  std::map<std::string, Value> before;
+  std::map<std::string, std::pair<Value, Place>> before;
   const auto keep = [&](const std::string& name) {
-    if (const Value* value = run.variable(name)) before.emplace(name, *value);
+    if (const Value* value = run.variable(name))
+      before.emplace(name, std::pair(*value, run.origin(name_at(name, {}))));
   };
   for (const Branch& settings : statement.branches)
     for (const Statement& s : settings.body) {
@@ -501,7 +576,7 @@ bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& 
       run.assign(s.arguments[0], std::move(value));
     }
   move_now(kind, statement, run);
-  for (auto& [name, value] : before) run.set(name, std::move(value));
+  for (auto& [name, kept] : before) run.set(name, std::move(kept.first), kept.second);
   return true;
 }
 
@@ -524,6 +599,10 @@ bool Krl::wait(const Statement& statement, Interpreter& run) {
 bool Krl::instruction(const Statement& statement, Interpreter& run) {
   if (const auto kind = kind_of(statement.name)) return move(*kind, statement, run);
   if (statement.name == "wait_sec") return wait(statement, run);
+  if (statement.name == "asyptp") {
+    run.note(statement.place, "ASYPTP: external axes move on their own, beside the robot", true);
+    return true;
+  }
   if (statement.name == "bas") {
     basics(statement, run);
     return true;

@@ -1,6 +1,6 @@
 // Folders with KUKA programs: a whole backup (KRC/R1 with Program, System, TP and Mada) or programs beside
-// each other. Left out: STEU (the controller's own data), templates and submit programs (.sub; they move no
-// robot).
+// each other. Left out: STEU (the controller's own data) and templates. Submit programs (.sub) move no robot,
+// but write to what the programs read.
 //
 // Where it begins, unless a routine is asked for: in what CELL.SRC calls, else in the program that no other
 // one calls, of those that move the robot.
@@ -129,7 +129,7 @@ Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, co
   std::map<std::string, fs::path> file_of;
   for (const fs::path& file : files) {
     const std::string end = lower_case(file.extension().string());
-    if ((end != ".src" && end != ".dat") || lies_in(file, folder, foreign)) continue;
+    if ((end != ".src" && end != ".dat" && end != ".sub") || lies_in(file, folder, foreign)) continue;
     backup.files.push_back(file);
     if (end == ".src" && !lies_in(file, folder, system_folders) && !system_programs.contains(stem_of(file)))
       if (Calls calls = calls_of(file); !calls.name.empty()) {

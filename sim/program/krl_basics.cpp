@@ -21,7 +21,10 @@ constexpr const char* harmless_names[] = {
     "strfind",  "h50",     "$timer",    "$timer_flag", "clear_krlmsg", "ir_stopm", "$cycflag",
     "$in",      "$anin",   "$err",      "ciostate"};
 constexpr const char* harmless_beginnings[] = {"eki_", "msg", "set_krl", "exists_krl", "diag_"};
-constexpr const char* reading_names[] = {"cread", "sread", "copen", "sopen", "swrite", "cwrite", "cclose"};
+/// Of these, those that write to what they are given.
+constexpr const char* writing_names[] = {"cread",  "sread",    "copen",     "sopen",
+                                         "swrite", "cwrite",   "cclose",    "strcopy",
+                                         "stradd", "strclear", "msgdialog", "exists_krldlg"};
 
 Expression part_of(Expression whole, Expression::Kind kind, const Place& place) {
   Expression part;
@@ -77,9 +80,10 @@ bool Krl::harmless(const std::string& name) const {
 }
 
 bool Krl::writes(const std::string& name, int, const Expression&) const {
-  const bool reads =
-      std::find(std::begin(reading_names), std::end(reading_names), name) != std::end(reading_names);
-  return reads || name.starts_with("eki_") || !harmless(name);
+  if (kind_of(name) || name == "bas" || name == "asyptp") return false;  // moves read their targets
+  const bool writing =
+      std::find(std::begin(writing_names), std::end(writing_names), name) != std::end(writing_names);
+  return writing || name.starts_with("eki_") || !harmless(name);
 }
 
 // ---- values -----------------------------------------------------------------------------------------------
@@ -326,6 +330,8 @@ void Krl::joint_data(const Place& place, Interpreter& run) {
 void Krl::path_data(const Place& place, Interpreter& run) {
   set_path_acceleration(run.evaluate(field_at("ldat_act", "acc", place)), place, run);
   run.assign(field_at("$apo", "cdis", place), run.evaluate(field_at("ldat_act", "apo_dist", place)));
+  run.assign(name_at("$ori_type", place), run.evaluate(field_at("ldat_act", "ori_typ", place)));
+  run.assign(name_at("$circ_type", place), run.evaluate(field_at("ldat_act", "circ_typ", place)));
 }
 
 /// BAS(#INITMOV, 0): what $CONFIG.DAT has for a start. Of what it does not tell, only the speed is asked for.
@@ -343,6 +349,8 @@ void Krl::initialise(const Place& place, Interpreter& run) {
   for (const char* field : {"cptp", "cdis", "cvel", "cori"})
     run.assign(field_at("$apo", field, place), standard(fmt::format("def_apo_{}", field).c_str()));
   run.assign(name_at("$ipo_mode", place), text_value("#base"));
+  run.assign(name_at("$ori_type", place), text_value("#var"));
+  run.assign(name_at("$circ_type", place), text_value("#base"));
   use_base(number_value(0), place, run);
   if (run.variable("def_vel_cp") && !run.variable("tool_data")) {
     run.note(place, "BAS(#INITMOV) takes TOOL_DATA[1], which $CONFIG.DAT does not hold: the flange is taken",
@@ -437,7 +445,9 @@ std::optional<Value> Krl::spline_function(const Expression& call, const std::vec
   if (name == "stool") return numbered("tool_data", first, run);
   if (name == "sbase") return numbered("base_data", first, run);
   if (name == "sipo_mode") return first.kind == Value::Kind::list ? part(first, "ipo_frame") : first;
-  for (const char* other : {"sload", "sori_typ", "scirc_typ", "scirc_m", "sgear_jerk", "sjerk", "s_exax_ign"})
+  if (name == "sori_typ") return part(first, "ori_typ");
+  if (name == "scirc_typ") return part(first, "circ_typ");
+  for (const char* other : {"sload", "scirc_m", "sgear_jerk", "sjerk", "s_exax_ign"})
     if (name == other) return unset_value();
   return {};
 }

@@ -60,6 +60,9 @@ class Krl final : public Dialect {
   static std::optional<Instruction::Kind> kind_of(const std::string& name);
   bool move(Instruction::Kind kind, const Statement& statement, Interpreter& run);
   void move_now(Instruction::Kind kind, const Statement& statement, Interpreter& run);
+  void go_round(const Statement& statement, const Expression* whole_angle,
+                const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run);
+  static bool keeps_orientation(const Place& place, bool unknown, Interpreter& run);
   bool stands_still(const Expression& target, Interpreter& run) const;
   bool read_via(const Expression& via, From from, const Frames& frames, Instruction& move, Interpreter& run);
   bool read_target(const Expression& written, From from, const Frames& frames, Instruction& move,

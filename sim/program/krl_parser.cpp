@@ -17,9 +17,10 @@ constexpr const char* ends[] = {"end",      "endfct",    "enddat",    "endif", "
                                 "until",    "endswitch", "endspline", "def",   "deffct"};
 
 /// Statements of which the robot's motion knows nothing.
-constexpr const char* left_out_words[] = {"signal", "enum",    "ext",        "extfct",   "extp",  "extfctp",
-                                          "import", "channel", "anin",       "anout",    "pulse", "brake",
-                                          "resume", "halt",    "time_block", "const_vel"};
+constexpr const char* left_out_words[] = {"signal",    "enum",   "ext",     "extfct",  "extp",
+                                          "extfctp",   "import", "channel", "anin",    "anout",
+                                          "pulse",     "brake",  "resume",  "halt",    "time_block",
+                                          "const_vel", "asyptp", "asycont", "asystop", "asycancel"};
 /// System variables that change by themselves: what a program writes to them tells nothing later.
 constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$in", "$anin", "$err"};
 
@@ -530,39 +531,74 @@ class KrlParser : StatementParser {
 
 void add_krl_types(Code& code) {
   // What every controller has: structures of positions and settings, and the system's variables of them.
-  code.files.emplace_back("$krl.dat",
-                          "DEFDAT $KRL\n"
-                          "STRUC FRAME REAL X,Y,Z,A,B,C\n"
-                          "STRUC POS REAL X,Y,Z,A,B,C,INT S,T\n"
-                          "STRUC E3POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3\n"
-                          "STRUC E6POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3,E4,E5,E6\n"
-                          "STRUC AXIS REAL A1,A2,A3,A4,A5,A6\n"
-                          "STRUC E3AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3\n"
-                          "STRUC E6AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3,E4,E5,E6\n"
-                          "STRUC CP REAL CP,ORI1,ORI2\n"
-                          "STRUC CONT REAL CPTP,CDIS,CORI,CVEL\n"
-                          "STRUC INERTIA REAL X,Y,Z\n"
-                          "STRUC LOAD REAL M,FRAME CM,INERTIA J\n"
-                          "STRUC FDAT INT TOOL_NO,BASE_NO,IPO_MODE IPO_FRAME,CHAR POINT2[24]\n"
-                          "STRUC PDAT REAL VEL,ACC,APO_DIST,APO_MODE_T APO_MODE\n"
-                          "STRUC LDAT REAL VEL,ACC,APO_DIST,APO_FAC,AXIS_VEL,AXIS_ACC,ORI_TYPE ORI_TYP\n"
-                          "CP $VEL,$ACC\n"
-                          "CONT $APO\n"
-                          "REAL $VEL_AXIS[12],$ACC_AXIS[12]\n"
-                          "FRAME $TOOL,$BASE\n"
-                          "LOAD $LOAD\n"
-                          "IPO_MODE $IPO_MODE\n"
-                          "INT $ACT_TOOL,$ACT_BASE,$OV_PRO,$ADVANCE\n"
-                          "FDAT FDAT_ACT\n"
-                          "PDAT PDAT_ACT\n"
-                          "LDAT LDAT_ACT\n"
-                          "ENDDAT\n");
+  code.files.emplace_back(
+      "$krl.dat",
+      "DEFDAT $KRL\n"
+      "STRUC FRAME REAL X,Y,Z,A,B,C\n"
+      "STRUC POS REAL X,Y,Z,A,B,C,INT S,T\n"
+      "STRUC E3POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3\n"
+      "STRUC E6POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3,E4,E5,E6\n"
+      "STRUC AXIS REAL A1,A2,A3,A4,A5,A6\n"
+      "STRUC E3AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3\n"
+      "STRUC E6AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3,E4,E5,E6\n"
+      "STRUC CP REAL CP,ORI1,ORI2\n"
+      "STRUC CONT REAL CPTP,CDIS,CORI,CVEL\n"
+      "STRUC INERTIA REAL X,Y,Z\n"
+      "STRUC LOAD REAL M,FRAME CM,INERTIA J\n"
+      "STRUC FDAT INT TOOL_NO,BASE_NO,IPO_MODE IPO_FRAME,CHAR POINT2[24]\n"
+      "STRUC PDAT REAL VEL,ACC,APO_DIST,APO_MODE_T APO_MODE\n"
+      "STRUC LDAT REAL VEL,ACC,APO_DIST,APO_FAC,AXIS_VEL,AXIS_ACC,ORI_TYPE ORI_TYP,CIRC_TYPE "
+      "CIRC_TYP\n"
+      "CP $VEL,$ACC\n"
+      "CONT $APO\n"
+      "REAL $VEL_AXIS[12],$ACC_AXIS[12]\n"
+      "FRAME $TOOL,$BASE\n"
+      "LOAD $LOAD\n"
+      "IPO_MODE $IPO_MODE\n"
+      "ORI_TYPE $ORI_TYPE\n"
+      "CIRC_TYPE $CIRC_TYPE\n"
+      "INT $ACT_TOOL,$ACT_BASE,$OV_PRO,$ADVANCE\n"
+      "FDAT FDAT_ACT\n"
+      "PDAT PDAT_ACT\n"
+      "LDAT LDAT_ACT\n"
+      "ENDDAT\n");
 }
 
+namespace {
+
+/// A submit program runs beside the robot's, over and over: what it writes to may have any value at any time.
+/// Names that it declares itself are its own; the system's are settings of moves, or read nowhere.
+void note_what_is_submitted(Code& code, int file, const std::vector<Token>& tokens) {
+  static const std::set<std::string> declaring{"decl",   "int",    "bool", "real",  "char",
+                                               "global", "signal", "ext",  "extfct"};
+  const std::string name = std::filesystem::path(code.files[file].name()).filename().string();
+  std::set<std::string> own, written;
+  for (std::size_t begin = 0, end = 0; begin < tokens.size(); begin = end + 1) {
+    end = begin;
+    while (end < tokens.size() && tokens[end].kind != Token::Kind::line_end) ++end;
+    const std::string first = begin < end ? lower_case(tokens[begin].text) : "";
+    if (declaring.contains(first))
+      for (std::size_t i = begin + 1; i < end; ++i) own.insert(lower_case(tokens[i].text));
+    std::size_t at = begin + 1;  // behind the target's index and components
+    while (at < end && tokens[at].text != "=" && tokens[at].text != "(") ++at;
+    const bool assigns = at < end && tokens[at].text == "=" && tokens[begin].kind == Token::Kind::word;
+    const bool part =
+        assigns && (at == begin + 1 || tokens[begin + 1].text == "[" || tokens[begin + 1].text == ".");
+    if (part && !first.starts_with("$")) written.insert(first);
+  }
+  for (const std::string& target : written)
+    if (!own.contains(target)) code.written_beside.emplace(target, "the submit program " + name);
+}
+
+}  // namespace
+
 void parse_krl(Code& code, int file, Problems& problems) {
-  const std::string stem = lower_case(std::filesystem::path(code.files[file].name()).stem().string());
+  const std::filesystem::path path = code.files[file].name();
+  const std::string stem = lower_case(path.stem().string());
   if (stem == "bas" || stem == "p00") return;  // krl_basics.cpp knows what they do
   const std::vector<Token> tokens = tokens_of(code.files[file], {';', "$#", true, true}, problems);
+  if (file > 0 && lower_case(path.extension().string()) == ".sub")
+    return note_what_is_submitted(code, file, tokens);
   KrlParser(code, file, tokens, problems).run();
 }
 

@@ -57,7 +57,9 @@ void bend_splines(const std::set<std::size_t>& spline_points, Program& program) 
   std::vector<Instruction> bent;
   for (std::size_t i = 0; i < moves.size();) {
     std::size_t end = i;  // of the SPL points that share the frames of the place before them
-    while (i > 0 && spline_points.contains(end) && same_frames(moves[i - 1], moves[end])) ++end;
+    while (i > 0 && end < moves.size() && spline_points.contains(end) &&
+           same_frames(moves[i - 1], moves[end]))
+      ++end;
     if (end == i) {
       bent.push_back(moves[i++]);
       continue;

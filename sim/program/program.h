@@ -141,6 +141,8 @@ struct ImportOptions {
   std::map<std::string, std::string> choose;
   /// Inputs, registers, persistent data, positions: name as the language writes it -> value, likewise.
   std::map<std::string, std::string> values;
+  /// Names that something beside the program writes, in lower case -> what: "sps.sub".
+  std::map<std::string, std::string> written_beside = {};
   int passes = 0;        ///< of an endless main loop; 0: until it begins again as it did before
   double spot_time = 1;  ///< dwell of a spot weld [s]
 };

@@ -5,6 +5,7 @@
 
 #include "pipeline/job/document.h"
 #include "sim/program/backup.h"
+#include "sim/program/encoding.h"
 #include "sim/program/tokens.h"
 
 namespace dresslife::sim {
@@ -102,6 +103,53 @@ void add_task(const fs::path& task, const std::vector<fs::path>& files, Backup& 
   backup.missing = named;
 }
 
+/// What a module shares with other tasks: data that it declares PERS (not LOCAL, not TASK), and what it
+/// assigns.
+struct Shared {
+  std::set<std::string> persistent, assigned;
+};
+
+Shared shared_of(const fs::path& module) {
+  Shared shared;
+  const SourceFile source(module.string(), decoded_text(pipeline::read_text(module)));
+  Problems ignored;  // the parser tells them
+  const std::vector<Token> tokens = tokens_of(source, {'!', "", false, false}, ignored);
+  const auto word = [&](std::size_t i) {
+    return i < tokens.size() ? lower_case(tokens[i].text) : std::string();
+  };
+  for (std::size_t i = 1; i < tokens.size(); ++i) {
+    if (word(i) == "pers" && word(i - 1) != "local" && word(i - 1) != "task")
+      shared.persistent.insert(word(i + 2));
+    if (tokens[i].text != ":=") continue;
+    std::size_t at = i - 1;  // back over {index} and .component to the variable
+    while (at > 0 && tokens[at].text == "}") {
+      while (at > 0 && tokens[at].text != "{") --at;
+      if (at > 0) --at;
+    }
+    while (at > 1 && tokens[at - 1].text == ".") at -= 2;
+    const std::string before = at > 1 ? word(at - 2) : "";
+    const bool declared = before == "pers" || before == "var" || before == "const";
+    if (at > 0 && tokens[at - 1].text != "\\" && !declared) shared.assigned.insert(word(at));
+  }
+  return shared;
+}
+
+/// Persistent data of the task that another one writes: it may have any value whenever the task reads it.
+void add_what_others_write(const fs::path& task, const std::vector<fs::path>& files, Backup& backup) {
+  std::set<std::string> own;
+  for (const fs::path& file : backup.files) own.merge(shared_of(file).persistent);
+  for (const fs::path& file : files) {
+    const fs::path other = task_of(file);
+    if (!is_module(file) || other.empty() || other == task || other.parent_path() != task.parent_path())
+      continue;
+    const Shared shared = shared_of(file);
+    for (const std::string& name : shared.assigned)
+      if (own.contains(name) && shared.persistent.contains(name))
+        backup.written_beside.emplace(
+            name, fmt::format("{} of the task {}", file.filename().string(), other.filename().string()));
+  }
+}
+
 std::string names_of(const std::set<fs::path>& paths) {
   std::string names;
   for (const fs::path& path : paths) names += (names.empty() ? "" : ", ") + path.string();
@@ -142,6 +190,7 @@ Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, 
                                "name the folder of one: " + names_of(moving));
   if (!moving.empty()) {  // all modules of the task are loaded
     add_task(*moving.begin(), files, backup);
+    add_what_others_write(*moving.begin(), files, backup);
     return backup;
   }
   if (lists.size() > 1) keep_nearest(folder, lists);

@@ -42,6 +42,21 @@ double to_decimals(double x, double decimals, double (*cut)(double)) {
   return cut(x * scale) / scale;
 }
 
+constexpr double byte_size = 256;
+bool is_byte(double x) { return x >= 0 && x < byte_size && x == std::trunc(x); }
+
+/// BitAnd(a, b) and its like, of bytes; BitCheck counts bits from 1.
+std::optional<Value> of_two_bytes(const std::string& name, unsigned a, unsigned b) {
+  if (name == "bitand") return number_value(a & b);
+  if (name == "bitor") return number_value(a | b);
+  if (name == "bitxor") return number_value(a ^ b);
+  if (b > 8) return {};
+  if (name == "bitlsh") return number_value((a << b) % static_cast<unsigned>(byte_size));
+  if (name == "bitrsh") return number_value(a >> b);
+  if (name == "bitcheck" && b > 0) return truth_value((a >> (b - 1)) % 2 == 1);
+  return {};
+}
+
 std::optional<Value> of_one_number(const std::string& name, double x, double decimals) {
   if (name == "abs" || name == "absdnum") return finite(std::abs(x));
   if (name == "sqrt" || name == "sqrtdnum") return finite(std::sqrt(x));
@@ -55,6 +70,7 @@ std::optional<Value> of_one_number(const std::string& name, double x, double dec
   if (name == "round" || name == "rounddnum") return finite(to_decimals(x, decimals, std::round));
   if (name == "trunc" || name == "truncdnum") return finite(to_decimals(x, decimals, std::trunc));
   if (name == "dnumtonum" || name == "numtodnum") return finite(x);
+  if (name == "bitneg" && is_byte(x)) return number_value(byte_size - 1 - x);
   if (name == "valtostr") {  // at most six digits (data type num)
     std::string text = fmt::format("{:.6g}", x);
     return text_value(text);
@@ -65,6 +81,8 @@ std::optional<Value> of_one_number(const std::string& name, double x, double dec
 std::optional<Value> of_two_numbers(const std::string& name, double a, double b) {
   if (name == "pow" || name == "powdnum") return finite(std::pow(a, b));
   if (name == "atan2" || name == "atan2dnum") return finite(std::atan2(a, b) / degree);
+  if (name.starts_with("bit") && is_byte(a) && is_byte(b))
+    return of_two_bytes(name, static_cast<unsigned>(a), static_cast<unsigned>(b));
   if (name == "max") return number_value(std::max(a, b));
   if (name == "min") return number_value(std::min(a, b));
   if (name == "numtostr")

@@ -282,7 +282,12 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   move.kind = signature.kind;
   move.acceleration_percent = acceleration_percent_;
   const std::size_t problems = run.problem_count();
+  const bool unshifted = std::any_of(statement.arguments.begin(), statement.arguments.end(),
+                                     [](const Expression& e) { return e.option == "noeoffs"; });
+  const std::vector<double> shift = external_shift_;
+  if (unshifted) external_shift_.clear();
   bool whole = read_target(*given[signature.target], signature.joints, move, run);
+  external_shift_ = shift;
   if (signature.via >= 0) {
     const auto via = read_via(*given[signature.via], run);
     whole &= via.has_value();

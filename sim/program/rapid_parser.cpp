@@ -206,8 +206,10 @@ class RapidParser : StatementParser {
       test_statement(s);
     else if (at_.take_word("return"))
       return_statement(s);
-    else if (at_.take_word("exit") || at_.take_word("exitcycle"))  // main begins again: the cycle is whole
+    else if (at_.take_word("exit"))
       simple(s, Kind::finish);
+    else if (at_.take_word("exitcycle"))
+      simple(s, Kind::end_cycle);
     else if (at_.take_word("goto"))
       goto_statement(s);
     else if (at_.take_word("connect"))

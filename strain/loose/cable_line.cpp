@@ -43,12 +43,6 @@ void CableLine::begin(const HoseLine& hose, const std::vector<Vector2d>& frame, 
     before_[i] = turned(path_[i], frame[i]);  // path_ waits in the frame
     path_[i] = turned(path_[i] + step * velocity_[i], frame[i]);
   }
-  // Beyond the clamps the place turns on with the hose, and back with its ring.
-  const auto mirrored = [&](std::size_t clamp, std::size_t inside) {
-    const Vector2d back = turned_back(hose.turn[clamp], hose.turn[inside]);
-    return turned(turned(place_[inside], back), back);
-  };
-  beyond_ = {mirrored(0, 1), mirrored(last, last - 1)};
   path_[0] = place_[0];
   path_[last] = place_[last];
 }
@@ -70,10 +64,9 @@ void CableLine::smooth_slope(const HoseLine& hose) {
   const std::size_t last = hose.nodes() - 1;
   for (std::size_t i = 1; i < last; ++i)
     bent_[i] = hose.curvature[i] - hose.rest[i] + inverse * (path_[i - 1] - 2 * path_[i] + path_[i + 1]);
-  bent_[0] =
-      hose.curvature[0] - hose.rest[0] + inverse * (beyond_[0] - place_[1] + 2 * path_[1] - 2 * path_[0]);
-  bent_[last] = hose.curvature[last] - hose.rest[last] +
-                inverse * (beyond_[1] - place_[last - 1] + 2 * path_[last - 1] - 2 * path_[last]);
+  // A clamp holds it along the hose's end, A' = 0: beyond lies the mirror image.
+  bent_[0] = hose.curvature[0] - hose.rest[0] + 2 * inverse * (path_[1] - path_[0]);
+  bent_[last] = hose.curvature[last] - hose.rest[last] + 2 * inverse * (path_[last - 1] - path_[last]);
   const std::vector<double>& T = pull_.tension;
   for (std::size_t i = 1; i < last; ++i) {
     const Vector2d in = (path_[i] - path_[i - 1]) / h, out = (path_[i + 1] - path_[i]) / h;
@@ -274,9 +267,23 @@ int CableLine::relax(const HoseLine& hose, int most) {
   }
 }
 
+/// The sample counts in bent() and missed().
+void CableLine::judge_mesh(const HoseLine& hose) {
+  const auto own = [&](std::size_t i) { return Vector2d(bent_[i] - hose.curvature[i] + hose.rest[i]); };
+  Vector2d before = own(0), here = own(1);
+  for (std::size_t i = 1; i + 1 < hose.nodes(); ++i) {
+    const Vector2d after = own(i + 1);
+    bent_sum_ += (bent_[i] + hose.rest[i]).squaredNorm();
+    missed_sum_ += (before - 2 * here + after).squaredNorm() / 144;
+    before = here;
+    here = after;
+  }
+}
+
 void CableLine::end(const HoseLine& hose, const std::vector<Vector2d>& frame, double step,
                     CableState& state) {
   tension_.settle(gain_, pull_);
+  judge_mesh(hose);
   const std::size_t nodes = hose.nodes();
   state.strain = pull_.strain;
   state.gain = gain_;

@@ -5,14 +5,13 @@
 //     g = e - K . A + |A'|^2 / 2,
 // W that of its tension (strain/loose/tension.h), w weight and inertia per length, eta |..| what holds it
 // sideways (W36), contact k_w depth^2 / 2 with the hose's wall, its core, and the bounds of its place. At the
-// clamps it stays at its place, in the hose's direction (b = b' = 0).
+// clamps it stays at its place, along the hose's end whatever the hose's twist (b = 0, A' = 0).
 //
 // Newton's method: bending and tension tie a node to the two next ones, so the matrix has two bands of 2 x 2
 // blocks, and the stretch of the free length adds a matrix of rank one (Sherman and Morrison).
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "strain/loose/cable.h"
@@ -38,6 +37,11 @@ class CableLine {
   void end(const HoseLine& hose, const std::vector<Eigen::Vector2d>& frame, double step, CableState& state);
 
   void feed_in(double share) { tension_.feed_in(share); }  ///< see CableTension
+
+  /// What the distance h of the nodes leaves out of a path's waves: second differences have their curvature a by h^2 a'' /
+  /// 12 wrong. Both squared and summed over nodes and samples so far.
+  double bent() const { return bent_sum_; }      ///< of the cable's curvature, the hose's with it [1/m2]
+  double missed() const { return missed_sum_; }  ///< of h^2 a'' / 12 [1/m2]
 
   // What a ring needs of a cable that it takes along (strain/loose/ring.h).
   void measure(const HoseLine& hose);
@@ -66,6 +70,7 @@ class CableLine {
   void substitute(std::vector<Eigen::Vector2d>& right) const;
   double newton_step(const HoseLine& hose);
   void go(double share);
+  void judge_mesh(const HoseLine& hose);
 
   LooseCable cable_;
   double rest_curvature_;
@@ -73,11 +78,11 @@ class CableLine {
   Pull pull_;
   double drag_ = 0;
   std::vector<Eigen::Vector2d> path_, before_, velocity_, place_;  ///< (node); place_: A0
-  std::array<Eigen::Vector2d, 2> beyond_;                          ///< A0 one node beyond either clamp
   std::vector<double> gain_, press_;
   std::vector<Eigen::Vector2d> bent_, slope_, gained_, step_, soft_, from_, going_;
   std::vector<Block> blocks_;  ///< of contact
   std::vector<Factor> factors_;
+  double bent_sum_ = 0, missed_sum_ = 0;
   double tied2_ = 0;  ///< what ties a node to the second next [N/m]
 };
 

@@ -66,4 +66,11 @@ bool LooseCables::relax(double step) {
   return rest;
 }
 
+double LooseCables::mesh_error() const {
+  double largest = 0;
+  for (const CableLine& line : lines_)
+    if (line.bent() > 0) largest = std::max(largest, std::sqrt(line.missed() / line.bent()));
+  return largest;
+}
+
 }  // namespace dresslife::strain

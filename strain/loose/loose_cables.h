@@ -36,6 +36,9 @@ class LooseCables {
   /// Samples at which a ring or a cable was still moving when the work was cut short.
   std::size_t restless() const { return restless_; }
   std::size_t iterations() const { return iterations_; }  ///< of all cables so far
+  /// Share of the curvature of cables that their nodes are too far apart to see, root of mean squares over nodes and
+  /// samples; the largest of all cables.
+  double mesh_error() const;
 
  private:
   void settle(double step);

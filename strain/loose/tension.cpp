@@ -26,7 +26,11 @@ CableTension::CableTension(const LooseCable& cable, double laid_in)
   least_ = strain_of(-grip_);
 }
 
-void CableTension::feed_in(double share) { free_length_rate_ = (1 + share * slack_) * (1 + laid_in_); }
+void CableTension::feed_in(double share) {
+  free_length_rate_ = (1 + share * slack_) * (1 + laid_in_);
+  slipped_ = 0;
+  held_ = share < 1;
+}
 
 double CableTension::force(double strain) const {
   return force_ ? force_(strain) : axial_stiffness_ * strain;
@@ -51,7 +55,7 @@ double CableTension::stretch(std::span<const double> gain) const {
 
 void CableTension::answer(std::span<const double> gain, Pull& pull) const {
   const double tried = stretch(gain) - slipped_;
-  pull.strain = std::clamp(tried, least_, most_);
+  pull.strain = held_ ? tried : std::clamp(tried, least_, most_);
   pull.mean = force(pull.strain);
   if (pull.strain != tried)
     pull.stiffness = 0;

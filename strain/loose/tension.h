@@ -34,7 +34,8 @@ class CableTension {
   /// The same, and remembers what slipped: the sample is over.
   void settle(std::span<const double> gain, Pull& pull);
 
-  /// As if only this share of the slack were in the hose yet; 1: all of it.
+  /// As if only this share of the slack were in the hose yet; 1: all of it. It is laid in by hand, and
+  /// clamps let nothing through before all of it is there.
   void feed_in(double share);
 
   double slipped() const { return slipped_; }  ///< through the clamps, over the cable's length; > 0: let out
@@ -48,6 +49,7 @@ class CableTension {
   std::function<double(double)> force_;
   double most_ = without_limit, least_ = -without_limit;  ///< strains at the grip, pulled and pressed
   double slipped_ = 0;
+  bool held_ = false;  ///< while slack is fed in
 };
 
 }  // namespace dresslife::strain

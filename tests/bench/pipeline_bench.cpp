@@ -2,18 +2,24 @@
 // does around it (job, receipt, checksums, files synced), so that all time is ours, Ninja's and the operating
 // system's.
 //
-// graph_10k_s: to read the study, expand it and write settings and build graph, the first time.
+// graph_10k_s: to read the study, expand it and write settings, build graph and memory, the first time.
 // overhead_ms_per_job: wall time per job of running it, three stages as processes, two at a time.
-// noop_10k_s: to find that nothing is left to do: reading, expanding, comparing.
-// gather_10k_s: to read the root attributes of all life files and rank them.
+// noop_10k_s: to find that nothing is left to do: what was looked at is as it was, and so is every result.
+// regraph_10k_s: the same when a comment in the study has changed: it is expanded again.
+// gather_10k_s: to rank what all jobs' receipts and life files tell.
+// study_10k_mb: the runner's largest memory in all this.
+//
+// bench_pipeline SIDE: of SIDE x SIDE jobs instead, with figures scaled to ten thousand.
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 
 #include "pipeline/files/digest.h"
-#include "pipeline/study/build_graph.h"
+#include "pipeline/study/known_study.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/whole_file.h"
 #include "tests/pipeline/sample_job.h"
@@ -24,7 +30,6 @@ namespace {
 using namespace dresslife::pipeline;
 namespace fs = std::filesystem;
 
-constexpr int side = 100, jobs = side * side;  // two varied keys
 
 /// A folder that lives as long as this.
 struct Folder {
@@ -44,7 +49,7 @@ double seconds(const Action& action) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::string values(double first, double step) {
+std::string values(int side, double first, double step) {
   std::string text;
   for (int k = 0; k < side; ++k) text += fmt::format("{}{}", k ? ", " : "", first + step * k);
   return "[" + text + "]";
@@ -58,38 +63,45 @@ void write_stages(const Folder& folder) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const int side = argc > 1 ? std::max(1, std::atoi(argv[1])) : 100, jobs = side * side;  // two varied keys
+  const double scale = 10'000.0 / jobs;
   const Folder folder;
   write_stages(folder);
   folder.write("job.yaml", sample_job);
-  const fs::path file = folder.write(
-      "many.yaml",
+  const std::string text =
       fmt::format("base: job.yaml\nvary:\n  dresspack.bending_stiffness_Nm2: {}\n  simulation.segments: {}\n",
-                  values(2, 0.01), values(20, 1)));
-  const StudyPlaces places{folder.path / "runs/many", folder.path / "programs"};
-  Study study;
-  std::vector<JobState> states;
+                  values(side, 2, 0.01), values(side, 20, 1));
+  const StudyRequest request{folder.write("many.yaml", text), {}, folder.path / "runs", folder.path / "programs"};
+  Standing standing;
   const auto graph = [&] {
-    study = read_study(file);
-    states = states_of(study, places);
-    write_build_graph(study, places, states);
+    standing = expanded(request);
+    write_build_graph(standing.study, standing.places, standing.states);
+    remember(request, standing);
   };
-  std::printf("graph_10k_s %.3f\n", seconds(graph));
+  std::printf("graph_10k_s %.3f\n", scale * seconds(graph));
   BuildResult built;
   const double running = seconds([&] {
-    built = run_build_graph(places, 2, {});
-    close_run(study, places, built, states);
+    built = run_build_graph(standing.places, 2, {});
+    close_run(standing.study, standing.places, built, standing.states);
   });
   if (built.executed != 3 * jobs) return 1;
   std::printf("overhead_ms_per_job %.3f\n", 1e3 * running / jobs);
-  const double nothing = seconds(graph);
-  if (!std::all_of(states.begin(), states.end(), [](const JobState& state) { return state.done(); }))
-    return 1;
-  std::printf("noop_10k_s %.3f\n", nothing);
-  std::vector<JobResult> results;
-  for (const StudyJob& job : study.jobs) results.push_back({job.name, places.life(job.name), job.failure});
+  const double nothing = seconds([&] { standing = standing_of(request); });
+  if (!standing.remembered || !standing.all_done()) return 1;
+  std::printf("noop_10k_s %.3f\n", scale * nothing);
+  folder.write("many.yaml", "# changed\n" + text);
+  const double again = seconds([&] {
+    standing = standing_of(request);
+    if (!standing.remembered) graph();
+  });
+  if (standing.remembered || !standing.all_done()) return 1;
+  std::printf("regraph_10k_s %.3f\n", scale * again);
   std::string csv;
-  const double gathering = seconds([&] { csv = ranking_csv(read_ranking(results)); });
+  const double gathering = seconds([&] { csv = ranking_csv(ranking_of(standing.study, standing.places, standing.states)); });
   if (std::count(csv.begin(), csv.end(), '\n') != jobs + 1) return 1;
-  std::printf("gather_10k_s %.3f\n", gathering);
+  std::printf("gather_10k_s %.3f\n", scale * gathering);
+  struct rusage used {};
+  ::getrusage(RUSAGE_SELF, &used);
+  std::printf("study_10k_mb %.1f\n", used.ru_maxrss / 1024.0);
 }

@@ -87,6 +87,27 @@ TEST_CASE("two dresspacks far apart live as long as each alone") {
   CHECK(both[1] > 0);
 }
 
+TEST_CASE("the relative life of a rated cable is the same beside another dresspack") {
+  Scratch scratch;
+  const std::string rated = thin.substr(0, thin.size() - 1) +
+                            ", ratings: [{rig: {kind: torsion, twist_deg_per_m: 360}, cycles: 1e+6, source: data sheet}]}";
+  const std::string there = routing(1.15, 0.6);
+  scratch.write("both.yaml", job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " + routing(1.1, 0) +
+                                    "}\n  - {name: cable, dresspack: " + rated + ", routing: " + there + "}\n"));
+  scratch.write("alone.yaml", job_of("dresspack: " + rated + "\nrouting: " + there + "\n"));
+  const auto per_hour = [&](const std::string& job) {
+    const Outcome outcome = run(scratch, "dresslife", "run " + job + ".yaml --quiet");
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    std::string ranking = content(scratch / ("runs/" + job + "/ranking.csv"));
+    for (int cell = 0; cell < 2; ++cell) ranking.erase(ranking.rfind(','));
+    return std::stod(ranking.substr(ranking.rfind(',') + 1));
+  };
+  const double alone = per_hour("alone");
+  CHECK(alone > 0);
+  CHECK(per_hour("both") == Approx(alone).epsilon(1e-3));  // as the damages above
+}
+
 TEST_CASE("a study of two dresspacks ranks by the worse and tells which it is") {
   Scratch scratch;
   scratch.write("job.yaml", job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " +

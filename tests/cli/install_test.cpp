@@ -37,7 +37,7 @@ TEST_CASE(
   Scratch scratch;
   install(scratch, "place");
   for (const std::string program : programs)
-    for (const std::string file :
+    for (const std::string& file :
          {"bin/" + program, "share/man/man1/" + program + ".1.gz",
           "share/bash-completion/completions/" + program, "share/zsh/site-functions/_" + program})
       CHECK(fs::exists(scratch / "place" / file));
@@ -144,7 +144,7 @@ TEST_CASE("bash completes commands, options and their words") {
     CHECK(outcome.err == "");
     return outcome.out;
   };
-  CHECK(completed("dresslife", "dresslife r") == "run report\n");
+  CHECK(completed("dresslife", "dresslife r") == "run report rate\n");
   CHECK(completed("dresslife", "dresslife run --q") == "--quiet\n");
   CHECK(completed("dresslife", "dresslife manual ''") == "keys files man bash zsh\n");
   CHECK(completed("dresslife", "dresslife run ''") == "\n");  // then bash offers files

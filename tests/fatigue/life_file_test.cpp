@@ -310,18 +310,24 @@ TEST_CASE("life.h5: percentiles of the first wire and of the conductors") {
   CHECK(life.read<std::uint32_t>("/conductor/worst_site") == std::vector<std::uint32_t>{2, 3});
   // Four wires; each by its worst segment.
   const std::vector<double> wires{damage[2], damage[1], damage[3], damage[4]};
-  const double half = life_until(wires, 1, job.fatigue.scatter_log10, 0.5);
-  CHECK(life.number_attribute("life_hours_p50") == Approx(hours(half, duration)).epsilon(same_sum));
+  const double half = life_until(wires, 1, {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.5);
+  CHECK(life.number_attribute("first_wire_life_hours_p50") == Approx(hours(half, duration)).epsilon(same_sum));
   CHECK(half < life.number_attribute("life_repeats"));
   const auto lives = life.read<double>("/conductor/life");
   REQUIRE(lives.size() == 2 * 9);
-  CHECK(lives[9 + 6 + 2] == life_until(std::vector{damage[3], damage[4]}, 2, job.fatigue.scatter_log10, 0.9));
+  CHECK(lives[9 + 6 + 2] == life_until(std::vector{damage[3], damage[4]}, 2, {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.9));
 
   job.fatigue.scatter_log10 = 0;
   const Result exact = run(folder, example(), job, "exact.h5");
   const FileReader sharp(exact.file, pipeline::life_format());
-  for (const char* end : {"p10", "p50", "p90"})
-    CHECK(sharp.number_attribute(fmt::format("life_hours_{}", end)) == sharp.number_attribute("life_hours"));
+  for (const char* end : {"p10", "p50", "p90"}) {
+    CHECK(sharp.number_attribute(fmt::format("first_wire_life_hours_{}", end)) == sharp.number_attribute("life_hours"));
+    // Two wires in a conductor: 10 % are one of them, and one at one place is one anywhere.
+    CHECK(sharp.number_attribute(fmt::format("life_hours_{}", end)) == Approx(sharp.number_attribute("life_hours")));
+  }
+  CHECK(sharp.text_attribute("failing_conductor") == "cable 2");
+  CHECK(sharp.number_attribute("failing_position_from_tool") == sharp.number_attribute("worst_position_from_tool"));
+  CHECK(sharp.number_attribute("life_months_p10") == Approx(sharp.number_attribute("life_months")));
   job.fatigue.load_sharing = true;
   const Result shared = run(folder, example(), job, "shared.h5");
   const auto together = FileReader(shared.file, pipeline::life_format()).read<double>("/conductor/life");

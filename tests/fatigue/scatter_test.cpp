@@ -1,6 +1,7 @@
 // Scatter of life: closed forms, enumeration of every outcome, and drawing against the closed form.
 #include "fatigue/scatter.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -173,4 +174,81 @@ TEST_CASE("conductors: which wires lie in which part") {
   CHECK(found.bundle[0].damage == std::vector<double>{0.2, 0.5});  // the worst place of each wire
   CHECK(found.bundle[1].damage == std::vector<double>{0.3});
   CHECK(found.worst == std::vector<std::size_t>{1, 2});
+}
+
+TEST_CASE("scatter: one wire scatters the same whatever share of it is common") {
+  constexpr double straight_pieces = 3e-3;  // of a life: pieces of a seventh of a deviation h add h^2/6 to the variance, 0.35 %
+  for (const double shared : {0.0, 1e-9, 0.2, 0.5, 0.9, 1 - 1e-9, 1.0})
+    for (const double share : percentiles) {
+      INFO(shared << " " << share);
+      CHECK(life_until(std::vector{1 / 800.0}, 1, {0.25, shared}, share) ==
+            Approx(life_until(std::vector{1 / 800.0}, 1, 0.25, share)).epsilon(straight_pieces));
+    }
+}
+
+TEST_CASE("scatter: all of it in common makes equal wires break together") {
+  const std::vector<double> damage{1 / 100.0, 1 / 200.0, 1 / 300.0};
+  constexpr double z90 = 1.2815515655446004;
+  CHECK(life_until(damage, 2, {0.2, 1}, 0.9) == Approx(200 * std::pow(10, 0.2 * z90)).epsilon(bisected));
+  CHECK(life_until(damage, 2, {0.2, 1}, 0.5) == Approx(200).epsilon(bisected));
+  CHECK(life_until(damage, 4, {0.2, 1}, 0.5) == infinity);
+  CHECK(life_until(damage, 2, {0, 0.5}, 0.1) == 200);
+}
+
+TEST_CASE("scatter: a common part against drawing") {
+  constexpr int draws = 20000;
+  for (const double shared : {0.1, 0.5, 0.95}) {
+    const Scatter scatter{0.3, shared};
+    std::vector<double> lives, damage;
+    for (int wire = 0; wire < 200; ++wire) damage.push_back(1 / (1000 * std::pow(10, 0.002 * wire)));
+    for (int draw = 0; draw < draws; ++draw) {
+      double first = infinity;
+      for (int wire = 0; wire < 200; ++wire)
+        first = std::min(first, std::pow(10, scatter.own() * normal_of(wire, draw)) / damage[wire]);
+      lives.push_back(first * std::pow(10, scatter.common() * normal_of(1000, draw)));
+    }
+    for (const double share : percentiles) {
+      const double told = life_until(damage, 1, scatter, share);
+      const auto sooner = std::count_if(lives.begin(), lives.end(), [&](double life) { return life < told; });
+      INFO(shared << " " << share << " " << told);
+      CHECK(std::fabs(double(sooner) / draws - share) < 4.5 * std::sqrt(share * (1 - share) / draws));
+    }
+  }
+}
+
+TEST_CASE("scatter: percentiles are continuous in the common share, and spread with it") {
+  const std::vector<double> damage(500, 1e-3);
+  Percentiles before{};
+  for (double shared = 0; shared <= 1; shared += 0.02) {
+    Percentiles now;
+    for (std::size_t i = 0; i < now.size(); ++i) now[i] = life_until(damage, 1, {0.2, shared}, percentiles[i]);
+    if (shared > 0) {
+      CHECK(now[2] / now[0] > before[2] / before[0]);
+      for (std::size_t i = 0; i < now.size(); ++i) CHECK(now[i] == Approx(before[i]).epsilon(0.25));
+    }
+    before = now;
+  }
+}
+
+TEST_CASE("scatter: dresspacks have no factor in common") {
+  const Scatter scatter{0.2, 1};
+  const std::vector<std::vector<double>> two{{1e-3, 1e-3}, {}, {1e-3}};
+  // The first of two independent ones: 1 - (1 - p)^2 = 1/2.
+  CHECK(broken_share(first_wire_lives(two, scatter)[1], 1000, 0.2) == Approx(1 - std::sqrt(0.5)).epsilon(1e-6));
+  std::vector<Bundle> bundles{wires({1000, 2000}), wires({1000})};
+  bundles[1].dresspack = 2;
+  CHECK(first_conductor_lives(bundles, 10, scatter)[1] == Approx(first_wire_lives(two, scatter)[1]).epsilon(1e-6));
+  CHECK(first_wire_lives(std::vector<std::vector<double>>{{0, 0}}, scatter)[0] == infinity);
+}
+
+TEST_CASE("scatter: drawing with a common part agrees with the closed form") {
+  constexpr int draws = 4000;
+  const Scatter scatter{0.2, 0.6};
+  const std::vector<Bundle> bundles{wires({100, 120, 150, 200, 400}), wires({90, 300, 310, 320})};
+  const SharedLives drawn = shared_lives(bundles, 40, scatter, draws);
+  const Percentiles first = first_conductor_lives(bundles, 40, scatter);
+  for (std::size_t i = 0; i < percentiles.size(); ++i) {
+    const double q = percentiles[i], place = 4.5 * std::sqrt(q * (1 - q) / draws);
+    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) < 0.2 * place / 0.1);  // density >= 0.1 / s
+  }
 }

@@ -11,8 +11,10 @@
 #include <iostream>
 #include <map>
 #include <random>
+#include <regex>
 #include <thread>
 
+#include "pipeline/study/ranking.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
@@ -161,7 +163,7 @@ jobs:
   scratch.write("study.yaml", "base: job.yaml\n");
   const Outcome large = run_study(scratch, "--job-memory 1");
   CHECK(large.status == 1);
-  CHECK(large.out.find("out of memory") != std::string::npos);
+  CHECK(large.out.find("(--job-memory allows 1 MB)") != std::string::npos);
 #endif
 }
 
@@ -226,6 +228,23 @@ TEST_CASE("a changed input counts whatever its date, a damaged or foreign result
   const Outcome mended = run_study(scratch);
   CHECK(mended.err.find("life.h5 is not what its stage wrote") != std::string::npos);
   CHECK(results(scratch / "runs/study") == before);
+}
+
+TEST_CASE("what receipts tell the ranking is all that it would read from the files") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  REQUIRE(run_study(scratch).status == 0);
+  std::vector<dresslife::pipeline::JobResult> by_files;
+  for (const char* stiffness : {"2", "3", "4"}) {
+    const std::string name = std::string("bending_stiffness_Nm2=") + stiffness;
+    by_files.push_back({name, scratch / ("runs/study/" + name + "/life.h5"), ""});
+  }
+  const std::regex settings(",[0-9a-f]{12},");  // of which no file tells
+  const std::string told = content(scratch / "runs/study/ranking.csv");
+  REQUIRE(std::regex_search(told, settings));
+  CHECK(std::regex_replace(told, settings, ",,") ==
+        dresslife::pipeline::ranking_csv(dresslife::pipeline::read_ranking(by_files)));
 }
 
 TEST_CASE("names and texts are text, wherever they go") {

@@ -36,6 +36,21 @@ TEST_CASE("installation: the program's folder is where this test lies") {
   CHECK(std::filesystem::exists(program_folder() / "test_pipeline"));
 }
 
+TEST_CASE("installation: without /proc a program is found by its path, or where a shell finds it") {
+  const Scratch scratch;
+  const auto program = scratch.write("bin/some-program", "");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  std::filesystem::create_symlink(program, scratch / "link");
+  CHECK(program_called(program) == program);
+  CHECK(program_called(scratch / "link") == program);
+  const Variable path("PATH", "/nowhere::" + (scratch / "bin").string());
+  CHECK(program_called("some-program") == program);
+  CHECK(message_of([] { program_called("absent-program"); }) ==
+        "absent-program: error: is not found again (/proc is not there, and the name does not lead to it); mount "
+        "/proc, or start it by its whole path");
+  CHECK(message_of([] { program_called(""); }).starts_with("this program: error: is not found again"));
+}
+
 TEST_CASE("installation: the catalogue of a build folder is that of the sources") {
   const Variable none("DRESSLIFE_CONFIG", "");
   CHECK(shipped_catalogue() == std::filesystem::canonical(DRESSLIFE_SOURCE_DIR "/config"));

@@ -18,6 +18,7 @@ struct SampleLife {
   int worst_from_tool = 3;
   bool causes = false;    ///< whether it tells which joint costs the life
   double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
+  double planned_hours = 0;  ///< until 10 % have a conductor without its share of wires at one place; 0: as of an older file
   bool wires = true;      ///< false: the dresspack holds none
   std::vector<std::string>
       dresspacks{};  ///< two: each has half of the segments, the worst lies in the second
@@ -168,6 +169,15 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   writer.attribute("worst_component", sample.wires ? sample.worst_component : "");
   writer.attribute("worst_time", damaged ? time[end[0]] : 0.0);
   writer.attribute("worst_step", damaged ? text[static_cast<std::size_t>(step[end[0]])] : "");
+  if (sample.planned_hours > 0) {
+    for (const auto& [percentile, factor] : {std::pair{"p10", 1.0}, std::pair{"p50", 1.5}, std::pair{"p90", 2.5}}) {
+      writer.attribute(std::string("life_hours_") + percentile, factor * sample.planned_hours);
+      writer.attribute(std::string("first_wire_life_hours_") + percentile, factor * sample.planned_hours / 4);
+    }
+    writer.attribute("life_months_p10", sample.planned_hours / 80 * 7 * 12 / 365.25);
+    writer.attribute("failing_conductor", "signal cable 3/conductor 2");
+    writer.attribute("failing_position_from_tool", 0.75);
+  }
   if (sample.hose_hours > 0) {
     writer.attribute("hose_life_repeats", sample.hose_hours * 3600 / seconds);
     writer.attribute("hose_life_hours", sample.hose_hours);

@@ -300,7 +300,7 @@ TEST_CASE("a retraction unit and a ring belong to their dresspack") {
       CHECK((axis.at(axis.nearest(centre, 12)).position - centre).norm() < 0.016);  // 14 mm clear
     }});
     CHECK(drawn > 0.05);
-    motion.finish(simulation, summary);
+    motion.finish(summary, [&](double time) { return simulation.path().step(time); });
     for (const char* text_attribute : {"job", "history", "input_sha256"}) file.attribute(text_attribute, "");
     file.commit();
   }

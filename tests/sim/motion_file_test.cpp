@@ -30,7 +30,7 @@ TEST_CASE("motion file: what the run hands over can be read back") {
                       {f.orientation.w(), f.orientation.x(), f.orientation.y(), f.orientation.z()});
       joints.push_back(sample.pose.joints[0]);
     }});
-    motion.finish(simulation, summary);
+    motion.finish(summary, [&](double time) { return simulation.path().step(time); });
     file.attribute("job", "");
     file.attribute("history", "");
     file.attribute("input_sha256", "");

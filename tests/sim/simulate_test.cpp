@@ -166,7 +166,7 @@ TEST_CASE("simulate: a dresspack that is too short is refused with time, line an
           Catch::Matchers::Contains(" mm too short at 1.") &&
           Catch::Matchers::Contains("s, program step 3 'dwell 3' (routing.free_length_m is 1, the "
                                     "clamps are 1.0") &&
-          Catch::Matchers::EndsWith("; give it more free length, with slack to bend, or move a clamp"));
+          Catch::Matchers::EndsWith("; give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)"));
 }
 
 TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {

@@ -179,7 +179,7 @@ TEST_CASE("what friction holds of a part is the same after any other and lies wh
       arcs{1.0 / segments, 3.0 / segments, 5.0 / segments};
   ClampMeans means(construction, plan_slip(construction, {Slip::friction}, 2.0), lengths, arcs, samples);
   const DeformationHistory history = moving();
-  CablePaths cables(construction, means.plan(), true, lengths, arcs, samples);
+  CablePaths cables(construction, means.plan(), {.rub = true}, lengths, arcs, samples);
   cables.add({history});
   cables.finish();
   CablePaths::Keeper keeper;

@@ -175,6 +175,22 @@ TEST_CASE("a strand on contacts that give loses energy in every loop and slides 
     loss = lost;
     CHECK(moment == Approx(top).epsilon(1e-6));
   }
+  // Tape around the strand presses like tension does: with all of the radial load from it instead, layer by layer, the
+  // moment is the same. A jacket that holds wires elastically is refused.
+  Strand taped = cardinal();
+  double stretch = 0;
+  for (const StrandLayer& layer : taped.layers)
+    stretch += layer.count * layer.youngs_modulus * layer.wire_radius * layer.wire_radius * pi *
+               std::pow(std::cos(layer.lay_angle), 3);
+  for (StrandLayer& layer : taped.layers)
+    if (layer.helix_radius > 0)
+      layer.line_load = taped.tension * layer.youngs_modulus * pi * layer.wire_radius * layer.wire_radius *
+                        std::pow(std::cos(layer.lay_angle) * std::sin(layer.lay_angle), 2) / stretch / layer.helix_radius;
+  taped.tension = 0;
+  CHECK(StrandContact(taped, StrandContact::Contacts::elastic).moment(0.1) ==
+        Approx(StrandContact(cardinal(), StrandContact::Contacts::elastic).moment(0.1)));
+  taped.layers.back().jacket_stiffness = 1e6;
+  CHECK_THROWS_AS(StrandContact(taped, StrandContact::Contacts::elastic), dresslife::pipeline::InputError);
   Strand smooth = cardinal();
   smooth.friction = 0;
   StrandContact free(smooth, StrandContact::Contacts::elastic);

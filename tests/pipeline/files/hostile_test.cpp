@@ -85,7 +85,11 @@ TEST_CASE("hostile files: the file that the others are made of is read") {
 TEST_CASE("hostile files: values that are promised and not there are refused before memory is taken") {
   Made made;
   made.put(chunked({1000, 2}), {1'000'000'000, 2});  // 16 GB in a file of kilobytes
-  CHECK(made.refusal() == "dataset /group/rows has 0 of its 1000000 chunks (the file is damaged)");
+  const std::string refusal = made.refusal();
+  CHECK(refusal.starts_with("dataset /group/rows promises 1000000 chunks of 16000 bytes in a file of "));
+  Made few;
+  few.put(chunked({1, 2}), {10, 2});
+  CHECK(few.refusal() == "dataset /group/rows has 0 of its 10 chunks (the file is damaged)");
   Made endless;
   endless.put(chunked({1000, 2}), {hsize_t{1} << 62, 2});
   CHECK(endless.refusal() == "dataset /group/rows is too large");
@@ -128,4 +132,86 @@ TEST_CASE("hostile files: data that lies in other files is not followed") {
     REQUIRE(H5Lcreate_soft(way, inside.file(), way, H5P_DEFAULT, H5P_DEFAULT) >= 0);  // to itself
     CHECK(inside.refusal() == std::string(way) + " is a link (the data must lie in the file itself)");
   }
+}
+
+TEST_CASE("hostile files: an attribute that is no single value, or longer than its file, is refused before it is read") {
+  const auto with_attribute = [](const char* name, hid_t type, hid_t space) {
+    Made made;
+    H5Adelete(made.file(), name);
+    const hid_t attribute = H5Acreate2(made.file(), name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    REQUIRE(attribute >= 0);
+    H5Aclose(attribute);
+    return made.refusal();
+  };
+  const hid_t text = H5Tcopy(H5T_C_S1), endless = H5Tcopy(H5T_C_S1);
+  REQUIRE(H5Tset_size(endless, 0xfffffff0u) >= 0);  // 4 GB
+  const hsize_t thousand = 1000;
+  const hid_t many = H5Screate_simple(1, &thousand, nullptr), none = H5Screate(H5S_NULL);
+  CHECK(with_attribute("format_version", H5T_STD_I32LE, many) ==
+        "attribute 'format_version' holds 1000 values (must be one)");
+  CHECK(with_attribute("format", text, many) == "attribute 'format' holds 1000 values (must be one)");
+  CHECK(with_attribute("format", endless, none) == "attribute 'format' holds 0 values (must be one)");
+  for (const hid_t type : {text, endless}) H5Tclose(type);
+  for (const hid_t space : {many, none}) H5Sclose(space);
+}
+
+TEST_CASE("hostile files: nothing beyond the end of a file is read as zeros") {
+  const Scratch scratch;
+  const auto name = scratch / "whole.h5";
+  {
+    FileWriter writer(name, two_rows);
+    writer.append("/group/rows", std::span<const double>(std::vector<double>(20'000, 1.0)));
+    writer.commit();
+  }
+  const std::string bytes = bytes_of(name).substr(512);
+  int read = 0;
+  for (std::size_t length = bytes.size(); length > 512; length -= std::min<std::size_t>(length, 4096)) {
+    const auto cut = scratch.write("cut.h5", bytes.substr(0, length));
+    const std::string message = message_of([&] {
+      const std::vector<double> rows = FileReader(cut, two_rows).read<double>("/group/rows");
+      CHECK(rows == std::vector<double>(20'000, 1.0));
+    });
+    read += message.empty();
+  }
+  CHECK(read == 1);  // the whole one
+}
+
+TEST_CASE("rows beyond the largest int are counted and read where they lie") {
+  const Format numbers{"dresslife-numbers", 1, "dresslife-maker", "tests", {}, {}};
+  Format format = numbers;
+  Dataset dataset{"/numbers", Type::f32, {"number"}, "1", "numbers"};
+  dataset.decimals = 6;
+  format.datasets.push_back(dataset);
+  const Scratch scratch;
+  constexpr hsize_t in_a_chunk = 1 << 15, chunks = (hsize_t{1} << 31) / in_a_chunk + 1;
+  {
+    FileWriter writer(scratch / "one.h5", format);
+    writer.append("/numbers", std::span<const float>(std::vector<float>(in_a_chunk, 0.25f)));
+    writer.commit();
+  }
+  // Without the checksum block, with the same packed chunk again and again: 8 GB unpacked.
+  const auto file = scratch.write("many.h5", bytes_of(scratch / "one.h5").substr(512));
+  {
+    const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t rows = H5Dopen2(opened, "/numbers", H5P_DEFAULT);
+    hsize_t first = 0, size = 0, length = chunks * in_a_chunk;
+    REQUIRE(H5Dget_chunk_storage_size(rows, &first, &size) >= 0);
+    std::vector<char> packed(size);
+    std::uint32_t unfiltered = 0;
+    REQUIRE(H5Dread_chunk(rows, H5P_DEFAULT, &first, &unfiltered, packed.data()) >= 0);
+    REQUIRE(H5Dset_extent(rows, &length) >= 0);
+    for (hsize_t chunk = 1; chunk < chunks; ++chunk) {
+      first = chunk * in_a_chunk;
+      if (H5Dwrite_chunk(rows, H5P_DEFAULT, 0, &first, packed.size(), packed.data()) < 0) FAIL("chunk " << chunk);
+    }
+    H5Dclose(rows);
+    H5Fclose(opened);
+  }
+  const FileReader reader(file, format);
+  REQUIRE(reader.rows("/numbers") == chunks * in_a_chunk);
+  std::vector<float> some;
+  reader.read_rows("/numbers", (hsize_t{1} << 31) - 2, 4, some);  // over the border
+  CHECK(some == std::vector<float>(4, 0.25f));
+  reader.read_rows("/numbers", reader.rows("/numbers") - 1, 1, some);
+  CHECK(some == std::vector<float>(1, 0.25f));
 }

@@ -1,5 +1,7 @@
 #include "pipeline/job/document.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -196,6 +198,79 @@ TEST_CASE("document: files that cannot be read say so") {
             ": error: cannot be read (No such file or directory); check the path");
   CHECK(message_of([&] { read_yaml(scratch / "."); }) ==
         (scratch / ".").string() + ": error: is a folder, not a file; name a file");
+}
+
+/// The library's own layout.
+void emit_by_library(YAML::Emitter& out, const Node& node) {
+  const auto put = [&](const std::string& text, bool quoted) {
+    if (quoted) out << YAML::DoubleQuoted;
+    out << text;
+  };
+  switch (node.kind) {
+    case Node::Kind::null:
+      out << YAML::Null;
+      break;
+    case Node::Kind::scalar:
+      put(node.text, node.quoted);
+      break;
+    case Node::Kind::list:
+      if (std::all_of(node.items.begin(), node.items.end(), [](const Node& item) { return item.is_scalar(); }))
+        out << YAML::Flow;
+      out << YAML::BeginSeq;
+      for (const Node& item : node.items) emit_by_library(out, item);
+      out << YAML::EndSeq;
+      break;
+    case Node::Kind::map:
+      out << YAML::BeginMap;
+      for (const Entry& entry : node.entries) {
+        out << YAML::Key << entry.key << YAML::Value;
+        emit_by_library(out, entry.value);
+      }
+      out << YAML::EndMap;
+  }
+}
+
+Node random_tree(std::mt19937& random, int depth) {
+  static const std::vector<std::string> texts{"a",   "two words", " space before", "after ", "1e-5", "-3",     "- x", "null",
+                                              "n",   "true",      "a: b",          "a #b",   "a,b",  "[x]",    "ä",   "line\nline",
+                                              "",    "~",         "*a",            "&a",     "!t",   "'q'",    "\"d\"", "%x",
+                                              "a: (b), c; d", "[a: b]", "a: \"b\"", "a: \\", ": a", "a: ", "a (b), c; d=e'f", "Null", "NULL", "nullx", "nothing", "it's, so", "a,", "(a)", "a)", "x;", "a=", "-a", "y", "Yes",
+      "a:b", "x\ty",      "\x01",          "/path/x-y_z.h5", "C:\\x", "?",   "a ? b", ":"};
+  Node node;
+  const int what = static_cast<int>(random() % (depth > 3 ? 2 : 4));
+  node.kind = what == 0   ? Node::Kind::null
+              : what == 1 ? Node::Kind::scalar
+              : what == 2 ? Node::Kind::list
+                          : Node::Kind::map;
+  node.text = node.is_scalar() ? texts[random() % texts.size()] : "";
+  node.quoted = node.is_scalar() && random() % 5 == 0;
+  const bool flat = random() % 2;
+  for (std::size_t i = node.is_scalar() ? 0 : random() % 4; i > 0; --i) {
+    if (node.is_list()) {
+      node.items.push_back(random_tree(random, depth + 1));
+      if (flat) node.items.back() = scalar(texts[random() % texts.size()]);
+    } else if (node.is_map()) {
+      node.entries.push_back({texts[random() % texts.size()] + std::to_string(i), {}, random_tree(random, depth + 1)});
+    }
+  }
+  return node;
+}
+
+TEST_CASE("document: a tree is written as the YAML library lays it out") {
+  const auto by_library = [](const Node& tree) {
+    YAML::Emitter out;
+    emit_by_library(out, tree);
+    return std::string(out.c_str()) + "\n";
+  };
+  std::mt19937 random(1);
+  for (int round = 0; round < 3000; ++round) {
+    const Node tree = random_tree(random, 0);
+    REQUIRE(to_yaml(tree) == by_library(tree));
+  }
+  for (const auto& job : std::filesystem::directory_iterator(DRESSLIFE_SOURCE_DIR "/config/jobs")) {
+    const Node tree = read_yaml(job.path());
+    CHECK(to_yaml(tree) == by_library(tree));
+  }
 }
 
 }  // namespace

@@ -425,3 +425,27 @@ TEST_CASE("fanuc programs: names with hyphens, logs beside, doubles, faults in p
             .problems.at(0)
             .what == "is the program 'cell', as cell.ls is");
 }
+
+TEST_CASE("fanuc: an empty line may have lost its number") {
+  // As listings of vision programs have it: " ;" between two statements.
+  CHECK(stops(run("   1:J P[1] 50% FINE ;\n ;\n   3:J P[2] 50% FINE ;\n")) == std::vector<int>{1, 2});
+}
+
+TEST_CASE("fanuc: frame 0 cannot be assigned") {
+  const Reading r = run("   1:  UTOOL[0]=PR[1] ;\n   2:J P[1] 50% FINE ;\n");
+  CHECK(stops(r) == std::vector<int>{1});
+  REQUIRE(warnings(r).size() == 1);
+  CHECK(warnings(r)[0].find("[0] is fixed") != std::string::npos);
+}
+
+TEST_CASE("fanuc: what programs beside and condition handlers write is unknown") {
+  // BESIDE counts R[1] while CELL moves; a handler that MONITOR starts may come at any time.
+  const std::string choice = "   3:  IF R[1]=1,JMP LBL[1] ;\n   4:J P[2] 50% FINE ;\n   5:  LBL[1] ;\n";
+  const std::string beside = "/PROG  BESIDE\n/MN\n   1:  R[1]=1 ;\n/POS\n/END\n";
+  const std::string other = "/PROG  BESIDE\n/MN\n   1:  R[2]=1 ;\n/POS\n/END\n";
+  const std::string start = "   1:  R[1]=0 ;\n   2:  RUN BESIDE ;\n";
+  CHECK(run(start + choice, {}, {{"beside.ls", beside}}).problems.size() == 1);
+  CHECK(stops(run(start + choice, {}, {{"beside.ls", other}})) == std::vector<int>{2});
+  CHECK(run(start + choice).problems.size() == 1);  // not among the files
+  CHECK(run("   1:  R[1]=0 ;\n   2:  MONITOR WATCH ;\n" + choice).problems.size() == 1);
+}

@@ -446,3 +446,150 @@ TEST_CASE("krl: frames that the controller holds are told, and waiting alone is 
   CHECK(run("PTP " + axes(1)).program.skipped.empty());
   CHECK(run("WAIT SEC 2").problem().find("moves the robot nowhere") != std::string::npos);
 }
+
+TEST_CASE("krl: an interrupt's handler that moves does not write to its targets") {
+  // PTP XHOME in a handler reads XHOME: behind INTERRUPT ON the main program's own PTP XHOME is as known.
+  const Reading r =
+      run("INTERRUPT DECL 20 WHEN $IN[1] DO away()\nINTERRUPT ON 20\nPTP home\nEND\n"
+          "DEF away()\nBRAKE\nPTP home\nRESUME",
+          "DECL AXIS home=" + axes(7));
+  CHECK(r.problem() == "no such problem");
+  CHECK(first_axes(r) == std::vector<double>{7});
+}
+
+TEST_CASE("krl: CIRC with CA goes round by the angle, not to its target") {
+  // Circle of 100 mm about (1100, 0, 1000), from (1000, 0) over (1100, 100) to (1200, 0).
+  const std::string ready =
+      "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL.CP=0.1\nLIN {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n";
+  const auto end_of = [&](const std::string& angle) {
+    const Reading r = run(ready + "CIRC {X 1100,Y 100},{X 1200,Y 0}, CA " + angle + "\nLIN_REL {Z 10}");
+    INFO(r.problem());
+    REQUIRE(r.problems.empty());
+    for (const Instruction& move : r.program.instructions)
+      if (move.kind == Instruction::Kind::circular)
+        CHECK(std::abs((move.via.position - Vector3(1.1, 0, 1)).norm() - 0.1) < rounding);
+    return Vector3(r.program.instructions.back().target.pose.position);
+  };
+  CHECK((end_of("90") - Vector3(1.1, 0.1, 1.01)).norm() < rounding);
+  CHECK((end_of("-90") - Vector3(1.1, -0.1, 1.01)).norm() < rounding);
+  CHECK((end_of("360") - Vector3(1.0, 0, 1.01)).norm() < rounding);
+  CHECK((end_of("450") - Vector3(1.1, 0.1, 1.01)).norm() < rounding);
+  // How the tool turns where CA ends elsewhere than the target is not public.
+  CHECK(run(ready + "CIRC {X 1100,Y 100},{X 1200,Y 0,A 90}, CA 90").problem().find("turns the tool") !=
+        std::string::npos);
+  CHECK(run(ready + "CIRC {X 1100},{X 1200}, CA 90").problem().find("no circle") != std::string::npos);
+}
+
+TEST_CASE("krl: $ORI_TYPE #CONSTANT keeps the tool as it is, on circles by #PATH it turns with them") {
+  const std::string ready =
+      "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL.CP=0.1\nLIN {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n";
+  const Reading line = run(ready + "$ORI_TYPE=#CONSTANT\nLIN {X 1100,Y 0,Z 1000,A 90,B 0,C 0}");
+  REQUIRE(line.problem() == "no such problem");
+  CHECK(line.move(1).target.pose.orientation.isApprox(Quaternion::Identity()));
+  // Half a circle against the clock's hand seen from below: the way turns by -180 deg about z, the tool too.
+  const Reading circle =
+      run(ready + "$ORI_TYPE=#CONSTANT\n$CIRC_TYPE=#PATH\nCIRC {X 1100,Y 100},{X 1200,Y 0}");
+  REQUIRE(circle.problem() == "no such problem");
+  const Frame& end = circle.program.instructions.back().target.pose;
+  CHECK((end.position - Vector3(1.2, 0, 1)).norm() < rounding);
+  CHECK(std::abs(end.orientation.z()) > 1 - rounding);
+  // #JOINT ends at the target's orientation, and comes there otherwise than read.
+  const Reading wrist = run(ready + "$ORI_TYPE=#JOINT\nLIN {X 1100,Y 0,Z 1000,A 90,B 0,C 0}");
+  REQUIRE(wrist.program.skipped.size() == 1);
+  CHECK(wrist.program.skipped[0].may_move);
+  // An inline form says it in its data.
+  const Reading form =
+      run("LDAT_ACT=L1\nFDAT_ACT={TOOL_NO 0,BASE_NO 0,IPO_FRAME #BASE}\nBAS(#CP_PARAMS,0.1)\nLIN " + pose +
+              "\nLIN {X 900,Y 0,Z 1000,A 0,B 0,C 0}",
+          "DECL LDAT L1={VEL 2.0,ACC 100.0,APO_DIST 10.0,ORI_TYP #CONSTANT}", {{"$config.dat", config}});
+  REQUIRE(form.problem() == "no such problem");
+  CHECK(form.move(0).target.pose.orientation.isApprox(form.move(1).target.pose.orientation));
+}
+
+TEST_CASE("krl: what dialogues and text functions write is unknown behind them") {
+  const std::string choice = "IF n==1 THEN\nPTP " + axes(1) + "\nENDIF";
+  for (const std::string call :
+       {"MsgDialog(n,\"on?\",\"app\",,\"yes\")", "WHILE Exists_KrlDlg(3,n)\nWAIT SEC 0.1\nENDWHILE"}) {
+    const Reading r = run("n=0\nPTP " + axes(2) + "\n" + call + "\n" + choice, "INT n");
+    REQUIRE(r.problems.size() == 1);
+    CHECK(r.problem().find("'n' may be written by") != std::string::npos);
+  }
+  CHECK(run("s[]=\"ab\"\nSTRCOPY(s[],\"cd\")\nIF s[]==\"ab\" THEN\nPTP " + axes(1) + "\nENDIF", "CHAR s[8]")
+            .problems.size() == 1);
+}
+
+TEST_CASE("krl: bits and letters count") {
+  const auto taken = [](const std::string& before, const std::string& condition) {
+    const Reading r = run("INT a\nCHAR s[8]\n" + before + "\nPTP " + axes(0) + "\nIF " + condition +
+                          " THEN\nPTP " + axes(1) + "\nENDIF");
+    INFO(r.problem());
+    CHECK(r.problems.empty());
+    return first_axes(r).size() == 2;
+  };
+  CHECK(taken("a='B1010'", "(a B_AND 'B0110')==2"));
+  CHECK(taken("a=10 B_OR 1", "a==11"));
+  CHECK(taken("a=12 B_EXOR 10", "a==6"));
+  CHECK(taken("a=B_NOT 10", "a==-11"));
+  CHECK(taken("s[]=\"AB\"", "s[2]==\"B\""));
+  CHECK_FALSE(taken("s[]=\"AB\"", "s[1]==\"B\""));
+}
+
+TEST_CASE("krl: external axes move alone, and are where the robot stands") {
+  // PTP {E1 5} leaves the robot where it is; $POS_ACT of an E6POS has the external axes in it.
+  const Reading alone = run("PTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 3}\nPTP {E1 5}\nASYPTP {E1 9}");
+  REQUIRE(alone.problem() == "no such problem");
+  CHECK(first_axes(alone) == std::vector<double>{1, 1});
+  CHECK(alone.move(1).target.external_axes == std::vector<double>{5});
+  REQUIRE(alone.program.skipped.size() == 1);
+  CHECK(alone.program.skipped[0].may_move);
+  const Reading stands = run("E6POS here\nhere={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\nPTP " + pose +
+                             "\nhere=$POS_ACT\nhere.Z=1100\nPTP here");
+  CHECK(stands.problem() == "no such problem");
+  CHECK(std::abs(stands.move(1).target.pose.position.z() - 1.1) < rounding);
+}
+
+TEST_CASE("krl: SPL points of passes that are cut off are none of the motion") {
+  // The loop is run twice to see that it repeats itself; one pass of two SPL points is kept.
+  const std::string spl = "\nSPL {X 1100,Y 50,Z 1000,A 0,B 90,C 0}\nSPL {X 1200,Y 0,Z 1000,A 0,B 90,C 0}\n";
+  const std::string ready = "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL.CP=1\n";
+  const Reading r = run(ready + "LOOP\nSLIN " + pose + "\nSPLINE" + spl + "ENDSPLINE\nENDLOOP");
+  REQUIRE(r.problem() == "no such problem");
+  const Reading once = run(ready + "SLIN " + pose + "\nSPLINE" + spl + "ENDSPLINE");
+  CHECK(r.program.instructions.size() == once.program.instructions.size());
+  CHECK(r.program.instructions.size() > 3);
+}
+
+TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none of its moves is told") {
+  // The controller never comes to what stands behind. `n` may be written over the network: that is told.
+  const Reading quiet = run("PTP " + axes(1) + "\nLOOP\nn=1\nENDLOOP\nPTP " + axes(2), "INT n");
+  REQUIRE(quiet.problem() == "no such problem");
+  CHECK(first_axes(quiet) == std::vector<double>{1});
+  const std::string machine =
+      "PTP " + axes(1) + "\nn=0\nLOOP\nIF n==1 THEN\nPTP " + axes(2) + "\nENDIF\nENDLOOP";
+  const Reading waits = run(machine, "INT n");
+  REQUIRE(waits.problem() == "no such problem");
+  CHECK(first_axes(waits) == std::vector<double>{1});
+  REQUIRE(waits.program.skipped.size() == 1);
+  CHECK(waits.program.skipped[0].may_move);
+  ImportOptions chosen;
+  chosen.assume["5"] = Assumption::then_branch;
+  CHECK(first_axes(run(machine, "INT n", {}, {Language::krl, chosen})) == std::vector<double>{1, 2});
+}
+
+TEST_CASE("krl: what a submit program writes to may have any value") {
+  // sps.sub runs beside the robot over and over: the value of the data list tells nothing. Its own names are
+  // its own.
+  const std::string body = "PTP " + axes(1) + "\nIF ready THEN\nPTP " + axes(2) +
+                           "\nENDIF\nIF mine THEN\nPTP " + axes(3) + "\nENDIF";
+  const std::string data = "BOOL ready=FALSE\nBOOL mine=TRUE\nDECL BOOL a[2]\na[1]=TRUE\na[2]=a[1]";
+  const Files submit{{"sps.sub",
+                      "DEF sps()\nDECL BOOL mine\nLOOP\nmine=FALSE\nIF $IN[1]==TRUE THEN\nready = "
+                      "TRUE\nENDIF\nENDLOOP\nEND\n"}};
+  const Reading r = run(body, data, submit);
+  REQUIRE(r.problems.size() == 1);
+  CHECK(r.problem().find("'ready' may be written by the submit program sps.sub") != std::string::npos);
+  ImportOptions given;
+  given.values["ready"] = "TRUE";
+  CHECK(first_axes(run(body, data, submit, {Language::krl, given})) == std::vector<double>{1, 2, 3});
+  CHECK(first_axes(run(body, data)) == std::vector<double>{1, 3});
+}

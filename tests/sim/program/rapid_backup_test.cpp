@@ -111,3 +111,24 @@ TEST_CASE("rapid backup: a byte order mark is no letter of the program") {
   const Scratch folder;
   CHECK(first_axes(read(folder.write("m.mod", "\xEF\xBB\xBF" + module("m", "main", go(1))))) == Angles{1});
 }
+
+TEST_CASE("rapid backup: persistent data that another task writes may have any value") {
+  // TASK2 moves no robot; it writes `go_on` and its own `mine`. TASK1's initial values tell nothing of go_on.
+  const Scratch folder;
+  const std::string shared = "PERS bool go_on:=FALSE;\nPERS bool quiet:=FALSE;\nVAR bool mine:=FALSE;\n";
+  const std::string body =
+      go(1) + "IF go_on THEN\n" + go(2) + "ENDIF\nIF quiet OR mine THEN\n" + go(3) + "ENDIF\n";
+  folder.write("RAPID/TASK1/PROGMOD/Main.mod",
+               "MODULE Main\n" + shared + "PROC main()\n" + body + "ENDPROC\nENDMODULE\n");
+  folder.write("RAPID/TASK2/PROGMOD/plc.mod",
+               "MODULE plc\nPERS bool go_on;\nPERS bool quiet;\nVAR bool mine;\nPROC "
+               "main()\ngo_on:=TRUE;\nmine:=TRUE;\n"
+               "ENDPROC\nENDMODULE\n");
+  CHECK_THROWS_WITH(read(folder / ""),
+                    Catch::Contains("'go_on' may be written by plc.mod of the task TASK2") &&
+                        !Catch::Contains("quiet") && !Catch::Contains("mine"));
+  pipeline::Motion asked;
+  asked.program = folder / "";
+  asked.values.push_back({"go_on", "FALSE"});
+  CHECK(first_axes(sim::read_program(asked)) == Angles{1});
+}

@@ -133,8 +133,55 @@ TEST_CASE("rapid controller: an index out of range and a division by zero stop t
   CHECK_THAT(target.problem(1), Catch::Contains("the index 3 of a list of 2"));
 }
 
-TEST_CASE("rapid controller: ExitCycle ends the pass") {
+TEST_CASE("rapid controller: behind ExitCycle main begins again, with the data as they are") {
   CHECK(first_axes(run(go(1) + "ExitCycle;\n" + go(2))) == Angles{1});
+  // The first pass ends in a routine that main calls; then all of it runs.
+  const std::string step =
+      "PROC step()\nIF n=1 ExitCycle;\n" + go(2) + "IF n=3 EXIT;\nENDPROC\nVAR num n:=0;\n";
+  CHECK(first_axes(run(go(1) + "n:=n+1;\nstep;\n" + go(3), step)) == Angles{1, 1, 2, 3, 1, 2});
+  // Out of an endless loop: a machine of two states.
+  CHECK(first_axes(run("WHILE TRUE DO\n" + go(1) + "IF s THEN\ns:=FALSE;\nExitCycle;\nENDIF\n" + go(2) +
+                           "s:=TRUE;\nENDWHILE\n",
+                       "VAR bool s:=TRUE;\n")) == Angles{1, 1, 2, 1});
+}
+
+TEST_CASE("rapid controller: elements of a list of records have its components") {
+  const std::string record = "RECORD part\nnum n;\nrobtarget p;\nENDRECORD\n";
+  const std::string target = "[[{},0,1000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+  const Reading r = Reader{Language::rapid}(
+      {{"m.mod",
+        "MODULE m\n" + record + "PERS part list{2}:=[[1," + fmt::format(fmt::runtime(target), 100) + "],[2," +
+            fmt::format(fmt::runtime(target), 200) +
+            "]];\nPROC main()\nIF list{1}.n=1 MoveL list{2}.p,v100,fine,tool0;\nENDPROC\nENDMODULE\n"}});
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(std::abs(r.move(0).target.pose.position.x() - 0.2) < rounding);
+}
+
+TEST_CASE("rapid controller: orientations multiply, the second within the first") {
+  // 90 deg about z, then 180 deg about the new y: (c, 0, 0, s)(0, 0, 1, 0) = (0, -s, c, 0), c = s =
+  // sqrt(1/2).
+  const Reading r = run("q.rot:=OrientZYX(90,0,0)*q.rot;\nMoveL q,v100,fine,tool0;\n",
+                        "VAR robtarget q:=[[1000,0,1000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n");
+  REQUIRE(r.problem() == "no such problem");
+  const double half = std::sqrt(0.5);
+  CHECK(r.move(0).target.pose.orientation.isApprox(Quaternion(0, -half, half, 0)));
+}
+
+TEST_CASE("rapid controller: NoEOffs leaves the offsets of external axes out") {
+  const std::string at = "[[0,0,0,0,30,0],[100,9E9,9E9,9E9,9E9,9E9]]";
+  const Reading r =
+      run("EOffsSet [50,9E9,9E9,9E9,9E9,9E9];\nMoveAbsJ " + at + ",v100,fine,tool0;\nMoveAbsJ " + at +
+          "\\NoEOffs,v100,fine,tool0;\nMoveAbsJ " + at + ",v100,fine,tool0;\n");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.move(0).target.external_axes == std::vector<double>{150});
+  CHECK(r.move(1).target.external_axes == std::vector<double>{100});
+  CHECK(r.move(2).target.external_axes == std::vector<double>{150});
+}
+
+TEST_CASE("rapid controller: RAISE is told, its handlers are not followed") {
+  const Reading r = run(go(1) + "RAISE e;\n" + go(2) + "ERROR\nTRYNEXT;\n", "VAR errnum e:=-1;\n");
+  CHECK(first_axes(r) == Angles{1, 2});
+  CHECK(warns(r, "RAISE"));
 }
 
 TEST_CASE("rapid controller: a weave is told, the line is followed") {
@@ -316,4 +363,30 @@ TEST_CASE("rapid controller: what a branch without moves decides can be had by a
   ImportOptions answered;
   answered.assume["m.mod:4"] = Assumption::then_branch;
   CHECK(first_axes(run(body, "", answered)) == Angles{1, 2});
+}
+
+TEST_CASE("rapid controller: a main that is called at the end of each job is a cycle") {
+  // main -> job -> main -> ...: the controller goes on until its memory is full. Nothing behind the calls is
+  // run.
+  const std::string job = "PROC job()\n" + go(1) + go(2) + "main;\n" + go(9) + "ENDPROC\n";
+  CHECK(first_axes(run("job;\n" + go(8), job)) == Angles{1, 2});
+  // With a counter that nothing asks for its motion repeats all the same.
+  CHECK(first_axes(run("n:=n+1;\njob;\n", job + "VAR num n:=0;\n")) == Angles{1, 2});
+  // A recursion that ends is run to its end.
+  CHECK(first_axes(run("n:=n+1;\n" + go(1) + "IF n<6 main;\n" + go(7) + "n:=0;\n" + "Stop;\nEXIT;\n",
+                       "VAR num n:=0;\n")) == Angles{1, 1, 1, 1, 1, 1, 7});
+}
+
+TEST_CASE("rapid controller: bits of bytes count") {
+  const auto taken = [](const std::string& condition) {
+    return first_axes(run(go(0) + "IF " + condition + " THEN\n" + go(1) + "ENDIF\n")).size() == 2;
+  };
+  CHECK(taken("BitAnd(12,10)=8"));
+  CHECK(taken("BitOr(1,BitLSh(1,2))=5"));
+  CHECK(taken("BitXOr(12,10)=6"));
+  CHECK(taken("BitLSh(255,1)=254"));
+  CHECK(taken("BitRSh(8,3)=1"));
+  CHECK(taken("BitNeg(1)=254"));
+  CHECK(taken("BitCheck(4,3)"));
+  CHECK_FALSE(taken("BitCheck(4,2)"));
 }

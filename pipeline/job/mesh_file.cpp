@@ -1,3 +1,5 @@
+#include "pipeline/job/mesh_file.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -7,12 +9,11 @@
 #include <string>
 
 #include "pipeline/errors.h"
-#include "sim/contact/mesh.h"
 
-namespace dresslife::sim {
+namespace dresslife::pipeline {
 namespace {
 
-using pipeline::InputError;
+using Vector3 = Eigen::Vector3d;
 
 std::string contents(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -123,4 +124,4 @@ std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
   return triangles;
 }
 
-}  // namespace dresslife::sim
+}  // namespace dresslife::pipeline

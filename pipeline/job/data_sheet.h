@@ -1,0 +1,66 @@
+// A cable as its data sheet tells it ("7 x 0.5 mm2, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm,
+// jacket 1.1 mm"), as the layers of cores and wires that it stands for.
+//
+// Equal parts of diameter D are packed as a stranding machine packs them: a first ring of s parts that touch,
+// and rings around it, each D further out,
+//     R_1 = D / (2 sin(pi/s)), 0 for s = 1;  R_(j+1) = R_j + D,
+// with room for floor(pi / asin(D / 2 R)) parts in a ring. In the middle of six to nine lies one more; cores
+// may also lie around a filler. Of all s the narrowest bundle is taken, of equal ones that with the fullest
+// outer ring, whose parts are evenly spaced. A lay widens a ring until its neighbours touch (overlap.h).
+//
+// Conductors (IEC 60228, class 5 and 6) are told by their section: the number of wires is section over that
+// of a wire, rounded. They are bunched: all wires have one lay length and one hand, against that of their
+// core; rings of cores alternate. Without core_diameter_mm the cores are as thick as the jacket leaves room
+// for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/job/document.h"
+
+namespace dresslife::pipeline {
+
+struct DataSheet {
+  int cores = 1;                           ///< or groups of them
+  int cores_per_group = 1;                 ///< 2: pairs
+  double cross_section = 0;                ///< of a core's metal, nominal [m2]
+  double wire_diameter = 0;                ///< [m]
+  double outer_diameter = 0;               ///< of the cable [m]
+  std::optional<double> jacket_thickness;  ///< with tapes and screens [m]
+  std::optional<double> core_diameter;     ///< over the insulation [m]
+  std::optional<double> lay_length;        ///< of the cores, or groups [m]
+  std::optional<double> group_lay_length;  ///< of the cores in a group [m]
+  std::optional<double> wire_lay_length;   ///< [m]
+  std::string material = "copper_halved";         ///< of the wires
+  double friction = 0.3;                   ///< Coulomb, of cores and of wires on each other
+  double jacket_pressure = 0.04e6;         ///< on the cores [Pa]
+  Where where;
+};
+
+class Fields;
+void describe(Fields& f, DataSheet& sheet);
+
+enum class Fillers { none, allowed };
+
+struct Ring {
+  int count;
+  double radius;     ///< from the bundle's axis to those of its parts [m]
+  double lay_angle;  ///< >= 0 [rad]
+};
+
+/// Rings of `count` >= 1 parts of one diameter [m] and lay length [m] (infinity: straight), innermost first.
+/// Errors: InputError at `where` for a lay too short for them to lie
+/// beside each other.
+std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where);
+
+/// Diameter of the circle around them [m].
+double width_of(const std::vector<Ring>& rings, double diameter);
+
+/// Replaces `data_sheet` in every component of a dresspack's tree by what it stands for: radius_mm and
+/// components. Errors: InputError at the sheet, which says what does not fit into what.
+void expand_data_sheets(Node& dresspack);
+
+}  // namespace dresslife::pipeline

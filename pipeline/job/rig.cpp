@@ -1,0 +1,189 @@
+#include "pipeline/job/rig.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "pipeline/job/fields.h"
+
+namespace dresslife::pipeline {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// What a kind of rig does with one of the optional keys.
+enum class Use { none, optional, required };
+
+struct Parameter {
+  const char* key;
+  std::optional<double> Rig::*value;
+  Use torsion, rolling_flex, two_pulley, tick_tock, swivel, axial;
+
+  Use of(RigKind kind) const {
+    switch (kind) {
+      case RigKind::torsion:
+        return torsion;
+      case RigKind::rolling_flex:
+        return rolling_flex;
+      case RigKind::two_pulley:
+        return two_pulley;
+      case RigKind::tick_tock:
+        return tick_tock;
+      case RigKind::swivel:
+        return swivel;
+      case RigKind::axial:
+        return axial;
+    }
+    return Use::none;
+  }
+};
+
+constexpr Use no = Use::none, may = Use::optional, must = Use::required;
+/// radius_mm or radius_diameters: see check_radius().
+const Parameter parameters[] = {
+    // key, member, torsion, rolling_flex, two_pulley, tick_tock, swivel, axial
+    {"length_m", &Rig::length, may, no, no, no, no, no},
+    {"twist_deg_per_m", &Rig::twist, must, no, no, no, no, no},
+    {"radius_mm", &Rig::radius, no, may, no, may, may, no},
+    {"radius_diameters", &Rig::radius_diameters, no, may, no, may, may, no},
+    {"pulley_diameter_mm", &Rig::pulley_diameter, no, no, must, no, no, no},
+    {"travel_m", &Rig::travel, no, must, may, no, no, no},
+    {"angle_deg", &Rig::angle, no, no, may, may, must, no},
+    {"weight_kg", &Rig::weight, may, no, may, may, must, no},
+    {"elongation_percent", &Rig::elongation, no, no, no, no, no, must},
+    {"mean_elongation_percent", &Rig::mean_elongation, no, no, no, no, no, may},
+};
+
+std::vector<std::string_view> keys_of(RigKind kind) {
+  std::vector<std::string_view> keys;
+  for (const Parameter& parameter : parameters)
+    if (parameter.of(kind) != Use::none) keys.push_back(parameter.key);
+  return keys;
+}
+
+void fill(std::optional<double>& value, double usual) {
+  if (!value) value = usual;
+}
+
+void check_radius(const Rig& rig) {
+  const bool bends = rig.kind == RigKind::rolling_flex || rig.kind == RigKind::tick_tock;
+  if (rig.radius && rig.radius_diameters)
+    throw InputError(rig.where, "both radius_mm and radius_diameters are given", "keep one of the two");
+  if (bends && !rig.radius && !rig.radius_diameters)
+    throw InputError(rig.where, fmt::format("a rig of kind {} has no radius_mm", word(rig.kind)),
+                     "give radius_mm, or radius_diameters in diameters of the cable");
+}
+
+}  // namespace
+
+void describe(Fields& f, Rig& rig) {
+  f.place(rig.where);
+  f.choice("kind", rig.kind,
+           "torsion: twisted to and fro between two grips; rolling_flex: a bend of 180 deg rolls along the cable "
+           "and back, also in an energy chain (C-track); two_pulley: a carriage with two pulleys runs along it, an "
+           "S (EN 50396); tick_tock: bent over two mandrels to either side; swivel: bent to either side where "
+           "it leaves a clip; axial: pulled and let go, the material's own test");
+  f.maybe_number("length_m", rig.length, between(1e-3, 1000),
+                 "torsion: between the grips; without it 1");
+  f.maybe_number("twist_deg_per_m", rig.twist, between(1e-3, 1e5), "torsion: to either side");
+  f.maybe_number("radius_mm", rig.radius, between(1e-3, 1e5),
+                 "rolling_flex: of the cable's axis; tick_tock: of the mandrels; swivel: of the clip's edge, "
+                 "without it sharp");
+  f.maybe_number("radius_diameters", rig.radius_diameters, between(1e-2, 1e4),
+                 "the same in diameters of the cable");
+  f.maybe_number("pulley_diameter_mm", rig.pulley_diameter, between(1, 1e5), "two_pulley: at the groove's ground");
+  f.maybe_number("travel_m", rig.travel, between(1e-3, 1000),
+                 "one way, of the moving end (rolling_flex) or of the carriage (two_pulley, without it 1)");
+  f.maybe_number("angle_deg", rig.angle, between(1e-2, 180),
+                 "to either side (tick_tock, without it 90; swivel), or wrapped around each pulley (two_pulley, "
+                 "without it 180)");
+  f.maybe_number("weight_kg", rig.weight, at_least(0),
+                 "that pulls on the cable. torsion: hung on its lower end, which is free to rise; without it both "
+                 "ends are held at their distance. tick_tock, two_pulley: without it 0");
+  f.maybe_number("elongation_percent", rig.elongation, between(1e-6, 10), "axial: to either side of the mean");
+  f.maybe_number("mean_elongation_percent", rig.mean_elongation, between(-10, 10), "axial: without it 0");
+  f.number("cycles_per_minute", rig.cycles_per_minute, Need::optional, between(1e-3, 1e5),
+           "turns cycles into hours; nothing else hangs on it");
+}
+
+void check_rig(Rig& rig) {
+  for (const Parameter& parameter : parameters) {
+    const Use use = parameter.of(rig.kind);
+    const bool given = (rig.*parameter.value).has_value();
+    if (given && use == Use::none)
+      throw InputError(rig.where,
+                       fmt::format("a rig of kind {} has no {} (it has {})", word(rig.kind), parameter.key,
+                                   fmt::join(keys_of(rig.kind), ", ")),
+                       "leave it out, or choose another kind");
+    if (!given && use == Use::required)
+      throw InputError(rig.where, fmt::format("a rig of kind {} needs {}", word(rig.kind), parameter.key),
+                       "give it");
+  }
+  check_radius(rig);
+  switch (rig.kind) {
+    case RigKind::torsion:
+      fill(rig.length, 1);
+      break;
+    case RigKind::two_pulley:
+      fill(rig.travel, 1);
+      fill(rig.angle, 180 * degree);
+      fill(rig.weight, 0);
+      break;
+    case RigKind::tick_tock:
+      fill(rig.angle, 90 * degree);
+      fill(rig.weight, 0);
+      break;
+    case RigKind::axial:
+      fill(rig.mean_elongation, 0);
+      break;
+    case RigKind::rolling_flex:
+    case RigKind::swivel:
+      break;
+  }
+}
+
+double axis_radius(const Rig& rig, double diameter) {
+  const double given = rig.kind == RigKind::two_pulley ? *rig.pulley_diameter / 2
+                       : rig.radius                    ? *rig.radius
+                                                       : *rig.radius_diameters * diameter;
+  // A chain's radius is that of its cables' axes; mandrel, pulley and clip are measured where the cable lies.
+  return rig.kind == RigKind::rolling_flex ? given : given + diameter / 2;
+}
+
+BendWay bend_way(const Rig& rig, double diameter) {
+  constexpr double followed = 1.25;
+  BendWay way;
+  switch (rig.kind) {
+    case RigKind::rolling_flex:  // where the bend is moves by half of what its moving end does
+      way.bend = std::numbers::pi * axis_radius(rig, diameter);
+      way.sweep = std::min(*rig.travel / 2, followed * way.bend);
+      way.lead = way.bend / 4;
+      break;
+    case RigKind::two_pulley:
+      way.bend = 2 * *rig.angle * axis_radius(rig, diameter);
+      way.sweep = std::min(*rig.travel, followed * way.bend);
+      way.lead = way.bend / 10;
+      break;
+    case RigKind::tick_tock:
+      way.bend = *rig.angle * axis_radius(rig, diameter);
+      way.lead = 2.5 * way.bend;  // into which conductors slide
+      break;
+    case RigKind::torsion:
+    case RigKind::swivel:
+    case RigKind::axial:
+      break;
+  }
+  return way;
+}
+
+double rig_length(const Rig& rig, double diameter) {
+  constexpr double any = 0.1;  // of a cable that deforms alike all along it
+  if (rig.kind == RigKind::torsion) return *rig.length;
+  const double way = bend_way(rig, diameter).length();
+  return way > 0 ? way : any;
+}
+
+}  // namespace dresslife::pipeline

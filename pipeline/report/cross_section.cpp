@@ -1,0 +1,271 @@
+#include "pipeline/report/cross_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "pipeline/job/overlap.h"
+#include "pipeline/report/plot.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double picture = 640;     // side of the square that holds the hose [px]
+constexpr double margin = 20;       // [px]
+constexpr double line_height = 18;  // of the list below [px]
+
+double millimetres(double metres) { return 1e3 * metres; }
+
+std::string name_of(const Component& of) { return of.layer.empty() ? of.name : of.name + ", " + of.layer; }
+
+double lay_length(const Component& of) { return 2 * pi * of.helix_radius / std::tan(of.lay_angle); }
+
+std::string lay_words(const Component& of) {
+  if (of.lay_angle == 0) return "straight";
+  return fmt::format("{:.4g} deg {}, {:.4g} mm a turn", of.lay_angle * 180 / pi, word(of.hand),
+                     millimetres(lay_length(of)));
+}
+
+double section_of_wires(const Component& part) {
+  if (part.components.empty()) return pi * part.radius * part.radius;
+  double area = 0;
+  for (const Component& inner : part.components) area += inner.count * section_of_wires(inner);
+  return area;
+}
+
+double wires_of(const Component& part) {
+  if (part.components.empty()) return 1;
+  double wires = 0;
+  for (const Component& inner : part.components) wires += inner.count * wires_of(inner);
+  return wires;
+}
+
+int depth_of(const std::vector<Component>& components) {
+  int depth = 0;
+  for (const Component& component : components) depth = std::max(depth, 1 + depth_of(component.components));
+  return depth;
+}
+
+/// Of one part: E A and E I about its own axis.
+struct Stiffness {
+  double axial = 0, bending = 0;
+};
+
+/// solid_from: the level from which on parts do not slide; `level` is that of `part`'s inner parts.
+Stiffness stiffness_of(const Dresspack& dresspack, const Component& part, int level, int solid_from) {
+  if (part.components.empty()) {
+    const Material* material = find_material(dresspack, part.material);
+    const double youngs_modulus = material ? material->youngs_modulus : 0, area = section_of_wires(part);
+    return {youngs_modulus * area, youngs_modulus * area * part.radius * part.radius / 4};
+  }
+  Stiffness sum;
+  for (const Component& inner : part.components) {
+    const Stiffness one = stiffness_of(dresspack, inner, level + 1, solid_from);
+    const double along = one.axial * std::pow(std::cos(inner.lay_angle), 3);
+    const double leverage = level >= solid_from ? inner.helix_radius * inner.helix_radius / 2 : 0;
+    sum.axial += inner.count * along;
+    sum.bending += inner.count * (one.bending + along * leverage);
+  }
+  return sum;
+}
+
+// ---- the picture ------------------------------------------------------------------------------------------
+
+constexpr std::string_view style =
+    "text{font:13px sans-serif;fill:#222}.wall{fill:none;stroke:#777}.room{fill:#f4f4f2}.core{fill:#ddd}"
+    ".part{fill:#cfe0ee;stroke:#5a7d99}.wire{fill:#c0733d}.over{fill:#e23b3b}.scale{stroke:#222;stroke-width:"
+    "2}.halo{fill:none;stroke:#fff;stroke-width:6}.worst{fill:none;stroke:#d00;stroke-width:3}"
+    "@media(prefers-color-scheme:dark){text{fill:#ddd}.room{fill:#1c1c1e}.core{fill:#444}"
+    ".part{fill:#2c4356;stroke:#7fa6c4}.scale{stroke:#ddd}}";
+
+class Drawing {
+ public:
+  Drawing(const Dresspack& dresspack, const std::string& marked)
+      : dresspack_(dresspack),
+        marked_(place_of_part(dresspack, marked)),
+        scale_((picture - 2 * margin) / dresspack.diameter) {}
+
+  std::string svg() {
+    for (const Component& component : dresspack_.components) list(component, 0);
+    const double height = picture + line_height * (static_cast<double>(lines_.size()) + 1);
+    std::string body = fmt::format("<g transform=\"translate({0:.4g} {0:.4g})\">\n{1}{2}</g>\n", picture / 2,
+                                   hose(), inside(dresspack_.components) + mark());
+    body += scale_bar();
+    double y = picture + line_height;
+    for (const std::string& line : lines_) {
+      body += fmt::format("<text x=\"{:.4g}\" y=\"{:.5g}\" xml:space=\"preserve\">{}</text>\n", margin, y,
+                          escaped(line));
+      y += line_height;
+    }
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.5g} {1:.5g}\" width=\"{0:.5g}\" "
+        "height=\"{1:.5g}\" "
+        "role=\"img\">\n<title>Cross-section of "
+        "{2}</title>\n<style>{3}</style>\n<defs>\n{4}</defs>\n{5}</svg>\n",
+        picture, height, escaped(dresspack_.name), style, definitions_, body);
+  }
+
+ private:
+  std::string circle(const char* what, double radius) const {
+    return fmt::format("<circle class=\"{}\" r=\"{:.5g}\"/>\n", what, scale_ * radius);
+  }
+
+  std::string hose() const {
+    const double outer = dresspack_.diameter / 2, inner = inner_radius(dresspack_).value_or(outer);
+    const double wall = std::max(scale_ * (outer - inner), 1.0);
+    std::string text = circle("room", outer);
+    text += fmt::format("<circle class=\"wall\" r=\"{:.5g}\" stroke-width=\"{:.4g}\"/>\n",
+                        scale_ * outer - wall / 2, wall);
+    if (dresspack_.core_diameter > 0) text += circle("core", dresspack_.core_diameter / 2);
+    return text;
+  }
+
+  /// Wide enough to be seen around a single wire.
+  std::string mark() const {
+    constexpr double least_radius = 9;  // [px]
+    if (!marked_) return "";
+    std::string rings;
+    for (const char* what : {"halo", "worst"})
+      rings += fmt::format("<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.5g}\"/>\n", what,
+                           scale_ * marked_->x, -scale_ * marked_->y,
+                           std::max(scale_ * marked_->radius + 3, least_radius));
+    return rings;
+  }
+
+  /// Layers of equal parts: each part is drawn once and shown K times.
+  std::string inside(const std::vector<Component>& components) {
+    std::string text;
+    for (const Component& component : components) {
+      const std::string id = define(component);
+      for (int k = 0; k < component.count; ++k) {
+        const double angle = component.phase + 2 * pi * k / component.count,
+                     R = scale_ * component.helix_radius;
+        text += fmt::format("<use href=\"#{}\" x=\"{:.2f}\" y=\"{:.2f}\"/>\n", id, R * std::cos(angle),
+                            -R * std::sin(angle));
+      }
+    }
+    return text;
+  }
+
+  std::string define(const Component& component) {
+    const bool wire = component.components.empty();
+    std::string shape = circle(overlaps(component) ? "over" : wire ? "wire" : "part", component.radius);
+    if (!wire) shape += inside(component.components);
+    const std::string id = fmt::format("p{}", parts_++);
+    definitions_ += fmt::format("<g id=\"{}\">\n{}</g>\n", id, shape);
+    return id;
+  }
+
+  void list(const Component& of, int level) {
+    std::string line = fmt::format("{:{}}{} x {}: {:.4g} mm", "", 4 * level, of.count, name_of(of),
+                                   millimetres(2 * of.radius));
+    if (of.helix_radius > 0)
+      line += fmt::format(", {:.4g} mm off the axis, {}", millimetres(of.helix_radius), lay_words(of));
+    if (overlaps(of)) line += " (they overlap: red)";
+    lines_.push_back(line);
+    for (const Component& inner : of.components) list(inner, level + 1);
+  }
+
+  std::string scale_bar() const {
+    double length = std::pow(10, std::floor(std::log10(millimetres(dresspack_.diameter) / 4)));
+    for (const double factor : {5.0, 2.0})
+      if (factor * length <= millimetres(dresspack_.diameter) / 3) {
+        length *= factor;
+        break;
+      }
+    const double y = picture - margin / 2;
+    return fmt::format(
+        "<line class=\"scale\" x1=\"{0:.4g}\" y1=\"{1:.4g}\" x2=\"{2:.5g}\" y2=\"{1:.4g}\"/>\n"
+        "<text x=\"{3:.5g}\" y=\"{4:.4g}\">{5:.4g} mm</text>\n",
+        margin, y, margin + scale_ * length / 1e3, margin + scale_ * length / 1e3 + 6, y + 4, length);
+  }
+
+  const Dresspack& dresspack_;
+  std::optional<PartPlace> marked_;
+  double scale_;  // [px/m]
+  std::string definitions_;
+  std::vector<std::string> lines_;
+  int parts_ = 0;
+};
+
+/// "layer 2/wire 17": the layer's name where it has one, then part 17 of so many.
+std::string own_name(const Component& component, int number) {
+  return fmt::format("{}{}{} {}", component.layer, component.layer.empty() ? "" : "/", component.name, number);
+}
+
+std::optional<PartPlace> place_in(const std::vector<Component>& components, std::string_view path) {
+  for (const Component& component : components)
+    for (int k = 0; k < component.count; ++k) {
+      const std::string name = own_name(component, k + 1);
+      if (!path.starts_with(name)) continue;
+      const double angle = component.phase + 2 * pi * k / component.count;
+      const PartPlace here{component.helix_radius * std::cos(angle), component.helix_radius * std::sin(angle),
+                           component.radius};
+      if (path.size() == name.size()) return here;
+      if (path[name.size()] != '/') continue;
+      const auto inner = place_in(component.components, path.substr(name.size() + 1));
+      if (inner) return PartPlace{here.x + inner->x, here.y + inner->y, inner->radius};
+    }
+  return std::nullopt;
+}
+
+void list_layer(const Component& of, int level, std::string& text) {
+  text += fmt::format("{:{}}{:4} {:<{}} {:>7.4g} mm", "", 2 * level, of.count, name_of(of), 24 - 2 * level,
+                      millimetres(2 * of.radius));
+  if (of.helix_radius > 0)
+    text += fmt::format("  at {:>6.4g} mm, {}", millimetres(of.helix_radius), lay_words(of));
+  if (!of.material.empty()) text += "  " + of.material;
+  text += '\n';
+  for (const Component& inner : of.components) list_layer(inner, level + 1, text);
+}
+
+Component whole(const Dresspack& dresspack) {
+  Component all;
+  all.components = dresspack.components;
+  return all;
+}
+
+}  // namespace
+
+std::string cross_section_picture(const Dresspack& dresspack, const std::string& marked) {
+  return Drawing(dresspack, marked).svg();
+}
+
+std::optional<PartPlace> place_of_part(const Dresspack& dresspack, std::string_view path) {
+  return place_in(dresspack.components, path);
+}
+
+std::vector<double> bending_stiffnesses(const Dresspack& dresspack) {
+  std::vector<double> stiffness;
+  const int levels = depth_of(dresspack.components);
+  if (levels == 0) return stiffness;
+  const Component all = whole(dresspack);
+  for (int solid_from = levels; solid_from >= 0; --solid_from)
+    stiffness.push_back(stiffness_of(dresspack, all, 0, solid_from).bending);
+  return stiffness;
+}
+
+std::string construction_text(const Dresspack& dresspack) {
+  std::string text =
+      fmt::format("{}: {:.4g} mm, {:.4g} kg/m, E I {:.4g} N m2, G J {:.4g} N m2, E A {:.4g} N\n",
+                  dresspack.name, millimetres(dresspack.diameter), dresspack.mass_per_length,
+                  dresspack.bending_stiffness, dresspack.torsional_stiffness, dresspack.axial_stiffness);
+  for (const Component& component : dresspack.components) list_layer(component, 1, text);
+  const Component all = whole(dresspack);
+  if (dresspack.components.empty())
+    return text + "no parts: its motion can be simulated, no wire has a life\n";
+  const std::vector<double> bending = bending_stiffnesses(dresspack);
+  text += fmt::format("{:.0f} wires of {:.4g} mm2, E A {:.4g} N\n", wires_of(all),
+                      1e6 * section_of_wires(all), stiffness_of(dresspack, all, 0, 0).axial);
+  text += fmt::format("E I of the wires [N m2]: {:.3g} when all slide", bending.front());
+  for (std::size_t k = 1; k + 1 < bending.size(); ++k)
+    text += fmt::format(", {:.3g} when parts of level {} are solid", bending[k], bending.size() - 1 - k);
+  text += fmt::format(", {:.3g} when nothing slides\n", bending.back());
+  return text;
+}
+
+}  // namespace dresslife::pipeline

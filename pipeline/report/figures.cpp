@@ -1,0 +1,210 @@
+#include "pipeline/report/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/files/files.h"
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/report/chart_style.h"
+#include "pipeline/report/life_charts.h"
+#include "pipeline/report/plot.h"
+#include "pipeline/report/scene.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double width = 960, left = 78, right = 14, axis_height = 44;  // [px]
+constexpr double panel_width = width - left - right;
+constexpr double percent = 100;
+constexpr double degrees = 57.29577951308232;
+
+/// The worst wire of a job, as its life file names it.
+struct Worst {
+  std::size_t segment = 0;  ///< of the file
+  int from_tool = 0;        ///< in its dresspack, 1 is nearest to the tool
+  std::string dresspack, component;
+  double time = 0;  ///< [s]
+};
+
+std::optional<Worst> find_worst(const std::filesystem::path& life_file) {
+  const FileReader file(life_file, life_format());
+  const double site = file.number_attribute("worst_site");
+  const int from_tool = static_cast<int>(file.number_attribute("worst_segment_from_tool"));
+  if (site < 0 || from_tool < 1) return {};
+  const auto segments = file.read<std::int32_t>("/site/segment");
+  return Worst{static_cast<std::size_t>(segments.at(static_cast<std::size_t>(site))), from_tool,
+               file.has_attribute("worst_dresspack") ? file.text_attribute("worst_dresspack") : "",
+               file.text_attribute("worst_component"), file.number_attribute("worst_time")};
+}
+
+Worst worst_of(const std::filesystem::path& life_file) {
+  if (const auto worst = find_worst(life_file)) return *worst;
+  throw InputError({life_file.string()}, "has no damaged wire to show", "choose another figure");
+}
+
+std::string needed(const std::string& chart, const std::filesystem::path& file) {
+  if (chart.empty())
+    throw InputError({file.string()}, "has no damaged wire to show", "choose another figure");
+  return chart;
+}
+
+std::size_t nearest_sample(const std::vector<double>& times, double time) {
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < times.size(); ++k)
+    if (std::abs(times[k] - time) < std::abs(times[nearest] - time)) nearest = k;
+  return nearest;
+}
+
+std::pair<double, double> extremes(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return values.empty() ? std::pair{0.0, 1.0} : std::pair{*low, *high};
+}
+
+/// Curvature, twist or elongation of the segments of one dresspack at one moment.
+struct Along {
+  std::string title;
+  std::vector<double> value;
+};
+
+std::array<Along, 3> deformation_at(const FileReader& strain, std::size_t sample, std::size_t first,
+                                    std::size_t count) {
+  std::array<Along, 3> all{{{"curvature [1/m]", {}}, {"twist [deg/m]", {}}, {"elongation [%]", {}}}};
+  std::vector<double> curvature, twist, elongation;
+  strain.read_rows("/deformation/curvature", sample, 1, curvature);
+  strain.read_rows("/deformation/twist", sample, 1, twist);
+  strain.read_rows("/deformation/elongation", sample, 1, elongation);
+  for (std::size_t k = first; k < first + count; ++k) {
+    all[0].value.push_back(std::hypot(curvature[2 * k], curvature[2 * k + 1]));
+    all[1].value.push_back(degrees * twist[k]);
+    all[2].value.push_back(percent * elongation[k]);
+  }
+  return all;
+}
+
+/// Three panels over each other, from the base clamp to the tool clamp.
+std::string deformation_chart(const std::array<Along, 3>& all, const std::vector<double>& lengths,
+                              const std::string& title) {
+  constexpr double height = 120, gap = 18, heading = 26;
+  double whole = 0;
+  for (const double length : lengths) whole += length;
+  const Axis x{"base clamp   \u2192   along the dresspack [m]   \u2192   tool clamp", 0, whole};
+  Picture picture(width, heading + 3 * (height + gap) + axis_height, title, title);
+  picture.text(left, 15, title, "note");
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    const auto [low, high] = extremes(all[p].value);
+    const Panel panel{left, heading + static_cast<double>(p) * (height + gap),     panel_width, height,
+                      x,    linear_axis(all[p].title, std::min(low, 0.0), high, 4)};
+    panel.draw_axes(picture, p + 1 == all.size());
+    std::vector<std::pair<double, double>> points;
+    double begin = 0;
+    for (std::size_t k = 0; k < lengths.size(); ++k) {
+      points.emplace_back(panel.across(begin + lengths[k] / 2), panel.down(all[p].value[k]));
+      begin += lengths[k];
+    }
+    picture.curve(points, "curve");
+  }
+  return picture.svg();
+}
+
+std::string deformation_figure(const JobFiles& files, std::optional<double> time) {
+  const FileReader strain(files.strain, strain_format());
+  const auto worst = time ? std::nullopt : find_worst(files.life);
+  const std::vector<double> times = strain.read<double>("/time");
+  const std::size_t sample = nearest_sample(times, time.value_or(worst ? worst->time : 0));
+  const std::vector<std::size_t> of_segment = dresspack_of_segments(strain);
+  const std::vector<double> lengths = strain.read<double>("/segment/length");
+  const std::size_t dresspack = worst ? of_segment[worst->segment] : 0;
+  const auto range = std::equal_range(of_segment.begin(), of_segment.end(), dresspack);
+  const auto first = static_cast<std::size_t>(range.first - of_segment.begin());
+  const auto count = static_cast<std::size_t>(range.second - range.first);
+  const std::string name = dresspack_names(strain)[dresspack];
+  const auto begin = lengths.begin() + static_cast<std::ptrdiff_t>(first);
+  return deformation_chart(
+      deformation_at(strain, sample, first, count), {begin, begin + static_cast<std::ptrdiff_t>(count)},
+      fmt::format("Deformation of the {} at {:.2f} s", name.empty() ? "dresspack" : name, times[sample]));
+}
+
+std::string curvature_figure(const JobFiles& files) {
+  const Worst worst = worst_of(files.life);
+  const FileReader strain_file(files.strain, strain_format()), life(files.life, life_format());
+  const std::vector<double> strain = life.read<double>("/worst/strain");
+  const std::vector<double> all = strain_file.read<double>("/deformation/curvature");
+  const std::size_t segments = strain_file.rows("/segment/length");
+  if (all.size() != 2 * segments * strain.size())
+    throw InputError({files.strain.string()},
+                     fmt::format("is not the strain file of {}", files.life.string()),
+                     "give files of one job");
+  std::vector<double> curvature;
+  for (std::size_t k = 0; k < strain.size(); ++k) {
+    const double* at = &all[2 * (k * segments + worst.segment)];
+    curvature.push_back(std::hypot(at[0], at[1]));
+  }
+  const auto [low, high] = extremes(strain);
+  const auto [straightest, most] = extremes(curvature);
+  const Panel panel{left,
+                    10,
+                    panel_width,
+                    420,
+                    linear_axis("curvature of the segment [1/m]", std::min(straightest, 0.0), most, 9),
+                    linear_axis("strain of the worst wire [%]", percent * low, percent * high)};
+  Picture picture(width, panel.bottom() + axis_height, "Strain of the worst wire over curvature",
+                  fmt::format("{} in segment {} from the tool.", worst.component, worst.from_tool));
+  panel.draw_axes(picture);
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t k = 0; k < strain.size(); ++k)
+    points.emplace_back(panel.across(curvature[k]), panel.down(percent * strain[k]));
+  picture.curve(points, "curve");
+  return picture.svg();
+}
+
+std::string scene_figure(const JobFiles& files, std::optional<double> time) {
+  std::error_code failure;
+  const auto worst = std::filesystem::exists(files.life, failure) ? find_worst(files.life) : std::nullopt;
+  return scene_picture(files.motion, time.value_or(worst ? worst->time : 0), worst ? worst->from_tool : 0,
+                       worst ? worst->dresspack : "");
+}
+
+std::string chart(Figure what, const JobFiles& files, std::optional<double> time) {
+  switch (what) {
+    case Figure::strain:
+      return needed(strain_chart(read_life(files.life)), files.life);
+    case Figure::cycles:
+      return needed(cycle_chart(read_life(files.life)), files.life);
+    case Figure::damage:
+      return needed(segment_chart(read_life(files.life), worst_of(files.life).from_tool), files.life);
+    case Figure::deformation:
+      return deformation_figure(files, time);
+    case Figure::curvature:
+      return curvature_figure(files);
+    case Figure::scene:
+      return scene_figure(files, time);
+  }
+  return {};
+}
+
+}  // namespace
+
+JobFiles job_files(const std::filesystem::path& place) {
+  std::error_code failure;
+  const bool is_folder = std::filesystem::is_directory(place, failure);
+  const std::filesystem::path folder = is_folder ? place : place.parent_path();
+  JobFiles files{folder / "motion.h5", folder / "strain.h5", folder / "life.h5"};
+  if (is_folder) return files;
+  const Format* format = format_of(place);
+  if (!format)
+    throw InputError({place.string()}, "is neither a job's folder nor one of its files",
+                     "name a folder below runs/, or a motion.h5, strain.h5 or life.h5");
+  (format == &motion_format()   ? files.motion
+   : format == &strain_format() ? files.strain
+                                : files.life) = place;
+  return files;
+}
+
+std::string figure(Figure what, const JobFiles& files, std::optional<double> time) {
+  return standalone(chart(what, files, time));
+}
+
+}  // namespace dresslife::pipeline

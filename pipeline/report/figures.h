@@ -1,0 +1,52 @@
+// Single figures of one job, as files: what `dresslife plot` draws. The thesis has some of them as its
+// figures 14 to 19.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dresslife::pipeline {
+
+enum class Figure { strain, cycles, damage, deformation, curvature, scene };
+constexpr std::string_view word(Figure value) {
+  switch (value) {
+    case Figure::strain:
+      return "strain";
+    case Figure::cycles:
+      return "cycles";
+    case Figure::damage:
+      return "damage";
+    case Figure::deformation:
+      return "deformation";
+    case Figure::curvature:
+      return "curvature";
+    case Figure::scene:
+      return "scene";
+  }
+  return {};
+}
+
+/// Where the results of a job lie.
+struct JobFiles {
+  std::filesystem::path motion, strain, life;
+};
+
+/// Of a job's folder, or of one of its files: the others lie beside it under the names that a study gives
+/// them. Errors: InputError for what is neither.
+JobFiles job_files(const std::filesystem::path& place);
+
+/// An SVG file.
+///   strain       of the worst wire over time, the program below it (thesis, figures 16 and 17)
+///   cycles       of the worst wire: how often each range occurs, and what it costs
+///   damage       of the worst wire of each segment, along the dresspack
+///   deformation  curvature, twist and elongation along the dresspack at a time (figure 14 shows what they
+///   make of a wire) curvature    strain of the worst wire over the curvature of its segment (figure 15
+///   multiplies by E) scene        robot and dresspack at a time, the worst segment marked (figures 18 and
+///   19)
+/// time: [s], the nearest sample; absent: when the most damaging cycle closes. Errors: InputError for a file
+/// that is missing or cannot be read, or a job without a damaged wire where the figure needs one.
+std::string figure(Figure what, const JobFiles& files, std::optional<double> time);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,24 @@
+// The line of each dresspack in a motion file: base clamp, segment centres, tool clamp.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "pipeline/files/files.h"
+
+namespace dresslife::pipeline {
+
+/// Where one dresspack's points lie in a row of /clamp/position and of /segment/position.
+struct HoseLine {
+  std::size_t base_clamp = 0, first_segment = 0, segments = 0, tool_clamp = 0;
+
+  std::size_t points() const { return segments + 2; }
+  /// (points) [m]; clamps, centres: x y z after each other.
+  std::vector<Eigen::Vector3d> in(const std::vector<double>& clamps,
+                                  const std::vector<double>& centres) const;
+};
+
+/// One for each dresspack, in the order of the file. Errors: InputError.
+std::vector<HoseLine> hose_lines(const FileReader& motion);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,214 @@
+#include "pipeline/report/job_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "pipeline/files/checksum.h"
+#include "pipeline/files/digest.h"
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job_text.h"
+#include "pipeline/readable.h"
+#include "pipeline/report/cross_section.h"
+#include "pipeline/report/json.h"
+#include "pipeline/report/life_data.h"
+#include "pipeline/report/motion_checks.h"
+#include "pipeline/report/motion_data.h"
+#include "pipeline/report/page_shell.h"
+#include "pipeline/report/plot.h"
+#include "pipeline/report/scene_data.h"
+#include "pipeline/study/ranking.h"
+#include "pipeline/whole_file.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Reader = std::unique_ptr<const FileReader>;
+
+Reader opened(const std::filesystem::path& file, const Format& format, std::vector<std::string>& notes) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored)) return std::make_unique<FileReader>(file, format);
+  notes.push_back(
+      fmt::format("{} is not there (run the job again to see what it tells)", file.filename().string()));
+  return nullptr;
+}
+
+/// Files of one motion have the same samples and segments.
+void check_together(const FileReader& life, const FileReader* other) {
+  if (!other || (life.rows("/time") == other->rows("/time") &&
+                 life.rows("/segment/length") == other->rows("/segment/length")))
+    return;
+  throw InputError(other->where(),
+                   fmt::format("has {} samples and {} segments, {} has {} and {} (they are not of one job)",
+                               other->rows("/time"), other->rows("/segment/length"), life.where().file,
+                               life.rows("/time"), life.rows("/segment/length")),
+                   "run the stages again, one after the other");
+}
+
+std::string hours_words(double hours) { return std::isinf(hours) ? "no damage" : printed(hours) + " h"; }
+
+bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
+
+std::string headline(const RankingRow& row) {
+  const double hours = row.headline_hours();
+  std::string text = fmt::format("<h1>{}</h1>\n<p><b>{}</b>", escaped(row.job), hours_words(hours));
+  if (std::isfinite(hours))
+    text += fmt::format(
+        " of motion until {}: {} repeats of {:.1f} s, {} by the calendar",
+        row.planned()
+            ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
+            : "the worst wire breaks (median)",
+        printed(row.headline_repeats()), row.repeat_seconds, calendar_words(row.headline_months()));
+  text += fmt::format("; {} if all inside the cables stuck, {} if all slid",
+                      hours_words(row.headline_hours_of(row.life_repeats_all_stick)),
+                      hours_words(row.headline_hours_of(row.life_repeats_all_free)));
+  if (row.planned() && std::isfinite(row.planned_hours[2]))
+    text += fmt::format("; {} until half have, {} until 90 %", hours_words(row.planned_hours[1]),
+                        hours_words(row.planned_hours[2]));
+  if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
+    text += fmt::format("; a first wire breaks after {} .. {} h in 10 .. 90 %",
+                        printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
+  if (row.planned() && std::isfinite(row.life_hours))
+    text += fmt::format("; the worst wire's own median is {} h", printed(row.life_hours));
+  text += ".</p>\n";
+  if (damaged(row))
+    text += fmt::format(
+        "<p>{} breaks first, segment {} from the tool ({:.2f} m){}, worst at {:.1f} s{}.</p>\n",
+        escaped(row.worst_component), row.worst_segment_from_tool, row.worst_position_from_tool,
+        row.worst_dresspack.empty() ? "" : " of the " + escaped(row.worst_dresspack), row.worst_time,
+        row.worst_step.empty() ? "" : " during '" + escaped(row.worst_step) + "'");
+  return text;
+}
+
+/// The settings that decide most, as they were in the end.
+std::string assumptions(const RankingRow& row, const FileReader* motion) {
+  std::string list;
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
+  };
+  if (!row.force_ok())
+    fact("forces", "<b>" + escaped(force_words(row)) + "</b>");
+  else if (row.largest_force_share.value_or(0) > 0)
+    fact("forces",
+         fmt::format("cables pull with at most {:.2g} of what tears them", *row.largest_force_share));
+  if (motion && motion->has_attribute("time_step"))
+    fact("time step", fmt::format("{:.3g} ms{}", 1e3 * motion->number_attribute("time_step"),
+                                  motion->has_attribute("curvature_error")
+                                      ? fmt::format(", which leaves an error of {:.2g} % in the curvature",
+                                                    100 * motion->number_attribute("curvature_error"))
+                                      : ""));
+  return list.empty() ? "" : "<dl>\n" + list + "</dl>\n";
+}
+
+/// Limits of the motion that are broken, by name; empty: none.
+std::string broken_limits(const FileReader& motion) {
+  if (!motion.has("/check/warning")) return "";
+  const auto names = motion.read<std::string>("/check/name");
+  const auto warnings = motion.read<std::int32_t>("/check/warning");
+  std::vector<std::string> broken;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (warnings[k]) broken.push_back(names[k]);
+  return broken.empty()
+             ? ""
+             : fmt::format("Limits of the motion are broken: {} (see below)", fmt::join(broken, ", "));
+}
+
+/// Of the dresspack with the worst wire, that wire marked.
+std::string cross_section(const RankingRow& row, const Setup& setup) {
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) {
+    const std::string name = name_among(setup, d);
+    if (name != row.worst_dresspack) continue;
+    std::string wire = row.worst_component;
+    if (!name.empty() && wire.starts_with(name + "/")) wire = wire.substr(name.size() + 1);
+    const Dresspack& dresspack = setup.dresspacks[d].dresspack;
+    return fmt::format(
+        "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption "
+        "class=\"soft\">"
+        "Cross-section at the base clamp{2}.</figcaption></figure>\n",
+        escaped(dresspack.name), base64(cross_section_picture(dresspack, wire)),
+        place_of_part(dresspack, wire) ? ", ringed the wire that breaks first: " + escaped(wire) : "");
+  }
+  return "";
+}
+
+std::string folded(const std::string& summary, const std::string& text) {
+  return fmt::format("<details><summary>{}</summary>\n<pre>{}</pre></details>\n", summary, escaped(text));
+}
+
+class Page {
+ public:
+  explicit Page(const JobFolder& files)
+      : files_(files),
+        life_(files.life(), life_format()),
+        motion_(opened(files.motion(), motion_format(), notes_)),
+        strain_(opened(files.strain(), strain_format(), notes_)),
+        row_(read_ranking({{files.name, files.life(), ""}}).front()) {
+    if (!row_.done()) throw InputError(life_.where(), row_.failure, "run the job again");
+    check_together(life_, motion_.get());
+    check_together(life_, strain_.get());
+    if (!motion_) return;
+    if (const std::string limits = broken_limits(*motion_); !limits.empty()) notes_.push_back(limits);
+    const std::string source = files.motion().string() + " (attribute job)";
+    setup_ = setup_from(parse_yaml(motion_->text_attribute("job"), source));
+  }
+
+  std::string text(const std::string& made_from) {
+    const std::string data = this->data();
+    return whole_page(files_.name + ": dresspack in motion", made_from, body(), data);
+  }
+
+ private:
+  std::string data() {
+    std::string text =
+        fmt::format("{{\"title\":{},\"life\":{}", json(files_.name), life_data(life_, strain_.get()));
+    if (setup_) {
+      const std::string scene = scene_data(*setup_, notes_);
+      text +=
+          fmt::format(",\"scene\":{},\"motion\":{}", scene, motion_data(*motion_, strain_.get(), *setup_));
+    }
+    return text + '}';
+  }
+
+  std::string body() const {
+    std::string text = headline(row_);
+    for (const std::string& note : notes_) text += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
+    text +=
+        "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div>\n<div "
+        "id=\"place\"></div>\n";
+    if (setup_) text += cross_section(row_, *setup_);
+    text += "</div></div>\n<h2>What the numbers rest on</h2>\n" + assumptions(row_, motion_.get());
+    if (motion_) text += check_table(files_.motion());
+    text += "<p class=\"soft\" id=\"shown\"></p>\n";
+    return text + folded("Settings", life_.text_attribute("job")) +
+           folded("How it was run", life_.text_attribute("history"));
+  }
+
+  JobFolder files_;
+  std::vector<std::string> notes_;
+  FileReader life_;
+  Reader motion_, strain_;
+  RankingRow row_;
+  std::optional<Setup> setup_;
+};
+
+std::string made_from(const JobFolder& files) {
+  std::string told = shell_digest() + files.name;
+  for (const auto& file : {files.motion(), files.strain(), files.life()})
+    told += told_checksum(file).value_or("-");
+  return xxh3(told);
+}
+
+}  // namespace
+
+std::string job_page(const JobFolder& files) { return Page(files).text(made_from(files)); }
+
+bool refresh_job_page(const JobFolder& files) {
+  if (made_from_of(files.page()) == made_from(files)) return false;
+  write_text_if_changed(files.page(), job_page(files), Sync::never);
+  return true;
+}
+
+}  // namespace dresslife::pipeline

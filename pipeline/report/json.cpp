@@ -1,0 +1,77 @@
+#include "pipeline/report/json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace dresslife::pipeline {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "pages read little-endian numbers");
+
+template <class Value>
+std::string base64_of_bytes(std::span<const Value> values) {
+  return '"' + base64({reinterpret_cast<const char*>(values.data()), values.size_bytes()}) + '"';
+}
+
+template <class Values, class Each>
+std::string list(const Values& values, const Each& each) {
+  std::string text = "[";
+  for (const auto& value : values) text += (text.size() > 1 ? "," : "") + each(value);
+  return text + ']';
+}
+
+}  // namespace
+
+std::string json(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      quoted += {'\\', c};
+    else if (code < 0x20 || c == '<' || c == '>' || c == '&')
+      quoted += fmt::format("\\u{:04x}", code);
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string json(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+std::string json(const std::vector<double>& values) {
+  return list(values, [](double value) { return json(value); });
+}
+std::string json(const std::vector<std::string>& texts) {
+  return list(texts, [](const std::string& text) { return json(text); });
+}
+std::string json(const Eigen::Vector3d& vector) {
+  return json(std::vector<double>{vector.x(), vector.y(), vector.z()});
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    std::uint32_t three = 0;
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - at);
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (k < here ? static_cast<unsigned char>(bytes[at + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= here ? digits[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+std::string base64_of(std::span<const std::uint16_t> values) { return base64_of_bytes(values); }
+std::string base64_of(std::span<const float> values) { return base64_of_bytes(values); }
+
+Steps::Steps(double lowest, double highest, int steps) : low(lowest), step((highest - lowest) / steps) {}
+
+std::uint16_t Steps::of(double value) const {
+  if (!(step > 0)) return 0;
+  return static_cast<std::uint16_t>(std::clamp(std::round((value - low) / step), 0.0, 65535.0));
+}
+
+}  // namespace dresslife::pipeline

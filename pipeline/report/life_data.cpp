@@ -1,0 +1,272 @@
+#include "pipeline/report/life_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/report/json.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr std::uint32_t no_site = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t most_strains = 450'000;  // of two bytes each
+constexpr std::size_t most_samples = 20'000;
+constexpr std::size_t most_closings = 300;  // of each segment
+constexpr double least_closing = 1e-4;      // of a segment's damage: 0.01 %
+
+/// A history as it is, or by the two extremes of each of equal stretches, in the order in which they occur.
+class Thinning {
+ public:
+  explicit Thinning(std::size_t samples)
+      : samples_(samples), stretch_(1 + (samples - 1) / most_samples * 2) {}
+
+  bool thins() const { return stretch_ > 1; }
+  std::size_t length() const { return thins() ? 2 * ((samples_ + stretch_ - 1) / stretch_) : samples_; }
+
+  std::vector<double> of(const std::vector<double>& history) const {
+    if (!thins()) return history;
+    std::vector<double> thin;
+    for (std::size_t from = 0; from < samples_; from += stretch_) {
+      const auto begin = history.begin() + static_cast<std::ptrdiff_t>(from),
+                 end = history.begin() + static_cast<std::ptrdiff_t>(std::min(from + stretch_, samples_));
+      const auto [low, high] = std::minmax_element(begin, end);
+      thin.push_back(low < high ? *low : *high);
+      thin.push_back(low < high ? *high : *low);
+    }
+    return thin;
+  }
+  std::vector<float> times(const std::vector<double>& time) const {
+    std::vector<float> thin;
+    for (std::size_t k = 0; k < length(); ++k) {
+      const std::size_t sample =
+          thins() ? std::min(k / 2 * stretch_ + k % 2 * stretch_ / 2, samples_ - 1) : k;
+      thin.push_back(static_cast<float>(time[sample] - time[0]));
+    }
+    return thin;
+  }
+
+ private:
+  std::size_t samples_, stretch_;
+};
+
+std::vector<std::size_t> most_damaged_first(const std::vector<double>& damage) {
+  std::vector<std::size_t> order(damage.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return damage[a] > damage[b]; });
+  return order;
+}
+
+class Data {
+ public:
+  Data(const FileReader& life, const FileReader* strain)
+      : life_(life),
+        strain_(strain),
+        time_(life.read<double>("/time")),
+        damage_(life.read<double>("/segment/damage")),
+        worst_site_(life.read<std::uint32_t>("/segment/worst_site")),
+        thinning_(time_.size()) {
+    const double worst = life.number_attribute("worst_site");
+    if (worst >= 0) worst_ = static_cast<std::uint32_t>(worst);
+  }
+
+  std::string text() const {
+    return fmt::format(
+        "{{{},\"segments\":{},\"strains\":{},\"closings\":{},\"program\":{},\"joints\":{}}}", attributes(),
+        segments(), strains(), closings(), program(),
+        json(life_.has("/joint/name") ? life_.read<std::string>("/joint/name") : std::vector<std::string>{}));
+  }
+
+ private:
+  std::string attributes() const {
+    std::string text;
+    for (const char* name : {"life_hours", "life_repeats", "damage_per_repeat", "repeat_seconds",
+                             "worst_time", "worst_segment_from_tool"})
+      text += fmt::format("\"{}\":{},", name, json(life_.number_attribute(name)));
+    return text + fmt::format("\"worst_component\":{},\"worst_segment\":{}",
+                              json(life_.text_attribute("worst_component")), worst_segment());
+  }
+
+  /// In the order of the file; -1: none.
+  int worst_segment() const {
+    if (!worst_) return -1;
+    std::vector<std::int32_t> of;
+    life_.read_rows("/site/segment", *worst_, 1, of);
+    return of.front();
+  }
+
+  std::string segments() const {
+    std::vector<std::string> wires;
+    for (const std::uint32_t site : worst_site_) {
+      std::vector<std::string> path{""};
+      if (site != no_site) life_.read_rows("/site/component", site, 1, path);
+      wires.push_back(path.front());
+    }
+    std::string text = fmt::format("{{\"length\":{},\"damage\":{},\"wire\":{},\"dresspack\":{}",
+                                   json(life_.read<double>("/segment/length")), json(damage_), json(wires),
+                                   json(of_dresspack()));
+    if (life_.has("/hose/damage")) text += ",\"hose_damage\":" + json(life_.read<double>("/hose/damage"));
+    if (strain_) text += extremes();
+    return text + '}';
+  }
+
+  std::vector<double> of_dresspack() const {
+    const std::vector<std::size_t> of = dresspack_of_segments(life_);
+    return {of.begin(), of.end()};
+  }
+
+  /// Of all samples: largest curvature and its time, least and largest twist.
+  std::string extremes() const {
+    const std::size_t segments = damage_.size();
+    std::vector<double> curvature(segments, 0.0), when(segments, 0.0), least(segments, INFINITY),
+        most(segments, -INFINITY);
+    const auto pairs = strain_->read<double>("/deformation/curvature"),
+               twist = strain_->read<double>("/deformation/twist");
+    for (std::size_t k = 0; k < time_.size(); ++k)
+      for (std::size_t s = 0; s < segments; ++s) {
+        const std::size_t at = k * segments + s;
+        const double here = std::hypot(pairs[2 * at], pairs[2 * at + 1]);
+        if (here > curvature[s]) {
+          curvature[s] = here;
+          when[s] = time_[k];
+        }
+        least[s] = std::min(least[s], twist[at]);
+        most[s] = std::max(most[s], twist[at]);
+      }
+    return fmt::format(
+        ",\"largest_curvature\":{},\"largest_curvature_time\":{},\"least_twist\":{},\"largest_twist\":{}",
+        json(curvature), json(when), json(least), json(most));
+  }
+
+  /// (site) row of /probe/strain.
+  std::map<std::uint32_t, std::size_t> probes() const {
+    std::map<std::uint32_t, std::size_t> of;
+    if (!strain_) return of;
+    const auto sites = strain_->read<std::uint32_t>("/probe/site");
+    for (std::size_t k = 0; k < sites.size(); ++k) of.emplace(sites[k], k);
+    return of;
+  }
+
+  /// /worst/strain is a whole history where its site was probed or judged by planes.
+  bool worst_is_sampled(const std::map<std::uint32_t, std::size_t>& probed) const {
+    if (!worst_ || !strain_) return false;
+    if (probed.contains(*worst_)) return true;
+    if (!strain_->has("/plane/site")) return false;
+    const auto planes = strain_->read<std::uint32_t>("/plane/site");
+    return std::find(planes.begin(), planes.end(), *worst_) != planes.end();
+  }
+
+  /// One history: (time, strain) where it has times of its own, else at those of all.
+  std::string strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
+                         const std::vector<float>& own_times) const {
+    const auto [low, high] = std::minmax_element(strain.begin(), strain.end());
+    const Steps steps(*low, *high);
+    std::vector<std::uint16_t> numbers;
+    for (const double value : strain) numbers.push_back(steps.of(value));
+    const std::string times = own_times.empty() ? "" : ",\"time\":" + base64_of(own_times);
+    return fmt::format("{{\"segment\":{},\"sampled\":{},\"low\":{},\"step\":{}{},\"numbers\":{}}}", segment,
+                       sampled, json(steps.low), json(steps.step), times, base64_of(numbers));
+  }
+
+  /// Of a site that was not probed.
+  std::string turning_points(std::size_t segment, std::size_t& kept) const {
+    std::vector<std::uint64_t> range;
+    std::vector<double> strain;
+    std::vector<std::uint32_t> sample;
+    strain_->read_rows("/reversal/offset", worst_site_[segment], 2, range);
+    strain_->read_rows("/reversal/strain", range[0], range[1] - range[0], strain);
+    strain_->read_rows("/reversal/sample", range[0], range[1] - range[0], sample);
+    std::vector<float> times;
+    for (const std::uint32_t at : sample)
+      times.push_back(static_cast<float>(time_.at(std::min<std::size_t>(at, time_.size() - 1)) - time_[0]));
+    kept += 3 * strain.size();
+    return strain.empty() ? "" : strain_row(segment, false, strain, times);
+  }
+
+  std::string strains() const {
+    const auto probed = probes();
+    const int worst = worst_segment();
+    std::string rows;
+    std::size_t kept = 0;
+    const auto add = [&](const std::string& row) { rows += row.empty() || rows.empty() ? row : "," + row; };
+    if (worst >= 0) {
+      add(strain_row(static_cast<std::size_t>(worst), worst_is_sampled(probed),
+                     thinning_.of(life_.read<double>("/worst/strain")), {}));
+      kept += thinning_.length();
+    }
+    for (const std::size_t segment : most_damaged_first(damage_)) {
+      if (!strain_ || static_cast<int>(segment) == worst || worst_site_[segment] == no_site) continue;
+      if (kept + thinning_.length() > most_strains) break;
+      const auto probe = probed.find(worst_site_[segment]);
+      if (probe == probed.end()) {
+        add(turning_points(segment, kept));
+        continue;
+      }
+      std::vector<double> history;
+      strain_->read_rows("/probe/strain", probe->second, 1, history);
+      add(strain_row(segment, true, thinning_.of(history), {}));
+      kept += thinning_.length();
+    }
+    return fmt::format("{{\"thinned\":{},\"time\":{},\"rows\":[{}]}}", thinning_.thins(),
+                       base64_of(thinning_.times(time_)), rows);
+  }
+
+  /// Where cycles close: per segment the sum, then times and damages of the largest.
+  std::string closings() const {
+    std::string rows;
+    std::vector<double> rate;
+    for (std::size_t segment = 0; segment < damage_.size(); ++segment) {
+      if (!(damage_[segment] > 0)) continue;
+      life_.read_rows("/damage_rate", segment, 1, rate);
+      std::vector<std::size_t> at;
+      for (std::size_t k = 0; k < rate.size(); ++k)
+        if (rate[k] > least_closing * damage_[segment]) at.push_back(k);
+      if (at.size() > most_closings) {
+        std::nth_element(at.begin(), at.begin() + most_closings, at.end(),
+                         [&](auto a, auto b) { return rate[a] > rate[b]; });
+        at.resize(most_closings);
+        std::sort(at.begin(), at.end());
+      }
+      std::vector<float> pairs;
+      for (const std::size_t k : at) {
+        pairs.push_back(static_cast<float>(time_[k] - time_[0]));
+        pairs.push_back(static_cast<float>(rate[k] / damage_[segment]));
+      }
+      rows += fmt::format("{}{{\"segment\":{},\"pairs\":{}}}", rows.empty() ? "" : ",", segment,
+                          base64_of(pairs));
+    }
+    return '[' + rows + ']';
+  }
+
+  std::string program() const {
+    const auto step = life_.read<std::int32_t>("/program/step");
+    std::vector<double> begin, line;
+    for (std::size_t k = 0; k < step.size(); ++k)
+      if (k == 0 || step[k] != step[k - 1]) {
+        begin.push_back(time_[k] - time_[0]);
+        line.push_back(step[k]);
+      }
+    return fmt::format("{{\"text\":{},\"damage\":{},\"begin\":{},\"line\":{}}}",
+                       json(life_.read<std::string>("/program/text")),
+                       json(life_.read<double>("/program/damage")), json(begin), json(line));
+  }
+
+  const FileReader& life_;
+  const FileReader* strain_;
+  std::vector<double> time_, damage_;
+  std::vector<std::uint32_t> worst_site_;
+  Thinning thinning_;
+  std::optional<std::uint32_t> worst_;
+};
+
+}  // namespace
+
+std::string life_data(const FileReader& life, const FileReader* strain) { return Data(life, strain).text(); }
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,12 @@
+// Scripts and style of the pages with a 3D view. They stand as *.js and page.css in this folder and are
+// compiled in, so that a program carries its own.
+#pragma once
+
+#include <string_view>
+
+namespace dresslife::pipeline {
+
+std::string_view page_style();
+std::string_view page_scripts();
+
+}  // namespace dresslife::pipeline

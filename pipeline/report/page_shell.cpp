@@ -1,0 +1,66 @@
+#include "pipeline/report/page_shell.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "pipeline/files/digest.h"
+#include "pipeline/installation.h"
+#include "pipeline/report/page_assets.h"
+#include "pipeline/report/plot.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr std::string_view before_digest =
+    "<!DOCTYPE html>\n<html lang=\"en\">\n<!-- dresslife page made from ";
+constexpr std::size_t digest_digits = 32;
+
+/// Empty where it is not installed.
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return "";
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Both or nothing.
+std::string three_scripts() {
+  const std::string three = text_of(three_folder() / "three.min.js"),
+                    controls = text_of(three_folder() / "examples/js/controls/OrbitControls.js");
+  for (const std::string* text : {&three, &controls})
+    if (text->empty() || text->find("</script") != std::string::npos) return "";
+  return fmt::format("<script>{}</script>\n<script>{}</script>\n", three, controls);
+}
+
+}  // namespace
+
+std::filesystem::path three_folder() {
+  const char* const named = std::getenv("DRESSLIFE_THREE");
+  return named && *named ? named : "/usr/share/javascript/three";
+}
+
+std::string shell_digest() {
+  return xxh3(fmt::format("{}{}{}{}", page_style(), page_scripts(), three_scripts(), version()));
+}
+
+std::string whole_page(const std::string& title, const std::string& made_from, const std::string& body,
+                       const std::string& data) {
+  return fmt::format(
+      "{}{} -->\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}"
+      "<p class=\"soft\">dresslife {}</p>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
+      "{}<script>{}</script>\n</body>\n</html>\n",
+      before_digest, made_from, escaped(title), page_style(), body, version(), data, three_scripts(),
+      page_scripts());
+}
+
+std::string made_from_of(const std::filesystem::path& page) {
+  std::ifstream in(page, std::ios::binary);
+  std::string begin(before_digest.size() + digest_digits, '\0');
+  if (!in.read(begin.data(), static_cast<std::streamsize>(begin.size())) || !begin.starts_with(before_digest))
+    return "";
+  return begin.substr(before_digest.size());
+}
+
+}  // namespace dresslife::pipeline

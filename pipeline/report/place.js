@@ -1,0 +1,61 @@
+// The numbers of the chosen place of a dresspack.
+function dresspackOf(segment) {
+  return motion ?
+      motion.data.lines.findIndex(line => segment >= line.first_segment && segment < line.first_segment + line.segments) :
+      0;
+}
+// Its segment counted from the tool, 1 first, and the distance of its middle from there [m].
+function fromTool(segment) {
+  const own = life.segments.dresspack[segment];
+  let count = 1, distance = life.segments.length[segment] / 2;
+  for (let k = segment + 1; k < life.segments.length.length && life.segments.dresspack[k] === own; ++k, ++count)
+    distance += life.segments.length[k];
+  return {count, distance};
+}
+function placeWords(segment) {
+  const {count, distance} = fromTool(segment), hose = data.scene && data.scene.hoses[dresspackOf(segment)];
+  return `segment ${count} from the tool (${distance.toFixed(2)} m)${hose && hose.name ? ` of the ${hose.name}` : ''}`;
+}
+const wireWords = segment => life.segments.wire[segment] || 'its worst wire';
+
+function showPlace() {
+  const place = document.getElementById('place');
+  if (!place || !life || state.segment < 0) return;
+  const s = state.segment, segments = life.segments, damage = segments.damage[s], rows = [];
+  const row = (name, words, value) =>
+      rows.push(make('dt', {}, name), make('dd', value === undefined ? {} : {'data-name': name, 'data-value': value}, words));
+  const jump = (time, words) => button(words, `go to ${time.toFixed(2)} s`, () => setTime(time - begin), {class: 'link'});
+  row('damage',
+      damage > 0 ? `${readable(damage)} per repeat, ${readable(100 * damage / Math.max(...segments.damage))} % of the worst` :
+                   'none',
+      damage);
+  if (damage > 0) row('life', `${readable(life.repeat_seconds / 3600 / damage)} h, ${readable(1 / damage)} repeats`, 1 / damage);
+  row('worst wire', segments.wire[s] || 'none');
+  if (segments.largest_curvature) {
+    const curvature = segments.largest_curvature[s], when = segments.largest_curvature_time[s];
+    row('largest curvature',
+        make(
+            'span', {}, `${readable(curvature)} 1/m (radius ${readable(1 / curvature)} m) `,
+            jump(when, `at ${when.toFixed(2)} s`)),
+        curvature);
+    row('twist',
+        `${readable(segments.least_twist[s] * 180 / Math.PI)} .. ${readable(segments.largest_twist[s] * 180 / Math.PI)} deg/m`,
+        segments.largest_twist[s]);
+  }
+  if (segments.hose_damage)
+    row('hose\u2019s wall', `${readable(segments.hose_damage[s])} damage per repeat`, segments.hose_damage[s]);
+  rows.push(make('dt', {}, 'now'), make('dd', {id: 'now'}));
+  place.replaceChildren(
+      make('h2', {}, placeWords(s) + (s === life.worst_segment ? ': the worst' : '')),
+      make('dl', {'aria-live': 'polite'}, ...rows));
+  if (s !== life.worst_segment && life.worst_segment >= 0)
+    place.append(button('the worst place', 'choose the worst place', () => choose(life.worst_segment), {class: 'link'}));
+  showNow();
+}
+function showNow() {
+  const now = document.getElementById('now');
+  if (!now || !motion || !motion.group('curvature')) return;
+  const curvature = motion.row[motion.group('curvature').begin + state.segment],
+        twist = motion.row[motion.group('twist').begin + state.segment];
+  now.textContent = `curvature ${readable(curvature)} 1/m, twist ${readable(twist * 180 / Math.PI)} deg/m`;
+}

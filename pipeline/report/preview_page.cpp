@@ -1,0 +1,237 @@
+#include "pipeline/report/preview_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <limits>
+
+#include "pipeline/files/files.h"
+#include "pipeline/job/job_text.h"
+#include "pipeline/job/setup.h"
+#include "pipeline/report/cross_section.h"
+#include "pipeline/report/json.h"
+#include "pipeline/report/motion_data.h"
+#include "pipeline/report/page_shell.h"
+#include "pipeline/report/plot.h"
+#include "pipeline/report/scene_data.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// A length that was tried.
+struct Tried {
+  double length = 0, bend_radius = 0;  ///< [m]; bend radius 0: no rest was found
+};
+
+/// Dresspack between two of its clamps.
+struct SpanPreview {
+  std::string subject;  ///< "dresspack 'main hose' between clamps 1 and 2 of 3"
+  double length = 0;    ///< [m]
+  double least_way = 0, most_way = 0;
+  double here[2]{}, program[2]{};  ///< lengths that work [m]
+  double least_bend_radius = 0;    ///< allowed [m]
+  std::vector<Tried> tried;
+  bool hangs() const { return !(most_way > 0); }
+  bool works() const { return hangs() || (length >= program[0] && length <= program[1]); }
+};
+
+Setup setup_of(const FileReader& file) {
+  return setup_from(parse_yaml(file.text_attribute("job"), file.where().file + " (attribute job)"));
+}
+
+double allowed_bend_radius(const Dresspack& dresspack) {
+  return dresspack.least_bend_radius.value_or(10 * dresspack.diameter);
+}
+
+std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
+  const auto dresspacks = file.read<std::int32_t>("/span/dresspack");
+  const auto names = file.read<std::string>("/span/name");
+  const auto lengths = file.read<double>("/span/length"), ways = file.read<double>("/span/way"),
+             working = file.read<double>("/span/working_length");
+  std::vector<SpanPreview> spans(lengths.size());
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    SpanPreview& span = spans[k];
+    const auto dresspack = static_cast<std::size_t>(dresspacks[k]);
+    if (dresspack >= setup.dresspacks.size())
+      throw InputError(file.where(), fmt::format("/span/dresspack names dresspack {}", dresspack),
+                       "make the file anew");
+    span.subject = dresspack_words(setup, dresspack) + (names[k].empty() ? "" : " " + names[k]);
+    span.subject.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(span.subject.front())));
+    span.length = lengths[k];
+    span.least_way = std::numeric_limits<double>::infinity();
+    for (std::size_t at = k; at < ways.size(); at += spans.size()) {
+      span.least_way = std::min(span.least_way, ways[at]);
+      span.most_way = std::max(span.most_way, ways[at]);
+    }
+    for (std::size_t end = 0; end < 2; ++end) {
+      span.here[end] = working[4 * k + end];
+      span.program[end] = working[4 * k + 2 + end];
+    }
+    span.least_bend_radius = allowed_bend_radius(setup.dresspacks[dresspack].dresspack);
+  }
+  if (!file.has("/scan/span")) return spans;
+  const auto of = file.read<std::int32_t>("/scan/span");
+  const auto length = file.read<double>("/scan/length"), radius = file.read<double>("/scan/bend_radius");
+  for (std::size_t k = 0; k < of.size(); ++k)
+    spans.at(static_cast<std::size_t>(of[k])).tried.push_back({length[k], radius[k]});
+  return spans;
+}
+
+/// Lengths that are bent no harder at rest than allowed, or the one that is bent least.
+std::string bend_words(const SpanPreview& span) {
+  const Tried *first = nullptr, *last = nullptr, *best = nullptr;
+  for (const Tried& tried : span.tried) {
+    if (!(tried.bend_radius > 0)) continue;
+    if (!best || tried.bend_radius > best->bend_radius) best = &tried;
+    if (tried.bend_radius < span.least_bend_radius) continue;
+    if (!first) first = &tried;
+    last = &tried;
+  }
+  if (!best) return "";
+  const double allowed = 1e3 * span.least_bend_radius;
+  if (!first)
+    return fmt::format(
+        "; at rest none of them keeps the bend radius of {:.0f} mm that is allowed: {:.2f} m comes nearest "
+        "with {:.0f} mm "
+        "(turn the clamps toward each other, or move them apart)",
+        allowed, best->length, 1e3 * best->bend_radius);
+  return fmt::format(
+      "; at rest {:.2f} .. {:.2f} m keep the bend radius of {:.0f} mm that is allowed (motion bends more)",
+      first->length, last->length, allowed);
+}
+
+std::string words(const SpanPreview& span) {
+  if (span.hangs())
+    return fmt::format("{} hangs {:.3f} m long from its last clamp", span.subject, span.length);
+  return fmt::format(
+      "{} is {:.3f} m long between clamps that are {:.3f} .. {:.3f} m apart: {}. {:.2f} .. {:.2f} m work at "
+      "the first pose, "
+      "{:.2f} .. {:.2f} m over this program (with a slack of 2 % to a third where the clamps are farthest "
+      "apart){}",
+      span.subject, span.length, span.least_way, span.most_way,
+      span.works()                    ? "that works"
+      : span.length < span.program[0] ? "too short"
+                                      : "too long",
+      span.here[0], span.here[1], span.program[0], span.program[1], bend_words(span));
+}
+
+std::string scan_table(const std::vector<SpanPreview>& spans) {
+  std::string rows;
+  for (const SpanPreview& span : spans)
+    for (const Tried& tried : span.tried)
+      rows += fmt::format(
+          "<tr><td>{}</td><td class=\"number\">{:.2f} m</td><td class=\"number{}\">{}</td><td "
+          "class=\"number\">{:.0f} mm</td></tr>\n",
+          escaped(span.subject), tried.length, tried.bend_radius < span.least_bend_radius ? " failed" : "",
+          tried.bend_radius > 0 ? fmt::format("{:.0f} mm", 1e3 * tried.bend_radius) : "not found",
+          1e3 * span.least_bend_radius);
+  if (rows.empty()) return "";
+  return "<h2>Other lengths at rest</h2>\n<p class=\"soft\">Least bend radius in eight poses of the program, "
+         "with the dresspack's "
+         "weight, free of twist, without contact and speed.</p>\n<div "
+         "class=\"wide\"><table>\n<thead><tr><th>what</th><th "
+         "class=\"number\">length</th><th class=\"number\">least bend radius</th><th "
+         "class=\"number\">allowed</th></tr></thead>\n"
+         "<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+/// Where program lines begin; -1 before the program.
+std::string program_data(const FileReader& file) {
+  const auto time = file.read<double>("/time");
+  const auto step = file.read<std::int32_t>("/program/step");
+  std::vector<double> begin, line;
+  for (std::size_t k = 0; k < step.size(); ++k) {
+    const double here = time[k] < 0 ? -1 : step[k];
+    if (!line.empty() && line.back() == here) continue;
+    begin.push_back(time[k] - time[0]);
+    line.push_back(here);
+  }
+  return fmt::format("{{\"text\":{},\"begin\":{},\"line\":{}}}",
+                     json(file.read<std::string>("/program/text")), json(begin), json(line));
+}
+
+std::string ways_data(const FileReader& file, const std::vector<SpanPreview>& spans) {
+  const auto times = file.read<double>("/time"), ways = file.read<double>("/span/way");
+  std::string rows;
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    if (spans[k].hangs()) continue;
+    std::vector<double> own;
+    for (std::size_t at = k; at < ways.size(); at += spans.size()) own.push_back(ways[at]);
+    rows += fmt::format("{}{{\"name\":{},\"length\":{},\"ways\":{}}}", rows.empty() ? "" : ",",
+                        json(spans[k].subject), json(spans[k].length), json(own));
+  }
+  std::vector<double> since;
+  for (const double time : times) since.push_back(time - times[0]);
+  return fmt::format("{{\"time\":{},\"spans\":[{}]}}", json(since), rows);
+}
+
+/// Of "... at 151.040 s, program step 9 ...", as the simulation words its moments; not a number: it names
+/// none.
+double time_in(const std::string& failure) {
+  const std::size_t end = failure.find(" s, program step "),
+                    begin = end == std::string::npos ? end : failure.rfind(" at ", end);
+  double time = std::numeric_limits<double>::quiet_NaN();
+  if (begin != std::string::npos) std::from_chars(failure.data() + begin + 4, failure.data() + end, time);
+  return time;
+}
+
+}  // namespace
+
+std::vector<std::string> length_words(const std::filesystem::path& preview_file) {
+  const FileReader file(preview_file, preview_format());
+  std::vector<std::string> lines;
+  for (const SpanPreview& span : spans_of(file, setup_of(file))) lines.push_back(words(span));
+  return lines;
+}
+
+std::string refusal_of(const std::filesystem::path& preview_file) {
+  return FileReader(preview_file, preview_format(), FileReader::Scope::attributes).text_attribute("refusal");
+}
+
+std::string preview_page(const std::filesystem::path& preview_file, const std::string& name,
+                         const std::string& made_from, const std::string& failure) {
+  const FileReader file(preview_file, preview_format());
+  const Setup setup = setup_of(file);
+  const std::vector<SpanPreview> spans = spans_of(file, setup);
+  std::string refusal = file.text_attribute("refusal");
+  double refusal_time = file.has_attribute("refusal_time") ? file.number_attribute("refusal_time")
+                                                           : std::numeric_limits<double>::quiet_NaN();
+  if (refusal.empty() && !failure.empty()) {
+    refusal = failure;
+    refusal_time = time_in(failure);
+  }
+  std::vector<std::string> notes;
+  const std::string scene = scene_data(setup, notes);
+  const std::string data = fmt::format(
+      "{{\"title\":{},\"scene\":{},\"motion\":{},\"program\":{},\"preview\":{{\"refusal\":{},\"refusal_"
+      "time\":{},\"ways\":{}}}}}",
+      json(name), scene, motion_data(file, nullptr, setup), program_data(file), json(refusal),
+      json(refusal_time), ways_data(file, spans));
+  std::string body = fmt::format("<h1>{}: before the run</h1>\n", escaped(name));
+  body += refusal.empty() ? "<p>The simulation takes this job.</p>\n"
+                          : fmt::format("<p class=\"failed\" id=\"refusal\">{}</p>\n", escaped(refusal));
+  std::string well, ill;
+  for (const SpanPreview& span : spans)
+    (span.works() ? well : ill) += fmt::format("<p>{}.</p>\n", escaped(words(span)));
+  body += ill;
+  for (const std::string& note : notes) body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
+  body +=
+      "<div id=\"view\"></div>\n<p class=\"soft\">The dresspack is drawn as a smooth curve of its length "
+      "between its clamps, as the "
+      "search for its rest begins with: it does not sag, swing or touch yet.</p>\n<div class=\"beside\"><div "
+      "id=\"timeline\"></div>\n<div>\n";
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
+    body += fmt::format(
+        "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"></figure>\n",
+        escaped(setup.dresspacks[d].dresspack.name),
+        base64(cross_section_picture(setup.dresspacks[d].dresspack)));
+  body += "</div></div>\n" + well + scan_table(spans);
+  body += "<p class=\"soft\" id=\"shown\"></p>\n<details><summary>Settings</summary>\n<pre>" +
+          escaped(file.text_attribute("job")) + "</pre></details>\n";
+  return whole_page(name + ": before the run", made_from, body, data);
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,13 @@
+// Predicted beside measured: one line per observation on a common axis of lives, as a picture that stands alone (SVG).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/study/observations.h"
+
+namespace dresslife::pipeline {
+
+std::string validation_picture(const ValidationStudy& validation, const std::vector<RankingRow>& rows);
+
+}  // namespace dresslife::pipeline

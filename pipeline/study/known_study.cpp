@@ -1,0 +1,165 @@
+#include "pipeline/study/known_study.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <thread>
+
+#include "pipeline/files/digest.h"
+#include "pipeline/files/words.h"
+#include "pipeline/installation.h"
+#include "pipeline/study/relative_life.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path memory_of(const StudyPlaces& places) { return places.folder / ".stage" / "study"; }
+fs::path settings_of(const StudyPlaces& places, const std::string& job) { return places.job(job) / "job.yaml"; }
+
+/// Of whatever decides what a study expands to and is in no file that is looked at.
+std::string digest_of(const StudyRequest& request) {
+  Xxh3 digest;
+  const auto add = [&](const std::string& text) {  // lengths before texts: no two lists run into the same bytes
+    const std::string whole = fmt::format("{}:{}", text.size(), text);
+    digest.add(whole.data(), whole.size());
+  };
+  add(xxh3_of_file(program_file()));  // which expands it
+  add(fs::absolute(request.file).string());
+  add(fs::absolute(request.programs).string());
+  add(fs::current_path().string());
+  const char* const catalogue = std::getenv("DRESSLIFE_CONFIG");
+  add(catalogue ? catalogue : "");
+  for (const std::string& set : request.sets) add(set);
+  return digest.hex();
+}
+
+std::string noted(const std::string& found) { return found == "yes" || found == "no" ? found : xxh3(found); }
+
+constexpr std::string_view title = "dresslife study 1";
+
+/// Whether every look that a line tells of finds the same now.
+bool finds_the_same(Words& line) {
+  const auto kind = static_cast<Sources::Kind>(line.number<int>(' '));
+  const std::string_view found = line.until(' ');
+  return noted(Sources::found_at(kind, line.until('\n'))) == found;
+}
+
+JobState state_from(Words& line, std::string& name, FileState& settings) {
+  JobState state;
+  name = line.until(' ');
+  state.settings = line.until(' ');
+  for (std::string& recipe : state.recipes) recipe = line.until(' ');
+  settings.size = line.number<std::int64_t>(' ');
+  settings.modified_ns = line.number<std::int64_t>(' ');
+  settings.changed_ns = line.number<std::int64_t>(' ');
+  settings.inode = line.number<std::uint64_t>('\n');
+  return state;
+}
+
+std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces& places) {
+  std::error_code failure;
+  if (!fs::is_regular_file(memory_of(places), failure)) return std::nullopt;
+  const std::string text = read_text(memory_of(places));
+  const std::int64_t written = state_of(memory_of(places)).changed_ns;
+  Words lines(text);
+  if (lines.until('\n') != title) return std::nullopt;
+  const std::string_view digest = lines.until('\n');
+  if (digest != xxh3(std::string_view(text).substr(std::min(text.size(), title.size() + digest.size() + 2))))
+    return std::nullopt;
+  if (lines.until('\n') != digest_of(request)) return std::nullopt;
+  Standing standing{{places.folder.filename().string(), {}}, places, {}, true};
+  while (lines.any()) {
+    const std::string_view what = lines.until(' ');
+    if (what == "look") {
+      if (!finds_the_same(lines)) return std::nullopt;
+    } else if (what == "digest") {
+      const std::string_view was = lines.until(' ');
+      if (standing.digests.of(lines.until('\n')) != was) return std::nullopt;
+    } else {
+      StudyJob& job = standing.study.jobs.emplace_back();
+      FileState settings;
+      standing.states.push_back(state_from(lines, job.name, settings));
+      if (settings.changed_ns >= written || state_of(settings_of(places, job.name)) != settings) return std::nullopt;
+    }
+  }
+  look_again(standing);
+  return standing;
+}
+
+/// What a look or a digest was of stands at the end of a line.
+bool fits_a_line(const std::string& path) { return path.find('\n') == std::string::npos; }
+
+/// Nothing of a study that would not be read back as it is.
+std::optional<std::string> text_of(const StudyRequest& request, const Standing& standing) {
+  std::string text = digest_of(request) + '\n';
+  for (const auto& [look, found] : standing.looks) {
+    if (!fits_a_line(look.second)) return std::nullopt;
+    text += fmt::format("look {} {} {}\n", static_cast<int>(look.first), noted(found), look.second);
+  }
+  for (const auto& [file, digest] : standing.digests.all()) {
+    if (!fits_a_line(file.string())) return std::nullopt;
+    text += fmt::format("digest {} {}\n", digest, file.string());
+  }
+  for (std::size_t k = 0; k < standing.states.size(); ++k) {
+    const StudyJob& job = standing.study.jobs[k];
+    const JobState& state = standing.states[k];
+    // Of what has ratings their rigs follow from the jobs themselves, which are not noted.
+    if (!job.failure.empty() || (job.job && has_ratings(*job.job))) return std::nullopt;
+    const FileState settings = state_of(settings_of(standing.places, job.name));
+    text += fmt::format("job {} {} {} {} {} {} {} {} {}\n", job.name, state.settings, state.recipes[0],
+                        state.recipes[1], state.recipes[2], settings.size, settings.modified_ns,
+                        settings.changed_ns, settings.inode);
+  }
+  return fmt::format("{}\n{}\n", title, xxh3(text)) + text;
+}
+
+}  // namespace
+
+bool Standing::all_done() const {
+  return std::all_of(states.begin(), states.end(), [](const JobState& state) { return state.done(); });
+}
+
+void look_again(Standing& standing) {
+  for (std::size_t k = 0; k < standing.states.size(); ++k)
+    if (const StudyJob& job = standing.study.jobs[k]; job.failure.empty())
+      look_at(standing.states[k], standing.places.job(job.name));
+}
+
+Standing expanded(const StudyRequest& request) {
+  Sources sources;
+  Standing standing;
+  standing.study = read_study(request.file, request.sets);
+  standing.places = {request.out / standing.study.name, request.programs};
+  standing.states = states_of(standing.study, standing.places, standing.digests);
+  standing.looks = sources.take();
+  return standing;
+}
+
+Standing standing_of(const StudyRequest& request) {
+  const StudyPlaces places{request.out / study_name(request.file), request.programs};
+  if (std::optional<Standing> standing = recalled(request, places)) return std::move(*standing);
+  return expanded(request);
+}
+
+void remember(const StudyRequest& request, const Standing& standing) {
+  const fs::path memory = memory_of(standing.places);
+  const std::optional<std::string> text = text_of(request, standing);
+  if (!text) {
+    fs::remove(memory);
+    return;
+  }
+  // Younger than every job.yaml by the file system's clock, which ticks every 1 .. 10 ms.
+  std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  write_text_if_changed(memory, *text, Sync::never);
+  ::utimensat(AT_FDCWD, memory.c_str(), nullptr, 0);
+}
+
+}  // namespace dresslife::pipeline

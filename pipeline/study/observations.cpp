@@ -1,0 +1,230 @@
+#include "pipeline/study/observations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "pipeline/job/catalogue.h"
+#include "pipeline/job/fields.h"
+#include "pipeline/job/job.h"
+#include "pipeline/readable.h"
+
+namespace dresslife::pipeline {
+
+void describe(Fields& f, Observation& observation) {
+  f.text("name", observation.name, Need::required, "short, fit for a folder");
+  f.text("what", observation.what, Need::required, "what was done to what, in words");
+  f.text("source", observation.source, Need::required, "where it was observed");
+  f.text("note", observation.note, Need::optional, "what is not known, and how it is varied");
+  f.maybe_number("cycles", observation.cycles, above(0), "that it lived");
+  f.maybe_number("hours", observation.hours, above(0), "of motion that it lived, instead of cycles");
+  f.number("cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
+           "that the observer counts in one repeat of the job's motion: 2 where single strokes are counted");
+  f.choice("outcome", observation.outcome,
+           "broken: so long it lived; broken_by: no specimen lived longer; run_out: it had not failed then; rating: "
+           "its maker promises so much");
+  f.choice("criterion", observation.criterion,
+           "what counted as failed: first_wire, or conductor (a share of its wires at one place, fatigue.failed_wires_percent)");
+  f.integer("specimens", observation.specimens, Need::optional, between(1, 1e6), "that were tried");
+}
+
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr std::size_t most_variants = 1000;
+
+bool fits_a_folder(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char letter) {
+    return std::isalnum(letter) || letter == '_';
+  });
+}
+
+struct Variant {
+  std::string name;
+  std::vector<std::pair<const Entry*, const Node*>> changes;
+};
+
+std::vector<Variant> combinations(const Node* vary, const std::string& name) {
+  std::vector<Variant> variants{{name, {}}};
+  if (!vary) return variants;
+  if (!vary->is_map())
+    throw InputError(vary->where, "vary must be a map of keys to lists of values", "write {KEY.PATH: [A, B]}");
+  for (const Entry& key : vary->entries) {
+    if (!key.value.is_list() || key.value.items.empty())
+      throw InputError(key.where, fmt::format("vary.{} must be a list of values", key.key), "write [A, B, ...]");
+    std::vector<Variant> longer;
+    for (const Variant& variant : variants)
+      for (std::size_t i = 0; i < key.value.items.size(); ++i) {
+        longer.push_back(variant);
+        longer.back().name += fmt::format("-{}", i + 1);
+        longer.back().changes.emplace_back(&key, &key.value.items[i]);
+      }
+    variants = std::move(longer);
+    if (variants.size() > most_variants)
+      throw InputError(key.where, fmt::format("an observation has more than {} variants", most_variants),
+                       "name fewer values");
+  }
+  return variants;
+}
+
+Observation read_one(const Node& item) {
+  if (!item.is_map()) throw InputError(item.where, "an observation must be a map", "write name, job, cycles, source");
+  Node plain = item;
+  std::erase_if(plain.entries, [](const Entry& e) { return e.key == "job" || e.key == "vary"; });
+  Observation observation;
+  read_fields(plain, observation);
+  if (!fits_a_folder(observation.name))
+    throw InputError(item.where, fmt::format("name '{}' is not made of letters, digits and _", observation.name),
+                     "choose another name");
+  if (observation.cycles.has_value() == observation.hours.has_value())
+    throw InputError(item.where, fmt::format("'{}' must have either cycles or hours", observation.name),
+                     "give one of the two");
+  if (!item.find("job"))
+    throw InputError(item.where, fmt::format("'{}' has no job (what was done to it)", observation.name),
+                     "give a job, or the file of one");
+  return observation;
+}
+
+}  // namespace
+
+ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  const Node document = read_yaml(file);
+  const Node* list = document.is_map() ? document.find("observations") : nullptr;
+  if (!list || !list->is_list() || list->items.empty())
+    throw InputError(document.where, "holds no observations", "write 'observations:' and a list");
+  for (const Entry& entry : document.entries)
+    if (entry.key != "observations")
+      throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key), "leave it out");
+  ValidationStudy made;
+  made.study.name = "validate_" + file.stem().string();
+  std::set<std::string> names;
+  for (const Node& item : list->items) {
+    Observation observation = read_one(item);
+    if (!names.insert(observation.name).second)
+      throw InputError(item.where, fmt::format("two observations are named '{}'", observation.name),
+                       "give each another name");
+    const Node& written = *item.find("job");
+    const Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where)
+                                          : written;
+    for (const Variant& variant : combinations(item.find("vary"), observation.name)) {
+      StudyJob job;
+      job.name = variant.name;
+      try {
+        Node changed = base;
+        for (const auto& [key, value] : variant.changes) set_value(changed, key->key, *value, key->where);
+        job.job = std::make_shared<const Job>(job_from(std::move(changed), sets));
+      } catch (const InputError& problem) {
+        job.failure = problem.what();
+      }
+      observation.jobs.push_back(made.study.jobs.size());
+      made.study.jobs.push_back(std::move(job));
+    }
+    made.observations.push_back(std::move(observation));
+  }
+  return made;
+}
+
+Prediction predicted(const Observation& observation, const Study& study, const std::vector<RankingRow>& rows) {
+  Prediction prediction;
+  prediction.low = prediction.stuck = endless;
+  std::vector<double> medians;
+  for (const std::size_t index : observation.jobs) {
+    const std::string& name = study.jobs[index].name;
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& r) { return r.job == name; });
+    ++prediction.variants;
+    if (row == rows.end() || !row->done()) {
+      if (prediction.failure.empty()) prediction.failure = row == rows.end() ? "not computed" : row->failure;
+      ++prediction.failed;
+      continue;
+    }
+    const auto& hours = observation.criterion == FailureCriterion::first_wire ? row->first_wire_hours
+                        : row->planned()                                      ? row->planned_hours
+                                                                              : row->conductor_hours;
+    const double unit = observation.hours ? 1 : 3600 / row->repeat_seconds * observation.cycles_per_repeat;
+    const double bound = observation.hours ? row->repeat_seconds / 3600 : observation.cycles_per_repeat;
+    // Where nothing is damaged there is no scatter to tell.
+    const auto life = [&](double value) { return std::isnan(value) ? endless : value * unit; };
+    prediction.low = std::min(prediction.low, life(hours[0]));
+    prediction.high = std::max(prediction.high, life(hours[2]));
+    medians.push_back(life(hours[1]));
+    prediction.stuck = std::min(prediction.stuck, row->life_repeats_all_stick * bound);
+    prediction.free = std::max(prediction.free, row->life_repeats_all_free * bound);
+  }
+  std::sort(medians.begin(), medians.end());
+  if (medians.empty()) return prediction;
+  prediction.shortest = medians.front();
+  prediction.median = medians[medians.size() / 2];
+  prediction.longest = medians.back();
+  return prediction;
+}
+
+Judgement judged(const Observation& observation, const Prediction& prediction) {
+  const double life = observation.cycles ? *observation.cycles : *observation.hours;
+  const bool above = bounds_above(observation.outcome), below = bounds_below(observation.outcome);
+  if (below && prediction.high < life) return {Agreement::too_short, life / prediction.high};
+  if (above && prediction.low > life) return {Agreement::too_long, prediction.low / life};
+  if (below && above) return {Agreement::agrees, 1};
+  const bool all = below ? prediction.shortest >= life : prediction.longest <= life;
+  return {all ? Agreement::agrees : Agreement::open, 1};
+}
+
+std::string words_of(const Judgement& judgement) {
+  const auto by = [&](const char* what) {
+    return std::isinf(judgement.factor) ? fmt::format("MISS: {}, for ever", what)
+                                        : fmt::format("MISS: {} by {}", what, readable(judgement.factor, 2));
+  };
+  switch (judgement.agreement) {
+    case Agreement::agrees:
+      return "agrees";
+    case Agreement::open:
+      return "open";
+    case Agreement::too_short:
+      return by("too short");
+    case Agreement::too_long:
+      return by("too long");
+  }
+  return {};
+}
+
+namespace {
+
+std::string life_text(double life) { return std::isinf(life) ? "no damage" : readable(life, 2); }
+
+std::string observed_text(const Observation& observation) {
+  const char* sign = observation.outcome == ObservedEnd::broken      ? ""
+                     : observation.outcome == ObservedEnd::broken_by ? "at most "
+                                                                     : "at least ";
+  const double life = observation.cycles ? *observation.cycles : *observation.hours;
+  return fmt::format("{}{}{}", sign, readable(life, 3), observation.hours ? " h" : "");
+}
+
+}  // namespace
+
+std::string validation_table(const ValidationStudy& validation, const std::vector<RankingRow>& rows) {
+  std::string text =
+      "| observation | what | observed | predicted, medians of the variants | 10 .. 90 % over all | inside stuck .. free | |\n"
+      "|---|---|---|---|---|---|---|\n";
+  for (const Observation& observation : validation.observations) {
+    const Prediction prediction = predicted(observation, validation.study, rows);
+    if (prediction.failed > 0) {
+      text += fmt::format("| {} | {} | {} | {} of {} variants failed: {} | | | |\n", observation.name, observation.what,
+                          observed_text(observation), prediction.failed, prediction.variants, prediction.failure);
+      continue;
+    }
+    const std::string medians =
+        prediction.variants == 1
+            ? life_text(prediction.median)
+            : fmt::format("{} .. {} ({})", life_text(prediction.shortest), life_text(prediction.longest),
+                          prediction.variants);
+    text += fmt::format("| {} | {} | {}, {} | {} | {} .. {} | {} .. {} | {} |\n", observation.name, observation.what,
+                        observed_text(observation), word(observation.outcome), medians, life_text(prediction.low),
+                        life_text(prediction.high), life_text(prediction.stuck), life_text(prediction.free),
+                        words_of(judged(observation, prediction)));
+  }
+  return text;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,121 @@
+// What was observed of cables and wires, held against what the model says: a table of observations, each with the job
+// that does to the model's cable what was done to the real one, and what of it is not known, over its range.
+//
+//   observations:
+//     - name: wenglor_chain
+//       job: {motion: {rig: {...}}, dresspack: {cable: {...}}}      a job, or a file of one
+//       vary: {fatigue.material: [copper_halved, copper_annealed]}  what is not known; every combination becomes a job
+//       cycles: 2e+6                                                or hours
+//       outcome: rating
+//       source: ...
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/study/ranking.h"
+#include "pipeline/study/study.h"
+
+namespace dresslife::pipeline {
+
+class Fields;
+
+/// broken: so long it lived; broken_by: no specimen lived longer; run_out: it had not failed then; rating: its maker
+/// promises so much.
+enum class ObservedEnd { broken, broken_by, run_out, rating };
+constexpr std::string_view word(ObservedEnd value) {
+  switch (value) {
+    case ObservedEnd::broken:
+      return "broken";
+    case ObservedEnd::broken_by:
+      return "broken_by";
+    case ObservedEnd::run_out:
+      return "run_out";
+    case ObservedEnd::rating:
+      return "rating";
+  }
+  return {};
+}
+/// Whether the true life is known not to be longer, and known not to be shorter.
+constexpr bool bounds_above(ObservedEnd value) {
+  switch (value) {
+    case ObservedEnd::broken:
+    case ObservedEnd::broken_by:
+      return true;
+    case ObservedEnd::run_out:
+    case ObservedEnd::rating:
+      return false;
+  }
+  return false;
+}
+constexpr bool bounds_below(ObservedEnd value) {
+  switch (value) {
+    case ObservedEnd::broken:
+    case ObservedEnd::run_out:
+    case ObservedEnd::rating:
+      return true;
+    case ObservedEnd::broken_by:
+      return false;
+  }
+  return false;
+}
+
+/// What had to happen for it to count as failed: a wire, or a share of a conductor's (fatigue.failed_wires_percent).
+enum class FailureCriterion { first_wire, conductor };
+constexpr std::string_view word(FailureCriterion value) {
+  switch (value) {
+    case FailureCriterion::first_wire:
+      return "first_wire";
+    case FailureCriterion::conductor:
+      return "conductor";
+  }
+  return {};
+}
+
+struct Observation {
+  std::string name, what, source, note;
+  std::optional<double> cycles, hours;  ///< one of them [cycles, h]
+  double cycles_per_repeat = 1;         ///< that the observer counts in one repeat of the job's motion
+  ObservedEnd outcome = ObservedEnd::broken;
+  FailureCriterion criterion = FailureCriterion::conductor;
+  int specimens = 1;
+  std::vector<std::size_t> jobs;  ///< of the study that are its variants
+};
+void describe(Fields& f, Observation& observation);
+
+struct ValidationStudy {
+  Study study;
+  std::vector<Observation> observations;
+};
+
+/// Errors: InputError at the place in the file. A variant that cannot be is told in its job's failure.
+ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets);
+
+/// What the model says over all variants, in the observer's unit. Lives are infinite where there is no damage.
+struct Prediction {
+  double low = 0, high = 0;    ///< 10 % of the shortest-lived variant, 90 % of the longest-lived
+  double shortest = 0, median = 0, longest = 0;  ///< medians of the variants
+  double stuck = 0, free = 0;  ///< bounds of the worst wire, the least and the largest of all variants
+  int variants = 0, failed = 0;
+  std::string failure;  ///< of the first variant that did
+};
+Prediction predicted(const Observation& observation, const Study& study, const std::vector<RankingRow>& rows);
+
+enum class Agreement { agrees, too_short, too_long, open };
+/// agrees: every variant's median, or for a life that is known both ways the range, is within what was observed.
+/// too_short, too_long: no variant is. open: some are: it hangs on what is not known. factor: to the nearest end of
+/// the range by which it misses; 1 within.
+struct Judgement {
+  Agreement agreement = Agreement::open;
+  double factor = 1;
+};
+Judgement judged(const Observation& observation, const Prediction& prediction);
+std::string words_of(const Judgement& judgement);
+
+/// The comparison as a Markdown table.
+std::string validation_table(const ValidationStudy& validation, const std::vector<RankingRow>& rows);
+
+}  // namespace dresslife::pipeline

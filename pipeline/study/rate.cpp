@@ -1,0 +1,206 @@
+#include "pipeline/study/rate.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "pipeline/job/cable.h"
+#include "pipeline/job/catalogue.h"
+#include "pipeline/job/fields.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/units.h"
+#include "pipeline/readable.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool tells_friction(const Node& component) {
+  const Node* parts = component.find("components");
+  return !parts || std::all_of(parts->items.begin(), parts->items.end(), [](const Node& part) {
+    return part.find("friction_coefficient") && part.find("radial_line_load_N_per_m") && tells_friction(part);
+  });
+}
+
+std::string fit_for_a_folder(std::string text) {
+  for (char& letter : text)
+    if (!std::isalnum(static_cast<unsigned char>(letter)) && letter != '-') letter = '_';
+  return text;
+}
+
+class Maker {
+ public:
+  Maker(const fs::path& file, const std::vector<std::string>& sets) : file_(file), sets_(sets) {}
+
+  RateStudy make(const fs::path& rigs) {
+    made_.study.name = "rate_" + fit_for_a_folder(file_.stem().string());
+    Node job;  // only to look up what the dresspack names
+    job.where = {file_.string()};
+    job["dresspack"] = read_yaml(file_);
+    const Node& written = *job.find("dresspack");
+    if (!written.is_map() || written.find("motion"))
+      throw InputError({file_.string()}, "holds no dresspack and no cable", "name a file of the keys of job.dresspack");
+    resolve_job(job);
+    const Node dresspack = *job.find("dresspack");
+    const std::vector<std::string> cables = cables_of(dresspack);
+    if (cables.empty())
+      throw InputError({file_.string()}, "holds no cable (a part that holds parts)", "name another dresspack");
+    for (const std::string& cable : cables) add_cable(dresspack, cable, cables.size() > 1, rigs);
+    return std::move(made_);
+  }
+
+ private:
+  void add_cable(const Node& dresspack, const std::string& name, bool among_others, const fs::path& rigs) {
+    const Node cable = cable_alone(dresspack, name, {file_.string()});
+    const std::string prefix = among_others ? fit_for_a_folder(name) + "-" : "";
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(rigs))
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) {
+      Node job = read_yaml(file);
+      const Node* motion = job.find("motion");
+      const Node* words = motion ? motion->find("name") : nullptr;
+      add({prefix + file.stem().string(), name, words ? words->text : file.stem().string(), 0, ""}, std::move(job),
+          cable);
+    }
+    const Node* ratings = cable.find("components")->items.front().find("ratings");
+    int number = 0;
+    for (const Node& written : ratings ? ratings->items : std::vector<Node>{}) {
+      Rating rating;
+      read_fields(written, rating);
+      Node job;
+      job.kind = Node::Kind::map;
+      job.where = written.where;
+      job["motion"]["rig"] = *written.find("rig");
+      add({fmt::format("{}rating_{}", prefix, ++number), name, rig_words(rating.rig), rating.cycles, rating.source},
+          std::move(job), cable);
+    }
+  }
+
+  void add(RatedTest test, Node job, const Node& cable) {
+    StudyJob made;
+    made.name = test.job;
+    job["dresspack"] = cable;
+    job["strain"]["slip"] = parse_yaml(slip_of_cable(cable), file_.string());
+    try {
+      made.job = std::make_shared<const Job>(job_from(std::move(job), sets_));
+    } catch (const InputError& problem) {
+      made.failure = problem.what();
+    }
+    made_.study.jobs.push_back(std::move(made));
+    made_.tests.push_back(std::move(test));
+  }
+
+  fs::path file_;
+  std::vector<std::string> sets_;
+  RateStudy made_;
+};
+
+std::string count_text(double cycles) {
+  return std::isnan(cycles) ? "-" : std::isinf(cycles) ? "no damage" : readable(cycles);
+}
+
+const RankingRow* row_of(const std::vector<RankingRow>& rows, const std::string& job) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& row) { return row.job == job; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+std::string quoted(const std::string& text) {
+  std::string cell = "\"";
+  for (const char letter : text) cell += letter == '"' ? "\"\"" : std::string(1, letter);
+  return cell + '"';
+}
+
+/// "respected" where half of such cables reach what the maker promises.
+std::string verdict(double rated, double predicted) {
+  if (rated == 0 || std::isnan(predicted)) return "";
+  if (predicted >= rated) return "respected";
+  return fmt::format("missed by {}", readable(rated / predicted, 2));
+}
+
+}  // namespace
+
+int levels_of(const Node& component) {
+  int depth = 0;
+  if (const Node* parts = component.find("components"))
+    for (const Node& part : parts->items) depth = std::max(depth, levels_of(part));
+  return depth + 1;
+}
+
+std::string slip_of_cable(const Node& alone) {
+  const Node& cable = alone.find("components")->items.front();
+  const bool rubs = tells_friction(cable);
+  std::vector<std::string> words{"free"};
+  for (int level = 1; level < levels_of(cable); ++level) words.push_back(rubs ? "friction" : "free");
+  return fmt::format("[{}]", fmt::join(words, ", "));
+}
+
+std::string rig_words(const Rig& rig) {
+  const Node keys = echo_fields(rig);
+  std::vector<std::string> words;
+  for (const Entry& entry : keys.entries)
+    if (entry.key != "kind" && entry.key != "cycles_per_minute") words.push_back(entry.key + " " + entry.value.text);
+  return fmt::format("{}: {}", word(rig.kind), fmt::join(words, ", "));
+}
+
+RateStudy rate_study(const fs::path& file, const fs::path& rigs, const std::vector<std::string>& sets) {
+  return Maker(file, sets).make(rigs);
+}
+
+CycleLives cycles_of(const RankingRow& row) {
+  CycleLives lives{row.life_repeats, row.life_repeats_all_stick, row.life_repeats_all_free, {}};
+  for (std::size_t i = 0; i < 3; ++i) lives.conductor[i] = (row.planned() ? row.planned_hours : row.conductor_hours)[i] * 3600 / row.repeat_seconds;
+  return lives;
+}
+
+std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows) {
+  std::string text, cable;
+  for (const RatedTest& test : rated.tests) {
+    if (test.cable != cable) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", test.cable);
+    if (test.cable != cable)
+      text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", "rig", "cycles", "10 .. 90 %", "inside stuck .. free",
+                          "maker");
+    cable = test.cable;
+    const RankingRow* row = row_of(rows, test.job);
+    if (!row || !row->done()) {
+      text += fmt::format("  {:<46} {}\n", shortened(test.rig, 46), row ? row->failure : "not computed");
+      continue;
+    }
+    const CycleLives lives = cycles_of(*row);
+    std::string maker = test.rated_cycles > 0 ? readable(test.rated_cycles) : "";
+    if (const std::string words = verdict(test.rated_cycles, lives.conductor[1]); !words.empty())
+      maker += " (" + words + ")";
+    text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", shortened(test.rig, 46), count_text(lives.conductor[1]),
+                        count_text(lives.conductor[0]) + " .. " + count_text(lives.conductor[2]),
+                        count_text(lives.all_stick) + " .. " + count_text(lives.all_free), maker);
+  }
+  return text + "\ncycles: by which half of such cables have a conductor that lost its share of wires "
+                "(fatigue.failed_wires_percent) at one place, 10 .. 90 % of them by scatter;\nbounds: of the worst wire. rolling_flex: round trips.\n";
+}
+
+std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows) {
+  std::string text =
+      "cable,job,rig,status,cycles_p10,cycles_p50,cycles_p90,worst_wire_cycles,cycles_all_stick,cycles_all_free,"
+      "rated_cycles,source\n";
+  for (const RatedTest& test : rated.tests) {
+    const RankingRow* row = row_of(rows, test.job);
+    const bool done = row && row->done();
+    std::vector<std::string> cells{quoted(test.cable), quoted(test.job), quoted(test.rig),
+                                   done ? "done" : quoted(row ? row->failure : "to do")};
+    const CycleLives lives = done ? cycles_of(*row) : CycleLives{};
+    for (const double value : {lives.conductor[0], lives.conductor[1], lives.conductor[2], lives.worst_wire,
+                               lives.all_stick, lives.all_free})
+      cells.push_back(done && !std::isnan(value) ? shortest_text(value) : "");
+    cells.push_back(test.rated_cycles > 0 ? shortest_text(test.rated_cycles) : "");
+    cells.push_back(quoted(test.source));
+    text += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  return text;
+}
+
+}  // namespace dresslife::pipeline

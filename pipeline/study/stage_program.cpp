@@ -1,0 +1,42 @@
+#include "pipeline/study/stage_program.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "pipeline/errors.h"
+#include "pipeline/installation.h"
+
+namespace dresslife::pipeline {
+
+int run_stage_program(const std::string& program, const std::vector<std::string>& arguments) {
+  const std::string file = (program_folder() / program).string();
+  std::vector<char*> words{const_cast<char*>(file.c_str())};
+  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  constexpr int not_there = 127;
+  std::fflush(nullptr);
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() == parent) ::execv(file.c_str(), words.data());
+    ::_exit(not_there);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) != not_there) return WEXITSTATUS(status);
+  throw InputError(
+      {file},
+      WIFSIGNALED(status) ? fmt::format("was killed by signal {}", WTERMSIG(status)) : "cannot be started",
+      "install dresslife's programs into one folder, and look for what kills them");
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,12 @@
+// The memory of a simulation, known when its motion is (pipeline/memory.h).
+#pragma once
+
+#include "pipeline/memory.h"
+
+namespace dresslife::sim {
+
+class Simulation;
+
+pipeline::MemoryNeed memory_of(const Simulation& simulation);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,155 @@
+#include "strain/memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "pipeline/errors.h"
+#include "pipeline/files/files.h"
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job.h"
+#include "pipeline/limits.h"
+#include "strain/construction.h"
+#include "strain/history.h"
+#include "strain/slip.h"
+#include "strain/strain_file.h"
+
+namespace dresslife::strain {
+namespace {
+
+constexpr double value = sizeof(double);
+
+/// Counts of one dresspack's construction.
+struct Counts {
+  double widest_bundle = 0, bundles = 0, cables = 0, rubbing = 0, loose = 0;
+  double clamp_rows = 0;  ///< histories of what slides from clamp to clamp, in the job and in both bounds
+  double depth = 0;       ///< levels
+  double most_fibres = 1;
+};
+
+Counts counts_of(const pipeline::Dresspack& dresspack, const pipeline::Strain& settings, double length) {
+  const Construction construction(dresspack, settings.kinematics);
+  const auto own = plan_slip(construction, settings.slip, length);
+  const auto free = plan_slip(construction, {pipeline::Slip::free}, length);
+  Counts counts;
+  counts.depth = construction.levels();
+  counts.bundles = static_cast<double>(construction.bundles().size());
+  counts.most_fibres = std::max(1, settings.surface_fibres);
+  for (const Bundle& bundle : construction.bundles()) {
+    double wires = 0;
+    for (const int k : bundle.wire_layers) {
+      wires += construction.layers()[k].count;
+      for (const auto* plan : {&own, &free})
+        if ((*plan)[k].sliding == Sliding::clamp_to_clamp) counts.clamp_rows += waves_per_layer;
+    }
+    counts.widest_bundle = std::max(counts.widest_bundle, wires);
+  }
+  for (const Part& part : construction.parts()) {
+    const Layer& layer = construction.layers()[part.layer];
+    if (layer.is_cable()) {
+      counts.rubbing += pipeline::rubs(settings.slip.front()) && (layer.friction > 0 || layer.jacket_stiffness > 0);
+      counts.cables += 1;
+      counts.loose += free[part.layer].loose;
+      continue;
+    }
+    for (const auto* plan : {&own, &free})
+      if ((*plan)[part.layer].sliding == Sliding::clamp_to_clamp) counts.clamp_rows += 1;
+  }
+  return counts;
+}
+
+/// Parts of all levels and wires below these components, counted and not listed.
+struct Parts {
+  double parts = 0, wires = 0;
+};
+Parts parts_in(const std::vector<pipeline::Component>& components) {
+  Parts sum;
+  for (const pipeline::Component& component : components) {
+    const Parts inside = parts_in(component.components);
+    const bool is_wire = component.components.empty();
+    sum.parts += component.count * (is_wire ? 0 : 1 + inside.parts);
+    sum.wires += component.count * (is_wire ? 1 : inside.wires);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void check_counts(const pipeline::Where& where, double samples, double sites) {
+  if (!(samples <= most_numbered))
+    throw pipeline::InputError(where,
+                               fmt::format("holds {:.4g} samples (strain.h5 numbers at most {:.0f})", samples,
+                                           most_numbered),
+                               "choose a lower simulation.sample_rate_Hz, or split the motion");
+  if (!(sites <= most_numbered))
+    throw pipeline::InputError(
+        where,
+        fmt::format("has {:.4g} sites, fibres of wires in segments (strain.h5 numbers at most {:.0f})", sites,
+                    most_numbered),
+        "choose fewer simulation.segments or strain.surface_fibres, or split the dresspack");
+}
+
+pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job, std::size_t threads) {
+  constexpr double program = 22 << 20;  // itself, its libraries and a job
+  const std::size_t samples = motion.rows("/time"), segments = motion.rows("/segment/length");
+  const double rows = static_cast<double>(samples), workers = static_cast<double>(threads);
+  const std::vector<double> lengths = motion.read<double>("/segment/length");
+  pipeline::MemoryNeed need;
+  need.add(program, "the program");
+  if (samples == 0 || segments == 0) return need;  // write_strain() tells of it
+
+  // Of each span: lists of parts and wires with their names.
+  double sites = 0, listed = 0;
+  constexpr double of_a_part = 400, of_a_wire = 120;
+  const std::vector<pipeline::MotionSpan> spans = pipeline::motion_spans(motion);
+  for (const pipeline::MotionSpan& span : spans) {
+    if (span.dresspack >= job.dresspacks.size()) continue;  // write_strain() tells of it
+    const Parts parts = parts_in(job.dresspacks[span.dresspack].dresspack.components);
+    sites += static_cast<double>(span.segments) * parts.wires * std::max(1, job.strain.surface_fibres);
+    listed += of_a_part * parts.parts + of_a_wire * parts.wires;
+  }
+  check_counts(motion.where(), rows, sites);
+  need.add(listed, "parts and wires", "fewer of them (dresspack.components)");
+  if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb())) return need;  // too many to be listed
+
+  double cable_rows = 0, part_rows = 0, found = 0;
+  for (const pipeline::MotionSpan& span : spans) {
+    if (span.dresspack >= job.dresspacks.size()) continue;
+    const double length = std::accumulate(lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment),
+                                          lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment + span.segments),
+                                          0.0);
+    const Counts counts = counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, length);
+    const double in_span = static_cast<double>(span.segments);
+    // Strain and force of each cable; strain and pressing along one that rubs, curvature along a loose one
+    // (cable_paths.h).
+    cable_rows += 2 * counts.cables + in_span * (1.5 * counts.rubbing + counts.loose);
+    part_rows = std::max(part_rows, counts.clamp_rows);
+    // A thread's states of a part and of its parent, and what friction holds of every level.
+    constexpr double states = 4, in_single = 3, turned = 1 + phases_per_pitch;
+    found = std::max(found, workers * (2 * states * (counts.depth + 1) + in_single + counts.depth * turned));
+    // Bundles that wait to be written: every site's turning points, in lists and in rows (evaluation.cpp).
+    constexpr double turns_of_samples = 0.25, point = 16;
+    const double ahead = threads == 1 ? 1 : std::min(counts.bundles, 2 * workers);
+    found = std::max(found, ahead * counts.widest_bundle * counts.most_fibres * turns_of_samples * point / value);
+  }
+  const std::string sampling = "a lower simulation.sample_rate_Hz, or split the motion";
+  need.add(std::min(rows * static_cast<double>(segments) * sizeof(Deformation),
+                    static_cast<double>(default_history_bytes)),
+           fmt::format("histories of {} segments", segments), sampling);
+  need.add(cable_rows * rows * value, "what cables do in each segment", "fewer simulation.segments, " + sampling);
+  need.add((part_rows + found) * rows * value, "what parts do at each sample", sampling);
+  const std::map<std::string, std::size_t> axes{{"sample", samples},
+                                                {"segment", segments},
+                                                {"clamp", motion.length("clamp")},
+                                                {"joint", motion.length("joint")},
+                                                {"level", 4},
+                                                {"site", static_cast<std::size_t>(sites)},
+                                                {"probe", 2 * segments}};
+  need.add(pipeline::file_buffers(pipeline::strain_format(), axes) +
+               pipeline::file_buffers(pipeline::motion_format(), axes) / 4,  // a quarter of it is read
+           "what is being read and written");
+  return need;
+}
+
+}  // namespace dresslife::strain

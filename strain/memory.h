@@ -1,0 +1,24 @@
+// The memory of a strain evaluation, from the sizes of its motion and its dresspacks (pipeline/memory.h).
+#pragma once
+
+#include <cstddef>
+
+#include "pipeline/errors.h"
+#include "pipeline/memory.h"
+
+namespace dresslife::pipeline {
+struct Job;
+class FileReader;
+}  // namespace dresslife::pipeline
+
+namespace dresslife::strain {
+
+/// Errors: InputError for more samples or sites than strain.h5 can number, and those of Construction.
+pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job, std::size_t threads);
+
+/// strain.h5 numbers samples and sites in 32 bits, and the largest number stands for none.
+inline constexpr double most_numbered = 4294967294.0;
+/// Errors: InputError at `where`.
+void check_counts(const pipeline::Where& where, double samples, double sites);
+
+}  // namespace dresslife::strain

@@ -1,0 +1,182 @@
+// Prescribed deformations and test rigs from the job to the wire: what is given must be found again, and what has a
+// closed form must come out of the whole chain.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/files/files.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife;
+using namespace dresslife::tests;
+using std::numbers::pi;
+
+namespace {
+
+const std::string rigs = std::string(DRESSLIFE_SOURCE_DIR) + "/config/rigs/";
+
+void strain_of(const Scratch& scratch, const std::string& job, const std::string& strain_settings = "") {
+  const Outcome sim = run(scratch, "dresslife-sim", job + " --quiet -o motion.h5");
+  INFO(sim.err);
+  REQUIRE(sim.status == 0);
+  const Outcome strain = run(scratch, "dresslife-strain", "motion.h5 --quiet -o strain.h5 " + strain_settings);
+  INFO(strain.err);
+  REQUIRE(strain.status == 0);
+}
+
+double life_of(const Scratch& scratch, const std::string& job, const std::string& strain_settings = "") {
+  strain_of(scratch, job, strain_settings);
+  REQUIRE(run(scratch, "dresslife-fatigue", "strain.h5 --quiet -o life.h5").status == 0);
+  return pipeline::FileReader(scratch / "life.h5", pipeline::life_format()).number_attribute("life_repeats");
+}
+
+struct Found {
+  std::vector<double> curvature, twist, elongation;
+};
+Found found_in(const Scratch& scratch) {
+  const pipeline::FileReader strain(scratch / "strain.h5", pipeline::strain_format());
+  return {strain.read<double>("/deformation/curvature"), strain.read<double>("/deformation/twist"),
+          strain.read<double>("/deformation/elongation")};
+}
+
+/// One layer of wires around the axis of a dresspack that is nothing else.
+std::string wire_job(const std::string& motion, double helix_radius_mm, double lay_deg, double radius_mm) {
+  return "motion: " + motion + "\nrouting: {free_length_m: 0.6}\n" + R"(dresspack:
+  name: wires
+  source: made for the tests
+  cable_alone: true
+  diameter_mm: 10
+  components: [{name: wire, count: )" +
+         std::to_string(helix_radius_mm > 0 ? 6 : 1) + ", radius_mm: " + std::to_string(radius_mm) +
+         ", helix_radius_mm: " + std::to_string(helix_radius_mm) + ", lay_angle_deg: " + std::to_string(lay_deg) +
+         ", material: copper}]\nstrain: {slip: stick, gate: 0}\nsimulation: {segments: 30}\n";
+}
+
+}  // namespace
+
+TEST_CASE("prescribed deformation: what is uniform along the dresspack is found again to rounding") {
+  Scratch scratch;
+  scratch.write("d.csv",
+                "t_s,kappa_1_1_per_m,kappa_2_1_per_m,twist_deg_per_m,elongation\n0,0,0,0,0\n1,12,-7,180,0.004\n"
+                "2,-3,20,-360,-0.01\n3,0,0,0,0\n");
+  scratch.write("job.yaml", wire_job("{deformation: d.csv}", 2, 20, 0.1));
+  strain_of(scratch, "job.yaml");
+  const Found found = found_in(scratch);
+  const double k1[] = {0, 12, -3, 0}, k2[] = {0, -7, 20, 0}, twist[] = {0, pi, -2 * pi, 0}, e[] = {0, .004, -.01, 0};
+  constexpr double rounding = 1e-10;  // of positions of 1 m kept in double precision, over links of 10 mm
+  for (int t = 0; t < 4; ++t)
+    for (int i = 0; i < 30; ++i) {
+      CHECK(std::abs(found.curvature[2 * (30 * t + i)] - k1[t]) < rounding);
+      CHECK(std::abs(found.curvature[2 * (30 * t + i) + 1] - k2[t]) < rounding);
+      CHECK(std::abs(found.twist[30 * t + i] - twist[t]) < rounding);
+      CHECK(std::abs(found.elongation[30 * t + i] - e[t]) < rounding);
+    }
+}
+
+TEST_CASE("prescribed deformation: what changes along it is found again as of a simulated chain") {
+  const auto error = [](int segments) {
+    Scratch scratch;
+    std::string csv = "t_s,position_m,kappa_1_1_per_m,twist_rad_per_m\n";
+    for (int t = 0; t < 2; ++t)
+      for (int k = 0; k <= 600; ++k) {
+        const double s = k / 1000.0;
+        csv += std::to_string(t) + "," + std::to_string(s) + "," + std::to_string(5 * std::sin(2 * pi * s / 0.6)) + "," +
+               std::to_string(3 * std::cos(2 * pi * s / 0.6)) + "\n";
+      }
+    scratch.write("d.csv", csv);
+    scratch.write("job.yaml", wire_job("{deformation: d.csv}", 2, 20, 0.1));
+    strain_of(scratch, "'job.yaml' --set simulation.segments=" + std::to_string(segments));
+    const Found found = found_in(scratch);
+    double worst = 0;
+    for (int i = 3; i + 3 < segments; ++i) {
+      const double s = (i + 0.5) * 0.6 / segments;
+      worst = std::max({worst, std::abs(found.curvature[2 * i] - 5 * std::sin(2 * pi * s / 0.6)),
+                        std::abs(found.twist[i] - 3 * std::cos(2 * pi * s / 0.6))});
+    }
+    return worst;
+  };
+  // Links are means over their length: l^2/24 of the second derivative, 5 (2 pi / 0.6)^2 (l)^2 / 24 at most.
+  const double coarse = error(30), fine = error(60);
+  CHECK(coarse < 1.2 * 5 * std::pow(2 * pi / 0.6 * 0.02, 2) / 24);
+  CHECK(coarse / fine > 3.5);  // second order
+}
+
+TEST_CASE("torsion rig: a glued wire's strain is the closed one") {
+  Scratch scratch;
+  scratch.write("d.csv", "t_s,twist_deg_per_m\n0,0\n1,180\n2,-180\n3,0\n");
+  scratch.write("job.yaml", wire_job("{deformation: d.csv}", 2, 20, 0.1));
+  strain_of(scratch, "job.yaml", "--set strain.surface_fibres=0");
+  const pipeline::FileReader strain(scratch / "strain.h5", pipeline::strain_format());
+  std::vector<double> history;
+  strain.read_rows("/probe/strain", 0, 1, history);
+  REQUIRE(history.size() == 4);
+  const double lay = 20 * pi / 180;
+  const auto closed = [&](double twist) {
+    return std::cos(lay) * std::hypot(std::tan(lay) + 2e-3 * twist, 1) - 1;
+  };
+  constexpr double single = 3e-6;  // of the largest strain, which the stage works out in single precision (W26)
+  CHECK(history[1] == Approx(closed(pi)).epsilon(single));
+  CHECK(history[2] == Approx(closed(-pi)).epsilon(single));
+}
+
+TEST_CASE("bending: a core wire's surface has r/R") {
+  Scratch scratch;
+  scratch.write("d.csv", "t_s,kappa_2_1_per_m\n0,0\n1,20\n2,0\n");
+  scratch.write("job.yaml", wire_job("{deformation: d.csv}", 0, 0, 0.1));
+  strain_of(scratch, "job.yaml", "--set strain.surface_fibres=4");
+  const pipeline::FileReader strain(scratch / "strain.h5", pipeline::strain_format());
+  std::vector<double> history;
+  double largest = 0;
+  for (std::size_t probe = 0; probe < strain.length("probe"); ++probe) {
+    strain.read_rows("/probe/strain", probe, 1, history);
+    for (const double value : history) largest = std::max(largest, std::abs(value));
+  }
+  CHECK(largest == Approx(0.1e-3 * 20).epsilon(1e-5));
+}
+
+TEST_CASE("rigs: a wire on the axis feels the bend, and a strain below the usual gate counts") {
+  Scratch scratch;
+  const std::string wire =
+      "dresspack: {cable: {name: wire, source: test, radius_mm: 0.07, components: [{name: strand, radius_mm: 0.07, "
+      "helix_radius_mm: 0, material: copper}]}}\n";
+  scratch.write("bent.yaml", "motion: {rig: {kind: tick_tock, radius_mm: 300}}\n" + wire);
+  scratch.write("pulled.yaml", "motion: {rig: {kind: axial, elongation_percent: 0.02}}\n" + wire);
+  const double bent = life_of(scratch, "bent.yaml"), pulled = life_of(scratch, "pulled.yaml");
+  CHECK(std::isfinite(pulled));
+  // +-0.07/300.07 against +-2e-4 of strain, both below half of the usual gate; lives go with the power 1/b.
+  const pipeline::FileReader life(scratch / "life.h5", pipeline::life_format());
+  const double exponent = std::log(pulled / bent) / std::log(0.07 / 300.07 / 2e-4);
+  CHECK(exponent > 8);
+  CHECK(exponent < 9.5);  // -1/b = 8.9 for b = -0.112, little plastic strain is left
+}
+
+TEST_CASE("rigs: every shipped rig runs, and its curvature is not more than its radius says") {
+  for (const auto& entry : fs::directory_iterator(rigs)) {
+    if (entry.path().extension() != ".yaml") continue;
+    INFO(entry.path().string());
+    Scratch scratch;
+    const double life = life_of(scratch, "'" + entry.path().string() + "'");
+    CHECK(life > 1);
+    const pipeline::FileReader motion(scratch / "motion.h5", pipeline::motion_format());
+    const std::vector<double> given = motion.read<double>("/check/curvature");
+    const double most = *std::max_element(given.begin(), given.end());
+    const Found found = found_in(scratch);
+    double largest = 0;
+    for (const double value : found.curvature) largest = std::max(largest, std::abs(value));
+    // The cubic of (W2) across ramps of four segments: 3 % beyond what was given at most.
+    CHECK(largest <= 1.03 * most + 1e-9);
+    CHECK(largest >= 0.999 * most - 1e-9);
+  }
+}
+
+TEST_CASE("rolling flex: its worst wire lives as long as one bent and straightened twice a cycle") {
+  Scratch scratch;
+  const std::string cable = "dresspack: {cable: {from: spot_welding}}\n";
+  scratch.write("rig.yaml", "motion: {rig: {kind: rolling_flex, radius_mm: 50, travel_m: 1}}\n" + cable);
+  scratch.write("d.csv", "t_s,kappa_2_1_per_m\n0,0\n0.5,20\n1,0\n1.5,20\n2,0\n");
+  scratch.write("plain.yaml", "motion: {deformation: d.csv}\nrouting: {free_length_m: 1}\nstrain: {gate: 1e-6}\n" + cable);
+  const double rig = life_of(scratch, "rig.yaml"), plain = life_of(scratch, "plain.yaml");
+  // 1 % more curvature at the bend's edges, and damage with its seventh to ninth power at these strains.
+  CHECK(rig == Approx(plain).epsilon(0.15));
+}

@@ -1,0 +1,62 @@
+// dresslife draw: a dresspack as a list and as a picture.
+#include <catch2/catch.hpp>
+
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+std::size_t count_of(const std::string& text, const std::string& words) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlaps") {
+  Scratch scratch;
+  const Outcome drawn = run(scratch, "dresslife", "draw spot_welding -o hose.svg");
+  INFO(drawn.err);
+  REQUIRE(drawn.status == 0);
+  // 10 cables of 7 conductors of 92 wires of 0.15 mm.
+  CHECK(drawn.out.find("6440 wires of 113.8 mm2") != std::string::npos);
+  // Ten times the 0.0019, 0.226 and 4.14 N m2 that an independent calculation found for one cable.
+  CHECK(drawn.out.find(
+            "0.0187 when all slide, 2.26 when parts of level 2 are solid, 41.4 when parts of level 1") !=
+        std::string::npos);
+  CHECK(drawn.err.find("the 7 parts 'conductor' are 2.254 mm apart") != std::string::npos);
+
+  // Each layer is drawn once and shown as often as it has parts; overlapping ones in the colour of a warning.
+  const std::string picture = content(scratch / "hose.svg");
+  CHECK(picture.rfind("<svg", 0) == 0);
+  CHECK(count_of(picture, "<use ") == 10 + 7 + 31 + 25 + 18 + 12 + 6);
+  CHECK(count_of(picture, "class=\"over\"") == 1);
+}
+
+TEST_CASE("draw replaces pictures and nothing else") {
+  Scratch scratch;
+  scratch.write("mine.yaml", "keep: me\n");
+  const Outcome refused = run(scratch, "dresslife", "draw control_cable -o mine.yaml");
+  CHECK(refused.status == 1);
+  CHECK(refused.err.find("mine.yaml: error: is there already and no picture; name another file") == 0);
+  CHECK(content(scratch / "mine.yaml") == "keep: me\n");
+  REQUIRE(run(scratch, "dresslife", "draw control_cable -o cable.svg").status == 0);
+  CHECK(run(scratch, "dresslife", "draw sensor_cable -o cable.svg").status == 0);
+  CHECK(content(scratch / "cable.svg").find("sensor_cable") != std::string::npos);
+  const Outcome job = run(scratch, "dresslife", "draw mine.yaml");
+  CHECK(job.status == 1);
+  CHECK(job.err.find("keep") != std::string::npos);
+}
+
+TEST_CASE("a job by itself runs as a study of one") {
+  Scratch scratch;
+  write_small_job(scratch);
+  const Outcome ran = run(scratch, "dresslife", "run job.yaml");
+  INFO(ran.err);
+  CHECK(ran.status == 0);
+  CHECK(fs::exists(scratch / "runs/job/job/life.h5"));
+  CHECK(ran.out.find("Report: runs/job/report.html") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "status job.yaml").out.find("1 of 1 jobs done") != std::string::npos);
+}

@@ -1,0 +1,117 @@
+// The page of a job: written with its results, and in a browser, where one is installed.
+#include <catch2/catch.hpp>
+
+#include "pipeline/files/files.h"
+#include "tests/cli/browser.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+const char* what_a_reader_does = R"(
+  // The canvas is not blank: more than a few colours on it.
+  const colours = await evaluate(`(() => {
+    const canvas = dresslife.viewer().canvas, flat = document.createElement('canvas');
+    flat.width = canvas.width; flat.height = canvas.height;
+    const context = flat.getContext('2d');
+    context.drawImage(canvas, 0, 0);
+    const bytes = context.getImageData(0, 0, flat.width, flat.height).data, seen = new Set();
+    for (let i = 0; i < bytes.length; i += 4) seen.add(bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2]);
+    return seen.size; })()`);
+  // A click on the hose chooses the segment that is there.
+  const place = await evaluate(`(() => {
+    const at = dresslife.viewer().placeOf(3), size = dresslife.viewer().canvas.getBoundingClientRect();
+    return {x: at.x + size.left, y: at.y + size.top}; })()`);
+  await press(place.x, place.y);
+  const segment = await evaluate('document.body.dataset.segment');
+  const damage = await evaluate('document.querySelector("[data-name=damage]").dataset.value');
+  // A click on the timeline goes there, and play goes on from there.
+  const line = await evaluate(`(() => { const t = dresslife.timeline(), c = t.canvas; c.scrollIntoView();
+    const size = c.getBoundingClientRect(); return {x: size.left + t.xAt(.25), y: size.top + 30}; })()`);
+  await press(line.x, line.y);
+  const clicked = Number(await evaluate('document.body.dataset.time'));
+  await evaluate('document.activeElement.blur()');
+  await key(' ');
+  const playing = await evaluate('document.body.dataset.playing');
+  let moved = false;
+  for (let k = 0; k < 100 && !moved; ++k) { await sleep(50); moved = Number(await evaluate('document.body.dataset.time')) > clicked + .02; }
+  await key(' ');
+  const stopped = await evaluate('document.body.dataset.playing');
+  await evaluate('dresslife.setTime(0)');
+  const life = await evaluate('dresslife.life.life_hours');
+  const rows = await evaluate('dresslife.life.strains.rows.length');
+  return [colours > 50, segment, Math.abs(clicked - .25) < .01, playing, moved, stopped, rows > 0, damage, life].join(' ');
+)";
+
+}  // namespace
+
+TEST_CASE(
+    "a run writes a page for each job, the report links to it, and it is written again only when needed") {
+  Scratch scratch;
+  write_small_job(scratch);
+  const Outcome first = run(scratch, "dresslife", "run job.yaml");
+  INFO(first.err);
+  REQUIRE(first.status == 0);
+  const fs::path page = scratch / "runs/job/job/page.html";
+  REQUIRE(fs::exists(page));
+  CHECK(content(scratch / "runs/job/report.html").find("<a href=\"job/page.html\">") != std::string::npos);
+  const auto written = fs::last_write_time(page);
+  CHECK(run(scratch, "dresslife", "run job.yaml").status == 0);
+  CHECK(fs::last_write_time(page) == written);
+  fs::remove(page);
+  CHECK(run(scratch, "dresslife", "report job.yaml").status == 0);
+  CHECK(fs::exists(page));
+
+  fs::remove(page);
+  const Outcome asked = run(scratch, "dresslife", "page runs/job/job");
+  CHECK(asked.status == 0);
+  CHECK(asked.out == "runs/job/job/page.html\n");
+  CHECK(fs::exists(page));
+  const Outcome nothing = run(scratch, "dresslife", "page runs/job");
+  CHECK(nothing.status == 1);
+  CHECK(nothing.err ==
+        "runs/job: error: holds no life.h5; name the folder of a job that is done: runs/STUDY/JOB\n");
+
+  // Without three.js a run goes on as before.
+  REQUIRE(
+      run_shell(scratch, "DRESSLIFE_THREE=/nowhere '" DRESSLIFE_BIN_DIR "/dresslife' run job.yaml").status ==
+      0);
+  CHECK(content(page).size() < 500'000);
+
+  // Files that are not of one motion make no page.
+  REQUIRE(run(scratch, "dresslife-sim", "job.yaml --set simulation.segments=10 -o other.h5").status == 0);
+  fs::copy_file(scratch / "other.h5", scratch / "runs/job/job/motion.h5",
+                fs::copy_options::overwrite_existing);
+  const Outcome mixed = run(scratch, "dresslife", "page runs/job/job");
+  CHECK(mixed.status == 1);
+  CHECK(mixed.err.find("they are not of one job") != std::string::npos);
+}
+
+TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the numbers of life.h5") {
+  Scratch scratch;
+  write_small_job(scratch);
+  REQUIRE(run(scratch, "dresslife", "run job.yaml").status == 0);
+  const std::string seen = in_browser(scratch, "runs/job/job/page.html", what_a_reader_does);
+  if (seen.empty()) return;
+  INFO(seen);
+  CHECK(seen.find("\"problems\":[]") != std::string::npos);
+  // One request, the page itself.
+  CHECK(seen.find("\"requests\":[\"file://" + (scratch / "runs/job/job/page.html").string() + "\"]") !=
+        std::string::npos);
+  std::istringstream words(result_of(seen));
+  std::string colours, segment, jumped, playing, moved, stopped, histories;
+  double damage = 0, hours = 0;
+  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours;
+  CHECK(colours == "true");
+  CHECK(segment == "3");
+  CHECK(jumped == "true");
+  CHECK(playing == "true");
+  CHECK(moved == "true");
+  CHECK(stopped == "false");
+  CHECK(histories == "true");
+  const dresslife::pipeline::FileReader life(scratch / "runs/job/job/life.h5",
+                                             dresslife::pipeline::life_format());
+  CHECK(damage == life.read<double>("/segment/damage").at(3));
+  CHECK(hours == life.number_attribute("life_hours"));
+}

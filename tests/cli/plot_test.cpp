@@ -1,0 +1,115 @@
+// dresslife plot and show: what came out of a job, as figures and in words.
+#include <catch2/catch.hpp>
+
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+TEST_CASE("plot draws each figure of a job into a file that needs no page") {
+  Scratch scratch;
+  write_small_job(scratch);
+  REQUIRE(run(scratch, "dresslife", "run job.yaml --quiet").status == 0);
+  const std::string job = "runs/job/job";
+  const std::pair<std::string, std::string> figures[] = {
+      {"strain", "class=\"curve\""},      {"cycles", "class=\"bar\""},      {"damage", "class=\"bar-hot\""},
+      {"deformation", "class=\"curve\""}, {"curvature", "class=\"curve\""}, {"scene", "class=\"hose-hot\""}};
+  for (const auto& [what, draws] : figures) {
+    const Outcome drawn =
+        run(scratch, "dresslife", "plot " + job + " --what " + what + " -o " + what + ".svg");
+    INFO(what << drawn.err);
+    CHECK(drawn.status == 0);
+    const std::string picture = content(scratch / (what + ".svg"));
+    CHECK(picture.rfind("<svg xmlns=\"http://www.w3.org/2000/svg\" width=", 0) == 0);
+    CHECK(picture.find("var(") == std::string::npos);  // programs other than browsers know no variables
+    CHECK(picture.find(draws) != std::string::npos);
+  }
+  // Any of a job's files stands for the folder it lies in.
+  CHECK(
+      run(scratch, "dresslife", "plot " + job + "/strain.h5 --what deformation --time 0.5 -o d.svg").status ==
+      0);
+  CHECK(content(scratch / "d.svg").find("at 0.50 s") != std::string::npos);
+
+  const Outcome no_result = run(scratch, "dresslife", "plot job.yaml --what strain -o s.svg");
+  CHECK(no_result.status == 1);
+  CHECK(no_result.err.find("job.yaml: error: is neither a job's folder nor one of its files; name") == 0);
+  const Outcome no_picture = run(scratch, "dresslife", "plot " + job + " --what strain -o s.txt");
+  CHECK(no_picture.err.find("s.txt: error: is neither an .svg nor a .png; name") == 0);
+  CHECK(run(scratch, "dresslife", "plot " + job + " --what strain -o " + job + "/life.h5.svg").status == 0);
+  CHECK(run(scratch, "dresslife", "plot " + job + " --what strain -o job.yaml").status == 1);
+}
+
+TEST_CASE("show tells what lies in a file, with shapes, units, ranges and meanings") {
+  Scratch scratch;
+  write_small_job(scratch);
+  REQUIRE(run(scratch, "dresslife", "run job.yaml --quiet").status == 0);
+  for (const std::string kind : {"motion", "strain", "life"}) {
+    const Outcome shown = run(scratch, "dresslife", "show runs/job/job/" + kind + ".h5");
+    INFO(shown.err);
+    CHECK(shown.status == 0);
+    CHECK(shown.out.find("dresslife-" + kind + " version 1") != std::string::npos);
+    CHECK(shown.out.find("made by\n  dresslife-sim") != std::string::npos);
+  }
+  const std::string motion = run(scratch, "dresslife", "show runs/job/job/motion.h5").out;
+  CHECK(motion.find("/segment/length          (segment 12) 0.075") != std::string::npos);  // 0.9 m
+  CHECK(motion.find("  m\n") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "show job.yaml").out.find("free_length_m: 0.9") != std::string::npos);
+}
+
+TEST_CASE("export names every moment for ParaView, which reads them all where it is installed") {
+  Scratch scratch;
+  write_small_job(scratch);
+  REQUIRE(run(scratch, "dresslife", "run job.yaml --quiet").status == 0);
+  const Outcome made = run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf");
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  const std::string text = content(scratch / "job.xdmf");
+  std::size_t moments = 0;
+  for (std::size_t at = text.find("<Time "); at != std::string::npos; at = text.find("<Time ", at + 1))
+    ++moments;
+  const std::string samples = run(scratch, "dresslife", "show runs/job/job/motion.h5").out;
+  CHECK(samples.find("(sample " + std::to_string(moments) + ")") != std::string::npos);
+  for (const std::string dataset :
+       {"motion.h5:/tension", "strain.h5:/deformation/twist", "life.h5:/segment/damage"})
+    CHECK(text.find("runs/job/job/" + dataset) != std::string::npos);
+  CHECK(run(scratch, "dresslife", "export runs/job/job --paraview job.yaml").status == 1);
+  scratch.write("mine.xdmf", "keep: me\n");
+  const Outcome foreign = run(scratch, "dresslife", "export runs/job/job --paraview mine.xdmf");
+  CHECK(foreign.err.find("mine.xdmf: error: is there already and no XDMF; name another file") == 0);
+  CHECK(content(scratch / "mine.xdmf") == "keep: me\n");
+  CHECK(run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf").status == 0);  // its own, again
+
+  if (std::system("command -v pvpython >/dev/null 2>&1") != 0) {
+    WARN("pvpython is not installed: ParaView was not asked");
+    return;
+  }
+  scratch.write(
+      "read.py",
+      "from paraview.simple import *\n"
+      "reader = XDMFReader(FileNames=['job.xdmf'])\n"
+      "reader.UpdatePipelineInformation()\n"
+      "for time in reader.TimestepValues: reader.UpdatePipeline(time)\n"
+      "print('read', len(reader.TimestepValues), reader.GetDataInformation().GetNumberOfPoints())\n");
+  const Outcome read = run_shell(scratch, "pvpython read.py");
+  INFO(read.err);
+  CHECK(read.status == 0);
+  CHECK(read.out.find("read " + std::to_string(moments) + " 12") != std::string::npos);
+  CHECK(read.err.find("ERR") == std::string::npos);
+}
+
+TEST_CASE("the page for Python users runs as it stands") {
+  if (std::system("/usr/bin/python3 -c 'import h5py' >/dev/null 2>&1") != 0) {
+    WARN("python3-h5py is not installed: the page was not tried");
+    return;
+  }
+  const std::string page = content(fs::path(DRESSLIFE_SOURCE_DIR) / "pipeline/files/README.md");
+  const std::string open = "```python\n";
+  const std::size_t begin = page.find(open) + open.size();
+  Scratch scratch;
+  write_small_job(scratch);
+  REQUIRE(run(scratch, "dresslife", "run job.yaml --quiet").status == 0);
+  scratch.write("runs/job/job/page.py", page.substr(begin, page.find("```", begin) - begin));
+  const Outcome ran = run_shell(scratch, "cd runs/job/job && /usr/bin/python3 page.py");
+  INFO(ran.err);
+  CHECK(ran.status == 0);
+  CHECK(ran.out.find(" h, strained most at ") != std::string::npos);
+}

@@ -1,0 +1,114 @@
+// dresslife preview: a job before its run, also one that the simulation refuses.
+#include <catch2/catch.hpp>
+
+#include "pipeline/files/files.h"
+#include "tests/cli/browser.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+using dresslife::pipeline::FileReader;
+using dresslife::pipeline::preview_format;
+
+TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
+  Scratch scratch;
+  write_small_job(scratch);
+  const Outcome told = run(scratch, "dresslife", "preview job.yaml");
+  INFO(told.err);
+  REQUIRE(told.status == 0);
+  // The clamps begin 0.8 m apart and come as near as hypot(0.7, 0.05).
+  CHECK(told.out.find("Dresspack is 0.900 m long between clamps that are 0.702 .. 0.800 m apart: that works. "
+                      "0.82 .. 1.20 m work at the first pose, 0.82 .. 1.20 m over this program") == 0);
+  CHECK(told.out.find("Preview: job_preview.html\n") != std::string::npos);
+  const std::string page = content(scratch / "job_preview.html");
+  CHECK(page.find("The simulation takes this job.") != std::string::npos);
+  CHECK(page.find("http") == page.find("http://"));  // three.js's own, if at all
+
+  // As often as one likes, and over nothing else.
+  CHECK(run(scratch, "dresslife", "preview job.yaml").status == 0);
+  const Outcome over = run(scratch, "dresslife", "preview job.yaml -o job.yaml");
+  CHECK(over.status == 1);
+  CHECK(over.err ==
+        "job.yaml: error: is there already and no page of dresslife's; name another file after -o\n");
+  const Outcome wrong = run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=-1");
+  CHECK(wrong.status == 1);
+  CHECK(wrong.err.find("routing.free_length_m is -1") != std::string::npos);
+}
+
+TEST_CASE("preview opens a job that is refused where it is refused") {
+  Scratch scratch;
+  write_small_job(scratch);
+  const Outcome told =
+      run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=0.75 -o short.html");
+  INFO(told.err);
+  REQUIRE(told.status == 0);
+  CHECK(told.out.find("The simulation refuses it: ") == 0);
+  CHECK(told.out.find("dresspack is 50.0 mm too short at 0.000 s") != std::string::npos);
+  CHECK(told.out.find("apart: too short. 0.82 .. 1.20 m work") != std::string::npos);
+  const std::string seen = in_browser(scratch, "short.html", R"(
+    return [await evaluate('document.body.dataset.time'), await evaluate('dresslife.viewer() !== null'),
+            await evaluate('document.getElementById("refusal").textContent.includes("too short")')].join(' ');)");
+  if (seen.empty()) return;
+  INFO(seen);
+  CHECK(seen.find("\"problems\":[]") != std::string::npos);
+  CHECK(result_of(seen) == "0.000 true true");
+}
+
+TEST_CASE("a run shows the jobs that the simulation refuses, until they are mended") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", "base: job.yaml\nvary:\n  routing.free_length_m: [0.75, 0.9]\n");
+  const Outcome first = run(scratch, "dresslife", "run study.yaml");
+  CHECK(first.status == 1);
+  const fs::path page = scratch / "runs/study/free_length_m=0.75/preview.html";
+  INFO(first.err);
+  REQUIRE(fs::exists(page));
+  CHECK_FALSE(fs::exists(scratch / "runs/study/free_length_m=0.9/preview.html"));
+  CHECK(first.err.find("can be seen in runs/study/free_length_m=0.75/preview.html") != std::string::npos);
+  CHECK(content(scratch / "runs/study/report.html").find("<a href=\"free_length_m%3D0.75/preview.html\">") !=
+        std::string::npos);
+  const auto written = fs::last_write_time(page);
+  run(scratch, "dresslife", "run study.yaml");
+  CHECK(fs::last_write_time(page) == written);
+  // Mended, it has no such page any more.
+  scratch.write("study.yaml", "base: job.yaml\njobs:\n  free_length_m=0.75: {routing.free_length_m: 0.95}\n");
+  CHECK(run(scratch, "dresslife", "run study.yaml").status == 0);
+  CHECK_FALSE(fs::exists(page));
+  const Outcome alone = run(scratch, "dresslife-sim", "job.yaml --set routing.free_length_m=0.75 -o x.h5");
+  CHECK(alone.err.find("or move a clamp (dresslife preview shows it)\n") != std::string::npos);
+}
+
+TEST_CASE("the preview's file: curves of the right length from clamp to clamp") {
+  Scratch scratch;
+  write_small_job(scratch);
+  double missing[2]{};  // of the length, at worst, by the chords of 24 and 96 segments
+  for (const int fine : {0, 1}) {
+    const int segments = fine ? 96 : 24;
+    REQUIRE(run(scratch, "dresslife-sim",
+                fmt::format("job.yaml --preview -o preview.h5 --set simulation.segments={}", segments))
+                .status == 0);
+    const FileReader file(scratch / "preview.h5", preview_format());
+    CHECK(file.text_attribute("refusal").empty());
+    const auto centres = file.read<double>("/segment/position"),
+               clamps = file.read<double>("/clamp/position"), ways = file.read<double>("/span/way"),
+               times = file.read<double>("/time");
+    REQUIRE(ways.size() == times.size());
+    CHECK(times.front() == 0);
+    CHECK(times.back() == Approx(1));
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const double *base = &clamps[6 * k], *tool = base + 3, *line = &centres[3 * segments * k];
+      CHECK(ways[k] == Approx(std::hypot(tool[0] - base[0], tool[1] - base[1], tool[2] - base[2])));
+      double along = 0;
+      const double* before = base;
+      for (int i = 0; i <= segments; ++i) {
+        const double* next = i < segments ? line + 3 * i : tool;
+        along += std::hypot(next[0] - before[0], next[1] - before[1], next[2] - before[2]);
+        before = next;
+      }
+      CHECK(along <= 0.9 * (1 + 1e-6));
+      missing[fine] = std::max(missing[fine], 0.9 - along);
+    }
+  }
+  // Chords of length l miss curvature^2 l^3 / 24 each, in all as l^2: a sixteenth with a quarter of it.
+  CHECK(missing[0] < 0.01);
+  CHECK(missing[0] / missing[1] == Approx(16).epsilon(0.25));
+}

@@ -1,0 +1,153 @@
+// What is remembered of a study, and by what it is forgotten.
+#include "pipeline/study/known_study.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "pipeline/study/ranking.h"
+#include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A study of two jobs that take a material and a motion from files, run with stages that compute nothing.
+class Bench {
+ public:
+  Bench() {
+    fs::create_directories(scratch_ / "programs");
+    for (const char* stage : {"sim", "strain", "fatigue"})
+      fs::copy_file(DRESSLIFE_FAKE_STAGE, scratch_ / "programs" / (std::string("dresslife-") + stage));
+    std::string job = sample_job;
+    job.replace(job.find("material: copper}"), 17, "material: own}");
+    scratch_.write("job.yaml", job);
+    scratch_.write("config/materials/own.yaml", "from: copper\nname: own\n");
+    scratch_.write("study.yaml", "base: job.yaml\nvary: {simulation.segments: [20, 30]}\n");
+    request_ = {scratch_ / "study.yaml", {}, scratch_ / "runs", scratch_ / "programs"};
+  }
+  /// As `dresslife run` does. Returns how many stages ran.
+  int run() {
+    Standing standing = expanded(request_);
+    write_build_graph(standing.study, standing.places, standing.states);
+    remember(request_, standing);
+    const BuildResult built = run_build_graph(standing.places, 2, {});
+    close_run(standing.study, standing.places, built, standing.states);
+    return built.executed;
+  }
+  Standing standing() const { return standing_of(request_); }
+  StudyRequest& request() { return request_; }
+  const Scratch& scratch() const { return scratch_; }
+
+ private:
+  Scratch scratch_;
+  StudyRequest request_;
+};
+
+void check_same(const Standing& one, const Standing& other) {
+  CHECK(one.study.name == other.study.name);
+  REQUIRE(one.states.size() == other.states.size());
+  for (std::size_t k = 0; k < one.states.size(); ++k) {
+    CHECK(one.study.jobs[k].name == other.study.jobs[k].name);
+    CHECK(one.states[k].recipes == other.states[k].recipes);
+    CHECK(one.states[k].settings == other.states[k].settings);
+    CHECK(one.states[k].words() == other.states[k].words());
+    CHECK(one.states[k].told == other.states[k].told);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("known study: what is remembered is what the study expands to, and how it stands") {
+  Bench bench;
+  CHECK_FALSE(bench.standing().remembered);  // before the first run
+  CHECK(bench.run() == 6);
+  const Standing known = bench.standing();
+  REQUIRE(known.remembered);
+  CHECK(known.all_done());
+  check_same(known, expanded(bench.request()));
+  fs::remove(known.places.life(known.study.jobs[1].name));
+  const Standing broken = bench.standing();
+  CHECK(broken.remembered);
+  CHECK_FALSE(broken.all_done());
+  check_same(broken, expanded(bench.request()));
+}
+
+TEST_CASE("known study: a touched file changes nothing, a changed one all that hangs on it") {
+  Bench bench;
+  bench.run();
+  const Scratch& scratch = bench.scratch();
+  const std::vector<std::string> files{"study.yaml", "job.yaml", "config/materials/own.yaml"};
+  for (const std::string& file : files) {
+    fs::last_write_time(scratch / file, fs::file_time_type::clock::now() + std::chrono::hours(24));
+    CHECK(bench.standing().remembered);
+  }
+  // A material: the fatigue stages of both jobs and nothing else, whatever the file's date.
+  const auto before = fs::last_write_time(scratch / files[2]);
+  scratch.write(files[2], "from: copper\nname: own\nwalker_exponent: 0.4\n");  // no force of a cable hangs on it
+  fs::last_write_time(scratch / files[2], before);
+  const Standing changed = bench.standing();
+  CHECK_FALSE(changed.remembered);
+  for (const JobState& state : changed.states) CHECK(state.next == 2);
+  CHECK(bench.run() == 2);
+  CHECK(bench.standing().remembered);
+}
+
+TEST_CASE("known study: nothing is remembered of what could expand to something else") {
+  const auto forgets = [](const std::string& what, const std::function<void(Bench&)>& change) {
+    INFO(what);
+    Bench bench;
+    bench.run();
+    REQUIRE(bench.standing().remembered);
+    change(bench);
+    CHECK_FALSE(bench.standing().remembered);
+  };
+  forgets("another setting", [](Bench& bench) { bench.request().sets = {"simulation.contact=true"}; });
+  forgets("a comment", [](Bench& bench) {
+    bench.scratch().write("study.yaml", bytes_of(bench.scratch() / "study.yaml") + "# more\n");
+  });
+  forgets("an entry nearer to the job", [](Bench& bench) {  // it was looked for there, and was not there
+    bench.scratch().write("materials/own.yaml", "from: copper\nname: own\nfatigue_ductility: 0.5\n");
+  });
+  forgets("a stage", [](Bench& bench) {
+    std::ofstream(bench.scratch() / "programs/dresslife-fatigue", std::ios::app) << "more";
+  });
+  forgets("a job's settings", [](Bench& bench) {
+    bench.scratch().write("runs/study/segments=20/job.yaml", "mine\n");
+  });
+  forgets("its own bytes", [](Bench& bench) {
+    std::string bytes = bytes_of(bench.scratch() / "runs/study/.stage/study");
+    bytes[bytes.size() / 2] ^= 1;
+    bench.scratch().write("runs/study/.stage/study", bytes);
+  });
+  forgets("another catalogue", [](Bench&) { ::setenv("DRESSLIFE_CONFIG", DRESSLIFE_SOURCE_DIR "/config/", 1); });
+  ::unsetenv("DRESSLIFE_CONFIG");
+  forgets("a job that cannot be run", [](Bench& bench) {
+    bench.scratch().write("study.yaml", "base: job.yaml\nvary: {simulation.segments: [20, -1]}\n");
+    bench.run();
+  });
+}
+
+TEST_CASE("known study: receipts tell what the life files say, bit by bit") {
+  Bench bench;
+  bench.run();
+  const Standing known = bench.standing();
+  std::vector<RankingRow> by_receipts = ranking_of(known.study, known.places, known.states);
+  std::vector<JobState> untold = known.states;
+  for (JobState& state : untold) state.told.clear();
+  CHECK(ranking_csv(by_receipts) == ranking_csv(ranking_of(known.study, known.places, untold)));
+  // A receipt with a turned bit is none.
+  const fs::path receipt = known.places.job(known.study.jobs[0].name) / ".stage/fatigue.receipt";
+  const std::string bytes = bytes_of(receipt);
+  for (std::size_t at = 0; at < bytes.size(); at += 7) {
+    std::string turned = bytes;
+    turned[at] = static_cast<char>(turned[at] ^ 4);
+    std::ofstream(receipt, std::ios::binary) << turned;
+    CHECK_FALSE(read_receipt(receipt));
+  }
+  std::ofstream(receipt, std::ios::binary) << bytes;
+  CHECK(read_receipt(receipt));
+}
+
+}  // namespace dresslife::pipeline
