@@ -84,11 +84,12 @@ std::string rules(const StageLimits& limits) {
   for (const Stage& stage : stages) {
     // The stage before is checked against the same job, so the settings come from job.yaml at every stage.
     const std::string job = stage.part == Part::sim ? "" : " --job $job/job.yaml";
-    // `exec`: the shell's process becomes the stage's, which then ends with Ninja.
+    // `exec`: the shell's process becomes the stage's, which then ends with Ninja. `3>&1`: Ninja takes the end of
+    // its pipe for the end of the stage and waits for that stage alone, so the pipe must live as long as the stage.
     text += fmt::format(
         "rule {0}\n  command = exec \"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
         "--force "
-        "--quiet --job-time {6} --job-memory {7} > $job/{8} 2>&1\n  description = {0} $job\n\n",
+        "--quiet --job-time {6} --job-memory {7} 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
         stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(),
         limits.seconds, limits.megabytes, log_file(stage).string());
   }
