@@ -79,12 +79,19 @@ async function main() {
     fs.writeFileSync(option('--pdf'), Buffer.from((await send('Page.printToPDF', {printBackground: true})).data, 'base64'));
   console.log(JSON.stringify({result: result === undefined ? null : result, problems, requests}));
 }
+const watchdog = setTimeout(() => {
+  console.error('the browser does not answer');
+  browser.kill('SIGKILL');
+  process.exit(1);
+}, 120000);
 main()
     .catch(problem => {
       console.error(problem.stack);
       process.exitCode = 1;
     })
     .finally(() => {
-      browser.on('exit', () => fs.rmSync(profile, {recursive: true, force: true}));
+      clearTimeout(watchdog);
+      // Its helper processes end a moment after it, and write into the profile until then.
+      browser.on('exit', () => fs.rmSync(profile, {recursive: true, force: true, maxRetries: 20, retryDelay: 100}));
       browser.kill('SIGKILL');
     });

@@ -1,0 +1,35 @@
+#include "pipeline/commands/command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "pipeline/commands/options.h"
+#include "pipeline/files/files.h"
+#include "pipeline/job/job.h"
+#include "pipeline/program_manual.h"
+#include "pipeline/study/study.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+int manual(const CLI::App& program, const std::string& what) {
+  if (what == "keys")
+    print(study_manual() + "\n" + job_manual());
+  else
+    print(what == "files" ? file_manual() : program_manual(program, what));
+  return 0;
+}
+
+}  // namespace
+
+Command add_manual(CLI::App& program) {
+  const auto what = std::make_shared<std::string>();
+  CLI::App* words = program.add_subcommand(
+      "manual", "print a reference: of all keys or all files (Markdown), the man page, a shell's completion");
+  std::vector<std::string> references{"keys", "files"};
+  references.insert(references.end(), manual_kinds().begin(), manual_kinds().end());
+  words->add_option("what", *what, "which one")->required()->check(CLI::IsMember(references))->type_name("");
+  return {words, [&program, what] { return manual(program, *what); }};
+}
+
+}  // namespace dresslife::pipeline

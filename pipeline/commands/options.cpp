@@ -1,0 +1,56 @@
+#include "pipeline/commands/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "pipeline/errors.h"
+#include "pipeline/installation.h"
+
+namespace dresslife::pipeline {
+
+namespace fs = std::filesystem;
+
+RunOptions::RunOptions() : jobs(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {}
+
+void add_sets(CLI::App& command, const std::string& what, std::vector<std::string>& sets) {
+  command.add_option("--set", sets, what + "; may be repeated")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_study_options(CLI::App& command, StudyOptions& options) {
+  command.add_option("-o,--output", options.out, "folder of the results")
+      ->type_name("DIR")
+      ->capture_default_str();
+  add_sets(command, "override a key in every job", options.sets);
+}
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+  command.add_option("-j,--jobs", options.jobs, "stages at a time")
+      ->check(CLI::Range(1, 1024))
+      ->default_str("one per core");
+  command.add_flag("--quiet", options.quiet, "no progress, no notes");
+}
+
+fs::path named_file(const std::string& name, const char* shelf) {
+  std::error_code failure;
+  const bool is_name = fs::path(name).parent_path().empty() && fs::path(name).extension() != ".yaml";
+  if (!is_name || fs::is_regular_file(name, failure)) return name;
+  const fs::path shipped = shipped_catalogue() / shelf / (name + ".yaml");
+  if (fs::is_regular_file(shipped, failure)) return fs::proximate(shipped);
+  throw InputError({name},
+                   fmt::format("is no file, and {} holds no {}.yaml", shipped.parent_path().string(), name),
+                   "write the path of a YAML file");
+}
+
+StudyRequest request_of(const StudyOptions& options) {
+  return {named_file(options.study, "studies"), options.sets, options.out, program_folder()};
+}
+
+void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,45 @@
+// What several commands read from the command line, and how they answer.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/limits.h"
+#include "pipeline/study/known_study.h"
+
+namespace CLI {
+class App;
+}
+
+namespace dresslife::pipeline {
+
+struct StudyOptions {
+  std::string study, out = "runs";
+  std::vector<std::string> sets;
+};
+
+struct RunOptions : StudyOptions {
+  int jobs;  ///< stages at a time
+  bool quiet = false;
+  StageLimits limits{24 * 3600, installed_memory_mb()};  // a day, and what the machine has
+  RunOptions();
+};
+
+/// --set KEY.PATH=VALUE, as often as wanted. what: "override a key".
+void add_sets(CLI::App& command, const std::string& what, std::vector<std::string>& sets);
+/// --output DIR and --set.
+void add_study_options(CLI::App& command, StudyOptions& options);
+/// --jobs and --quiet: of commands that run stages.
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// What a user names: a file, or an entry of the catalogue ("two_robots" of studies). Errors: InputError,
+/// neither.
+std::filesystem::path named_file(const std::string& name, const char* shelf);
+
+StudyRequest request_of(const StudyOptions& options);
+
+/// To standard output, as it is: what comes from jobs and programs passes shown() first.
+void print(const std::string& text);
+
+}  // namespace dresslife::pipeline

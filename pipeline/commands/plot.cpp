@@ -1,0 +1,62 @@
+#include "pipeline/commands/command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "pipeline/commands/pictures.h"
+#include "pipeline/errors.h"
+#include "pipeline/report/figures.h"
+#include "pipeline/report/job_page.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string job, what, picture;
+  std::optional<double> time;
+};
+
+int plot(const Options& options) {
+  const fs::path file = options.picture;
+  if (file.extension() != ".svg" && file.extension() != ".png")
+    throw InputError({file.string()}, "is neither an .svg nor a .png", "name the picture accordingly");
+  check_picture(file);
+  Figure what{};
+  while (word(what) != options.what) what = static_cast<Figure>(static_cast<int>(what) + 1);
+  write_picture(file, figure(what, job_files(options.job), options.time));
+  return 0;
+}
+
+std::vector<std::string> figure_words() {
+  std::vector<std::string> words;
+  for (Figure what{}; !word(what).empty(); what = static_cast<Figure>(static_cast<int>(what) + 1))
+    words.emplace_back(word(what));
+  return words;
+}
+
+}  // namespace
+
+Command add_plot(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* words = program.add_subcommand("plot", "draw one figure of a job's results into a file");
+  words->add_option("job", options->job, "the job's folder, or one of its .h5 files")
+      ->required()
+      ->type_name("");
+  words->add_option("--what", options->what, "which figure")
+      ->required()
+      ->check(CLI::IsMember(figure_words()))
+      ->type_name("");
+  words->add_option("-o,--output", options->picture, "picture to write, .svg or .png")
+      ->required()
+      ->type_name("FILE");
+  words
+      ->add_option("--time", options->time,
+                   "of scene and deformation; without it when the most damaging cycle closes")
+      ->type_name("SECONDS");
+  return {words, [options] { return plot(*options); }};
+}
+
+}  // namespace dresslife::pipeline

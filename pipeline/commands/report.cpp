@@ -1,0 +1,60 @@
+#include "pipeline/commands/command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "pipeline/commands/making.h"
+#include "pipeline/commands/options.h"
+#include "pipeline/commands/results.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Prints the ranking of what is done. The files of the study's folder are brought up to date where they
+/// would hold what a run would write; with results of other settings among the jobs they stay those of the
+/// last run.
+int report(const StudyOptions& options) {
+  const StudyRequest request = request_of(options);
+  if (const fs::path folder = request.out / study_name(request.file); !fs::is_directory(folder))
+    throw InputError({folder.string()}, "is not there (the study has not run)",
+                     "run it: dresslife run " + options.study);
+  const Standing standing = standing_of(request);
+  const auto& [study, places, states, remembered, looks, digests] = standing;
+  std::vector<RankingRow> rows = ranking_of(study, places, states);
+  add_relative_lives(study, places, nullptr, rows);
+  print(shown(ranking_table(rows)));
+  const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
+    return !state.done() && state.failure.empty() && !state.recipes[0].empty();
+  });
+  std::string kept;
+  if (open > 0)
+    kept = fmt::format("{} jobs are not done with these settings", open);
+  else if (::access(places.folder.c_str(), W_OK) != 0)
+    kept = "the folder cannot be written";
+  if (kept.empty()) {
+    write_results(study, places, rows);
+    print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
+  } else {
+    tell(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
+                     places.folder.string(), kept));
+  }
+  return count_failed(rows) ? 1 : 0;
+}
+
+}  // namespace
+
+Command add_report(CLI::App& program) {
+  const auto options = std::make_shared<StudyOptions>();
+  CLI::App* words =
+      program.add_subcommand("report", "rank and report what has been computed, without running anything");
+  words->add_option("study", options->study, "STUDY.yaml")->required()->type_name("");
+  add_study_options(*words, *options);
+  return {words, [options] { return report(*options); }};
+}
+
+}  // namespace dresslife::pipeline

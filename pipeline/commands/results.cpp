@@ -1,0 +1,109 @@
+#include "pipeline/commands/results.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "pipeline/errors.h"
+#include "pipeline/files/digest.h"
+#include "pipeline/report/job_page.h"
+#include "pipeline/report/page_shell.h"
+#include "pipeline/report/preview_page.h"
+#include "pipeline/report/report.h"
+#include "pipeline/study/stage_program.h"
+#include "pipeline/whole_file.h"
+
+namespace dresslife::pipeline {
+
+namespace fs = std::filesystem;
+
+PassingFile::PassingFile(const std::string& name)
+    : file_(fs::temp_directory_path() / fmt::format("dresslife-{}-{}", ::getpid(), name)) {}
+
+PassingFile::~PassingFile() {
+  std::error_code ignored;
+  fs::remove(file_, ignored);
+}
+
+int tell_preview(const fs::path& job, const std::vector<std::string>& sets, const StageLimits& limits,
+                 const fs::path& told) {
+  std::vector<std::string> arguments{job.string(),
+                                     "--preview",
+                                     "-o",
+                                     told.string(),
+                                     "--quiet",
+                                     "--job-time",
+                                     std::to_string(limits.seconds),
+                                     "--job-memory",
+                                     std::to_string(limits.megabytes)};
+  for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
+  return run_stage_program("dresslife-sim", arguments);
+}
+
+namespace {
+
+/// Whether there is a page of what the simulation refuses in this job; made when it or the page's parts have
+/// changed.
+bool refresh_preview(const fs::path& job, const fs::path& page, const JobState& state,
+                     const std::string& name) {
+  constexpr StageLimits limits{20, 4000};  // a preview takes one second and little memory
+  const std::string made_from = xxh3(shell_digest() + state.recipes[0] + state.failure + name);
+  if (made_from_of(page) == made_from) return true;
+  const bool on_its_way = state.failure.find("is drawn taut") != std::string::npos;
+  const PassingFile told("preview.h5");
+  if (tell_preview(job, {}, limits, told.path()) != 0) return false;
+  if (!on_its_way && refusal_of(told.path()).empty()) return false;
+  write_text_if_changed(page, preview_page(told.path(), name, made_from, state.failure), Sync::never);
+  return true;
+}
+
+}  // namespace
+
+std::vector<fs::path> refresh_previews(const Study& study, const StudyPlaces& places,
+                                       const std::vector<JobState>& states) {
+  constexpr std::size_t most = 10;  // half a second each
+  std::vector<fs::path> pages;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const StudyJob& job = study.jobs[k];
+    const fs::path page = places.job(job.name) / "preview.html";
+    bool shows = false;
+    if (pages.size() < most && job.failure.empty() && states[k].next == 0 && !states[k].failure.empty()) {
+      try {
+        shows = refresh_preview(places.job(job.name) / "job.yaml", page, states[k], job.name);
+      } catch (const InputError& problem) {
+        tell(fmt::format("note: no preview of {}: {}\n", job.name, problem.what()));
+      }
+    }
+    std::error_code ignored;
+    if (shows)
+      pages.push_back(page);
+    else if (!made_from_of(page).empty())  // of a refusal that has been mended
+      fs::remove(page, ignored);
+  }
+  return pages;
+}
+
+namespace {
+
+/// Pages of the jobs that the report tells of at length. One that cannot be made is no reason to fail: the
+/// results are there, and the report stands without it.
+void refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& rows) {
+  const std::vector<bool> detailed = detailed_jobs(rows);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!detailed[k]) continue;
+    try {
+      refresh_job_page({rows[k].job, places.job(rows[k].job)});
+    } catch (const InputError& problem) {
+      tell(fmt::format("note: no page of {}: {}\n", rows[k].job, problem.what()));
+    }
+  }
+}
+
+}  // namespace
+
+void write_results(const Study& study, const StudyPlaces& places, const std::vector<RankingRow>& rows) {
+  refresh_pages(places, rows);
+  write_text_if_changed(places.folder / "ranking.csv", ranking_csv(rows));
+  write_report(places.folder / "report.html", study.name, rows);
+}
+
+}  // namespace dresslife::pipeline

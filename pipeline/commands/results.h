@@ -1,0 +1,40 @@
+// What a study leaves for people beside its numbers: the ranking's files, pages of jobs, previews of what is
+// refused.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/limits.h"
+#include "pipeline/study/build_graph.h"
+#include "pipeline/study/ranking.h"
+
+namespace dresslife::pipeline {
+
+/// ranking.csv, report.html and the pages that it links to.
+void write_results(const Study& study, const StudyPlaces& places, const std::vector<RankingRow>& rows);
+
+/// Pages of jobs that the simulation refuses, beside their logs; of the first few, as a study that varies a
+/// routing may have thousands. Returns them.
+std::vector<std::filesystem::path> refresh_previews(const Study& study, const StudyPlaces& places,
+                                                    const std::vector<JobState>& states);
+
+/// A file that lives as long as this.
+class PassingFile {
+ public:
+  explicit PassingFile(const std::string& name);
+  ~PassingFile();
+  PassingFile(const PassingFile&) = delete;
+  PassingFile& operator=(const PassingFile&) = delete;
+  const std::filesystem::path& path() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
+
+/// Lets dresslife-sim tell into a file what stands where. Returns its exit status.
+int tell_preview(const std::filesystem::path& job, const std::vector<std::string>& sets,
+                 const StageLimits& limits, const std::filesystem::path& told);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,73 @@
+#include "pipeline/commands/command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "pipeline/commands/making.h"
+#include "pipeline/commands/options.h"
+#include "pipeline/commands/results.h"
+#include "pipeline/study/folder_lock.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+int run(const RunOptions& options) {
+  const StudyRequest request = request_of(options);
+  const fs::path folder = request.out / study_name(request.file);
+  Standing standing;
+  const bool begun = fs::is_directory(folder);
+  if (!begun) standing = expanded(request);  // a study that cannot be expanded leaves no folder
+  const FolderLock lock(folder);
+  if (begun) standing = standing_of(request);
+  if (standing.remembered && !standing.all_done()) standing = expanded(request);
+  if (!begun) look_again(standing);
+  const int executed = make_rest(request, standing, options);
+  const auto& [study, places, states, remembered, looks, digests] = standing;
+  if (!options.quiet)
+    tell(executed ? fmt::format("{}: {} stages ran\n", study.name, executed)
+                  : fmt::format("{}: nothing to do\n", study.name));
+  std::vector<RankingRow> rows = ranking_of(study, places, states);
+  add_relative_lives(study, places, &options, rows);
+  const std::vector<fs::path> previews = refresh_previews(study, places, states);
+  write_results(study, places, rows);
+  print(
+      shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
+  const int failed = count_failed(rows);
+  if (failed == 0) return 0;
+  tell(fmt::format(
+      "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",
+      options.study, failed, study.jobs.size()));
+  for (const fs::path& page : previews)
+    tell(fmt::format(
+        "note: what the simulation refuses can be seen in {}; after a change: dresslife preview JOB.yaml\n",
+        page.string()));
+  return 1;
+}
+
+}  // namespace
+
+Command add_run(CLI::App& program) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* words =
+      program.add_subcommand("run", "run what is not up to date in a study, then rank and report");
+  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
+      ->required()
+      ->type_name("");
+  add_run_options(*words, *options);
+  words->add_option("--job-time", options->limits.seconds, "let no stage of a job take longer; 0: no limit")
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  words
+      ->add_option("--job-memory", options->limits.megabytes,
+                   "let no stage of a job take more memory; 0: no limit")
+      ->type_name("MB")
+      ->default_str("all of the machine's");
+  add_study_options(*words, *options);
+  return {words, [options] { return run(*options); }};
+}
+
+}  // namespace dresslife::pipeline

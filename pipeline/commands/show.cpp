@@ -1,0 +1,39 @@
+#include "pipeline/commands/command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "pipeline/commands/options.h"
+#include "pipeline/files/files.h"
+#include "pipeline/job/job_text.h"
+#include "pipeline/report/file_summary.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+struct Options {
+  std::string file;
+  std::vector<std::string> sets;
+};
+
+int show(const Options& options) {
+  if (is_dresslife_file(options.file)) {
+    print(shown(file_summary(options.file)));
+    return 0;
+  }
+  print(job_text(named_file(options.file, "jobs"), options.sets));
+  return 0;
+}
+
+}  // namespace
+
+Command add_show(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* words = program.add_subcommand(
+      "show", "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file");
+  words->add_option("job", options->file, "JOB.yaml or FILE.h5")->required()->type_name("");
+  add_sets(*words, "override a key", options->sets);
+  return {words, [options] { return show(*options); }};
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,37 @@
+#include "pipeline/commands/command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "pipeline/commands/options.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+int status(const StudyOptions& options) {
+  const Standing standing = standing_of(request_of(options));
+  std::size_t done = 0;
+  for (std::size_t k = 0; k < standing.states.size(); ++k) {
+    const StudyJob& job = standing.study.jobs[k];
+    const std::string word = job.failure.empty() ? standing.states[k].words() : "failed   " + job.failure;
+    done += word == "done";
+    print(shown(fmt::format("{:<40} {}\n", job.name, word)));
+  }
+  print(fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));
+  return 0;
+}
+
+}  // namespace
+
+Command add_status(CLI::App& program) {
+  const auto options = std::make_shared<StudyOptions>();
+  CLI::App* words =
+      program.add_subcommand("status", "tell which jobs of a study are done, stale, failed or to do");
+  words->add_option("study", options->study, "STUDY.yaml")->required()->type_name("");
+  add_study_options(*words, *options);
+  return {words, [options] { return status(*options); }};
+}
+
+}  // namespace dresslife::pipeline
