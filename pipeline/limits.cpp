@@ -72,14 +72,6 @@ namespace {
   static_cast<void>(stack[0]);
 }
 
-/// The HDF5 library stumbles over itself where even its first tables find no place: better not begun.
-void check_least_memory() {
-  constexpr std::size_t least = 24 << 20;  // [bytes]; the smallest stage takes more
-  void* const tried = ::mmap(nullptr, least, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (tried == MAP_FAILED) throw std::bad_alloc();
-  ::munmap(tried, least);
-}
-
 void set_memory_limit(std::uint64_t megabytes) {
   if (megabytes == 0) return;
   std::uint64_t pages = 0;
@@ -94,9 +86,17 @@ void set_memory_limit(std::uint64_t megabytes) {
 }  // namespace
 
 void limit_memory(std::uint64_t megabytes) {
+  constexpr std::uint64_t least = 24;  // [MB] the smallest stage takes more: better not begun
   grow_stack();
   set_memory_limit(megabytes);
-  check_least_memory();
+  check_memory(least);
+}
+
+void check_memory(std::uint64_t megabytes) {
+  const std::size_t bytes = megabytes << 20;
+  void* const tried = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (tried == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(tried, bytes);
 }
 
 std::uint64_t installed_memory_mb() {

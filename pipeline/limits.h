@@ -25,6 +25,9 @@ void end_with_parent();
 void limit_time(const std::string& program, std::uint64_t seconds);
 /// Memory beyond what the program began with; more is std::bad_alloc. 0: no limit.
 void limit_memory(std::uint64_t megabytes);
+/// Before a library that does not survive it when its own memory cannot be had. Errors: std::bad_alloc when this
+/// program may not take so much more.
+void check_memory(std::uint64_t megabytes);
 std::uint64_t installed_memory_mb();
 
 /// Text as it is shown: control characters but line feeds and tabs as \x1b, so that none acts on a terminal.

@@ -15,6 +15,7 @@
 #include "pipeline/files/file_driver.h"
 #include "pipeline/files/list_deflate.h"
 #include "pipeline/files/scale_offset.h"
+#include "pipeline/limits.h"
 #include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
@@ -56,6 +57,13 @@ class Handle {
 void silence_library() {
   H5dont_atexit();  // nothing is left open, and a library out of memory stumbles over itself
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// Before each call that lets the library take memory of its own: where that fails halfway, it frees what it never
+/// had and takes the program along. It takes a node of a tree, a chunk on its way and a chunk's cache, 1 MB each.
+void check_library_memory() {
+  constexpr std::uint64_t megabytes = 8;
+  check_memory(megabytes);
 }
 
 /// The library says of everything that it failed; too little memory is another matter than a damaged file.
@@ -314,6 +322,7 @@ struct FileWriter::Impl {
 
   /// rows: of the chunk that belong to the dataset.
   void write_chunk(Open& target, const char* numbers, std::size_t rows) {
+    check_library_memory();
     if (!target.id.valid()) create(target);
     if (target.description->lists)
       deflater.pack(std::span(reinterpret_cast<const std::uint32_t*>(numbers), target.chunk_rows), packed);
@@ -331,6 +340,7 @@ struct FileWriter::Impl {
     if (target.description->packed()) return flush_packed(target, true);
     const std::size_t row_bytes = target.row_bytes();
     if (target.buffer.empty() || row_bytes == 0) return;
+    check_library_memory();
     if (!target.id.valid()) create(target);
     const hsize_t rows = target.buffer.size() / row_bytes;
     const auto& shape = target.description->shape;
@@ -416,6 +426,7 @@ struct FileWriter::Impl {
 
 FileWriter::FileWriter(std::filesystem::path file, const Format& format) {
   silence_library();
+  check_library_memory();
   impl_ = std::make_unique<Impl>(std::move(file), format);
   const Handle access(access_for_writing(impl_->whole), H5Pclose);
   // The 1.8 layout lets attributes (the job's text) exceed 64 KiB.
@@ -470,6 +481,7 @@ void FileWriter::dataset_attribute(const std::string& dataset, const std::string
 void FileWriter::commit() {
   for (auto& [path, target] : impl_->open) impl_->finish(target);
   impl_->check_whole();
+  check_library_memory();
   for (auto& [path, target] : impl_->open)
     if (target.id.reset() < 0) impl_->fail("dataset " + path);
   impl_->open.clear();
@@ -576,6 +588,7 @@ struct FileReader::Impl {
         fail(fmt::format("{} is a link (the data must lie in the file itself)", way));
       if (slash == std::string::npos) break;
     }
+    check_library_memory();
     Open made;
     made.description = &description;
     made.id = Handle(H5Dopen2(file, description.path.c_str(), H5P_DEFAULT), H5Dclose);
@@ -699,6 +712,7 @@ struct FileReader::Impl {
   }
 
   void read_packed(const Open& from, std::size_t first, std::size_t count, float* out) const {
+    check_library_memory();
     std::vector<char> packed;
     std::vector<float> numbers(from.packed_rows);
     for (std::size_t row = first, end = first + count; row < end;) {
@@ -725,6 +739,7 @@ struct FileReader::Impl {
     begin[0] = first;
     length[0] = count;
     if (count == 0 || from.row_values == 0) return;
+    check_library_memory();
     const Handle file_space(H5Dget_space(from.id), H5Sclose);
     H5Sselect_hyperslab(file_space, H5S_SELECT_SET, begin.data(), nullptr, length.data(), nullptr);
     const Handle memory_space(H5Screate_simple(static_cast<int>(length.size()), length.data(), nullptr),
@@ -790,6 +805,7 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
   impl_->bytes = static_cast<std::uint64_t>(std::max<std::int64_t>(0, state_of(impl_->input.descriptor()).size));
   impl_->checksum = impl_->input.read_checksum(remedy);
   if (scope == Scope::everything) impl_->input.check(impl_->checksum, remedy);
+  check_library_memory();
   const Handle access(access_for_reading(impl_->input.descriptor()), H5Pclose);
   impl_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("is not an HDF5 file, or is cut off");
