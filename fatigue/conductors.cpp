@@ -84,7 +84,7 @@ std::vector<double> sharing_rates(std::size_t wires, const std::function<double(
 LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesOfConductor>& places,
                          std::size_t segments, const pipeline::Fatigue& settings) {
   LifeScatter result;
-  const Scatter scatter{settings.scatter_log10, settings.scatter_shared};
+  const Scatter scatter{settings.scatter_log10 * settings.scatter_factor, settings.scatter_shared};
   std::vector<std::vector<double>> wires;  // (dresspack)
   for (const Bundle& bundle : conductors.bundle) {
     if (bundle.dresspack >= wires.size()) wires.resize(bundle.dresspack + 1);

@@ -37,10 +37,11 @@ double Layer::pitch() const {
   return 2 * pi * helix_radius / std::abs(std::tan(lay_angle));
 }
 
-Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics)
+Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics,
+                           const pipeline::StrainFactors& factors)
     : kinematics_(kinematics),
       rest_curvature_(dresspack.rest_curvature),
-      section_{pipeline::inner_radius(dresspack).value_or(without_limit), dresspack.core_diameter / 2},
+      section_{pipeline::inner_radius(dresspack).value_or(without_limit), dresspack.core_diameter / 2, factors.play},
       hose_bending_stiffness_(dresspack.bending_stiffness) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   if (!dresspack.hose_material.empty()) {
@@ -58,8 +59,19 @@ Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinem
   for (Layer& layer : layers_) {
     layer.lay_tangent = std::tan(lay_angle(layer));
     layer.lay_cosine = std::cos(lay_angle(layer));
+    scale(layer, factors);
   }
   list_parts(dresspack_itself, dresspack_itself);
+}
+
+/// After friction_level(): a factor on what a measured stiffness has set, too.
+void Construction::scale(Layer& layer, const pipeline::StrainFactors& factors) const {
+  const bool in_hose = layer.is_cable() && section_.inner_radius < without_limit;
+  layer.friction *= in_hose ? factors.hose_friction : factors.friction;
+  pipeline::Laying& laying = layer.laying;
+  laying.slack *= factors.slack;
+  for (std::optional<double>* grip : {&laying.base_grip, &laying.tool_grip})
+    if (*grip) **grip *= factors.grip;
 }
 
 void Construction::check(const pipeline::Component& component, int parent_layer, int level) const {

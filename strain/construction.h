@@ -74,7 +74,8 @@ class Construction {
  public:
   /// Errors: InputError for wires that could not be told apart, several parts on one axis, nesting beyond
   /// highest_level.
-  Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics);
+  Construction(const pipeline::Dresspack& dresspack, pipeline::Kinematics kinematics,
+               const pipeline::StrainFactors& factors = {});
 
   const std::vector<Layer>& layers() const { return layers_; }
   const std::vector<Part>& parts() const { return parts_; }  ///< parents before children
@@ -104,6 +105,7 @@ class Construction {
   std::string wire_path(int layer, int number, int parent) const;
 
  private:
+  void scale(Layer& layer, const pipeline::StrainFactors& factors) const;
   /// friction_level: factor of the radial line loads, from a measured stiffness of what it lies in.
   void add(const pipeline::Dresspack& dresspack, const pipeline::Component& component, int parent_layer,
            int level, double friction_level = 1);

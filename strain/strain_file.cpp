@@ -276,7 +276,7 @@ struct Evaluations {
 
   Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads) {
     for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
-      constructions.emplace_back(mounted.dresspack, job.strain.kinematics);
+      constructions.emplace_back(mounted.dresspack, job.strain.kinematics, job.strain.factors);
       levels = std::max(levels, constructions.back().levels());
     }
     const std::vector<pipeline::MotionSpan>& spans = reader.spans();

@@ -30,6 +30,13 @@ void describe(Fields& f, Fatigue& fatigue) {
            "a conductor fails when so many of its wires are broken; 0: with the first");
   f.boolean("load_sharing", fatigue.load_sharing, Need::optional,
             "whether the rest of a conductor takes over the load of its broken wires");
+  f.number("strength_factor", fatigue.strength_factor, Need::optional, between(0.01, 100),
+           "of strains and stresses of the wires' strain-life curve, to try what is not known");
+  f.number("slope_change", fatigue.slope_change, Need::optional, between(-0.1, 0.1),
+           "added to b of the wires' strain-life curve, about 1e5 cycles; likewise");
+  f.number("scatter_factor", fatigue.scatter_factor, Need::optional, between(0, 5), "of scatter_log10; likewise");
+  f.number("model_factor", fatigue.model_factor, Need::optional, between(1e-4, 1e4),
+           "of the wires' lives, for what no stage knows; likewise");
 }
 
 }  // namespace dresslife::pipeline

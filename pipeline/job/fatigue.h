@@ -96,7 +96,17 @@ struct Fatigue {
   double scatter_shared = 0.5;           ///< share of its variance that all wires of a dresspack have in common
   double failed_wires_percent = 10;      ///< a conductor fails when so many of its wires have
   bool load_sharing = false;             ///< the rest of a conductor takes over the load of its broken wires
+  // What is not known (uncertainty.h); of wires, not of the hose:
+  double strength_factor = 1;  ///< of strains and stresses of the strain-life curve
+  double slope_change = 0;     ///< of b
+  double scatter_factor = 1;   ///< of scatter_log10
+  double model_factor = 1;     ///< of lives
 };
+
+/// Whether a wire's material is another than its own (uncertainty.h, changed()).
+constexpr bool is_changed(const Fatigue& fatigue) {
+  return fatigue.strength_factor != 1 || fatigue.slope_change != 0 || fatigue.model_factor != 1;
+}
 
 void describe(Fields& f, Fatigue& fatigue);
 

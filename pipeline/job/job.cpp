@@ -42,6 +42,7 @@ void describe_keys(Fields& f, Job& job, const Forms& forms) {
   f.group("simulation", job.simulation, Need::optional, "settings of dresslife-sim");
   f.group("strain", job.strain, Need::optional, "settings of dresslife-strain");
   f.group("fatigue", job.fatigue, Need::optional, "settings of dresslife-fatigue");
+  f.group("uncertainty", job.uncertainty, Need::optional, "what is not known, and how well");
 }
 
 }  // namespace
@@ -157,6 +158,18 @@ void check_dresspacks(const Job& job, const Where& strain) {
         "give one word, or one per level, outermost first");
 }
 
+/// A curve whose lives do not rise with falling strain is none.
+void check_slopes(const Job& job, const Where& where) {
+  for (const MountedDresspack& mounted : job.dresspacks)
+    for (const Material& material : mounted.dresspack.materials)
+      if (material.strain_life_table.empty() && !(material.fatigue_strength_exponent + job.fatigue.slope_change <= -0.02))
+        throw InputError(where,
+                         fmt::format("fatigue.slope_change {} leaves '{}' a slope b of {} (must be -0.02 or less)",
+                                     job.fatigue.slope_change, material.name,
+                                     material.fatigue_strength_exponent + job.fatigue.slope_change),
+                         "give a smaller one");
+}
+
 void check(const Job& job, const Node& document) {
   auto where = [&](const char* key) {
     return document.find(key) ? document.find(key)->where : document.where;
@@ -168,6 +181,7 @@ void check(const Job& job, const Node& document) {
   check_motion(job.motion, job.robot);
   check_dresspacks(job, where("strain"));
   check_simulation(job.simulation, where("simulation"));
+  check_slopes(job, where("fatigue"));
 }
 
 /// strain.gate of a job with a rig that names none: above the rounding of strains in single precision (W26).
@@ -341,6 +355,7 @@ void describe_strain(Fields& echo, Job copy) {
   }
   describe_each(echo, forms_of(copy), keys);
   echo.group("strain", copy.strain, Need::optional, "");
+  echo.boolean("uncertain", copy.uncertainty.enabled, Need::optional, "");
 }
 
 void describe_fatigue(Fields& echo, Job copy) {
@@ -348,6 +363,7 @@ void describe_fatigue(Fields& echo, Job copy) {
   for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted});
   describe_each(echo, forms_of(copy), keys);
   echo.group("fatigue", copy.fatigue, Need::optional, "");
+  echo.group("uncertainty", copy.uncertainty, Need::optional, "");
 }
 
 }  // namespace
@@ -361,7 +377,8 @@ std::string part_text(const Job& job, Part part) {
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {
   std::vector<std::filesystem::path> files;
-  for (const auto& file : {job.motion.clamp_poses, job.motion.deformation, job.motion.program})
+  for (const auto& file : {job.motion.clamp_poses, job.motion.deformation, job.motion.program,
+                           job.uncertainty.calibration})
     if (!file.empty() && !is_folder(file)) files.push_back(file);
   for (const ProgramFile& module : job.motion.modules) {
     files.push_back(module.file);
@@ -410,8 +427,8 @@ const Material& resolved_material(const Job& job, const std::string& wanted) {
 
 }  // namespace
 
-const Material& material_of(const Job& job, const std::string& name) {
-  return resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material);
+Material material_of(const Job& job, const std::string& name) {
+  return changed(resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material), job.fatigue);
 }
 
 const Material& hose_material_of(const Job& job, const Dresspack& dresspack) {

@@ -15,18 +15,20 @@
 #include "pipeline/job/job_text.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/job/strain.h"
+#include "pipeline/job/uncertainty.h"
 
 namespace dresslife::pipeline {
 
 struct Job : Setup {
   Strain strain;
   Fatigue fatigue;
+  Uncertainty uncertainty;
 };
 
-/// The material that a wire of material `name` has under these settings, and that of a hose's wall, which
+/// The material that a wire of material `name` has under these settings, as changed() leaves it, and that of a hose's wall, which
 /// fatigue.material leaves alone. Dresspacks share their materials: one name, one material. Precondition: the
 /// job was read by read_job() or job_from().
-const Material& material_of(const Job& job, const std::string& name);
+Material material_of(const Job& job, const std::string& name);
 const Material& hose_material_of(const Job& job, const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

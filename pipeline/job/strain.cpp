@@ -24,6 +24,15 @@ void describe(Fields& f, Strain& strain) {
             "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),
            "turning points of smaller strain ranges are dropped");
+  const auto factor = [&](const char* key, double& value, const char* meaning) {
+    f.number(key, value, Need::optional, between(1e-3, 1e3), meaning);
+  };
+  factor("friction_factor", strain.factors.friction,
+         "of friction times pressure inside the cables, also where a measured stiffness sets it; to try what is not known");
+  factor("hose_friction_factor", strain.factors.hose_friction, "of the friction of cables in a hose; likewise");
+  factor("slack_factor", strain.factors.slack, "of slack_percent; likewise");
+  factor("play_factor", strain.factors.play, "of how far loose cables can leave their places; likewise");
+  factor("grip_factor", strain.factors.grip, "of base_grip_N and tool_grip_N; likewise");
   f.list("probes", strain.probes, Need::optional, "wires whose whole strain history is kept");
 }
 

@@ -126,6 +126,16 @@ struct Probe {
   std::string component;  ///< path of a wire
 };
 
+/// Of what is not known of cables and their hose (uncertainty.h): everything as the dresspack says at 1.
+struct StrainFactors {
+  double friction = 1;       ///< of friction coefficients inside the cables
+  double hose_friction = 1;  ///< of those of cables in a hose
+  double slack = 1;          ///< of slack_percent
+  double play = 1;           ///< of the room in which loose cables can move
+  double grip = 1;           ///< of base_grip_N and tool_grip_N
+  bool operator==(const StrainFactors&) const = default;
+};
+
 struct Strain {
   DeformationMeasure deformation = DeformationMeasure::rotation_vector;
   Kinematics kinematics = Kinematics::exact;
@@ -134,6 +144,7 @@ struct Strain {
   int surface_fibres = 1;                     ///< per wire; 0: the wire's axis
   double gate = 5e-4;                         ///< turning points of a smaller strain range are dropped
   std::vector<Probe> probes;
+  StrainFactors factors;
 };
 
 void describe(Fields& f, Probe& probe);

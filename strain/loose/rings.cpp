@@ -48,6 +48,14 @@ void fit_in_hose(std::vector<LooseCable>& cables, const HoseSection& section) {
   }
   for (LooseCable& cable : cables)  // alone in its ring it meets nobody
     if (cable.gap == without_limit) cable.ring = no_ring;
+  if (section.room == 1) return;
+  for (LooseCable& cable : cables) {
+    const double at = away(cable);
+    cable.play *= section.room;
+    cable.gap *= section.room;
+    cable.farthest = at + section.room * (cable.farthest - at);
+    cable.nearest = std::max(0.0, at - section.room * (at - cable.nearest));
+  }
 }
 
 }  // namespace dresslife::strain

@@ -18,6 +18,7 @@ namespace dresslife::strain {
 struct HoseSection {
   double inner_radius = without_limit;  ///< of the wall [m]
   double core_radius = 0;               ///< of what fills the middle and is no cable [m]
+  double room = 1;                      ///< share of how far cables could leave their places that they have
 };
 
 /// Fills in `farthest`, `nearest`, `ring` and `gap` of cables at their places. Where places overlap with one

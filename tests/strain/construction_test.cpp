@@ -119,3 +119,25 @@ TEST_CASE("straight wires in a helical conductor slide over the conductor's pitc
   CHECK(plan[2].sliding == Sliding::along_ancestor);
   CHECK(plan[2].helical_level == 2);
 }
+
+TEST_CASE("factors of what is not known reach friction, slack and grips, each where it belongs") {
+  Dresspack dresspack = thesis_dresspack();
+  dresspack.inner_diameter = 0.05;
+  Component& cable = dresspack.components[0];
+  cable.friction = 0.3, cable.radial_line_load = 5;
+  cable.laying.slack = 1, cable.laying.tool_grip = 300;
+  cable.components[0].friction = 0.4, cable.components[0].radial_line_load = 100;
+  dresslife::pipeline::StrainFactors factors;
+  factors.friction = 2, factors.hose_friction = 3, factors.slack = 0.5, factors.grip = 0.1;
+  const Construction as_told(dresspack, Kinematics::exact), changed(dresspack, Kinematics::exact, factors);
+  const Layer& in_hose = changed.layers()[0];
+  CHECK(in_hose.friction == Approx(0.9));
+  CHECK(in_hose.laying.slack == Approx(0.5));
+  CHECK(*in_hose.laying.tool_grip == Approx(30));
+  CHECK_FALSE(in_hose.laying.base_grip);
+  CHECK(changed.layers()[1].friction == Approx(0.8));
+  const std::vector<Slip> rubbing{Slip::free, Slip::friction, Slip::free};
+  CHECK(plan_slip(changed, rubbing, 2.0)[1].cap.constant ==
+        Approx(2 * plan_slip(as_told, rubbing, 2.0)[1].cap.constant).epsilon(rounding));
+  CHECK(as_told.layers()[0].friction == 0.3);
+}

@@ -227,3 +227,19 @@ TEST_CASE("whatever a hose does, every number is finite") {
     }
   }
 }
+
+TEST_CASE("a share of the room leaves cables that share of their ways, and all of it every digit") {
+  std::vector<LooseCable> all(2), half(2);
+  for (auto* cables : {&all, &half})
+    for (std::size_t k = 0; k < 2; ++k) {
+      LooseCable& cable = (*cables)[k];
+      cable.radius = 0.005;
+      cable.place = {k == 0 ? 0.018 : -0.018, 0};
+    }
+  fit_in_hose(all, {.inner_radius = 0.027, .core_radius = 0.01});
+  fit_in_hose(half, {.inner_radius = 0.027, .core_radius = 0.01, .room = 0.5});
+  constexpr double rounding = 1e-12;
+  CHECK(half[0].farthest - 0.018 == Approx((all[0].farthest - 0.018) / 2).epsilon(rounding));
+  CHECK(0.018 - half[0].nearest == Approx((0.018 - all[0].nearest) / 2).epsilon(rounding));
+  CHECK(half[0].gap == Approx(all[0].gap / 2).epsilon(rounding));
+}
