@@ -577,6 +577,23 @@ void judge(Context& c) {
       c.damage, c.counters, groups, group_of, [&](std::size_t site) { return c.strains_of(site); }, c.threads);
 }
 
+/// Where the job goes beyond the tests from which its calibration was learned.
+std::vector<std::string> beyond_calibration(const Context& c) {
+  if (!c.job.calibration || c.worst == no_site) return {};
+  pipeline::Experience experience;
+  experience.strain_range = c.damage.range[c.worst];
+  const auto curvature = c.strain.read<double>("/deformation/curvature");
+  for (std::size_t k = 0; k + 1 < curvature.size(); k += 2)
+    experience.curvature = std::max(experience.curvature, std::hypot(curvature[k], curvature[k + 1]));
+  for (const double twist : c.strain.read<double>("/deformation/twist"))
+    experience.twist = std::max(experience.twist, std::abs(twist));
+  experience.materials = {pipeline::material_of(c.job, c.sites.material()[c.worst]).name};
+  std::vector<std::string> warnings;
+  for (const std::string& words : pipeline::beyond(c.job.calibration->within, experience))
+    warnings.push_back("warning: beyond what its calibration was learned from: " + words);
+  return warnings;
+}
+
 std::vector<std::string> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
   std::set<std::string> warnings;  // sorted and once each
   for (const std::string& name : c.sites.material().values) {
@@ -599,6 +616,7 @@ std::vector<std::string> warnings_of(const Context& c, const std::vector<Damagin
                     "{:.3g}); check slip, lay angles and bend radii, no wire is meant for this",
                     torn, c.damage.range[c.worst]));
   }
+  for (const std::string& warning : beyond_calibration(c)) warnings.insert(warning);
   return {warnings.begin(), warnings.end()};
 }
 

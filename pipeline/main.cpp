@@ -26,7 +26,8 @@ int import_program(char** arguments) {
 std::vector<Command> add_commands(CLI::App& program) {
   std::vector<Command> commands{add_run(program),     add_status(program),   add_report(program),
                                 add_show(program),    add_plot(program),     add_export(program),
-                                add_rate(program),    add_validate(program), add_draw(program),
+                                add_rate(program),    add_validate(program), add_calibrate(program),
+                                add_draw(program),
                                 add_preview(program), add_page(program)};
   program.add_subcommand(
       "import",

@@ -21,6 +21,7 @@ Command add_report(CLI::App& program);
 // Cables and the tests that they are put to
 Command add_rate(CLI::App& program);
 Command add_validate(CLI::App& program);
+Command add_calibrate(CLI::App& program);
 // One job, one dresspack
 Command add_show(CLI::App& program);
 Command add_preview(CLI::App& program);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "pipeline/progress.h"
 #include "pipeline/study/build_graph.h"
 #include "pipeline/study/relative_life.h"
+#include "pipeline/study/shared_stages.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -60,6 +62,22 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
   for (std::size_t k = 0; k < states.size(); ++k) left += study.jobs[k].failure.empty() && !states[k].done();
   write_build_graph(study, places, states, options.limits);
   if (left > 0) build_rest(study, places, options, left, states, progress);
+  return ranking_of(study, places, states);
+}
+
+std::vector<RankingRow> shared_rows(const Study& study, const StudyPlaces& places, const RunOptions& options) {
+  std::set<std::string> tried;
+  std::vector<JobState> states;
+  while (true) {
+    states = states_of(study, places);
+    share_stages(study, places, states);
+    Study now{study.name, {}};
+    for (const std::size_t k : without_likes(study, states))
+      if (!tried.contains(study.jobs[k].name)) now.jobs.push_back(study.jobs[k]);
+    if (now.jobs.empty()) break;
+    for (const StudyJob& job : now.jobs) tried.insert(job.name);
+    made_rows(now, places, options);
+  }
   return ranking_of(study, places, states);
 }
 

@@ -43,6 +43,8 @@ void describe_keys(Fields& f, Job& job, const Forms& forms) {
   f.group("strain", job.strain, Need::optional, "settings of dresslife-strain");
   f.group("fatigue", job.fatigue, Need::optional, "settings of dresslife-fatigue");
   f.group("uncertainty", job.uncertainty, Need::optional, "what is not known, and how well");
+  f.maybe_group("calibration", job.calibration,
+                "a file that dresslife calibrate wrote: what observations have taught of what is not known");
 }
 
 }  // namespace
@@ -218,6 +220,7 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   for (const std::string& set : sets) apply_set(document, set);
   check_forms(document);
   resolve_job(document);
+  apply_calibration(document);
   Job job;
   if (document.find("dresspacks")) job.dresspacks.clear();
   read_fields(document, job);
@@ -364,6 +367,7 @@ void describe_fatigue(Fields& echo, Job copy) {
   describe_each(echo, forms_of(copy), keys);
   echo.group("fatigue", copy.fatigue, Need::optional, "");
   echo.group("uncertainty", copy.uncertainty, Need::optional, "");
+  echo.maybe_group("calibration", copy.calibration, "");
 }
 
 }  // namespace
@@ -377,8 +381,7 @@ std::string part_text(const Job& job, Part part) {
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {
   std::vector<std::filesystem::path> files;
-  for (const auto& file : {job.motion.clamp_poses, job.motion.deformation, job.motion.program,
-                           job.uncertainty.calibration})
+  for (const auto& file : {job.motion.clamp_poses, job.motion.deformation, job.motion.program})
     if (!file.empty() && !is_folder(file)) files.push_back(file);
   for (const ProgramFile& module : job.motion.modules) {
     files.push_back(module.file);
@@ -429,6 +432,10 @@ const Material& resolved_material(const Job& job, const std::string& wanted) {
 
 Material material_of(const Job& job, const std::string& name) {
   return changed(resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material), job.fatigue);
+}
+
+ParameterKnowledge knowledge_of(const Job& job) {
+  return job.calibration ? knowledge_of(*job.calibration) : prior_of(job.uncertainty);
 }
 
 const Material& hose_material_of(const Job& job, const Dresspack& dresspack) {

@@ -11,6 +11,7 @@
 
 #include <string>
 
+#include "pipeline/job/calibration.h"
 #include "pipeline/job/fatigue.h"
 #include "pipeline/job/job_text.h"
 #include "pipeline/job/setup.h"
@@ -23,7 +24,11 @@ struct Job : Setup {
   Strain strain;
   Fatigue fatigue;
   Uncertainty uncertainty;
+  std::optional<Calibration> calibration;  ///< what observations have taught; its medians stand in the keys
 };
+
+/// What is known of its parameters: from observations where it names a calibration, else its prior.
+ParameterKnowledge knowledge_of(const Job& job);
 
 /// The material that a wire of material `name` has under these settings, as changed() leaves it, and that of a hose's wall, which
 /// fatigue.material leaves alone. Dresspacks share their materials: one name, one material. Precondition: the

@@ -72,7 +72,6 @@ std::array<double, uncertain_count> Uncertainty::default_spread() {
 void describe(Fields& f, Uncertainty& uncertainty) {
   f.boolean("enabled", uncertainty.enabled, Need::optional,
             "whether lives are told over what is not known, besides the wires' scatter; it costs at most as much time again");
-  f.path("calibration", uncertainty.calibration, Need::optional, "what was learned from observations");
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     f.number(parameter.name, uncertainty.spread[p], Need::optional,

@@ -58,7 +58,6 @@ std::vector<std::string> sets_at(std::span<const double> z);
 /// The section `uncertainty` of a job.
 struct Uncertainty {
   bool enabled = true;
-  std::filesystem::path calibration;  ///< what was learned from observations; empty: nothing yet
   std::array<double, uncertain_count> spread = default_spread();  ///< of the key at one deviation: a factor, or an addend
 
   static std::array<double, uncertain_count> default_spread();

@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <random>
+
+#include "pipeline/statistics/normal_numbers.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -51,22 +51,6 @@ bool is_definite(const MatrixXd& matrix) {
 }
 
 // ---- draws ------------------------------------------------------------------------------------------------
-
-/// Normal numbers after Box and Muller: the standard library's differ from one library to the next.
-class NormalNumbers {
- public:
-  explicit NormalNumbers(std::uint64_t seed) : engine_(seed) {}
-  double uniform() { return (static_cast<double>(engine_() >> 11) + 0.5) * 0x1p-53; }
-  VectorXd vector(Index size) {
-    VectorXd numbers(size);
-    for (Index i = 0; i < size; ++i)
-      numbers[i] = std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
-    return numbers;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 MatrixXd covariance_of(const MatrixXd& draws) {
   const MatrixXd off = draws.rowwise() - draws.colwise().mean();

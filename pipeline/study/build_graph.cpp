@@ -217,6 +217,8 @@ std::string JobState::words() const {
   return has_results ? "stale" : "to do";
 }
 
+StageFiles files_of_stage(std::size_t stage) { return {stages[stage].output, receipt_file(stages[stage])}; }
+
 void look_at(JobState& state, const fs::path& folder) {
   state.damaged.clear();
   state.compared.clear();

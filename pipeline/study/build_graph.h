@@ -54,6 +54,12 @@ struct JobState {
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places);
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, Digests& digests);
 
+/// In a job's folder.
+struct StageFiles {
+  std::filesystem::path output, receipt;
+};
+StageFiles files_of_stage(std::size_t stage);
+
 /// Brings a state up to date whose recipes are known.
 void look_at(JobState& state, const std::filesystem::path& folder);
 

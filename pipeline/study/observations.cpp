@@ -28,7 +28,11 @@ void describe(Fields& f, Observation& observation) {
            "its maker promises so much");
   f.choice("criterion", observation.criterion,
            "what counted as failed: first_wire, or conductor (a share of its wires at one place, fatigue.failed_wires_percent)");
-  f.integer("specimens", observation.specimens, Need::optional, between(1, 1e6), "that were tried");
+  f.integer("specimens", observation.specimens, Need::optional, between(1, 1e6),
+            "that were tried; of several that broke, cycles or hours are their geometric mean");
+  f.number("unshared_log10", observation.unshared_log10, Need::optional, between(0, 3),
+           "standard deviation of log10 of life that this test has of its own, for dresslife calibrate; smaller for the cable "
+           "that is calibrated for in its own test");
 }
 
 namespace {
@@ -90,7 +94,7 @@ Observation read_one(const Node& item) {
 
 }  // namespace
 
-ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file) {
   const Node document = read_yaml(file);
   const Node* list = document.is_map() ? document.find("observations") : nullptr;
   if (!list || !list->is_list() || list->items.empty())
@@ -98,24 +102,39 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
   for (const Entry& entry : document.entries)
     if (entry.key != "observations")
       throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key), "leave it out");
-  ValidationStudy made;
-  made.study.name = "validate_" + file.stem().string();
+  std::vector<ObservedTest> tests;
   std::set<std::string> names;
   for (const Node& item : list->items) {
-    Observation observation = read_one(item);
-    if (!names.insert(observation.name).second)
-      throw InputError(item.where, fmt::format("two observations are named '{}'", observation.name),
-                       "give each another name");
+    ObservedTest test{read_one(item), {}, to_yaml(item), item.where};
+    const std::string& name = test.observation.name;
+    if (!names.insert(name).second)
+      throw InputError(item.where, fmt::format("two observations are named '{}'", name), "give each another name");
     const Node& written = *item.find("job");
     const Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where)
                                           : written;
-    for (const Variant& variant : combinations(item.find("vary"), observation.name)) {
-      StudyJob job;
-      job.name = variant.name;
+    for (const Variant& variant : combinations(item.find("vary"), name)) {
+      test.variants.push_back({variant.name, base, ""});
       try {
-        Node changed = base;
-        for (const auto& [key, value] : variant.changes) set_value(changed, key->key, *value, key->where);
-        job.job = std::make_shared<const Job>(job_from(std::move(changed), sets));
+        for (const auto& [key, value] : variant.changes)
+          set_value(test.variants.back().job, key->key, *value, key->where);
+      } catch (const InputError& problem) {
+        test.variants.back().failure = problem.what();
+      }
+    }
+    tests.push_back(std::move(test));
+  }
+  return tests;
+}
+
+ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  ValidationStudy made;
+  made.study.name = "validate_" + file.stem().string();
+  for (ObservedTest& test : read_observed_tests(file)) {
+    Observation& observation = test.observation;
+    for (ObservedTest::Variant& variant : test.variants) {
+      StudyJob job{variant.name, nullptr, variant.failure};
+      try {
+        if (job.failure.empty()) job.job = std::make_shared<const Job>(job_from(std::move(variant.job), sets));
       } catch (const InputError& problem) {
         job.failure = problem.what();
       }
@@ -125,6 +144,17 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
     made.observations.push_back(std::move(observation));
   }
   return made;
+}
+
+std::array<double, 3> lives_of(const Observation& observation, const RankingRow& row) {
+  const auto& hours = observation.criterion == FailureCriterion::first_wire ? row.first_wire_hours
+                      : row.planned()                                       ? row.planned_hours
+                                                                            : row.conductor_hours;
+  const double unit = observation.hours ? 1 : 3600 / row.repeat_seconds * observation.cycles_per_repeat;
+  std::array<double, 3> lives;
+  // Where nothing is damaged there is no scatter to tell.
+  for (std::size_t i = 0; i < lives.size(); ++i) lives[i] = std::isnan(hours[i]) ? endless : hours[i] * unit;
+  return lives;
 }
 
 Prediction predicted(const Observation& observation, const Study& study, const std::vector<RankingRow>& rows) {
@@ -140,16 +170,11 @@ Prediction predicted(const Observation& observation, const Study& study, const s
       ++prediction.failed;
       continue;
     }
-    const auto& hours = observation.criterion == FailureCriterion::first_wire ? row->first_wire_hours
-                        : row->planned()                                      ? row->planned_hours
-                                                                              : row->conductor_hours;
-    const double unit = observation.hours ? 1 : 3600 / row->repeat_seconds * observation.cycles_per_repeat;
+    const std::array<double, 3> lives = lives_of(observation, *row);
     const double bound = observation.hours ? row->repeat_seconds / 3600 : observation.cycles_per_repeat;
-    // Where nothing is damaged there is no scatter to tell.
-    const auto life = [&](double value) { return std::isnan(value) ? endless : value * unit; };
-    prediction.low = std::min(prediction.low, life(hours[0]));
-    prediction.high = std::max(prediction.high, life(hours[2]));
-    medians.push_back(life(hours[1]));
+    prediction.low = std::min(prediction.low, lives[0]);
+    prediction.high = std::max(prediction.high, lives[2]);
+    medians.push_back(lives[1]);
     prediction.stuck = std::min(prediction.stuck, row->life_repeats_all_stick * bound);
     prediction.free = std::max(prediction.free, row->life_repeats_all_free * bound);
   }
@@ -193,6 +218,8 @@ namespace {
 
 std::string life_text(double life) { return std::isinf(life) ? "no damage" : readable(life, 2); }
 
+}  // namespace
+
 std::string observed_text(const Observation& observation) {
   const char* sign = observation.outcome == ObservedEnd::broken      ? ""
                      : observation.outcome == ObservedEnd::broken_by ? "at most "
@@ -200,8 +227,6 @@ std::string observed_text(const Observation& observation) {
   const double life = observation.cycles ? *observation.cycles : *observation.hours;
   return fmt::format("{}{}{}", sign, readable(life, 3), observation.hours ? " h" : "");
 }
-
-}  // namespace
 
 std::string validation_table(const ValidationStudy& validation, const std::vector<RankingRow>& rows) {
   std::string text =

@@ -1,0 +1,49 @@
+#include "pipeline/commands/command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "pipeline/commands/making.h"
+#include "pipeline/commands/options.h"
+#include "pipeline/installation.h"
+#include "pipeline/job/fields.h"
+#include "pipeline/report/calibration_picture.h"
+#include "pipeline/study/folder_lock.h"
+#include "pipeline/study/learning.h"
+#include "pipeline/whole_file.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+int calibrate(const RunOptions& options) {
+  const fs::path file = named_file(options.study, "observations");
+  const std::vector<ObservedTest> tests = read_observed_tests(file);
+  const StudyPlaces places{fs::path(options.out) / ("calibrate_" + file.stem().string()), program_folder()};
+  const FolderLock lock(places.folder);
+  const Learned learned = learn(tests, options.sets, places,
+                                [&](const Study& study) { return shared_rows(study, places, options); });
+  const std::string table = learned_table(learned);
+  write_text_if_changed(places.folder / "calibration.yaml", to_yaml(echo_fields(learned.calibration)));
+  write_text_if_changed(places.folder / "calibration.svg", calibration_picture(learned));
+  print(shown(fmt::format("{}\nCalibration: {}\nPicture: {}\n", table, (places.folder / "calibration.yaml").string(),
+                          (places.folder / "calibration.svg").string())));
+  return 0;
+}
+
+}  // namespace
+
+Command add_calibrate(CLI::App& program) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* words = program.add_subcommand(
+      "calibrate", "learn what is not known of cables from lives that were observed; a job that names the result starts from it");
+  words->add_option("observations", options->study, "OBSERVATIONS.yaml")->required()->type_name("");
+  add_run_options(*words, *options);
+  add_study_options(*words, *options);
+  return {words, [options] { return calibrate(*options); }};
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,110 @@
+#include "pipeline/report/calibration_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/readable.h"
+#include "pipeline/report/plot.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double row_height = 26, top = 44, left = 170, plot_width = 460, words_width = 250;
+constexpr double least_life = 1e2, most_life = 1e14;  // that are shown; beyond, a bar ends at the edge
+
+constexpr const char* style = R"(<style>
+svg { font: 12px sans-serif; background: #fff }
+.grid { stroke: #e2e2e2; fill: none } .tick, .axis-title, .name { fill: #333 } .axis-title { font-weight: bold }
+.before { fill: #c9d3de } .after { fill: #5b8dc0 } .median { stroke: #1b3f66; stroke-width: 2; fill: none }
+.observed { fill: #111 } .arrow { stroke: #111; stroke-width: 1.5; fill: none } .open { fill: #666 }
+</style>
+)";
+
+/// Rows of two bars, the wide one before, the narrow one after, on one axis.
+class Bars {
+ public:
+  Bars(Picture& picture, double from_top, std::size_t rows, Axis axis)
+      : picture_(picture), panel_{left, from_top, plot_width, row_height * static_cast<double>(rows), {}, {}} {
+    panel_.x = std::move(axis);
+    for (const Tick& tick : panel_.x.ticks(8)) {
+      picture_.line(panel_.across(tick.value), panel_.top, panel_.across(tick.value), panel_.bottom(), "grid");
+      picture_.text(panel_.across(tick.value), panel_.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
+    }
+    picture_.text(left + plot_width / 2, panel_.bottom() + 36, panel_.x.title, "axis-title", Picture::Anchor::middle);
+  }
+
+  /// Returns the middle of the row, from the top.
+  double add(const std::string& name, const Foretold& before, const Foretold* after, const std::string& words) {
+    const double y = panel_.top + row_height * (static_cast<double>(rows_++) + 0.5);
+    picture_.text(left - 8, y + 4, shortened(name, 26), "name", Picture::Anchor::end);
+    bar(y, 16, before, "before");
+    if (after) {
+      bar(y, 8, *after, "after");
+      picture_.line(across((*after)[1]), y - 7, across((*after)[1]), y + 7, "median");
+    }
+    picture_.text(left + plot_width + 10, y + 4, words, "open");
+    return y;
+  }
+  double across(double value) const { return panel_.across(std::clamp(value, panel_.x.low, panel_.x.high)); }
+  double bottom() const { return panel_.bottom(); }
+
+ private:
+  void bar(double y, double height, const Foretold& of, const char* kind) {
+    picture_.box(across(of[0]), y - height / 2, std::max(2.0, across(of[2]) - across(of[0])), height, kind);
+  }
+
+  Picture& picture_;
+  Panel panel_;
+  std::size_t rows_ = 0;
+};
+
+void add_seen(Picture& picture, const Bars& bars, double y, const Observation& observation) {
+  const double at = bars.across(observation.cycles ? *observation.cycles : *observation.hours);
+  if (observation.outcome != ObservedEnd::broken) {
+    const double way = bounds_below(observation.outcome) ? 16 : -16, end = at + way;
+    picture.line(at, y, end, y, "arrow");
+    picture.line(end, y, end - way / 4, y - 4, "arrow");
+    picture.line(end, y, end - way / 4, y + 4, "arrow");
+  }
+  picture.dot(at, y, 4.5, "observed");
+}
+
+/// Parameters on an axis of z, so that all priors look alike.
+Foretold in_deviations(const UncertainParameter& parameter, const Foretold& key) {
+  return {parameter.z_of(key[0]), parameter.z_of(key[1]), parameter.z_of(key[2])};
+}
+
+}  // namespace
+
+std::string calibration_picture(const Learned& learned) {
+  const std::size_t tests = learned.tests.size();
+  const double second = top + row_height * static_cast<double>(uncertain_count) + 78;
+  Picture picture(left + plot_width + words_width, second + row_height * static_cast<double>(tests) + 48,
+                  "What observations have taught", "Parameters, and lives foretold, before and after");
+  picture.text(left, 18, "wide bars: 80 % of what was likely before; narrow: after, with its median", "tick");
+  Axis deviations;
+  deviations.title = "parameter [deviations of what was known before]";
+  deviations.low = -4, deviations.high = 4;
+  Bars parameters(picture, top, uncertain_count, deviations);
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    const UncertainParameter& parameter = uncertain_parameters()[p];
+    const LearnedAxis& axis = learned.axes[p];
+    const Foretold before = in_deviations(parameter, axis.before), after = in_deviations(parameter, axis.after);
+    parameters.add(std::string(parameter.name), before, axis.learned ? &after : nullptr,
+                   axis.learned ? fmt::format("{} ({} .. {})", readable(axis.after[1]), readable(axis.after[0]),
+                                              readable(axis.after[2]))
+                                : "no test hangs on it");
+  }
+  picture.text(left, second - 10, "dot: observed; arrow to the right: at least, to the left: at most", "tick");
+  Bars lives(picture, second, tests, decades_axis("life of one specimen [cycles of the test, or hours]", least_life, most_life));
+  for (const LearnedTest& test : learned.tests)
+    add_seen(picture, lives, lives.add(test.observation.name, test.before, &test.after, observed_text(test.observation)),
+             test.observation);
+  std::string text = picture.svg();
+  text.insert(text.find('>'), fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\"", picture.width()));
+  return text.insert(text.find('>') + 1, std::string("\n") + style);
+}
+
+}  // namespace dresslife::pipeline

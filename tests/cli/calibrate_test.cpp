@@ -1,0 +1,112 @@
+// `dresslife calibrate`, and jobs that name what it wrote, as a user runs them.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+const std::string wire_job =
+    "{motion: {rig: {kind: axial, elongation_percent: 0.2}}, dresspack: {cable: {name: wire, source: test, radius_mm: 0.1, "
+    "components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}}}";
+
+std::string row(const std::string& name, const std::string& more, const std::string& job = wire_job) {
+  return "  - name: " + name + "\n    job: " + job +
+         "\n    what: pulled\n    source: made for the tests\n    criterion: first_wire\n" + more;
+}
+
+/// The number after `key: ` in the entry of a parameter.
+double learned(const std::string& calibration, const std::string& parameter, const std::string& key) {
+  const std::size_t entry = calibration.find("name: " + parameter + "\n");
+  REQUIRE(entry != std::string::npos);
+  return std::stod(calibration.substr(calibration.find("\n    " + key + ": ", entry) + key.size() + 7));
+}
+
+double life_hours(const Scratch& scratch, const std::string& sets) {
+  const Outcome outcome = run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.enabled=false " + sets);
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  const std::string csv = content(scratch / "runs/job/ranking.csv");
+  const std::string names = csv.substr(0, csv.find('\n')), values = csv.substr(csv.find('\n') + 1);
+  std::istringstream keys(names), cells(values);
+  std::string key, cell;
+  while (std::getline(keys, key, ',') && std::getline(cells, cell, ','))
+    if (key == "life_hours") return std::stod(cell);
+  FAIL("no life_hours");
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job that names them lives") {
+  Scratch scratch;
+  scratch.write("job.yaml", wire_job);
+  const double before = life_hours(scratch, "");
+  const double cycles = before * 3600 / 2;  // 30 a minute
+  scratch.write("o.yaml", "observations:\n" + row("long", "    cycles: " + std::to_string(10 * cycles) +
+                                                              "\n    outcome: broken\n    specimens: 3\n    unshared_log10: 0.05\n"));
+  const Outcome outcome = run(scratch, "dresslife", "calibrate o.yaml --quiet");
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out.find("friction_inside") != std::string::npos);
+  CHECK(outcome.out.find("no test hangs on it") != std::string::npos);
+  const std::string file = content(scratch / "runs/calibrate_o/calibration.yaml");
+  CHECK(file.starts_with("format: dresslife-calibration\nformat_version: 1\n"));
+  CHECK(learned(file, "strength", "value") > 1.05);
+  CHECK(learned(file, "model", "value") > 1.05);
+  CHECK(file.find("name: slack") == std::string::npos);
+  CHECK(content(scratch / "runs/calibrate_o/calibration.svg").starts_with("<svg "));
+  // Most of the tenfold: 0.37 decades of strength and 0.3 of the model's factor against 0.2 of scatter.
+  const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
+  CHECK(after > 4 * before);
+  CHECK(after < 13 * before);
+  // A second time nothing is left to do, and the same is said; by other rows it is learned anew, and the job runs again.
+  const Outcome again = run(scratch, "dresslife", "calibrate o.yaml");
+  CHECK(again.out == outcome.out);
+  CHECK(again.err.find("stages ran") == std::string::npos);
+  scratch.write("o.yaml", "observations:\n" + row("as_foretold", "    cycles: " + std::to_string(cycles) + "\n    outcome: broken\n"));
+  REQUIRE(run(scratch, "dresslife", "calibrate o.yaml --quiet").status == 0);
+  const double other = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
+  CHECK(other > 0.5 * before);
+  CHECK(other < 2 * before);
+}
+
+TEST_CASE("calibrate: run-outs that were foretold teach hardly anything, and none shortens a life") {
+  Scratch scratch;
+  scratch.write("job.yaml", wire_job);
+  const double before = life_hours(scratch, ""), cycles = before * 3600 / 2;
+  double least = 0.999 * before;
+  for (const double times : {1e-4, 1.0, 10.0}) {
+    scratch.write("o.yaml", "observations:\n" + row("ended", "    cycles: " + std::to_string(times * cycles) + "\n    outcome: run_out\n"));
+    REQUIRE(run(scratch, "dresslife", "calibrate o.yaml --quiet").status == 0);
+    const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
+    constexpr double by_lot = 0.95;  // medians of draws are good to some hundredths of a deviation, which is a factor of 3
+    CHECK(after > by_lot * least);
+    if (times < 1e-3) CHECK(after < before / by_lot);
+    least = after;
+  }
+  CHECK(least > 2 * before);
+}
+
+TEST_CASE("calibrate: rows that cannot be used are named at their place") {
+  Scratch scratch;
+  const auto refused = [&](const std::string& text) {
+    scratch.write("o.yaml", text);
+    const Outcome bad = run(scratch, "dresslife", "calibrate o.yaml --quiet");
+    CHECK(bad.status == 1);
+    return bad.err;
+  };
+  const auto has = [](const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; };
+  CHECK(has(refused("observations:\n" + row("x", "    outcome: broken\n")), "o.yaml:2:5: error: 'x' must have either cycles or hours"));
+  std::string job = wire_job;
+  job.insert(job.size() - 1, ", fatigue: {strength_factor: 2}");
+  CHECK(has(refused("observations:\n" + row("ok", "    cycles: 5\n") + row("y", "    cycles: 5\n", job)),
+            "o.yaml:8:5: error: 'y': its job gives a key that is to be learned; leave"));
+  CHECK(has(refused("observations:\n" + row("z", "    cycles: 5\n", "nowhere.yaml")), "nowhere.yaml"));
+  job = wire_job;
+  job.replace(job.find("copper_halved"), 13, "unobtainium");
+  CHECK(has(refused("observations:\n" + row("m", "    cycles: 5\n", job)), "'m': its job cannot be made"));
+  CHECK(run(scratch, "dresslife", "calibrate").status == 2);
+}
