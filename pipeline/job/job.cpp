@@ -150,7 +150,7 @@ void check_dresspacks(const Job& job, const Where& strain) {
     }
     depth = std::max(depth, check_dresspack(mounted.dresspack, job.strain.slip));
     check_materials(mounted.dresspack.materials);
-    overlap_warnings(mounted.dresspack);  // dresslife-strain tells them; gross overlap is refused here
+    refuse_gross_overlap(mounted.dresspack);  // dresslife-strain warns of less
   }
   check_shared(job.dresspacks);
   if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
@@ -406,7 +406,7 @@ Dresspack read_dresspack(const std::filesystem::path& file) {
   read_fields(*job.find("dresspack"), dresspack);
   check_dresspack(dresspack, {Slip::free});
   check_materials(dresspack.materials);
-  overlap_warnings(dresspack);  // gross overlap is refused
+  refuse_gross_overlap(dresspack);
   return dresspack;
 }
 

@@ -25,4 +25,7 @@ bool overlaps(const Component& component);
 /// would share over a third of their sections.
 std::vector<std::string> overlap_warnings(const Dresspack& dresspack);
 
+/// The errors alone, in a hundredth of the time: nobody asks what would fit.
+void refuse_gross_overlap(const Dresspack& dresspack);
+
 }  // namespace dresslife::pipeline
