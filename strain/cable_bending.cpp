@@ -13,6 +13,13 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int phases = 36;                // around a layer: whole harmonics are exact, what yields is to 1e-3
 constexpr double small_curvature = 1e-4;  // [1/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
+void scale_friction(std::vector<pipeline::Component>& parts, double factor) {
+  for (pipeline::Component& part : parts) {
+    if (part.friction) *part.friction *= factor;
+    scale_friction(part.components, factor);
+  }
+}
+
 constexpr double no_friction = 0, all_friction = 1e12;  // levels
 
 }  // namespace
@@ -128,6 +135,16 @@ double friction_level(const pipeline::Dresspack& dresspack, const pipeline::Comp
     (stiffness(middle) < wanted ? low : high) = middle;
   }
   return std::sqrt(low * high);
+}
+
+std::vector<double> bending_moments(const pipeline::Dresspack& dresspack, pipeline::Component cable, double friction,
+                                    const std::vector<double>& curvature) {
+  const double level = cable.measured_bending_stiffness ? friction_level(dresspack, cable) : 1;
+  scale_friction(cable.components, friction);
+  const CableBending bending(dresspack, cable);
+  std::vector<double> moments;
+  for (const double k : curvature) moments.push_back(cable.polymer_bending_stiffness * k + bending.moment(k, level));
+  return moments;
 }
 
 }  // namespace dresslife::strain

@@ -49,4 +49,9 @@ class CableBending {
 /// measured_bending_stiffness at measured_at_curvature. Errors: InputError when no friction gives that.
 double friction_level(const pipeline::Dresspack& dresspack, const pipeline::Component& cable);
 
+/// What bends a cable by itself from straight for the first time [N m], its polymer included; friction: factor of that of all its
+/// parts, besides what a measured stiffness says. curvature (bend) [1/m]. Errors: InputError as above.
+std::vector<double> bending_moments(const pipeline::Dresspack& dresspack, pipeline::Component cable, double friction,
+                                    const std::vector<double>& curvature);
+
 }  // namespace dresslife::strain

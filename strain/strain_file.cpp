@@ -10,6 +10,7 @@
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/believable.h"
 #include "pipeline/job/job.h"
+#include "strain/cable_bending.h"
 #include "strain/evaluation.h"
 
 namespace dresslife::strain {
@@ -372,6 +373,24 @@ std::string write_cables(FileWriter& file, const std::vector<std::unique_ptr<Eva
   return warning;
 }
 
+/// How a cable by itself bends, from the curvature of a hanging cable to that of a wire around a finger.
+void write_bending(FileWriter& file, const pipeline::Job& job) {
+  const pipeline::Dresspack& dresspack = job.dresspacks.front().dresspack;
+  const bool rub = std::any_of(job.strain.slip.begin(), job.strain.slip.end(), [](pipeline::Slip slip) { return rubs(slip); });
+  if (!dresspack.cable_alone || !rub || dresspack.components.size() != 1 || dresspack.components[0].components.empty()) return;
+  constexpr int of_a_decade = 20, decades = 5;
+  constexpr double least = 1e-3;  // [1/m]
+  std::vector<double> curvature, moment;
+  for (int k = 0; k <= decades * of_a_decade; ++k) curvature.push_back(least * std::pow(10, double(k) / of_a_decade));
+  try {
+    moment = bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
+  } catch (const pipeline::InputError&) {
+    return;  // straight parts beside the axis: how far they slide hangs on the length
+  }
+  file.append("/bending/curvature", curvature);
+  file.append("/bending/moment", moment);
+}
+
 }  // namespace
 
 std::string write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
@@ -435,6 +454,7 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
       });
     });
   const std::string warning = write_cables(strain, evaluations);
+  write_bending(strain, job);
 
   Sink sink;
   sink.sites = [&](const SiteRows& rows) { sites.append(rows); };

@@ -230,6 +230,14 @@ void add_cables(std::vector<Dataset>& datasets) {
       "bending moment that the simulated hose carries there, by its E I");
 }
 
+/// Of a cable by itself whose parts rub.
+void add_bending(std::vector<Dataset>& datasets) {
+  datasets.push_back({"/bending/curvature", Type::f64, {"bend"}, "1/m",
+                      "curvatures to which a cable by itself is bent from straight, in one plane", false, true});
+  datasets.push_back({"/bending/moment", Type::f64, {"bend"}, "N m",
+                      "the moment that this takes: polymer, wires, and what friction holds (W29)", false, true});
+}
+
 Format make_strain_format() {
   Format format{"dresslife-strain", 1, "dresslife-strain", "what every wire feels", {}, {}};
   format.datasets = {
@@ -257,6 +265,7 @@ Format make_strain_format() {
   add_site_set(format.datasets, "/bound_stick", "stick_");
   add_site_set(format.datasets, "/bound_free", "free_");
   add_cables(format.datasets);
+  add_bending(format.datasets);
   format.attributes.push_back(
       {"largest_force_share",
        "largest force of a cable over that at which it tears (materials' tensile_strength_MPa; 0: not known)",

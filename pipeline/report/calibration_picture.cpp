@@ -79,7 +79,8 @@ Foretold in_deviations(const UncertainParameter& parameter, const Foretold& key)
 }  // namespace
 
 std::string calibration_picture(const Learned& learned) {
-  const std::size_t tests = learned.tests.size();
+  const auto tests = static_cast<std::size_t>(std::count_if(
+      learned.tests.begin(), learned.tests.end(), [](const LearnedTest& test) { return test.observation.is_life(); }));
   const double second = top + row_height * static_cast<double>(uncertain_count) + 78;
   Picture picture(left + plot_width + words_width, second + row_height * static_cast<double>(tests) + 48,
                   "What observations have taught", "Parameters, and lives foretold, before and after");
@@ -97,11 +98,14 @@ std::string calibration_picture(const Learned& learned) {
                                               readable(axis.after[2]))
                                 : "no test hangs on it");
   }
-  picture.text(left, second - 10, "dot: observed; arrow to the right: at least, to the left: at most", "tick");
-  Bars lives(picture, second, tests, decades_axis("life of one specimen [cycles of the test, or hours]", least_life, most_life));
-  for (const LearnedTest& test : learned.tests)
-    add_seen(picture, lives, lives.add(test.observation.name, test.before, &test.after, observed_text(test.observation)),
-             test.observation);
+  if (tests > 0) {
+    picture.text(left, second - 10, "dot: observed; arrow to the right: at least, to the left: at most", "tick");
+    Bars lives(picture, second, tests, decades_axis("life of one specimen [cycles of the test, or hours]", least_life, most_life));
+    for (const LearnedTest& test : learned.tests)
+      if (test.observation.is_life())
+        add_seen(picture, lives, lives.add(test.observation.name, test.before, &test.after, observed_text(test.observation)),
+                 test.observation);
+  }
   std::string text = picture.svg();
   text.insert(text.find('>'), fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\"", picture.width()));
   return text.insert(text.find('>') + 1, std::string("\n") + style);

@@ -9,15 +9,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// ln of the mean of exp(terms).
-double log_mean(const std::vector<double>& terms) {
-  const double most = *std::max_element(terms.begin(), terms.end());
-  if (std::isinf(most)) return most;
-  double sum = 0;
-  for (const double term : terms) sum += std::exp(term - most);
-  return most + std::log(sum / static_cast<double>(terms.size()));
-}
-
 double log_density(double x, double deviation) { return -x * x / (2 * deviation * deviation) - std::log(deviation); }
 
 /// Sum over y of phi(y) dy Phi((margin + c y)/o)^n: equal steps of a tenth, as accurate as the integrand is smooth; where
@@ -45,6 +36,14 @@ double log_likelihood(const ObservedLife& observed, const LifeVariant& variant, 
 }
 
 }  // namespace
+
+double log_mean(const std::vector<double>& terms) {
+  const double most = *std::max_element(terms.begin(), terms.end());
+  if (std::isinf(most)) return most;
+  double sum = 0;
+  for (const double term : terms) sum += std::exp(term - most);
+  return most + std::log(sum / static_cast<double>(terms.size()));
+}
 
 // Below -6 by the continued fraction of Mills' ratio, whose fourth term leaves 1e-5 of ln there.
 double log_normal_probability(double x) {

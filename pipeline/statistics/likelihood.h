@@ -60,6 +60,9 @@ struct Measurement {
 double said_by_model(const Measurement& measurement, const MeasuredNumber& number, const Eigen::VectorXd& z);
 double log_likelihood(const Measurement& measurement, const Eigen::VectorXd& z);
 
+/// ln of the mean of exp(terms). Precondition: at least one.
+double log_mean(const std::vector<double>& terms);
+
 /// ln Phi(x), down to any x.
 double log_normal_probability(double x);
 

@@ -17,6 +17,7 @@
 #include "pipeline/job/units.h"
 #include "pipeline/readable.h"
 #include "pipeline/statistics/normal_numbers.h"
+#include "pipeline/study/measured_bending.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -111,6 +112,7 @@ class RoundOfJobs {
       runs.centre = add(variant, centre_);
       for (std::size_t p = 0; p < uncertain_count; ++p) {
         if (!acts(plain, static_cast<Uncertain>(p))) continue;
+        if (!test.observation.is_life() && !uncertain_parameters()[p].of_strain) continue;
         VectorXd low = centre_, high = centre_;
         low[static_cast<Index>(p)] -= step_[static_cast<Index>(p)];
         high[static_cast<Index>(p)] += step_[static_cast<Index>(p)];
@@ -181,15 +183,32 @@ LifeEnd end_of(ObservedEnd end) {
 
 double observed_value(const Observation& observation) { return observation.cycles ? *observation.cycles : *observation.hours; }
 
-/// What was run of a test, as a likelihood over all parameters.
+/// What was run of a test: a life, or how a cable bends, of each variant.
+struct EmulatedTest {
+  std::optional<ObservedLife> life;
+  std::vector<Measurement> bending;  ///< (variant), of the same numbers
+  std::size_t shown = 0;             ///< number that is told
+  double per_shown = 1;              ///< by which it is divided: a stiffness by its curvature
+
+  double log_likelihood_at(const VectorXd& z) const {
+    if (life) return log_likelihood(*life, z);
+    std::vector<double> terms;
+    for (const Measurement& variant : bending) terms.push_back(log_likelihood(variant, z));
+    return log_mean(terms);
+  }
+};
+
 class Emulation {
  public:
-  Emulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round, const std::vector<RankingRow>& rows)
-      : round_(round), rows_(round.study(), rows) {
-    for (std::size_t t = 0; t < tests.size(); ++t) lives_.push_back(observed_life(tests[t], round.runs()[t]));
+  Emulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round, const std::vector<RankingRow>& rows,
+            const StudyPlaces& places)
+      : round_(round), rows_(round.study(), rows), places_(places) {
+    for (std::size_t t = 0; t < tests.size(); ++t)
+      tests_.push_back(tests[t].observation.is_life() ? EmulatedTest{observed_life(tests[t], round.runs()[t])}
+                                                      : observed_bending(tests[t], round.runs()[t]));
   }
 
-  const std::vector<ObservedLife>& lives() const { return lives_; }
+  const std::vector<EmulatedTest>& tests() const { return tests_; }
   const std::set<std::string>& notes() const { return notes_; }
 
  private:
@@ -202,15 +221,61 @@ class Emulation {
     life.specimens = observation.outcome == ObservedEnd::rating ? 1 : observation.specimens;
     life.unshared_spread = observation.unshared_log10 * std::numbers::ln10;
     for (const RoundOfJobs::Runs& runs : variants) {
-      const RankingRow* const row = rows_.done(runs.centre);
-      if (!row)
-        throw InputError(test.where,
-                         fmt::format("'{}': its job failed: {}", observation.name, rows_.failure(runs.centre)),
-                         "mend it, or leave the row out");
-      life.variants.push_back(variant_of(observation, runs, log_life_of(observation, *row)));
+      life.variants.push_back(variant_of(observation, runs, log_life_of(observation, row_of(test, runs.centre))));
       life.common_share = std::max(life.common_share, common_share(runs, life.variants.back()));
     }
     return life;
+  }
+
+  const RankingRow& row_of(const ObservedTest& test, std::size_t job) const {
+    if (const RankingRow* const row = rows_.done(job)) return *row;
+    throw InputError(test.where, fmt::format("'{}': its job failed: {}", test.observation.name, rows_.failure(job)),
+                     "mend it, or leave the row out");
+  }
+
+  EmulatedTest observed_bending(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
+    const Observation& observation = test.observation;
+    const std::vector<BendingPoint> points =
+        observation.stiffness ? std::vector<BendingPoint>{{observation.at_curvature, *observation.stiffness * observation.at_curvature}}
+                              : read_bending(observation.bending);
+    const BendingNumbers bent = bending_numbers(points, observation.noise_percent / 100);
+    EmulatedTest made;
+    if (observation.stiffness) made.per_shown = observation.at_curvature;
+    for (std::size_t k = 0; k < bent.numbers.size(); ++k)
+      if (std::abs(bent.numbers[k].value) > std::abs(bent.numbers[made.shown].value)) made.shown = k;
+    for (const RoundOfJobs::Runs& runs : variants) made.bending.push_back({moments_over(test, runs, bent.curvatures), bent.numbers});
+    return made;
+  }
+
+  /// ln of the first-bend moment at each curvature over z.
+  std::vector<Emulator> moments_over(const ObservedTest& test, const RoundOfJobs::Runs& runs,
+                                     const std::vector<double>& curvatures) const {
+    const auto said = [&](std::size_t job) {
+      row_of(test, job);
+      const FileReader strain(places_.job(round_.study().jobs[job].name) / "strain.h5", strain_format());
+      if (!strain.has("/bending/moment"))
+        throw InputError(test.where,
+                         fmt::format("'{}': nothing is told of how its cable bends (that needs one cable, in which "
+                                     "strain.slip lets something rub and no part lies straight beside the axis)",
+                                     test.observation.name),
+                         "give dresspack.cable, and strain.slip such as [free, friction, friction]");
+      const auto curvature = strain.read<double>("/bending/curvature"), moment = strain.read<double>("/bending/moment");
+      VectorXd values(static_cast<Index>(curvatures.size()));
+      for (std::size_t c = 0; c < curvatures.size(); ++c)
+        values[static_cast<Index>(c)] = log_moment(curvature, moment, curvatures[c]);
+      return values;
+    };
+    const VectorXd middle = said(runs.centre);
+    Eigen::MatrixXd low = middle.replicate(1, uncertain_count), high = low;
+    for (std::size_t p = 0; p < uncertain_count; ++p) {
+      if (!runs.arms[p]) continue;
+      low.col(static_cast<Index>(p)) = said(runs.arms[p]->low);
+      high.col(static_cast<Index>(p)) = said(runs.arms[p]->high);
+    }
+    std::vector<Emulator> made;
+    for (Index c = 0; c < middle.size(); ++c)
+      made.emplace_back(round_.centre(), round_.step(), middle[c], low.row(c).transpose(), high.row(c).transpose());
+    return made;
   }
 
   LifeVariant variant_of(const Observation& observation, const RoundOfJobs::Runs& runs, const LogLife& middle) {
@@ -250,7 +315,8 @@ class Emulation {
 
   const RoundOfJobs& round_;
   RowsByJob rows_;
-  std::vector<ObservedLife> lives_;
+  const StudyPlaces& places_;
+  std::vector<EmulatedTest> tests_;
   std::set<std::string> notes_;
 };
 
@@ -283,10 +349,10 @@ class Axes {
   std::vector<Index> places_;
 };
 
-std::vector<LogLikelihood> terms_of(const std::vector<ObservedLife>& lives, const Axes& axes) {
+std::vector<LogLikelihood> terms_of(const std::vector<EmulatedTest>& tests, const Axes& axes) {
   std::vector<LogLikelihood> terms;
-  for (const ObservedLife& life : lives)
-    terms.push_back([&life, &axes](const VectorXd& some) { return log_likelihood(life, axes.all(some)); });
+  for (const EmulatedTest& test : tests)
+    terms.push_back([&test, &axes](const VectorXd& some) { return test.log_likelihood_at(axes.all(some)); });
   return terms;
 }
 
@@ -322,6 +388,16 @@ Foretold foretold(const ObservedLife& life, const Eigen::MatrixXd& draws, bool w
   Foretold told = quantiles(lives);
   for (double& one : told) one = one >= endless_log - 3 ? HUGE_VAL : std::exp(one);
   return told;
+}
+
+Foretold foretold(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed) {
+  if (test.life) return foretold(*test.life, draws, weighed);
+  std::vector<double> values;
+  for (Index k = 0; k < draws.rows(); ++k) {
+    const Measurement& variant = test.bending[static_cast<std::size_t>(k) % test.bending.size()];
+    values.push_back(said_by_model(variant, variant.numbers[test.shown], draws.row(k).transpose()) / test.per_shown);
+  }
+  return quantiles(values);
 }
 
 /// So many draws of all parameters: of the prior, or of what was learned beside a prior of the others.
@@ -375,6 +451,7 @@ LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJob
   const auto least = [](std::optional<double>& of, double value) { of = std::min(of.value_or(value), value); };
   const auto most = [](std::optional<double>& of, double value) { of = std::max(of.value_or(value), value); };
   for (std::size_t t = 0; t < tests.size(); ++t) {
+    if (!tests[t].observation.is_life()) continue;  // it says nothing of lives
     if (const auto cycles = tests[t].observation.cycles) least(within.fewest_cycles, *cycles), most(within.most_cycles, *cycles);
     for (const RoundOfJobs::Runs& runs : round.runs()[t]) {
       const std::filesystem::path folder = places.job(round.study().jobs[runs.centre].name);
@@ -398,6 +475,11 @@ LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJob
   if (within.largest_twist) within.largest_twist = to_figures(*within.largest_twist / degree, 4) * degree;
   within.materials = fmt::format("{}", fmt::join(materials, ", "));
   return within;
+}
+
+std::string digest_of(const ObservedTest& test) {
+  const std::filesystem::path& table = test.observation.bending;
+  return xxh3(test.text + (table.empty() ? "" : xxh3_of_file(table)));
 }
 
 Calibration calibration_of(const Learned& learned, const Axes& axes) {
@@ -434,10 +516,10 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
   for (const ObservedTest& test : tests) learned.tests.push_back({test.observation});
   while (!learned.settled && learned.rounds < most_rounds) {
     const RoundOfJobs round(tests, sets, name, centre, step);
-    const Emulation emulation(tests, round, make_rows(round.study()));
+    const Emulation emulation(tests, round, make_rows(round.study()), places);
     const Axes axes(round);
     notes.insert(emulation.notes().begin(), emulation.notes().end());
-    learned.posterior = posterior_of(terms_of(emulation.lives(), axes), axes.some(centre));
+    learned.posterior = posterior_of(terms_of(emulation.tests(), axes), axes.some(centre));
     ++learned.rounds;
     const VectorXd there = axes.all(learned.posterior.laplace.most_likely);
     learned.settled = true;
@@ -449,8 +531,10 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
     }
     centre = there;
     for (std::size_t t = 0; t < tests.size(); ++t) {
-      if (learned.rounds == 1) learned.tests[t].before = foretold(emulation.lives()[t], prior_draws(), false);
-      learned.tests[t].after = foretold(emulation.lives()[t], posterior_draws(learned.posterior, axes), true);
+      const EmulatedTest& emulated = emulation.tests()[t];
+      if (learned.rounds == 1) learned.tests[t].before = foretold(emulated, prior_draws(), false);
+      learned.tests[t].after = foretold(emulated, posterior_draws(learned.posterior, axes), true);
+      if (!emulated.life) learned.tests[t].measured = emulated.bending[0].numbers[emulated.shown].value / emulated.per_shown;
     }
     if (!learned.settled && learned.rounds < most_rounds) continue;
     learned.axes = learned_axes(learned.posterior, axes);
@@ -460,7 +544,7 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const LearnedTest& told = learned.tests[t];
     learned.calibration.observations.push_back({told.observation.name, observed_text(told.observation), words_of(told.before),
-                                                words_of(told.after), xxh3(tests[t].text)});
+                                                words_of(told.after), digest_of(tests[t])});
   }
   learned.notes.assign(notes.begin(), notes.end());
   return learned;
@@ -485,13 +569,16 @@ std::string parameter_lines(const Learned& learned) {
 }  // namespace
 
 std::string learned_table(const Learned& learned) {
+  const auto seen = [](const LearnedTest& test) {
+    return test.observation.bending.empty() ? observed_text(test.observation) : readable(test.measured, 3) + " N m";
+  };
   std::string text = parameter_lines(learned);
   text += fmt::format("\n{:<22} {:>20} {:>34} {:>34}\n", "observation", "observed", "foretold before", "foretold after");
   for (const LearnedTest& test : learned.tests)
-    text += fmt::format("{:<22} {:>20} {:>34} {:>34}\n", shortened(test.observation.name, 22), observed_text(test.observation),
+    text += fmt::format("{:<22} {:>20} {:>34} {:>34}\n", shortened(test.observation.name, 22), seen(test),
                         words_of(test.before), words_of(test.after));
   text += "\nparameters: factors of the job's keys (slope: added to b), median and 80 % of what is likely. Foretold: the life of "
-          "one specimen, median and\n80 %, over parameters, what is not known of the test, and scatter.\n";
+          "one specimen, median and\n80 %, over parameters, what is not known of the test, and scatter; of a bending test its largest moment.\n";
   if (!learned.settled)
     text += fmt::format("warning: after {} rounds the centre still moves; the draws rest on runs beside it\n", learned.rounds);
   for (const std::string& note : learned.notes) text += "note: " + note + "\n";

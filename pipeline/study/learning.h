@@ -27,7 +27,10 @@ struct LearnedAxis {
 
 struct LearnedTest {
   Observation observation;
-  Foretold before{}, after{};  ///< of one specimen's life, over parameters, variants and scatter, in the observer's unit
+  /// Over parameters and variants: of one specimen's life with its scatter, in the observer's unit; of a bending test the
+  /// moment at its largest curvature, or the stiffness [N m], [N m2].
+  Foretold before{}, after{};
+  double measured = 0;  ///< the same as it was measured; 0 for a life
 };
 
 struct Learned {

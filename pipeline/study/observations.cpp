@@ -21,6 +21,13 @@ void describe(Fields& f, Observation& observation) {
   f.text("note", observation.note, Need::optional, "what is not known, and how it is varied");
   f.maybe_number("cycles", observation.cycles, above(0), "that it lived");
   f.maybe_number("hours", observation.hours, above(0), "of motion that it lived, instead of cycles");
+  f.maybe_number("stiffness_Nm2", observation.stiffness, above(0),
+                 "instead of a life: moment over curvature of the cable, bent from straight to at_curvature_1_per_m");
+  f.number("at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100), "of stiffness_Nm2");
+  f.path("bending", observation.bending, Need::optional,
+         "instead of a life: a CSV of a bending test, columns curvature_1_per_m and moment_Nm, from straight, loops as they were bent");
+  f.number("noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
+           "standard deviation of a measured moment or stiffness");
   f.number("cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
            "that the observer counts in one repeat of the job's motion: 2 where single strokes are counted");
   f.choice("outcome", observation.outcome,
@@ -83,13 +90,25 @@ Observation read_one(const Node& item) {
   if (!fits_a_folder(observation.name))
     throw InputError(item.where, fmt::format("name '{}' is not made of letters, digits and _", observation.name),
                      "choose another name");
-  if (observation.cycles.has_value() == observation.hours.has_value())
-    throw InputError(item.where, fmt::format("'{}' must have either cycles or hours", observation.name),
-                     "give one of the two");
+  const int observed = observation.cycles.has_value() + observation.hours.has_value() + observation.stiffness.has_value() +
+                       !observation.bending.empty();
+  if (observed != 1)
+    throw InputError(item.where,
+                     fmt::format("'{}' must have either cycles or hours (or stiffness_Nm2, or bending)", observation.name),
+                     "give one of them");
   if (!item.find("job"))
     throw InputError(item.where, fmt::format("'{}' has no job (what was done to it)", observation.name),
                      "give a job, or the file of one");
   return observation;
+}
+
+/// How a cable bends is told beside any motion: the quickest.
+void add_still_motion(Node& job) {
+  Node rig;
+  rig["kind"] = scalar("axial");
+  rig["elongation_percent"] = scalar("0.01");
+  job["motion"]["rig"] = std::move(rig);
+  place_at(*job.find("motion"), job.where);
 }
 
 }  // namespace
@@ -110,8 +129,8 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
     if (!names.insert(name).second)
       throw InputError(item.where, fmt::format("two observations are named '{}'", name), "give each another name");
     const Node& written = *item.find("job");
-    const Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where)
-                                          : written;
+    Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where) : written;
+    if (!test.observation.is_life() && base.is_map() && !base.find("motion")) add_still_motion(base);
     for (const Variant& variant : combinations(item.find("vary"), name)) {
       test.variants.push_back({variant.name, base, ""});
       try {
@@ -131,6 +150,7 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
   made.study.name = "validate_" + file.stem().string();
   for (ObservedTest& test : read_observed_tests(file)) {
     Observation& observation = test.observation;
+    if (!observation.is_life()) continue;
     for (ObservedTest::Variant& variant : test.variants) {
       StudyJob job{variant.name, nullptr, variant.failure};
       try {
@@ -143,6 +163,8 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
     }
     made.observations.push_back(std::move(observation));
   }
+  if (made.observations.empty())
+    throw InputError({file.string()}, "holds no observed lives", "give observations of cycles or hours");
   return made;
 }
 
@@ -221,6 +243,9 @@ std::string life_text(double life) { return std::isinf(life) ? "no damage" : rea
 }  // namespace
 
 std::string observed_text(const Observation& observation) {
+  if (observation.stiffness)
+    return fmt::format("{} N m2 at {} 1/m", readable(*observation.stiffness, 3), readable(observation.at_curvature, 2));
+  if (!observation.bending.empty()) return observation.bending.filename().string();
   const char* sign = observation.outcome == ObservedEnd::broken      ? ""
                      : observation.outcome == ObservedEnd::broken_by ? "at most "
                                                                      : "at least ";

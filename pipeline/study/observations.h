@@ -79,7 +79,13 @@ constexpr std::string_view word(FailureCriterion value) {
 
 struct Observation {
   std::string name, what, source, note;
-  std::optional<double> cycles, hours;  ///< one of them [cycles, h]
+  // What was observed, one of:
+  std::optional<double> cycles, hours;  ///< that it lived [cycles, h]
+  std::optional<double> stiffness;      ///< moment over curvature of the cable, bent from straight [N m2]
+  std::filesystem::path bending;        ///< a bending test as a table (measured_bending.h); empty: none
+
+  double at_curvature = 1;   ///< of stiffness [1/m]
+  double noise_percent = 5;  ///< of a measured moment
   double cycles_per_repeat = 1;         ///< that the observer counts in one repeat of the job's motion
   ObservedEnd outcome = ObservedEnd::broken;
   FailureCriterion criterion = FailureCriterion::conductor;
@@ -88,6 +94,8 @@ struct Observation {
   /// Rules that foretell lives from a metal's name are within a factor of 3 in four of five cases (Nachtigall 1975).
   static constexpr double universal_slopes = 0.37;
   std::vector<std::size_t> jobs;  ///< of the study that are its variants
+
+  bool is_life() const { return cycles || hours; }
 };
 void describe(Fields& f, Observation& observation);
 
@@ -112,13 +120,13 @@ struct ValidationStudy {
   std::vector<Observation> observations;
 };
 
-/// Errors: InputError at the place in the file. A variant that cannot be is told in its job's failure.
+/// Those of lives. Errors: InputError at the place in the file. A variant that cannot be is told in its job's failure.
 ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets);
 
 /// Lives by which 10, 50 and 90 % have failed by the observation's criterion, in the observer's unit; infinite without damage.
 std::array<double, 3> lives_of(const Observation& observation, const RankingRow& row);
 
-/// "at least 100,000", "460 h".
+/// "at least 100,000", "460 h", "0.21 N m2 at 1 1/m".
 std::string observed_text(const Observation& observation);
 
 /// What the model says over all variants, in the observer's unit. Lives are infinite where there is no damage.

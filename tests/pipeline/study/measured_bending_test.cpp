@@ -1,0 +1,96 @@
+#include "pipeline/study/measured_bending.h"
+
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "tests/pipeline/scratch.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// A bar of sliders, moved step by step: what Masing's rule must say of it.
+class Sliders {
+ public:
+  double move(double curvature) {
+    double moment = 0.02 * curvature;
+    for (std::size_t i = 0; i < 6; ++i) {
+      held_[i] = std::clamp(held_[i] + stiffness(i) * (curvature - last_), -cap(i), cap(i));
+      moment += held_[i];
+    }
+    last_ = curvature;
+    return moment;
+  }
+  static double first(double curvature) {
+    double moment = 0.02 * curvature;
+    for (std::size_t i = 0; i < 6; ++i) moment += std::clamp(stiffness(i) * curvature, -cap(i), cap(i));
+    return moment;
+  }
+
+ private:
+  static double stiffness(std::size_t i) { return 0.3 / double(i + 1); }
+  static double cap(std::size_t i) { return 0.03 + 0.05 * double(i); }
+  std::array<double, 6> held_{};
+  double last_ = 0;
+};
+
+TEST_CASE("bending: sums of the first bend say what sliders do on any path") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> number(-3, 3);
+  for (int trial = 0; trial < 100; ++trial) {
+    Sliders sliders;
+    std::vector<BendingPoint> points;
+    double at = 0;
+    for (int turn = 0; turn < 12; ++turn) {  // to a turning point in a few steps
+      const double to = number(random);
+      for (int step = 1; step <= 3; ++step) {
+        const double k = at + (to - at) * step / 3;
+        points.push_back({k, sliders.move(k)});
+      }
+      at = to;
+    }
+    const BendingNumbers bent = bending_numbers(points, 0.05);
+    REQUIRE(bent.numbers.size() == points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      double sum = 0;
+      for (const auto& [quantity, factor] : bent.numbers[k].parts) sum += factor * Sliders::first(bent.curvatures[quantity]);
+      CHECK(sum == Approx(points[k].moment).margin(1e-12));
+    }
+  }
+}
+
+TEST_CASE("bending: noise is a share of a moment, and not nothing where it crosses zero") {
+  const BendingNumbers bent = bending_numbers({{1, 2}, {-1, -2}, {0.9, 0.01}}, 0.05);
+  CHECK(bent.numbers[0].deviation == Approx(0.1));
+  CHECK(bent.numbers[2].deviation == Approx(0.01));
+  CHECK(bending_numbers({{0, 0}, {1, 2}}, 0.05).numbers.size() == 1);
+}
+
+TEST_CASE("bending: tables between their values, straight in logarithms") {
+  const std::vector<double> curvatures{0.1, 1, 10}, moments{0.01, 0.1, 0.4};
+  CHECK(std::exp(log_moment(curvatures, moments, 0.3)) == Approx(0.03));
+  CHECK(std::exp(log_moment(curvatures, moments, 1)) == Approx(0.1));
+  CHECK(std::exp(log_moment(curvatures, moments, 10)) == Approx(0.4));
+  CHECK(std::exp(log_moment(curvatures, moments, 0.01)) == Approx(0.001));
+}
+
+TEST_CASE("bending: bad tables are refused at their line") {
+  const Scratch scratch;
+  const auto refusal = [&](const std::string& text) {
+    const auto file = scratch.write("bend.csv", text);
+    const std::string message = message_of([&] { read_bending(file); });
+    return message.empty() ? message : message.substr(message.find("bend.csv"));
+  };
+  const std::string head = "curvature_1_per_m, moment_Nm\n";
+  CHECK(refusal(head + "0,0\n1,0.2\r\n\n-1,-0.2\n") == "");
+  CHECK(refusal("k,m\n1,2\n").starts_with("bend.csv:1:1: error: is not the header of a bending test"));
+  CHECK(refusal(head + "1,0.2\n1;0.3\n").starts_with("bend.csv:3:1: error: has 1 columns"));
+  CHECK(refusal(head + "1,0.2x\n").starts_with("bend.csv:2:1: error: '0.2x' is not a number"));
+  CHECK(refusal(head + "nan,0.2\n").starts_with("bend.csv:2:1: error: 'nan' is not a number"));
+  CHECK(refusal(head + "0,0\n").find("holds no moment of a bent cable") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline
