@@ -505,6 +505,35 @@ Calibration calibration_of(const Learned& learned, const Axes& axes) {
   return calibration;
 }
 
+/// How many of its deviations a prediction lies short of what was seen, or beyond it; 0 where it agrees.
+double surprise(const LearnedTest& test) {
+  const Observation& observation = test.observation;
+  const double seen = observation.is_life() ? observed_value(observation) : test.measured;
+  const auto off = [&](double side) { return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / deciles); };
+  if (!(seen > 0) || !std::isfinite(test.before[2])) return 0;
+  const bool both = !observation.is_life() || observation.outcome == ObservedEnd::broken;
+  if (seen > test.before[1]) return both || bounds_below(observation.outcome) ? off(test.before[2]) : 0;
+  return both || bounds_above(observation.outcome) ? off(test.before[0]) : 0;
+}
+
+/// What a user should look at before what was learned is believed.
+void add_doubts(Learned& learned, const Axes& axes) {
+  constexpr double surprising = 2, skewed = 0.3;  // deviations
+  for (const LearnedTest& test : learned.tests)
+    if (const double off = surprise(test); off > surprising)
+      learned.notes.push_back(fmt::format("'{}' lies {:.1f} deviations from what was foretold: look at its construction and at what was "
+                                          "done to it before what it teaches is believed",
+                                          test.observation.name, off));
+  const Posterior& posterior = learned.posterior;
+  for (Index i = 0; i < axes.size(); ++i) {
+    const double off = (posterior.median[i] - posterior.laplace.most_likely[i]) / std::sqrt(posterior.covariance(i, i));
+    if (std::abs(off) > skewed)
+      learned.notes.push_back(fmt::format("{}: its median lies {:.1f} deviations from its likeliest value, as what has not failed leaves "
+                                          "it; the draws count",
+                                          uncertain_parameters()[static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)])].name, off));
+  }
+}
+
 }  // namespace
 
 Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, const StudyPlaces& places,
@@ -540,13 +569,14 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
     learned.axes = learned_axes(learned.posterior, axes);
     learned.calibration = calibration_of(learned, axes);
     learned.calibration.within = within_of(tests, round, places);
+    learned.notes.assign(notes.begin(), notes.end());
+    add_doubts(learned, axes);
   }
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const LearnedTest& told = learned.tests[t];
     learned.calibration.observations.push_back({told.observation.name, observed_text(told.observation), words_of(told.before),
                                                 words_of(told.after), digest_of(tests[t])});
   }
-  learned.notes.assign(notes.begin(), notes.end());
   return learned;
 }
 
