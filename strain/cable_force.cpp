@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/job/cyclic_curve.h"
+
 namespace dresslife::strain {
 namespace {
 
@@ -40,10 +42,8 @@ void CableForce::add(const pipeline::Dresspack& dresspack, const pipeline::Compo
   strength_ += area * cosines * material->tensile_strength.value_or(0);
   Wires wires{area * cosines, cosines * cosines, material->youngs_modulus, 0, 1};
   if (material->fatigue_strength > 0) {  // else a polymer's table: elastic
-    wires.hardening = material->cyclic_hardening_exponent.value_or(material->fatigue_strength_exponent /
-                                                                   material->fatigue_ductility_exponent);
-    wires.cyclic_strength = material->cyclic_strength.value_or(
-        material->fatigue_strength / std::pow(material->fatigue_ductility, wires.hardening));
+    wires.hardening = pipeline::hardening_exponent(*material);
+    wires.cyclic_strength = pipeline::cyclic_strength(*material);
   }
   const auto same = std::find_if(wires_.begin(), wires_.end(), [&](const Wires& other) {
     return other.share == wires.share && other.modulus == wires.modulus &&

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/job/catalogue.h"
+#include "pipeline/job/cyclic_curve.h"
 #include "pipeline/job/data_sheet.h"
 #include "pipeline/job/fields.h"
 #include "pipeline/job/overlap.h"
@@ -251,7 +252,8 @@ std::string job_text(const std::filesystem::path& file, const std::vector<std::s
 
 namespace {
 
-/// What of a wire's material decides the forces of cables.
+/// What of a wire's material decides the forces of cables: its cyclic curve. Of the strain-life constants that only
+/// as far as K' and n' follow from them; their change leaves strains alone where these are given.
 struct ForceKeys {
   Material material;
 };
@@ -262,10 +264,8 @@ void describe(Fields& echo, ForceKeys& keys) {
   echo.number("youngs_modulus_GPa", m.youngs_modulus, Need::required, any_number(), "");
   echo.maybe_number("tensile_strength_MPa", m.tensile_strength, any_number(), "");
   if (!m.strain_life_table.empty()) return;  // taken as elastic
-  echo.number("fatigue_strength_MPa", m.fatigue_strength, Need::required, any_number(), "");
-  echo.number("fatigue_strength_exponent", m.fatigue_strength_exponent, Need::required, any_number(), "");
-  echo.number("fatigue_ductility", m.fatigue_ductility, Need::required, any_number(), "");
-  echo.number("fatigue_ductility_exponent", m.fatigue_ductility_exponent, Need::required, any_number(), "");
+  m.cyclic_hardening_exponent = hardening_exponent(m);
+  m.cyclic_strength = cyclic_strength(m);
   echo.maybe_number("cyclic_strength_MPa", m.cyclic_strength, any_number(), "");
   echo.maybe_number("cyclic_hardening_exponent", m.cyclic_hardening_exponent, any_number(), "");
 }

@@ -457,6 +457,25 @@ TEST_CASE("job: each stage depends on its own part of the job only") {
   CHECK(changed("simulation.segments=20") == "---");
 }
 
+TEST_CASE("job: of a material's strain-life constants strains depend on the cyclic curve that follows from them alone") {
+  const auto parts = [](const std::string& constants, const std::string& curve) {
+    const Job job = job_of_text(
+        sample_job, {"dresspack.materials=[{name: copper, source: s, youngs_modulus_GPa: 117, " + constants + curve + "}]"});
+    return std::pair{part_text(job, Part::strain), part_text(job, Part::fatigue)};
+  };
+  const std::string one =
+      "fatigue_strength_MPa: 400, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, fatigue_ductility_exponent: -0.5";
+  const std::string other =
+      "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.12, fatigue_ductility: 0.4, fatigue_ductility_exponent: -0.6";
+  const std::string curve = ", cyclic_strength_MPa: 450, cyclic_hardening_exponent: 0.2";
+  CHECK(parts(one, curve).first == parts(other, curve).first);
+  CHECK(parts(one, curve).second != parts(other, curve).second);
+  // Without a measured one the curve that forces are judged by follows from them: n' is b / c, here 0.2 of both.
+  CHECK(parts(one, "").first != parts(other, "").first);
+  CHECK(parts(one, "").first.find("cyclic_hardening_exponent: 0.2\n") != std::string::npos);
+  CHECK(parts(one, curve).first != parts(one, ", cyclic_strength_MPa: 451, cyclic_hardening_exponent: 0.2").first);
+}
+
 TEST_CASE("job: a wire's material is its own unless the fatigue settings name one for all") {
   const Job own = job_of_text(sample_job);
   CHECK(material_of(own, "copper").youngs_modulus == 117e9);
