@@ -43,10 +43,20 @@ class Converter {
       std::unordered_set<std::string> keys;
       for (const auto& pair : from) add_entry(node, keys, pair.first, pair.second, depth);
     }
-    return node;
+    return under_its_tag(from.Tag(), std::move(node));
   }
 
  private:
+  /// A value with a tag of its own (`!uniform [1, 2]`) as a map with the tag as its one key.
+  static Node under_its_tag(const std::string& tag, Node node) {
+    if (tag.size() < 2 || tag[0] != '!') return node;
+    Node map;
+    map.where = node.where;
+    map[tag] = std::move(node);
+    map.entries.front().where = map.where;
+    return map;
+  }
+
   void add_entry(Node& map, std::unordered_set<std::string>& keys, const YAML::Node& key,
                  const YAML::Node& value, int depth) {
     const Where where = place(key.Mark(), file_);

@@ -13,6 +13,7 @@
 #include "pipeline/job/units.h"
 #include "pipeline/limits.h"
 #include "pipeline/readable.h"
+#include "pipeline/study/shown_rows.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -348,11 +349,11 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
                                  {"calendar", true, {}},
                                  {"repeats", true, {}},
                                  {"segment from tool", true, {}}}};
-  std::size_t rank = 0;
-  for (const RankingRow& row : rows) {
-    ++rank;
+  const ShownRows selected = shown_rows(rows);
+  for (const std::size_t k : selected.indices) {
+    const RankingRow& row = rows[k];
     const std::array<std::string, 7> cells =
-        row.done() ? std::array<std::string, 7>{std::to_string(rank),
+        row.done() ? std::array<std::string, 7>{std::to_string(k + 1),
                                                 "",
                                                 life_text(row.headline_hours()),
                                                 bounds_text(row),
@@ -370,17 +371,19 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   };
   std::string text = line([](const Column& column) { return column.title; });
   const std::string indent(columns[0].width() + 2, ' ');
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (std::size_t i = 0; i < selected.indices.size(); ++i) {
+    const RankingRow& row = rows[selected.indices[i]];
+    if (i > 0 && selected.indices[i] != selected.indices[i - 1] + 1) text += indent + "...\n";
     text += line([i](const Column& column) { return column.cells[i]; });
-    const std::string second = one_line(rows[i].done() ? story(rows[i]) : rows[i].failure);
+    const std::string second = one_line(row.done() ? story(row) : row.failure);
     // A reason for failure is kept whole: its end is the remedy.
-    text += indent + (rows[i].done() ? shortened(second, width - indent.size()) : second) + '\n';
-    const std::string third = rows[i].done() ? one_line(more_story(rows[i])) : "";
+    text += indent + (row.done() ? shortened(second, width - indent.size()) : second) + '\n';
+    const std::string third = row.done() ? one_line(more_story(row)) : "";
     if (!third.empty()) text += indent + shortened(third, width - indent.size()) + '\n';
-    if (rows[i].done() && rows[i].relative)
-      text += indent + shortened(one_line(relative_words(*rows[i].relative)), width - indent.size()) + '\n';
+    if (row.done() && row.relative)
+      text += indent + shortened(one_line(relative_words(*row.relative)), width - indent.size()) + '\n';
   }
-  return text;
+  return text + selected.summary;
 }
 
 }  // namespace dresslife::pipeline

@@ -7,23 +7,11 @@
 #include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/sources.h"
+#include "pipeline/study/fleet_table.h"
+#include "pipeline/study/sampling.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-constexpr std::size_t most_jobs = 100'000;
-
-struct Change {
-  std::string path;
-  Node value;
-  Where where;
-};
-
-/// One way to deviate from the base: a name and the keys it sets.
-struct Variant {
-  std::string name;
-  std::vector<Change> changes;
-};
 
 bool fits_a_folder(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' || c == '+' ||
@@ -70,6 +58,21 @@ std::vector<Variant> named_changes(const Node* jobs) {
   return variants;
 }
 
+/// Every variant of the one with every one of the other, the latter fastest. where: of the section that is at fault.
+std::vector<Variant> combined(const std::vector<Variant>& variants, const std::vector<Variant>& others, const Where& where) {
+  if (variants.size() * others.size() > most_jobs)
+    throw InputError(where, fmt::format("the study has more than {} jobs", most_jobs), "split it");
+  std::vector<Variant> longer;
+  longer.reserve(variants.size() * others.size());
+  for (const Variant& variant : variants)
+    for (const Variant& other : others) {
+      Variant& next = longer.emplace_back(variant);
+      next.name += (next.name.empty() ? "" : "-") + other.name;
+      next.changes.insert(next.changes.end(), other.changes.begin(), other.changes.end());
+    }
+  return longer;
+}
+
 std::vector<Variant> all_combinations(std::vector<Variant> variants, const Node* vary) {
   if (!vary) return variants;
   if (!vary->is_map())
@@ -79,19 +82,22 @@ std::vector<Variant> all_combinations(std::vector<Variant> variants, const Node*
     if (!key.value.is_list() || key.value.items.empty())
       throw InputError(key.value.where, fmt::format("vary.{} must be a list of values", key.key),
                        "write [A, B, ...]");
-    if (variants.size() * key.value.items.size() > most_jobs)
-      throw InputError(key.where, fmt::format("the study has more than {} jobs", most_jobs), "split it");
-    std::vector<Variant> longer;
-    for (const Variant& variant : variants)
-      for (std::size_t i = 0; i < key.value.items.size(); ++i) {
-        Variant next = variant;
-        const std::string name = value_name(key.key, key.value.items[i], i);
-        next.name += (next.name.empty() ? "" : "-") + name;
-        next.changes.push_back({key.key, key.value.items[i], key.where});
-        longer.push_back(std::move(next));
-      }
-    variants = std::move(longer);
+    std::vector<Variant> values;
+    for (std::size_t i = 0; i < key.value.items.size(); ++i)
+      values.push_back({value_name(key.key, key.value.items[i], i), {{key.key, key.value.items[i], key.where}}});
+    variants = combined(variants, values, key.where);
   }
+  return variants;
+}
+
+std::vector<Variant> variants_of(const Node& study) {
+  std::vector<Variant> variants = named_changes(study.find("jobs"));
+  if (const Node* table = study.find("table")) {
+    if (!table->is_scalar()) throw InputError(table->where, "table must be a file", "write 'table: FLEET.csv'");
+    variants = combined(variants, table_variants(folder_of(table->where) / table->text), table->where);
+  }
+  variants = all_combinations(std::move(variants), study.find("vary"));
+  if (const Node* sample = study.find("sample")) variants = combined(variants, sampled_variants(*sample), sample->where);
   return variants;
 }
 
@@ -111,13 +117,13 @@ StudyJob make_job(const Node& base, const Variant& variant, const std::string& f
 
 void check_keys(const Node& study) {
   if (!study.is_map()) throw InputError(study.where, "holds no study", "write base: and vary: or jobs:");
-  const std::vector<std::string> known{"name", "base", "vary", "jobs"};
+  const std::vector<std::string> known{"name", "base", "vary", "jobs", "table", "sample"};
   for (const Entry& entry : study.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     const std::string near = nearest_word(entry.key, known);
     throw InputError(
         entry.where, fmt::format("unknown key '{}' of a study", entry.key),
-        near.empty() ? "keys here: name, base, vary, jobs" : fmt::format("did you mean '{}'?", near));
+        near.empty() ? "keys here: name, base, vary, jobs, table, sample" : fmt::format("did you mean '{}'?", near));
   }
   if (!study.find("base"))
     throw InputError(study.where, "base is missing",
@@ -170,8 +176,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 
   const Node base = base_of(document);
   std::set<std::string> names;
-  for (const Variant& variant :
-       all_combinations(named_changes(document.find("jobs")), document.find("vary"))) {
+  for (const Variant& variant : variants_of(document)) {
     study.jobs.push_back(make_job(base, variant, study.name, sets));
     check_name(study.jobs.back().name, document.where);
     if (!names.insert(study.jobs.back().name).second)
@@ -189,7 +194,11 @@ std::string study_manual() {
          "| `vary` | map of key paths to lists of values | none | every combination of the values becomes a "
          "job |\n"
          "| `jobs` | map of names to maps of key paths and values | none | named deviations from the base; "
-         "with `vary`, each of them is varied |\n";
+         "with `vary`, each of them is varied |\n"
+         "| `table` | a CSV file | none | a fleet, one job per row: `name`, and a key path as the title of every other "
+         "column (`program` stands for `motion`); an empty cell leaves the base as it is; further rows run alone |\n"
+         "| `sample` | map | none | keys whose values are drawn, for each of the jobs that the other sections make |\n\n" +
+         sampling_manual();
 }
 
 }  // namespace dresslife::pipeline

@@ -6,6 +6,10 @@
 //     fatigue.stress: [cyclic, elastic]
 //   jobs:                               ... for each of these named changes of the base
 //     stiff: {dresspack.bending_stiffness_Nm2: 8}
+//   table: fleet.csv                    ... for each row of a table (fleet_table.h) ...
+//   sample:                             ... and each draw of keys that are known by how often (sampling.h)
+//     jobs: 20
+//     keys: {routing.free_length_m: !normal {mean: 1.4, deviation: 0.05}}
 #pragma once
 
 #include <filesystem>

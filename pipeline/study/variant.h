@@ -1,0 +1,24 @@
+// One way to deviate from a study's base: a name and the keys it sets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/job/document.h"
+
+namespace dresslife::pipeline {
+
+struct Change {
+  std::string path;  ///< of the key, as set_value() takes it
+  Node value;
+  Where where;  ///< who asks for it
+};
+
+struct Variant {
+  std::string name;
+  std::vector<Change> changes;
+};
+
+inline constexpr std::size_t most_jobs = 100'000;  ///< of a study
+
+}  // namespace dresslife::pipeline
