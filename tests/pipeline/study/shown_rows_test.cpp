@@ -1,5 +1,7 @@
 #include "pipeline/study/shown_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 
