@@ -578,7 +578,7 @@ void judge(Context& c) {
 }
 
 /// Where the job goes beyond the tests from which its calibration was learned.
-std::vector<std::string> beyond_calibration(const Context& c) {
+std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
   if (!c.job.calibration || c.worst == no_site) return {};
   pipeline::Experience experience;
   experience.strain_range = c.damage.range[c.worst];
@@ -588,14 +588,14 @@ std::vector<std::string> beyond_calibration(const Context& c) {
   for (const double twist : c.strain.read<double>("/deformation/twist"))
     experience.twist = std::max(experience.twist, std::abs(twist));
   experience.materials = {pipeline::material_of(c.job, c.sites.material()[c.worst]).name};
-  std::vector<std::string> warnings;
+  std::vector<pipeline::Warning> warnings;
   for (const std::string& words : pipeline::beyond(c.job.calibration->within, experience))
-    warnings.push_back("warning: beyond what its calibration was learned from: " + words);
+    warnings.push_back({pipeline::WarningKind::calibration, "", "beyond what its calibration was learned from: " + words});
   return warnings;
 }
 
-std::vector<std::string> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
-  std::set<std::string> warnings;  // sorted and once each
+std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
+  std::set<std::string> contradictions;  // sorted and once each
   for (const std::string& name : c.sites.material().values) {
     const auto& packs = c.job.dresspacks;
     if (std::any_of(packs.begin(), packs.end(), [&](const pipeline::MountedDresspack& mounted) {
@@ -605,19 +605,19 @@ std::vector<std::string> warnings_of(const Context& c, const std::vector<Damagin
     const pipeline::Material& material = pipeline::material_of(c.job, name);
     if (!yields(c.job.fatigue.stress) || !material.strain_life_table.empty()) continue;
     const std::string warning = compatibility_warning(material);
-    if (!warning.empty()) warnings.insert("warning: " + warning);
+    if (!warning.empty()) contradictions.insert(warning);
   }
   const auto torn = std::count_if(worst_cycles.begin(), worst_cycles.end(), [](const DamagingCycle& d) {
     return d.damage >= d.cycle.count * 2 / fewest_reversals;
   });
-  if (torn > 0) {
-    warnings.insert(
-        fmt::format("warning: {} of the worst wire's cycles tear it on their first reversal (strain up to "
-                    "{:.3g}); check slip, lay angles and bend radii, no wire is meant for this",
-                    torn, c.damage.range[c.worst]));
-  }
-  for (const std::string& warning : beyond_calibration(c)) warnings.insert(warning);
-  return {warnings.begin(), warnings.end()};
+  std::vector<pipeline::Warning> warnings;
+  for (const std::string& words : contradictions) warnings.push_back({pipeline::WarningKind::material, "", words});
+  if (torn > 0)
+    warnings.push_back({pipeline::WarningKind::strain, "",
+                        fmt::format("{} of the worst wire's cycles tear it on their first reversal (strain up to "
+                                    "{:.3g}); check slip, lay angles and bend radii, no wire is meant for this",
+                                    torn, c.damage.range[c.worst])});
+  return pipeline::joined(warnings, beyond_calibration(c));
 }
 
 }  // namespace

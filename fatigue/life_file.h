@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/files/files.h"
+#include "pipeline/warnings.h"
 
 namespace dresslife::pipeline {
 struct Job;
@@ -16,7 +17,7 @@ namespace dresslife::fatigue {
 
 /// What the stage tells on a terminal.
 struct Notes {
-  std::vector<std::string> warnings;
+  std::vector<pipeline::Warning> warnings;
   std::string summary;  ///< one line: life, place, wire
 };
 

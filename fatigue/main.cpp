@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
         pipeline::FileWriter life(call.output, pipeline::life_format());
         const fatigue::Notes notes = fatigue::write_life(strain, job, life, pipeline::thread_count(),
                                                          [&](double share) { progress.show(share); });
-        for (const std::string& warning : notes.warnings) progress.note(warning);
+        pipeline::note_warnings(life, call, progress, notes.warnings, &strain);
         pipeline::stamp(life, call, job, strain.text_attribute("history"));
         life.commit();
         progress.note(notes.summary);

@@ -97,6 +97,34 @@ Settings settings_of(const StageCall& call) {
           *call.info.part == Part::sim ? files_beside(job) : std::vector<std::filesystem::path>{}};
 }
 
+void say(const StageCall& call, Progress& progress, const Warning& warning) {
+  if (call.of_a_study)
+    tell(warning.line() + "\n");
+  else
+    progress.note(warning.line());
+}
+
+std::vector<Warning> warnings_in(const FileReader& file) {
+  return file.has_attribute("warnings") ? warnings_from(file.text_attribute("warnings")) : std::vector<Warning>{};
+}
+
+const Format& format_of_output(Part part) {
+  return part == Part::sim ? motion_format() : part == Part::strain ? strain_format() : life_format();
+}
+
+/// A log tells what its stage warned of, too, where the output is from an earlier run.
+void say_known_warnings(const StageCall& call) {
+  std::vector<Warning> before;
+  if (*call.info.part != Part::sim) {
+    const Format& format = format_of_output(*call.info.part == Part::strain ? Part::sim : Part::strain);
+    before = warnings_in(FileReader(call.input, format, FileReader::Scope::attributes));
+  }
+  Progress silent(call.info.program, true);
+  for (const Warning& warning :
+       warnings_in(FileReader(call.output, format_of_output(*call.info.part), FileReader::Scope::attributes)))
+    if (std::find(before.begin(), before.end(), warning) == before.end()) say(call, silent, warning);
+}
+
 /// Runs the body unless the receipt says that the output is made already.
 void run_with_receipt(const StageCall& call, const std::filesystem::path& receipt_file,
                       const Settings& settings, const std::function<void()>& body) {
@@ -109,6 +137,7 @@ void run_with_receipt(const StageCall& call, const std::filesystem::path& receip
   const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
                     is_as_noted(*known, call.output);
   if (made) {
+    say_known_warnings(call);
     wanted.output = known->output;
     wanted.told = known->told;
   } else {
@@ -210,6 +239,13 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
                        fmt::format("run the stage before again with the same --job and --set, then {}",
                                    call.info.program));
   return job;
+}
+
+void note_warnings(FileWriter& file, const StageCall& call, Progress& progress, const std::vector<Warning>& own,
+                   const FileReader* before) {
+  for (const Warning& warning : own) say(call, progress, warning);
+  if (before && !before->has_attribute("warnings")) return;
+  file.attribute("warnings", warnings_text(joined(before ? warnings_in(*before) : std::vector<Warning>{}, own)));
 }
 
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier) {

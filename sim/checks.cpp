@@ -10,6 +10,8 @@
 namespace dresslife::sim {
 namespace {
 
+using pipeline::WarningKind;
+
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 using Places = std::span<const Extreme>;
@@ -37,7 +39,7 @@ void Extreme::see(double candidate, bool larger, double when, int where) {
 
 MotionLimits limits_of(const pipeline::Dresspack& dresspack) {
   return {dresspack.least_bend_radius.value_or(least_bend_diameters * dresspack.diameter),
-          dresspack.most_twist.value_or(most_twist)};
+          dresspack.most_twist.value_or(most_twist), dresspack.most_tension.value_or(unlimited)};
 }
 
 MotionChecks::MotionChecks(const Rod& rod, std::vector<MotionLimits> limits)
@@ -134,17 +136,18 @@ void MotionChecks::add_lines(int dresspack, std::vector<Check>& checks) const {
   const Whole& whole = whole_[dresspack];
   const double radius = bend.value > 0 ? 1 / bend.value : unlimited;
   const Check lines[] = {
-      {"smallest bend radius", "m", radius, limits.least_bend_radius, radius < limits.least_bend_radius,
+      {WarningKind::bend_radius, "smallest bend radius", "m", radius, limits.least_bend_radius, radius < limits.least_bend_radius,
        bend.time, link(bend)},
-      {"largest twist", "rad/m", twist.value, limits.most_twist, std::abs(twist.value) > limits.most_twist,
+      {WarningKind::twist, "largest twist", "rad/m", twist.value, limits.most_twist, std::abs(twist.value) > limits.most_twist,
        twist.time, link(twist)},
-      {"largest net twist", "rad", whole.most_net_twist.value, unlimited, false, whole.most_net_twist.time,
+      {{}, "largest net twist", "rad", whole.most_net_twist.value, unlimited, false, whole.most_net_twist.time,
        -1},
-      {"net twist left by a repeat", "rad", whole.net_twist - whole.net_twist_at_begin, unlimited, false,
+      {{}, "net twist left by a repeat", "rad", whole.net_twist - whole.net_twist_at_begin, unlimited, false,
        end_, -1},
-      {"largest tension", "N", pull.value, unlimited, false, pull.time, link(pull)},
-      {"deepest contact", "m", whole.depth.value, unlimited, false, whole.depth.time, segment(whole.depth)},
-      {"largest contact force", "N", whole.force.value, unlimited, false, whole.force.time,
+      {WarningKind::tension, "largest tension", "N", pull.value, limits.most_tension, pull.value > limits.most_tension, pull.time,
+       link(pull)},
+      {{}, "deepest contact", "m", whole.depth.value, unlimited, false, whole.depth.time, segment(whole.depth)},
+      {{}, "largest contact force", "N", whole.force.value, unlimited, false, whole.force.time,
        segment(whole.force)},
   };
   checks.insert(checks.end(), std::begin(lines), std::end(lines));
@@ -167,15 +170,15 @@ void MotionChecks::add_slack(int dresspack, std::vector<Check>& checks) const {
   }
   if (tight) {
     const double shortest = least_slack_share * length(*tight), longest = most_slack_share * length(*loose);
-    checks.push_back({"least slack: too short below", "m", tight->value, shortest, tight->value < shortest,
+    checks.push_back({WarningKind::slack, "least slack: too short below", "m", tight->value, shortest, tight->value < shortest,
                       tight->time, middle(*tight)});
-    checks.push_back({"least slack: too long above", "m", loose->value, longest, loose->value > longest,
+    checks.push_back({WarningKind::slack, "least slack: too long above", "m", loose->value, longest, loose->value > longest,
                       loose->time, middle(*loose)});
-    checks.push_back({"most slack", "m", most->value, unlimited, false, most->time, middle(*most)});
+    checks.push_back({{}, "most slack", "m", most->value, unlimited, false, most->time, middle(*most)});
   }
   if (const Extreme& travel = travel_[first]; travel.seen) {
     const double stroke = rod_.spans()[first].properties.slider->stroke;
-    checks.push_back({"travel of the retraction unit", "m", travel.value, stroke, travel.value >= stroke,
+    checks.push_back({WarningKind::slack, "travel of the retraction unit", "m", travel.value, stroke, travel.value >= stroke,
                       travel.time, rod_.spans()[first].first_arc});
   }
 }

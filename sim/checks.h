@@ -8,10 +8,12 @@
 // one with least of it for its length counts. Each dresspack has a table of its own.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipeline/job/dresspack.h"
+#include "pipeline/warnings.h"
 #include "sim/clamp_path.h"
 #include "sim/contact/contact.h"
 #include "sim/rod/rod.h"
@@ -38,6 +40,7 @@ struct Extreme {
 
 /// One line of the table. Quantities without a limit have an infinite one.
 struct Check {
+  std::optional<pipeline::WarningKind> kind;  ///< of warning when its limit is broken; absent: it has none
   std::string name, unit;  ///< SI
   double value = 0, limit = 0;
   bool warning = false;
@@ -50,6 +53,7 @@ struct Check {
 struct MotionLimits {
   double least_bend_radius = 0;  ///< [m]
   double most_twist = 0;         ///< [rad/m]
+  double most_tension = 0;       ///< [N]; infinite: none is given
 };
 MotionLimits limits_of(const pipeline::Dresspack& dresspack);
 

@@ -23,9 +23,12 @@ std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
   return std::make_unique<RobotPath>(setup);
 }
 
-RobotPath::RobotPath(const pipeline::Setup& setup)
+RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, resolved_motion(setup.motion)) {}
+
+RobotPath::RobotPath(const pipeline::Setup& setup, const pipeline::Motion& motion)
     : kinematics_(setup.robot),
-      motion_(resolved_motion(setup.motion), setup.robot),
+      motion_(motion, setup.robot),
+      left_out_(motion.left_out),
       mounting_pose_(motion_.position(0)) {
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;

@@ -61,6 +61,8 @@ class RobotPath final : public ClampPath {
   const std::vector<std::string>& step_texts() const override { return motion_.step_texts(); }
 
   const JointMotion& motion() const { return motion_; }
+  /// Of the robot program that was read (Motion::left_out).
+  const std::vector<pipeline::Warning>& left_out() const { return left_out_; }
   Pose pose(const Eigen::VectorXd& joints) const;
   /// (end, as ClampFrames counts them) index of the link that carries it; no_link: a free end.
   const std::vector<int>& end_links() const { return end_links_; }
@@ -75,10 +77,12 @@ class RobotPath final : public ClampPath {
   void turn_clamp(int end, double roll);
 
  private:
+  RobotPath(const pipeline::Setup& setup, const pipeline::Motion& motion);
   void add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing);
 
   RobotKinematics kinematics_;
   JointMotion motion_;
+  std::vector<pipeline::Warning> left_out_;
   std::vector<int> end_links_, ring_links_;
   std::vector<int> end_clamps_;  // (end) index into clamps_; a free end names the clamp before it
   std::vector<int> clamp_links_;

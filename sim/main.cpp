@@ -9,19 +9,52 @@
 #include "sim/prescribed.h"
 #include "sim/simulate.h"
 
+using namespace dresslife;
+
 namespace {
 
-void preview(const dresslife::pipeline::StageCall& call, const dresslife::pipeline::Job& job) {
-  dresslife::pipeline::FileWriter file(call.output, dresslife::pipeline::preview_format());
-  dresslife::sim::write_preview(job, file);
-  dresslife::pipeline::stamp(file, call, job, "");
+void preview(const pipeline::StageCall& call, const pipeline::Job& job) {
+  if (job.motion.is_prescribed())
+    throw pipeline::InputError(job.motion.where, "a prescribed deformation has no cell to preview (nothing moves)",
+                               "run it, and look at its page");
+  pipeline::FileWriter file(call.output, pipeline::preview_format());
+  sim::write_preview(job, file);
+  pipeline::stamp(file, call, job, "");
   file.commit();
+}
+
+void prescribe(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {
+  pipeline::FileWriter file(call.output, pipeline::motion_format());
+  pipeline::note_warnings(file, call, progress,
+                          sim::write_prescribed(job, file, [&](double share) { progress.show(share); }));
+  pipeline::stamp(file, call, job, "");
+  file.commit();
+}
+
+void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {
+  const sim::Simulation simulation(job);
+  pipeline::heed_memory(call, sim::memory_of(simulation), progress);
+  std::optional<pipeline::FileWriter> file;
+  std::optional<sim::MotionFile> motion;
+  const auto begin = [&](int) {  // a repeat that does not count leaves nothing
+    motion.reset();
+    file.reset();
+    file.emplace(call.output, pipeline::motion_format());
+    motion.emplace(*file, simulation.description());
+  };
+  begin(1);
+  const sim::RunSummary summary = simulation.run({[&](const sim::Sample& sample) { motion->add(sample); }, begin,
+                                                  [&](double share) { progress.show(share); }});
+  motion->finish(summary, [&](double time) { return simulation.path().step(time); });
+  if (const std::string note = sim::repeats_note(summary); !note.empty()) progress.note(note);
+  pipeline::note_warnings(*file, call, progress, sim::warnings_of(simulation, summary));
+  pipeline::stamp(*file, call, job, "");
+  file->commit();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace dresslife;
   const pipeline::StageInfo info{
       .program = "dresslife-sim",
       .purpose = "Simulates how a robot's dresspack moves while the robot runs its program.",
@@ -35,36 +68,8 @@ int main(int argc, char** argv) {
   return pipeline::run_stage(info, argc, argv,
                              [](const pipeline::StageCall& call, pipeline::Progress& progress) {
                                const pipeline::Job job = pipeline::read_job(call.input, call.sets);
-                               if (!call.options.front().empty() && job.motion.is_prescribed())
-                                 throw pipeline::InputError(
-                                     job.motion.where, "a prescribed deformation has no cell to preview (nothing moves)",
-                                     "run it, and look at its page");
                                if (!call.options.front().empty()) return preview(call, job);
-                               if (job.motion.is_prescribed()) {
-                                 pipeline::FileWriter file(call.output, pipeline::motion_format());
-                                 sim::write_prescribed(job, file, [&](double share) { progress.show(share); });
-                                 pipeline::stamp(file, call, job, "");
-                                 file.commit();
-                                 return;
-                               }
-                               const sim::Simulation simulation(job);
-                               pipeline::heed_memory(call, sim::memory_of(simulation), progress);
-                               std::optional<pipeline::FileWriter> file;
-                               std::optional<sim::MotionFile> motion;
-                               const auto begin = [&](int) {  // a repeat that does not count leaves nothing
-                                 motion.reset();
-                                 file.reset();
-                                 file.emplace(call.output, pipeline::motion_format());
-                                 motion.emplace(*file, simulation.description());
-                               };
-                               begin(1);
-                               const sim::RunSummary summary =
-                                   simulation.run({[&](const sim::Sample& sample) { motion->add(sample); },
-                                                   begin, [&](double share) { progress.show(share); }});
-                               motion->finish(summary, [&](double time) { return simulation.path().step(time); });
-                               for (const std::string& line : sim::remarks(simulation, summary))
-                                 progress.note(line);
-                               pipeline::stamp(*file, call, job, "");
-                               file->commit();
+                               return job.motion.is_prescribed() ? prescribe(call, job, progress)
+                                                                 : simulate(call, job, progress);
                              });
 }

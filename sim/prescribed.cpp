@@ -11,6 +11,7 @@ namespace dresslife::sim {
 namespace {
 
 using pipeline::InputError;
+using pipeline::WarningKind;
 
 using State = PrescribedDeformation::State;
 
@@ -58,13 +59,13 @@ class Extremes {
       });
     };
     const Extreme bend = of(curvature), turn = of(twist), pull = of(tension);
-    constexpr double unlimited = std::numeric_limits<double>::infinity();
-    const double radius = bend.value > 0 ? 1 / bend.value : unlimited;
-    return {{"smallest bend radius", "m", radius, limits_.least_bend_radius, radius < limits_.least_bend_radius,
+    const double radius = bend.value > 0 ? 1 / bend.value : std::numeric_limits<double>::infinity();
+    return {{WarningKind::bend_radius, "smallest bend radius", "m", radius, limits_.least_bend_radius, radius < limits_.least_bend_radius,
              bend.time, bend.place * step_},
-            {"largest twist", "rad/m", turn.value, limits_.most_twist, std::abs(turn.value) > limits_.most_twist,
+            {WarningKind::twist, "largest twist", "rad/m", turn.value, limits_.most_twist, std::abs(turn.value) > limits_.most_twist,
              turn.time, turn.place * step_},
-            {"largest tension", "N", pull.value, unlimited, false, pull.time, pull.place * step_}};
+            {WarningKind::tension, "largest tension", "N", pull.value, limits_.most_tension, pull.value > limits_.most_tension,
+             pull.time, pull.place * step_}};
   }
 
  private:
@@ -173,8 +174,8 @@ double axial_stiffness(const pipeline::Dresspack& dresspack) {
                                        : stiffness_of(dresspack.components, dresspack);
 }
 
-void write_prescribed(const pipeline::Setup& setup, pipeline::FileWriter& file,
-                      const std::function<void(double)>& progress) {
+std::vector<pipeline::Warning> write_prescribed(const pipeline::Setup& setup, pipeline::FileWriter& file,
+                                                const std::function<void(double)>& progress) {
   const PrescribedDeformation deformation = deformation_of(setup);
   const std::size_t samples = deformation.times.size();
   check_size(setup, samples);
@@ -206,9 +207,14 @@ void write_prescribed(const pipeline::Setup& setup, pipeline::FileWriter& file,
   summary.twist = extremes.twist;
   summary.tension = extremes.tension;
   summary.checks = extremes.table();
-  motion.finish(summary, [&](double time) {
+  const auto step_at = [&](double time) {
     const auto sample = std::lower_bound(deformation.times.begin(), deformation.times.end(), time);
     return deformation.steps[std::min<std::size_t>(sample - deformation.times.begin(), samples - 1)];
+  };
+  motion.finish(summary, step_at);
+  return check_warnings(setup, summary.checks, [&](double time) {
+    const auto step = static_cast<std::size_t>(step_at(time));
+    return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, deformation.step_texts.at(step));
   });
 }
 

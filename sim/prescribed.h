@@ -18,6 +18,7 @@
 
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
+#include "pipeline/warnings.h"
 #include "sim/rod/rod.h"
 
 namespace dresslife::sim {
@@ -49,8 +50,8 @@ PrescribedDeformation deformation_of(const pipeline::Setup& setup);
 double axial_stiffness(const pipeline::Dresspack& dresspack);
 
 /// Writes every dataset of motion.h5. Nothing moves through the air here: energies but the elastic, contacts and time
-/// step are 0 or absent.
-void write_prescribed(const pipeline::Setup& setup, pipeline::FileWriter& file,
+/// step are 0 or absent. Returns what a person should look at.
+std::vector<pipeline::Warning> write_prescribed(const pipeline::Setup& setup, pipeline::FileWriter& file,
                       const std::function<void(double)>& progress);
 
 }  // namespace dresslife::sim

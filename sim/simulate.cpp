@@ -73,6 +73,10 @@ Simulation::Simulation(const pipeline::Setup& setup)
 
 Simulation::~Simulation() = default;
 
+std::vector<pipeline::Warning> Simulation::left_out() const {
+  return robot_ ? robot_->left_out() : std::vector<pipeline::Warning>{};
+}
+
 std::string Simulation::moment(double time) const {
   const int step = path_->step(time);
   return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, path_->step_texts()[step]);
@@ -278,7 +282,7 @@ namespace {
 
 std::string in_words(double value, const std::string& unit) {
   if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
-  if (unit == "rad/m") return fmt::format("{:.0f} deg/m", value * 180 / EIGEN_PI);
+  if (unit == "rad/m") return fmt::format("{:.4g} deg/m", value * 180 / EIGEN_PI);
   return fmt::format("{:.3g} {}", value, unit);
 }
 
@@ -289,26 +293,35 @@ std::string check_words(const pipeline::Setup& setup, const Check& check) {
 
 }  // namespace
 
-std::vector<std::string> remarks(const Simulation& simulation, const RunSummary& summary) {
-  std::vector<std::string> lines;
-  const double off = 1e3 * summary.distance;
-  const double tolerance = 1e3 * simulation.setup().simulation.periodic_tolerance;
-  if (summary.returns && !summary.periodic)
-    lines.push_back(
-        fmt::format("warning: after {} repeats the motion still begins {:.1f} mm from where it began the "
-                    "repeat before (simulation.periodic_tolerance_mm is {:.3g}): friction leaves the "
-                    "dresspack several places; the last repeat is evaluated",
-                    summary.repeats, off, tolerance));
-  else if (summary.repeats > 1)
-    lines.push_back(fmt::format(
-        "note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
-        summary.repeats, off));
-  for (const Check& check : summary.checks)
+std::vector<pipeline::Warning> check_warnings(const pipeline::Setup& setup, const std::vector<Check>& checks,
+                                              const std::function<std::string(double)>& moment) {
+  std::vector<pipeline::Warning> warnings;
+  for (const Check& check : checks)
     if (check.warning)
-      lines.push_back(fmt::format("warning: {}: {} (limit {}) {}", check_words(simulation.setup(), check),
-                                  in_words(check.value, check.unit), in_words(check.limit, check.unit),
-                                  simulation.moment(check.time)));
-  return lines;
+      warnings.push_back({*check.kind, "", fmt::format("{}: {} (limit {}) {}", check_words(setup, check),
+                                                       in_words(check.value, check.unit),
+                                                       in_words(check.limit, check.unit), moment(check.time))});
+  return warnings;
+}
+
+std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {
+  std::vector<pipeline::Warning> warnings = simulation.left_out();
+  if (summary.returns && !summary.periodic)
+    warnings.push_back(
+        {pipeline::WarningKind::periodic, "",
+         fmt::format("after {} repeats the motion still begins {:.1f} mm from where it began the repeat before "
+                     "(simulation.periodic_tolerance_mm is {:.3g}): friction leaves the dresspack several places; the "
+                     "last repeat is evaluated",
+                     summary.repeats, 1e3 * summary.distance,
+                     1e3 * simulation.setup().simulation.periodic_tolerance)});
+  return pipeline::joined(warnings, check_warnings(simulation.setup(), summary.checks,
+                                                   [&](double time) { return simulation.moment(time); }));
+}
+
+std::string repeats_note(const RunSummary& summary) {
+  if (summary.repeats < 2 || (summary.returns && !summary.periodic)) return "";
+  return fmt::format("note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
+                     summary.repeats, 1e3 * summary.distance);
 }
 
 }  // namespace dresslife::sim

@@ -65,8 +65,16 @@ struct RunSummary {
   std::vector<Check> checks;                       ///< of the last repeat
 };
 
-/// What a person should be told of a run: repeats, and a line for every check that warns.
-std::vector<std::string> remarks(const Simulation& simulation, const RunSummary& summary);
+/// What of a run a person should look at: skipped lines of its program, repeats that do not become alike, and every
+/// check whose limit is broken.
+std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary);
+
+/// Of checks whose limits are broken. moment: "at 1.2 s, program step 3 'text'".
+std::vector<pipeline::Warning> check_warnings(const pipeline::Setup& setup, const std::vector<Check>& checks,
+                                              const std::function<std::string(double)>& moment);
+
+/// How many repeats it took; empty where there was one.
+std::string repeats_note(const RunSummary& summary);
 
 /// What a run hands its results to; only `take` is needed.
 struct RunSinks {
@@ -87,6 +95,8 @@ class Simulation {
   const RodState& start() const { return start_; }
   const ClampPath& path() const { return *path_; }
   const Rod& rod() const { return rod_; }
+  /// Of the robot program that was read (Motion::left_out); nothing without one.
+  std::vector<pipeline::Warning> left_out() const;
   /// As given; simulation.time_step is the step that the run begins with.
   const pipeline::Setup& setup() const { return setup_; }
   std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"

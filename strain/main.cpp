@@ -1,6 +1,5 @@
 // dresslife-strain: motion.h5 in, strain.h5 out.
 #include "pipeline/job/job.h"
-#include "pipeline/job/overlap.h"
 #include "pipeline/stage.h"
 #include "pipeline/threads.h"
 #include "strain/memory.h"
@@ -19,15 +18,13 @@ int main(int argc, char** argv) {
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
         const pipeline::FileReader motion(call.input, pipeline::motion_format());
         const pipeline::Job job = pipeline::job_of(call, motion, {pipeline::Part::sim});
-        for (const pipeline::MountedDresspack& mounted : job.dresspacks)
-          for (const std::string& warning : pipeline::overlap_warnings(mounted.dresspack))
-            progress.note(warning);
         pipeline::heed_memory(call, strain::memory_of(motion, job, pipeline::thread_count()), progress);
         pipeline::FileWriter file(call.output, pipeline::strain_format());
-        const std::string summary = strain::write_strain(motion, job, file, pipeline::thread_count(),
+        const strain::Notes notes = strain::write_strain(motion, job, file, pipeline::thread_count(),
                                                          [&](double share) { progress.show(share); });
+        pipeline::note_warnings(file, call, progress, notes.warnings, &motion);
         pipeline::stamp(file, call, job, motion.text_attribute("history"));
         file.commit();
-        progress.note(summary);
+        progress.note(notes.summary);
       });
 }

@@ -10,6 +10,7 @@
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/believable.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/overlap.h"
 #include "strain/cable_bending.h"
 #include "strain/evaluation.h"
 
@@ -18,6 +19,8 @@ namespace {
 
 using pipeline::FileReader;
 using pipeline::FileWriter;
+using pipeline::Warning;
+using pipeline::WarningKind;
 
 constexpr std::size_t block_samples = 512;  // rows read at a time
 constexpr double first_pass_share = 0.05;   // of the work, for the progress display
@@ -304,28 +307,31 @@ struct Evaluations {
   }
 };
 
-std::string force_warning(double force_share, double moment_share) {
-  std::string warning;
-  const auto tell = [&](double share, const char* what) {
+std::vector<Warning> force_warnings(double force_share, double moment_share) {
+  std::vector<Warning> warnings;
+  const auto warn = [&](double share, const char* what) {
     if (share > pipeline::believable_share)
-      warning += fmt::format("\nwarning: {:.2g} times {} (more than {:g}: strains rest on forces that nobody sees in a "
-                             "dresspack); check slack, play, grips and position of its cables",
-                             share, what, pipeline::believable_share);
+      warnings.push_back({WarningKind::force, "",
+                          fmt::format("{:.2g} times {} (more than {:g}: strains rest on forces that nobody sees in a "
+                                      "dresspack); check slack, play, grips and position of its cables",
+                                      share, what, pipeline::believable_share)});
   };
-  tell(force_share, "what tears a cable pulls at one");
-  tell(moment_share, "the hose's own moment is what all cables put on a clamp");
-  return warning;
+  warn(force_share, "what tears a cable pulls at one");
+  warn(moment_share, "the hose's own moment is what all cables put on a clamp");
+  return warnings;
 }
 
-std::string mesh_warning(double error) {
-  if (error <= believable_mesh_error) return "";
-  return fmt::format("\nwarning: the segments are too long for how loose cables bend: they miss {:.2g} of it (more than {:g}); "
-                     "give more simulation.segments", error, believable_mesh_error);
+std::vector<Warning> mesh_warnings(double error) {
+  if (error <= believable_mesh_error) return {};
+  return {{WarningKind::mesh, "",
+           fmt::format("the segments are too long for how loose cables bend: they miss {:.2g} of it (more than {:g}); "
+                       "give more simulation.segments",
+                       error, believable_mesh_error)}};
 }
 
 /// What pulls at the cables of all spans, and what that asks of clamps and copper. Nothing where there is no cable.
-/// Returns a warning where nobody would see such forces.
-std::string write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+/// Returns what a person should look at: forces that nobody sees, segments that are too long.
+std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   std::vector<std::string> names;
   std::vector<double> slip;
   std::vector<const std::vector<double>*> tension;
@@ -348,7 +354,7 @@ std::string write_cables(FileWriter& file, const std::vector<std::unique_ptr<Eva
     cable_moment = cables.cable_moment();
     hose_moment = cables.hose_moment();
   }
-  if (names.empty()) return "";
+  if (names.empty()) return {};
   file.set_axis("cable", names.size());
   file.set_text_width("/cable/name", std::max_element(names.begin(), names.end(), [](const auto& a, const auto& b) {
                                        return a.size() < b.size();
@@ -364,13 +370,25 @@ std::string write_cables(FileWriter& file, const std::vector<std::unique_ptr<Eva
   file.attribute("largest_force_share", force_share);
   file.attribute("clamp_moment_share", moment_share);
   if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
-  const std::string warning = force_warning(force_share, moment_share) + mesh_warning(mesh_error);
-  if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warning;
+  const std::vector<Warning> warnings =
+      pipeline::joined(force_warnings(force_share, moment_share), mesh_warnings(mesh_error));
+  if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
   std::vector<std::uint32_t> samples(cables.offset_samples().begin(), cables.offset_samples().end());
   file.append("/cable/offset_sample", samples);
   file.append("/cable/offset", cables.offsets());
-  return warning;
+  return warnings;
+}
+
+/// Parts that lie in each other, whatever the motion.
+std::vector<Warning> parts_in_each_other(const pipeline::Job& job) {
+  std::vector<Warning> all;
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks)
+    for (Warning warning : pipeline::overlap_warnings(mounted.dresspack)) {
+      warning.where = mounted.name;  // its line in the resolved job helps nobody
+      all.push_back(warning);
+    }
+  return all;
 }
 
 /// How a cable by itself bends, from the curvature of a hanging cable to that of a wire around a finger.
@@ -393,9 +411,8 @@ void write_bending(FileWriter& file, const pipeline::Job& job) {
 
 }  // namespace
 
-std::string write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
-                         std::size_t threads, const std::function<void(double)>& progress,
-                         std::size_t history_bytes) {
+Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain, std::size_t threads,
+                   const std::function<void(double)>& progress, std::size_t history_bytes) {
   MotionReader reader(motion, job);
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
@@ -453,7 +470,7 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
         if (evaluation.wants_again()) evaluation.add_again(of_span.deformation);
       });
     });
-  const std::string warning = write_cables(strain, evaluations);
+  const std::vector<Warning> warnings = pipeline::joined(parts_in_each_other(job), write_cables(strain, evaluations));
   write_bending(strain, job);
 
   Sink sink;
@@ -486,7 +503,7 @@ std::string write_strain(const FileReader& motion, const pipeline::Job& job, Fil
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),
                        [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
-  return (*worst)->summary(evaluations.back()->sites_so_far()) + warning;
+  return {warnings, (*worst)->summary(evaluations.back()->sites_so_far())};
 }
 
 }  // namespace dresslife::strain

@@ -4,8 +4,10 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "pipeline/files/files.h"
+#include "pipeline/warnings.h"
 
 namespace dresslife::pipeline {
 struct Job;
@@ -17,14 +19,17 @@ namespace dresslife::strain {
 /// read again for the next segments.
 constexpr std::size_t default_history_bytes = std::size_t{128} << 20;
 
-/// Writes every dataset of strain.h5 and returns a line on the worst site, after warnings of forces that are not
-/// believed. threads: any number gives the same
-/// bytes. progress: share of the work done.
+/// What the stage tells.
+struct Notes {
+  std::vector<pipeline::Warning> warnings;
+  std::string summary;  ///< one line on the worst site
+};
+
+/// Writes every dataset of strain.h5. threads: any number gives the same bytes. progress: share of the work done.
 /// Errors: InputError for a motion without samples, a dresspack without wires, and those of Construction and
 /// Evaluation.
-std::string write_strain(const pipeline::FileReader& motion, const pipeline::Job& job,
-                         pipeline::FileWriter& strain, std::size_t threads,
-                         const std::function<void(double)>& progress,
-                         std::size_t history_bytes = default_history_bytes);
+Notes write_strain(const pipeline::FileReader& motion, const pipeline::Job& job,
+                   pipeline::FileWriter& strain, std::size_t threads, const std::function<void(double)>& progress,
+                   std::size_t history_bytes = default_history_bytes);
 
 }  // namespace dresslife::strain

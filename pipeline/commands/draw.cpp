@@ -20,7 +20,7 @@ int draw(const Options& options) {
   if (!options.picture.empty()) check_picture(options.picture);
   const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"));
   print(shown(construction_text(dresspack)));
-  for (const std::string& warning : overlap_warnings(dresspack)) tell(warning + "\n");
+  for (const Warning& warning : overlap_warnings(dresspack)) tell(warning.line() + "\n");
   if (options.picture.empty()) return 0;
   write_picture(options.picture, cross_section_picture(dresspack));
   return 0;

@@ -9,6 +9,7 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -36,6 +37,7 @@ int run(const RunOptions& options) {
   write_results(study, places, rows);
   print(
       shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
+  if (!options.quiet) tell(warning_lines(rows));
   const int failed = count_failed(rows);
   if (failed == 0) return 0;
   tell(fmt::format(

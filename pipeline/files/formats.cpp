@@ -207,6 +207,10 @@ Format make_motion_format() {
       {"curvature_error",
        "estimated relative rms error that the step leaves in the curvature of the liveliest seconds", false,
        true},
+      {"warnings",
+       "what a person should look at before believing the results: a line each, kind, place and words between tabs, of "
+       "the stages before, too; empty: nothing; absent in files that do not tell",
+       true, true},
   };
   return format;
 }
@@ -280,6 +284,7 @@ Format make_strain_format() {
        "share of loose cables' curvature that as many places along the hose as it has segments miss: an estimate, root of "
        "mean squares over the motion, of the worst cable",
        false, true});
+  format.attributes.push_back({"warnings", "as in the motion file, this stage's behind them", true, true});
   format.datasets.push_back({"/probe/site", Type::u32, {"probe"}, "1", "site of each probe"});
   format.datasets.push_back(
       {"/probe/strain", Type::f64, {"probe", "sample"}, "1", "whole strain history of each probe"});
@@ -544,6 +549,7 @@ Format make_life_format() {
        false, true},
       {"conductor_life_hours_p50", "the same of half of them", false, true},
       {"conductor_life_hours_p90", "the same of 90 %", false, true},
+      {"warnings", "as in the strain file, this stage's behind them: all of the job's", true, true},
   };
   return format;
 }

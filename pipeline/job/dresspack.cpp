@@ -103,6 +103,8 @@ void describe(Fields& f, Dresspack& dresspack) {
                  "that the maker allows in motion; tighter is warned of; without it ten diameters");
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
                  "that the maker allows in motion; more is warned of; without it 180");
+  f.maybe_number("most_tension_N", dresspack.most_tension, above(0),
+                 "pull along the filled hose that the maker allows in motion; more is warned of; without it no pull is");
   f.text("hose_material", dresspack.hose_material, Need::optional,
          "of the hose's wall, a name of config/materials; without it the hose's strain is not evaluated");
   f.maybe_number(

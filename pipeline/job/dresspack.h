@@ -108,6 +108,7 @@ struct Dresspack {
   double friction = 0;                          ///< Coulomb, hose against robot
   std::optional<double> least_bend_radius;      ///< allowed in motion [m]; absent: ten diameters
   std::optional<double> most_twist;             ///< allowed in motion [rad/m]; absent: 180 deg/m
+  std::optional<double> most_tension;           ///< of the hose, allowed in motion [N]; absent: no limit
   std::string hose_material;                    ///< of the hose's wall; empty: its strain is not evaluated
   std::optional<double> hose_strain_factor;     ///< strain of the wall over that of a smooth hose
   std::optional<Corrugation> hose_corrugation;  ///< gives that factor instead; neither: a smooth hose

@@ -12,6 +12,7 @@
 #include "pipeline/job/document.h"
 #include "pipeline/job/rig.h"
 #include "pipeline/job/robot.h"
+#include "pipeline/warnings.h"
 
 namespace dresslife::pipeline {
 
@@ -123,6 +124,8 @@ struct Motion {
   std::filesystem::path clamp_poses;  ///< CSV with both clamps' poses instead of steps; empty: none
   std::filesystem::path deformation;  ///< CSV with the dresspack's own deformation instead; empty: none
   std::optional<Rig> rig;             ///< that deforms it instead
+  /// Of steps that were read from a program: what was left out there and may move the robot.
+  std::vector<Warning> left_out;
   Where where;
 
   /// Whether the deformation is given, so that nothing is simulated.

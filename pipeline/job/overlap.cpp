@@ -43,7 +43,7 @@ std::string what_fits(const Component& of) {
 }
 
 /// warnings: null, when only gross overlap is to be refused.
-void add_warnings(const Component& of, std::vector<std::string>* warnings) {
+void add_warnings(const Component& of, std::vector<Warning>* warnings) {
   for (const Component& inner : of.components) add_warnings(inner, warnings);
   if (!overlaps(of)) return;
   const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
@@ -55,7 +55,8 @@ void add_warnings(const Component& of, std::vector<std::string>* warnings) {
     throw InputError(
         of.where, fmt::format("{} (nearer than half of it)", what),
         fmt::format("check count, radius_mm, helix_radius_mm and lay_angle_deg; {}", what_fits(of)));
-  if (warnings) warnings->push_back(fmt::format("{}: warning: {}; {}", of.where.text(), what, what_fits(of)));
+  if (warnings)
+    warnings->push_back({WarningKind::overlap, of.where.text(), fmt::format("{}; {}", what, what_fits(of))});
 }
 
 }  // namespace
@@ -83,8 +84,8 @@ bool overlaps(const Component& component) {
   return component.helix_radius > 0 && !fits(component, component.lay_angle, component.count, allowed);
 }
 
-std::vector<std::string> overlap_warnings(const Dresspack& dresspack) {
-  std::vector<std::string> warnings;
+std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
+  std::vector<Warning> warnings;
   for (const Component& component : dresspack.components) add_warnings(component, &warnings);
   return warnings;
 }

@@ -6,10 +6,10 @@
 // phi the angle by which it goes on; straight parts are 2 R sin(delta/2) apart.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "pipeline/job/dresspack.h"
+#include "pipeline/warnings.h"
 
 namespace dresslife::pipeline {
 
@@ -19,11 +19,11 @@ double neighbour_distance(double helix_radius, double lay_angle, int count);
 /// Whether the parts of a component overlap by more than overlap_warnings() allows.
 bool overlaps(const Component& component);
 
-/// One line for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
+/// A warning for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
 /// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit.
 /// Errors: InputError for parts nearer than half of their diameter. Insulation gives, but two such parts
 /// would share over a third of their sections.
-std::vector<std::string> overlap_warnings(const Dresspack& dresspack);
+std::vector<Warning> overlap_warnings(const Dresspack& dresspack);
 
 /// The errors alone, in a hundredth of the time: nobody asks what would fit.
 void refuse_gross_overlap(const Dresspack& dresspack);

@@ -22,6 +22,7 @@
 #include "pipeline/report/scene_data.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/whole_file.h"
+#include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -89,9 +90,9 @@ std::string assumptions(const RankingRow& row, const FileReader* motion) {
   const auto fact = [&](const std::string& name, const std::string& value) {
     list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
   };
-  if (!row.force_ok())
-    fact("forces", "<b>" + escaped(force_words(row)) + "</b>");
-  else if (row.largest_force_share.value_or(0) > 0)
+  for (const Warning& warning : warnings_of(row))
+    fact(title(warning.kind), "<b>" + escaped(warning.text()) + "</b>");
+  if (row.force_ok() && row.largest_force_share.value_or(0) > 0)
     fact("forces",
          fmt::format("cables pull with at most {:.2g} of what tears them", *row.largest_force_share));
   if (motion && motion->has_attribute("time_step"))

@@ -16,6 +16,7 @@
 #include "pipeline/report/motion_checks.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
+#include "pipeline/study/row_warnings.h"
 #include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
@@ -78,6 +79,15 @@ std::string page_link(const RankingRow& row, const std::string& page, const std:
 
 // ---- ranking ----------------------------------------------------------------------------------------------
 
+/// What is warned of, and on request each warning in full.
+std::string warning_cell(const RankingRow& row) {
+  const std::string kinds = warning_kinds(row);
+  if (kinds.empty()) return row.warnings ? "" : "<span class=\"soft\">not known</span>";
+  std::string list;
+  for (const Warning& warning : warnings_of(row)) list += fmt::format("<li>{}</li>", escaped(warning.text()));
+  return fmt::format("<details><summary class=\"failed\">{}</summary><ul>{}</ul></details>", escaped(kinds), list);
+}
+
 std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -86,7 +96,7 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
         detailed[i] ? fmt::format("<a href=\"#job-{}\">{}</a>", i + 1, escaped(row.job)) : escaped(row.job);
     if (!row.done()) {
       text += fmt::format(
-          "<tr><td class=\"number\">-</td><td>{}</td><td colspan=\"6\"><span class=\"failed\">failed</span> "
+          "<tr><td class=\"number\">-</td><td>{}</td><td colspan=\"7\"><span class=\"failed\">failed</span> "
           "{}</td></tr>\n",
           name, escaped(row.failure) + page_link(row, "preview.html", "See where"));
       continue;
@@ -105,10 +115,10 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
     text += fmt::format(
         "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\"><b>{}</b></td><td "
         "class=\"number\">{} .. {}</td>"
-        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td></tr>\n",
+        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         i + 1, name, life_cell(row.headline_hours()), life_cell(row.headline_hours_of(row.life_repeats_all_stick)),
         life_cell(row.headline_hours_of(row.life_repeats_all_free)), first_break_cell(row),
-        calendar_cell(row.headline_months()), where, moved);
+        calendar_cell(row.headline_months()), where, moved, warning_cell(row));
   }
   return text;
 }
@@ -172,7 +182,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "<th class=\"number\">inside stuck .. free [h]</th><th class=\"number\">first break in 10 .. 90 % "
       "[h]</th><th "
       "class=\"number\">calendar</th>"
-      "<th>breaks first</th><th>what moved then</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}"
+      "<th>breaks first</th><th>what moved then</th><th>warnings</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}"
       "<p class=\"soft\">The p10 life is the planner's, in hours of motion: by then 10 % of such dresspacks have a "
       "conductor that has lost its share of wires (fatigue.failed_wires_percent) at one place; the calendar counts the "
       "job's operating hours per week. "
@@ -386,6 +396,8 @@ std::string facts(const RankingRow& row) {
                                     hours_words(*row.hours_mean_stress_kept),
                                     hours_words(*row.hours_without_mean_stress)));
   if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
+  for (const Warning& warning : warnings_of(row))
+    fact("warning", "<b>" + escaped(warning.text()) + "</b>");
   if (row.clamp_moment_share) {
     const std::string tears =
         row.largest_force_share ? fmt::format("at most {:.2f} of what tears a cable", *row.largest_force_share)

@@ -13,6 +13,7 @@
 #include "pipeline/job/units.h"
 #include "pipeline/limits.h"
 #include "pipeline/readable.h"
+#include "pipeline/study/row_warnings.h"
 #include "pipeline/study/shown_rows.h"
 
 namespace dresslife::pipeline {
@@ -116,6 +117,7 @@ RankingRow read_row(const JobResult& result) {
       row.hours_mean_stress_kept = file.number_attribute("life_hours_mean_stress_kept");
       row.hours_without_mean_stress = file.number_attribute("life_hours_without_mean_stress");
     }
+    if (file.has_attribute("warnings")) row.warnings = warnings_from(file.text_attribute("warnings"));
     if (file.number_attribute("worst_site") < 0) return row;
     row.worst_segment_from_tool = count_attribute(file, "worst_segment_from_tool");
     row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
@@ -213,7 +215,6 @@ std::string more_story(const RankingRow& row) {
                                 life_text(row.first_wire_hours[0]), life_text(row.first_wire_hours[2])));
   if (damaged && !row.worst_joint.empty()) parts.push_back(joint_words(row));
   if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
-  if (!row.force_ok()) parts.push_back(force_words(row));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -274,7 +275,7 @@ std::string force_words(const RankingRow& row) {
   if (row.clamp_moment_share.value_or(0) > believable_share)
     parts.push_back(fmt::format("bend the clamps {:.2g} times as much as the hose does",
                                 *row.clamp_moment_share));
-  return fmt::format("WARNING: {}", fmt::join(parts, " and "));
+  return fmt::format("{}", fmt::join(parts, " and "));
 }
 
 std::string ranking_csv(const std::vector<RankingRow>& rows) {
@@ -287,12 +288,14 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "clamp_moment_share,force_ok,life_hours_mean_stress_kept,life_hours_without_mean_stress,"
       "life_months_p10,life_hours_p10_all_stick,life_hours_p10_all_free,first_wire_life_hours_p10,"
       "first_wire_life_hours_p50,first_wire_life_hours_p90,failing_conductor,failing_position_from_tool_m,"
-      "rated_cycles_per_hour,relative_life_hours,rated_cable\n";
+      "rated_cycles_per_hour,relative_life_hours,rated_cable" +
+      fmt::format(",{}\n", fmt::join(warning_columns(), ","));
   for (const RankingRow& row : rows) {
     if (!row.done()) {
       const bool waits = row.failure == "stale" || row.failure == "to do";
-      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,,,,,,,,,,,,,,\n", csv_cell(row.job),
-                          waits ? row.failure : "failed", csv_cell(row.failure), row.settings);
+      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,,,,,,,,,,,,,,{}\n", csv_cell(row.job),
+                          waits ? row.failure : "failed", csv_cell(row.failure), row.settings,
+                          std::string(warning_columns().size(), ','));
       continue;
     }
     const bool evaluated = row.worst_segment_from_tool > 0;
@@ -334,6 +337,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     cells.push_back(row.relative ? shortest_text(row.relative->cycles_per_hour) : "");
     cells.push_back(row.relative ? shortest_text(row.relative->hours()) : "");
     cells.push_back(row.relative ? row.relative->cable : "");
+    for (const std::string& cell : warning_cells(row)) cells.push_back(cell);
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }
@@ -378,6 +382,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const std::string second = one_line(row.done() ? story(row) : row.failure);
     // A reason for failure is kept whole: its end is the remedy.
     text += indent + (row.done() ? shortened(second, width - indent.size()) : second) + '\n';
+    if (const std::string kinds = row.done() ? warning_kinds(row) : ""; !kinds.empty())
+      text += indent + shortened("WARNING: " + kinds, width - indent.size()) + '\n';
     const std::string third = row.done() ? one_line(more_story(row)) : "";
     if (!third.empty()) text += indent + shortened(third, width - indent.size()) + '\n';
     if (row.done() && row.relative)

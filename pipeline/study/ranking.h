@@ -12,6 +12,7 @@
 
 #include "pipeline/job/believable.h"
 #include "pipeline/study/build_graph.h"
+#include "pipeline/warnings.h"
 
 namespace dresslife::pipeline {
 
@@ -77,6 +78,8 @@ struct RankingRow {
   std::optional<double> largest_force_share, clamp_moment_share;
   /// The worst wire's life if its mean stress never relaxed, and if mean stress did nothing; absent: not known.
   std::optional<double> hours_mean_stress_kept, hours_without_mean_stress;
+  /// Of all its stages; absent: the files do not tell.
+  std::optional<std::vector<Warning>> warnings;
   std::optional<RelativeLife> relative;  ///< of the rating that it reaches soonest; absent: no cable has one
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 

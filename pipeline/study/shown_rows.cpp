@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "pipeline/study/row_warnings.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -34,7 +36,7 @@ ShownRows shown_rows(const std::vector<RankingRow>& rows) {
   std::set<std::size_t> shown;
   take(rows, 0, done, best, shown, any);
   take(rows, done - std::min(done, worst), done, worst, shown, any);
-  const std::size_t of_warning = take(rows, 0, done, warned, shown, [](const RankingRow& row) { return !row.force_ok(); });
+  const std::size_t of_warning = take(rows, 0, done, warned, shown, [](const RankingRow& row) { return !warnings_of(row).empty(); });
   take(rows, done, rows.size(), failed, shown, any);
   return {{shown.begin(), shown.end()},
           fmt::format("{} jobs: {} done, {} of them warned of, {} not done; shown are the best {}, the worst {} and the first "

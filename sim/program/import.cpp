@@ -308,6 +308,9 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   motion.tools = frames_of(program.tools);
   motion.work_objects = frames_of(program.work_objects);
   motion.steps.clear();
+  motion.left_out = moves_left_out(program);
+  for (pipeline::Warning& warning : motion.left_out)  // wherever the program lies
+    warning.where = std::filesystem::path(warning.where).filename().string();
   for (const Instruction& instruction : program.instructions) {
     const bool waits_at_start =
         motion.steps.empty() && instruction.kind == Instruction::Kind::dwell;  // somewhere
@@ -348,36 +351,41 @@ void add_to_group(SkippedGroup& group, const Skipped& skipped) {
 
 }  // namespace
 
-std::vector<std::string> skipped_lines(const Program& program) {
-  std::vector<std::string> lines;
-  std::vector<SkippedGroup> moving;
-  std::map<std::string, std::map<std::string, int>> harmless;  // reason -> name -> how often
+std::vector<pipeline::Warning> moves_left_out(const Program& program) {
+  std::vector<SkippedGroup> groups;
   std::map<std::string, std::size_t> known;
   for (const Skipped& skipped : program.skipped) {
+    if (!skipped.may_move) continue;
     const auto [name, reason] = name_and_reason(skipped.what);
-    if (!skipped.may_move && name.empty()) {
-      lines.push_back(fmt::format("{}: note: {}", skipped.where.text(), reason));
-      continue;
-    }
-    if (!skipped.may_move) {
-      ++harmless[reason][name];
-      continue;
-    }
-    const auto [at, is_new] = known.emplace(skipped.what, moving.size());
+    const auto [at, is_new] = known.emplace(skipped.what, groups.size());
     if (is_new)
-      moving.push_back({skipped.where, name, reason, 0, ""});
+      groups.push_back({skipped.where, name, reason, 0, ""});
     else
-      add_to_group(moving[at->second], skipped);
+      add_to_group(groups[at->second], skipped);
   }
-  std::vector<std::string> warnings;
-  for (const SkippedGroup& group : moving)
-    warnings.push_back(fmt::format("{}: warning: skipped: {}{}{}", group.first.text(),
-                                   group.name.empty() ? "" : group.name + ": ", group.reason,
-                                   group.more == 0
-                                       ? ""
-                                       : fmt::format(" (and {} more: line {}{})", group.more, group.lines,
-                                                     group.more > listed_lines ? ", ..." : "")));
-  lines.insert(lines.begin(), warnings.begin(), warnings.end());
+  std::vector<pipeline::Warning> warnings;
+  for (const SkippedGroup& group : groups) {
+    const std::string more = fmt::format(" (and {} more: line {}{})", group.more, group.lines,
+                                         group.more > listed_lines ? ", ..." : "");
+    warnings.push_back({pipeline::WarningKind::program, group.first.text(),
+                        fmt::format("skipped: {}{}{}", group.name.empty() ? "" : group.name + ": ", group.reason,
+                                    group.more == 0 ? "" : more)});
+  }
+  return warnings;
+}
+
+std::vector<std::string> skipped_lines(const Program& program) {
+  std::vector<std::string> lines;
+  for (const pipeline::Warning& warning : moves_left_out(program)) lines.push_back(warning.line());
+  std::map<std::string, std::map<std::string, int>> harmless;  // reason -> name -> how often
+  for (const Skipped& skipped : program.skipped) {
+    if (skipped.may_move) continue;
+    const auto [name, reason] = name_and_reason(skipped.what);
+    if (name.empty())
+      lines.push_back(fmt::format("{}: note: {}", skipped.where.text(), reason));
+    else
+      ++harmless[reason][name];
+  }
   for (const auto& [reason, names] : harmless) {
     std::string list;
     for (const auto& [name, count] : names)

@@ -38,12 +38,16 @@ Relative relative_of(const std::string& csv) {
   std::string title, row;
   std::getline(lines, title);
   std::getline(lines, row);
-  REQUIRE(title.ends_with(",rated_cycles_per_hour,relative_life_hours,rated_cable"));
-  Relative relative;
-  for (std::string* cell : {&relative.cable, &relative.hours, &relative.per_hour}) {
-    *cell = row.substr(row.rfind(',') + 1);
-    row.erase(row.rfind(','));
+  std::vector<std::string> titles, cells;
+  for (auto [line, list] : {std::pair(&title, &titles), std::pair(&row, &cells)}) {
+    std::istringstream words(*line);
+    for (std::string word; std::getline(words, word, ',');) list->push_back(word);
   }
+  const auto column = std::find(titles.begin(), titles.end(), "rated_cycles_per_hour");
+  REQUIRE(titles.end() - column > 2);
+  const auto at = static_cast<std::size_t>(column - titles.begin());  // no cell before it holds a comma here
+  REQUIRE(cells.size() > at + 2);
+  const Relative relative{cells[at], cells[at + 1], cells[at + 2]};
   return relative;
 }
 

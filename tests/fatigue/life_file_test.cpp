@@ -400,7 +400,7 @@ TEST_CASE("life.h5: no damage, no sites, and strains that no wire survives") {
   const Result torn = run(folder, absurd, test_job(), "torn.h5");
   CHECK(FileReader(torn.file, pipeline::life_format()).number_attribute("life_repeats") == 0.5);
   REQUIRE(torn.notes.warnings.size() == 1);
-  CHECK_THAT(torn.notes.warnings[0],
+  CHECK_THAT(torn.notes.warnings[0].words,
              Catch::Contains("1 of the worst wire's cycles tear it on their first reversal"));
 }
 
@@ -410,7 +410,7 @@ TEST_CASE("life.h5: a material whose cyclic curve contradicts its life curve is 
   job.dresspacks[0].dresspack.materials[0].cyclic_strength = 100e6;
   const Result cyclic = run(folder, example(), job);
   REQUIRE(cyclic.notes.warnings.size() == 1);
-  CHECK_THAT(cyclic.notes.warnings[0], Catch::Contains("material copper: K' 100 MPa"));
+  CHECK_THAT(cyclic.notes.warnings[0].words, Catch::Contains("material copper: K' 100 MPa"));
   job.fatigue.stress = pipeline::Stress::elastic;  // then they are not used
   CHECK(run(folder, example(), job).notes.warnings.empty());
 }

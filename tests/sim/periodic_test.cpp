@@ -78,8 +78,7 @@ TEST_CASE("periodic: a motion is repeated until two repeats begin alike, and the
     CHECK(state_distance(simulation.rod(), r.begin[k], r.begin[k + 1]) > 1e-4);
   CHECK(static_cast<int>(r.times.size()) == simulation.description().samples);
   CHECK(r.times.front() == 0);
-  const std::vector<std::string> lines = remarks(simulation, r.summary);
-  CHECK_THAT(lines.front(), Catch::Matchers::Contains(fmt::format(
+  CHECK_THAT(repeats_note(r.summary), Catch::Matchers::Contains(fmt::format(
                                 "note: the motion is periodic after {} repeats", r.summary.repeats)));
 }
 
@@ -91,7 +90,7 @@ TEST_CASE("periodic: what never becomes periodic is run as often as allowed, and
   const Run r = run(simulation);
   CHECK_FALSE(r.summary.periodic);
   CHECK(r.summary.repeats == 2);
-  CHECK_THAT(remarks(simulation, r.summary).front(),
+  CHECK_THAT(warnings_of(simulation, r.summary).front().line(),
              Catch::Matchers::StartsWith("warning: after 2 repeats the motion still begins ") &&
                  Catch::Matchers::Contains("simulation.periodic_tolerance_mm"));
 }

@@ -211,9 +211,9 @@ TEST_CASE(
   const Run tight = run(job_text(routing(most - 0.01), "", "[0, 1, 0]"));
   CHECK(tight.check("travel of the retraction unit").warning);
   bool told = false;
-  for (const std::string& line : remarks(*tight.simulation, tight.summary))
-    told |= line.starts_with("warning: travel of the retraction unit") &&
-            line.find("program step") != std::string::npos;
+  for (const pipeline::Warning& warning : warnings_of(*tight.simulation, tight.summary))
+    told |= warning.words.starts_with("travel of the retraction unit") &&
+            warning.words.find("program step") != std::string::npos;
   CHECK(told);
 }
 

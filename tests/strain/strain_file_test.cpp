@@ -91,13 +91,15 @@ std::string evaluate(const std::filesystem::path& motion, const std::filesystem:
                      std::size_t threads = 1) {
   const FileReader reader(motion, pipeline::motion_format());
   FileWriter writer(out, pipeline::strain_format());
-  const std::string summary = strain::write_strain(
+  const strain::Notes notes = strain::write_strain(
       reader, job, writer, threads, [](double) {}, history_bytes);
   writer.attribute("job", "");
   writer.attribute("history", "");
   writer.attribute("input_sha256", "");
   writer.commit();
-  return summary;
+  std::string told = notes.summary;
+  for (const pipeline::Warning& warning : notes.warnings) told += "\n" + warning.line();
+  return told;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "pipeline/study/ranking.h"
+#include "pipeline/study/row_warnings.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -185,12 +186,13 @@ TEST_CASE("ranking: the relative life of a rated cable has columns and words, em
   auto rows = read_ranking({job_with(scratch, "rated", living(12000)), job_with(scratch, "unrated", living(10000))});
   rows[0].relative = RelativeLife{"lead", "torsion: twist_deg_per_m 180", 1250, 5e6};
   const auto table = read_csv(ranking_csv(rows));
-  const std::size_t last = table[0].size() - 1;
-  CHECK(table[0][last - 2] == "rated_cycles_per_hour");
-  CHECK(table[1][last - 2] == "1250");
-  CHECK(table[1][last - 1] == "4000");
-  CHECK(table[1][last] == "lead");
-  CHECK((table[2][last - 2] + table[2][last - 1] + table[2][last]).empty());
+  const auto title = std::find(table[0].begin(), table[0].end(), "rated_cycles_per_hour");
+  REQUIRE(table[0].end() - title > 2);
+  const auto at = static_cast<std::size_t>(title - table[0].begin());
+  CHECK(table[1][at] == "1250");
+  CHECK(table[1][at + 1] == "4000");
+  CHECK(table[1][at + 2] == "lead");
+  CHECK((table[2][at] + table[2][at + 1] + table[2][at + 2]).empty());
   CHECK(ranking_table(rows).find("\n   one hour does the damage of 1,250 rated cycles of lead; 5,000,000 rated: 4,000 h "
                                  "(torsion: twist_deg_per_m 180)\n") != std::string::npos);
   rows[0].relative->cycles_per_hour = 0;
@@ -274,4 +276,42 @@ TEST_CASE("ranking: a joint that costs more than the whole is told in words") {
 }
 
 }  // namespace
+
+TEST_CASE("ranking: warnings are counted, told in full, and each kind says whether it is as it should be") {
+  const Scratch scratch;
+  auto rows = read_ranking({job_with(scratch, "warned", living(12000)), job_with(scratch, "silent", living(10000)),
+                            job_with(scratch, "older", living(8000))});
+  rows[0].warnings = std::vector<Warning>{{WarningKind::program, "a.mod:3", "skipped: \"SearchL\", and waits"},
+                                          {WarningKind::program, "a.mod:9", "skipped: WaitSyncTask"},
+                                          {WarningKind::twist, "", "largest twist: 200 deg/m"}};
+  rows[1].warnings.emplace();
+  const auto table = read_csv(ranking_csv(rows));
+  const auto cell = [&](std::size_t row, const std::string& column) {
+    const auto title = std::find(table[0].begin(), table[0].end(), column);
+    REQUIRE(title != table[0].end());
+    return table[row][static_cast<std::size_t>(title - table[0].begin())];
+  };
+  CHECK(cell(1, "warnings") == "3");
+  CHECK(cell(1, "warning_words") ==
+        "a.mod:3: skipped: \"SearchL\", and waits; a.mod:9: skipped: WaitSyncTask; largest twist: 200 deg/m");
+  CHECK(cell(1, "program_ok") == "no");
+  CHECK(cell(1, "twist_ok") == "no");
+  CHECK(cell(1, "periodic_ok") == "yes");
+  CHECK(cell(2, "warnings") == "0");
+  CHECK(cell(2, "twist_ok") == "yes");
+  CHECK(cell(3, "warnings").empty());  // nobody knows
+  CHECK(cell(3, "twist_ok").empty());
+  CHECK(warning_kinds(rows[0]) == "skipped instructions x2, twist");
+  CHECK(warning_kinds(rows[1]).empty());
+  CHECK(ranking_table(rows).find("\n   WARNING: skipped instructions x2, twist\n") != std::string::npos);
+  CHECK(warning_lines(rows) ==
+        "warned: warning: a.mod:3: skipped: \"SearchL\", and waits\nwarned: warning: a.mod:9: skipped: WaitSyncTask\n"
+        "warned: warning: largest twist: 200 deg/m\n");
+  const std::vector<RankingRow> many(5, rows[0]);  // 15 lines: the first of each kind stands for the others
+  CHECK(warning_lines(many) ==
+        "5 jobs, skipped instructions: warned: warning: a.mod:3: skipped: \"SearchL\", and waits\n"
+        "5 jobs, twist: warned: warning: largest twist: 200 deg/m\n"
+        "15 warnings in all: in ranking.csv, in the report and in the jobs' logs\n");
+}
+
 }  // namespace dresslife::pipeline

@@ -1,0 +1,93 @@
+#include "pipeline/study/row_warnings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace dresslife::pipeline {
+namespace {
+
+/// In the order of the kinds; those of forces have a column already.
+std::vector<WarningKind> kinds_with_columns() {
+  std::vector<WarningKind> kinds;
+  for (int k = 0; k < warning_kinds_count; ++k)
+    if (const auto kind = static_cast<WarningKind>(k); kind != WarningKind::force) kinds.push_back(kind);
+  return kinds;
+}
+
+std::size_t count_of(const std::vector<Warning>& warnings, WarningKind kind) {
+  return static_cast<std::size_t>(
+      std::count_if(warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.kind == kind; }));
+}
+
+std::string line_of(const RankingRow& row, const Warning& warning) {
+  return fmt::format("{}: warning: {}\n", row.job, warning.text());
+}
+
+/// The first warning of a kind, and how many jobs have one.
+std::string line_of_kind(const std::vector<RankingRow>& rows, WarningKind kind) {
+  std::string first;
+  std::size_t jobs = 0;
+  for (const RankingRow& row : rows) {
+    const std::vector<Warning> warnings = warnings_of(row);
+    const auto found =
+        std::find_if(warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.kind == kind; });
+    if (found == warnings.end()) continue;
+    if (++jobs == 1) first = line_of(row, *found);
+  }
+  return jobs < 2 ? first : fmt::format("{} jobs, {}: {}", jobs, title(kind), first);
+}
+
+}  // namespace
+
+std::vector<Warning> warnings_of(const RankingRow& row) {
+  if (!row.done()) return {};
+  if (row.warnings) return *row.warnings;
+  if (row.force_ok()) return {};
+  return {{WarningKind::force, "", force_words(row)}};
+}
+
+std::string warning_kinds(const RankingRow& row) {
+  const std::vector<Warning> warnings = warnings_of(row);
+  std::vector<std::string> words;
+  for (int k = 0; k < warning_kinds_count; ++k) {
+    const auto kind = static_cast<WarningKind>(k);
+    if (const std::size_t count = count_of(warnings, kind); count > 0)
+      words.push_back(count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::vector<std::string> warning_columns() {
+  std::vector<std::string> columns{"warnings", "warning_words"};
+  for (const WarningKind kind : kinds_with_columns()) columns.push_back(fmt::format("{}_ok", word(kind)));
+  return columns;
+}
+
+std::vector<std::string> warning_cells(const RankingRow& row) {
+  std::vector<std::string> cells(warning_columns().size());
+  if (!row.warnings) return cells;
+  std::vector<std::string> words;
+  for (const Warning& warning : *row.warnings) words.push_back(warning.text());
+  cells[0] = std::to_string(words.size());
+  cells[1] = fmt::format("{}", fmt::join(words, "; "));
+  std::size_t column = 2;
+  for (const WarningKind kind : kinds_with_columns()) cells[column++] = count_of(*row.warnings, kind) ? "no" : "yes";
+  return cells;
+}
+
+std::string warning_lines(const std::vector<RankingRow>& rows) {
+  constexpr std::size_t most_lines = 12;
+  std::size_t count = 0;
+  std::string text;
+  for (const RankingRow& row : rows)
+    for (const Warning& warning : warnings_of(row))
+      if (++count <= most_lines) text += line_of(row, warning);
+  if (count <= most_lines) return text;
+  text.clear();
+  for (int k = 0; k < warning_kinds_count; ++k) text += line_of_kind(rows, static_cast<WarningKind>(k));
+  return text + fmt::format("{} warnings in all: in ranking.csv, in the report and in the jobs' logs\n", count);
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,120 @@
+// Every warning of a stage, from jobs that provoke it to where people look.
+#include <catch2/catch.hpp>
+
+#include "pipeline/files/files.h"
+#include "pipeline/warnings.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+using namespace dresslife::pipeline;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Six wires too many in a layer of a material whose constants contradict each other.
+const std::string dresspack = R"(dresspack:
+  name: test hose
+  source: made for the tests
+  diameter_mm: 40
+  mass_kg_per_m: 1.5
+  bending_stiffness_Nm2: 2
+  torsional_stiffness_Nm2: 2
+  axial_stiffness_N: 50000
+  damping_time_ms: 20
+  damping_source: made for the tests
+  materials:
+    - {name: odd, source: made for the tests, youngs_modulus_GPa: 117, tensile_strength_MPa: 220, cyclic_strength_MPa: 100,
+       fatigue_strength_MPa: 564, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.475,
+       fatigue_ductility_exponent: -0.6}
+  components:
+    - name: cable
+      count: 2
+      radius_mm: 5
+      helix_radius_mm: 10
+      lay_angle_deg: 10
+      components:
+        - {name: wire, count: 66, radius_mm: 0.1, helix_radius_mm: 2, lay_angle_deg: 15, material: odd}
+)";
+
+void write_jobs(const Scratch& scratch) {
+  write_small_job(scratch);  // for its poses
+  const std::string small_steps = "segments: 12, sample_rate_Hz: 50, most_repeats: 2";
+  scratch.write("cable.yaml", "motion: {clamp_poses: poses.csv}\n" + dresspack + "routing: {free_length_m: 0.9}\nsimulation: {" +
+                                  small_steps + "}\nstrain: {slip: stick}\n");
+  scratch.write("spot.mod",
+                "MODULE spot\n"
+                "CONST jointtarget a:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+                "CONST jointtarget b:=[[5,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+                "PROC main()\n  MoveAbsJ a,v1000,fine,tool0;\n  SpeedRefresh 0;\n  MoveAbsJ b,v1000,fine,tool0;\n"
+                "  MoveAbsJ a,v1000,fine,tool0;\nENDPROC\nENDMODULE\n");
+  scratch.write("robot.yaml", "robot: abb_irb6640_185_280\nmotion: {program: spot.mod}\n" + dresspack +
+                                  "routing:\n"
+                                  "  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}\n"
+                                  "  tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}\n"
+                                  "  free_length_m: 2.035\nsimulation: {contact: false, floor: false, " +
+                                  small_steps + "}\nstrain: {slip: stick}\n");
+}
+
+std::vector<Warning> warnings_in(const fs::path& life) {
+  return warnings_from(FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("warnings"));
+}
+
+}  // namespace
+
+TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv and the report") {
+  struct Provoked {
+    std::string job, sets, kind, words;
+  };
+  const std::vector<Provoked> all{
+      {"robot", "", "program", "spot.mod:6:"},
+      {"cable", "--set dresspack.least_bend_radius_mm=2000", "bend_radius", "smallest bend radius: "},
+      {"cable", "--set dresspack.most_twist_deg_per_m=0.01", "twist", "(limit 0.01 deg/m)"},
+      {"cable", "--set dresspack.most_tension_N=0.01 --set dresspack.bending_stiffness_Nm2=0.02", "tension",
+       "largest tension: "},
+      {"cable", "--set routing.free_length_m=1.3", "slack", "least slack: too long above"},
+      {"cable", "--set simulation.periodic_tolerance_mm=1e-9", "periodic", "after 2 repeats the motion still begins"},
+      {"cable", "", "overlap", "the 66 parts 'wire' are 0.1839 mm apart"},
+      {"robot", "", "force", "nobody sees in a dresspack"},
+      {"cable", "", "material", "material odd: K' 100 MPa"},
+  };
+  const Scratch scratch;
+  write_jobs(scratch);
+  for (const Provoked& one : all) {
+    const Outcome outcome = run(scratch, "dresslife", "run " + one.job + ".yaml " + one.sets);
+    CAPTURE(one.kind, outcome.out, outcome.err);
+    REQUIRE(outcome.status == 0);
+    const fs::path folder = scratch / ("runs/" + one.job);
+    const std::vector<Warning> warnings = warnings_in(folder / one.job / "life.h5");
+    std::string text;
+    for (const Warning& warning : warnings)
+      if (word(warning.kind) == one.kind) text = warning.text();
+    REQUIRE_THAT(text, Contains(one.words));
+    CHECK_THAT(content(folder / one.job / "log"), Contains("warning: ") && Contains(one.words));
+    CHECK_THAT(outcome.err, Contains(fmt::format("{}: warning: {}\n", one.job, text)));
+    CHECK_THAT(outcome.out, Contains("\n   WARNING: "));
+    CHECK_THAT(content(folder / "report.html"), Contains(one.words.substr(0, one.words.find('\''))));
+    const std::string csv = content(folder / "ranking.csv");
+    std::istringstream lines(csv);
+    std::string title, row;
+    std::getline(lines, title);
+    std::getline(lines, row);
+    CHECK_THAT(row, Contains(text));
+    CHECK_THAT(title, Contains("," + one.kind + "_ok"));
+  }
+}
+
+TEST_CASE("a log keeps the warnings of a stage whose result was there already, and of one that ran again") {
+  const Scratch scratch;
+  write_jobs(scratch);
+  REQUIRE(run(scratch, "dresslife", "run cable.yaml").status == 0);
+  const fs::path folder = scratch / "runs/cable/cable";
+  const std::vector<Warning> before = warnings_in(folder / "life.h5");
+  REQUIRE(before.size() >= 2);  // overlap and material
+  REQUIRE(run(scratch, "dresslife", "run cable.yaml --set fatigue.operating_hours_per_week=40").status == 0);
+  CHECK(warnings_in(folder / "life.h5") == before);
+  const std::string log = content(folder / "log");
+  for (const Warning& warning : before) CHECK_THAT(log, Contains(warning.line() + "\n"));
+  fs::remove(folder / "strain.h5");  // its stage makes the same again, the last one has nothing to do
+  REQUIRE(run(scratch, "dresslife", "run cable.yaml --set fatigue.operating_hours_per_week=40").status == 0);
+  CHECK(content(folder / "log") == log);
+}
