@@ -10,10 +10,12 @@
 #include "pipeline/errors.h"
 #include "pipeline/installation.h"
 #include "pipeline/job/document.h"
+#include "pipeline/job/units.h"
 #include "pipeline/readable.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/motion_checks.h"
+#include "pipeline/report/page_assets.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
 #include "pipeline/study/row_warnings.h"
@@ -27,7 +29,7 @@ constexpr std::size_t most_detailed = 40;
 constexpr std::size_t most_compared = 40;
 constexpr std::size_t listed_lines = 10, listed_layers = 12;
 
-constexpr const char* page_style = R"(
+constexpr const char* report_style = R"(
 body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
   font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
 h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem; border-top: 2px solid var(--rule); }
@@ -41,7 +43,13 @@ th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { t
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: .5rem 0; } dt { color: var(--soft); } dd { margin: 0; }
 details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8rem; line-height: 1.35; }
-@media print { details { display: none; } h2 { break-before: page; } }
+.tools { display: flex; flex-wrap: wrap; gap: .4rem 1rem; align-items: center; margin: .8rem 0; font-size: .9rem; }
+.tools input[type=search] { font: inherit; padding: .2rem .5rem; min-width: 14rem; color: inherit; background: var(--page); border: 1px solid var(--rule); border-radius: .3rem; }
+.sort { font: inherit; color: inherit; text-align: inherit; background: none; border: 0; padding: 0; cursor: pointer; }
+.sort::after { content: ""; } [aria-sort=ascending] .sort::after { content: " \25B2"; } [aria-sort=descending] .sort::after { content: " \25BC"; }
+.pick { margin-right: .3rem; } caption { text-align: left; color: var(--soft); padding: .6rem 0 .2rem; } tbody th { font-weight: 400; vertical-align: top; }
+#compared td { overflow-wrap: anywhere; } #ranking details { margin: 0; } #ranking summary { color: var(--hot); } #ranking ul { margin: .2rem 0; padding-left: 1rem; }
+@media print { .tools, .pick, .sort::after { display: none; } details { display: none; } h2 { break-before: page; } }
 )";
 
 std::string life_cell(double life) { return std::isinf(life) ? "no damage" : printed(life); }
@@ -88,6 +96,21 @@ std::string warning_cell(const RankingRow& row) {
   return fmt::format("<details><summary class=\"failed\">{}</summary><ul>{}</ul></details>", escaped(kinds), list);
 }
 
+/// What a cell is sorted by; empty: nothing.
+std::string sorted_by(double value) {
+  return fmt::format(" data-value=\"{}\"", std::isnan(value) ? "" : std::isinf(value) ? "Infinity" : shortest_text(value));
+}
+
+/// Of a row of the table, for who sorts and compares them.
+std::string row_begin(const RankingRow& row, std::size_t rank) {
+  return fmt::format("<tr data-rank=\"{}\" data-job=\"{}\" data-warnings=\"{}\">", rank, escaped(row.job),
+                     warnings_of(row).size());
+}
+
+std::string number_cell(double value, const std::string& words) {
+  return fmt::format("<td class=\"number\"{}>{}</td>", sorted_by(value), words);
+}
+
 std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -96,9 +119,9 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
         detailed[i] ? fmt::format("<a href=\"#job-{}\">{}</a>", i + 1, escaped(row.job)) : escaped(row.job);
     if (!row.done()) {
       text += fmt::format(
-          "<tr><td class=\"number\">-</td><td>{}</td><td colspan=\"7\"><span class=\"failed\">failed</span> "
+          "{}<td class=\"number\">-</td><td>{}</td><td colspan=\"7\"><span class=\"failed\">failed</span> "
           "{}</td></tr>\n",
-          name, escaped(row.failure) + page_link(row, "preview.html", "See where"));
+          row_begin(row, i + 1), name, escaped(row.failure) + page_link(row, "preview.html", "See where"));
       continue;
     }
     const std::string where = !damaged(row)
@@ -112,13 +135,16 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
                   (row.worst_joint.empty()
                        ? ""
                        : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
-    text += fmt::format(
-        "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\"><b>{}</b></td><td "
-        "class=\"number\">{} .. {}</td>"
-        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        i + 1, name, life_cell(row.headline_hours()), life_cell(row.headline_hours_of(row.life_repeats_all_stick)),
-        life_cell(row.headline_hours_of(row.life_repeats_all_free)), first_break_cell(row),
-        calendar_cell(row.headline_months()), where, moved, warning_cell(row));
+    const auto bounds = std::pair(row.headline_hours_of(row.life_repeats_all_stick),
+                                  row.headline_hours_of(row.life_repeats_all_free));
+    const auto count = static_cast<double>(warnings_of(row).size());
+    text += fmt::format("{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
+                        number_cell(static_cast<double>(i + 1), std::to_string(i + 1)), name,
+                        number_cell(row.headline_hours(), "<b>" + life_cell(row.headline_hours()) + "</b>"),
+                        number_cell(bounds.first, life_cell(bounds.first) + " .. " + life_cell(bounds.second)),
+                        number_cell(row.first_wire_hours[0], first_break_cell(row)),
+                        number_cell(row.headline_months(), calendar_cell(row.headline_months())), where, moved,
+                        sorted_by(count), warning_cell(row));
   }
   return text;
 }
@@ -178,7 +204,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
 std::string ranking_section(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   const std::string chart = comparison_chart(rows);
   return fmt::format(
-      "<div class=\"wide\"><table>\n<thead><tr><th></th><th>job</th><th class=\"number\">p10 life [h]</th>"
+      "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">p10 life [h]</th>"
       "<th class=\"number\">inside stuck .. free [h]</th><th class=\"number\">first break in 10 .. 90 % "
       "[h]</th><th "
       "class=\"number\">calendar</th>"
@@ -484,7 +510,7 @@ std::string charts(const RankingRow& row) {
                cycle_chart(life)) +
          program_table(life) + cause_table(life) + layer_table(life, row) +
          fmt::format(
-             "<details><summary>Settings</summary>\n<pre>{}</pre></details>\n<details><summary>History</"
+             "<details><summary>Settings</summary>\n<pre class=\"settings\">{}</pre></details>\n<details><summary>History</"
              "summary>\n<pre>{}</pre></details>\n",
              escaped(life.job), escaped(life.history));
 }
@@ -549,11 +575,12 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: dresspack "
       "life</title>\n"
       "<style>{}</style>\n</head>\n<body>\n<h1>{}: dresspack life by motion</h1>\n",
-      escaped(study), std::string(chart_style()) + page_style, escaped(study));
+      escaped(study), std::string(chart_style()) + report_style, escaped(study));
   page += summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (detailed[i]) page += job_section(rows[i], i + 1);
-  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n</body>\n</html>\n", version());
+  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n<script>\n\"use strict\";\n(() => {{\n{}}})();\n</script>\n</body>\n</html>\n",
+                            version(), study_script());
 }
 
 void write_report(const std::filesystem::path& file, const std::string& study,

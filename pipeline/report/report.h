@@ -1,5 +1,5 @@
 // report.html: what a study found, for who programs the robots or plans their maintenance. One page that
-// needs nothing else: no scripts, no requests; light or dark as the reader's machine is. Reads the life
+// needs nothing else: no requests, and a script only to sort, filter and compare; light or dark as the reader's machine is. Reads the life
 // files, and for the picture of the worst moment the motion file beside each, where there is one.
 #pragma once
 

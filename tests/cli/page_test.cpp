@@ -115,3 +115,38 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   CHECK(damage == life.read<double>("/segment/damage").at(3));
   CHECK(hours == life.number_attribute("life_hours"));
 }
+
+TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by side with what differs") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("lengths.yaml", "base: job.yaml\nvary: {routing.free_length_m: [0.88, 0.9, 0.92]}\n");
+  REQUIRE(run(scratch, "dresslife", "run lengths.yaml").status == 0);
+  const std::string seen = in_browser(scratch, "runs/lengths/report.html", R"(
+    const jobs = () => evaluate(`[...document.querySelectorAll('#ranking tbody tr')].filter(r => !r.hidden)
+        .map(r => r.dataset.job.slice(-4)).join()`);
+    const order = () => evaluate(`document.querySelectorAll('#ranking th')[1].getAttribute('aria-sort')`);
+    const click = (what, k) => evaluate(`document.querySelectorAll('${what}')[${k}].click()`);
+    const seen = [];
+    await click('#ranking th button', 1);
+    seen.push(await jobs(), await order());
+    await click('#ranking th button', 1);
+    seen.push(await jobs(), await order());
+    await evaluate(`{ const words = document.querySelector('.tools input'); words.value = '0.9'; words.dispatchEvent(new Event('input')); }`);
+    seen.push(await evaluate(`document.querySelector('[role=status]').textContent.replace(/ /g, '_')`));
+    await click('.pick input', 0);
+    await click('.pick input', 2);
+    seen.push(await evaluate(`[...document.querySelectorAll('#compared table')][1].innerText.split(/\\s+/).join('_')`));
+    return seen.join(' ');)");
+  if (seen.empty()) return;
+  INFO(seen);
+  CHECK(seen.find("\"problems\":[]") != std::string::npos);
+  std::istringstream words(result_of(seen));
+  std::string rising, up, falling, down, count, settings;
+  words >> rising >> up >> falling >> down >> count >> settings;
+  CHECK(rising == "0.88,=0.9,0.92");
+  CHECK(up == "ascending");
+  CHECK(falling == "0.92,=0.9,0.88");
+  CHECK(down == "descending");
+  CHECK(count == "2_of_3_jobs");
+  CHECK(settings.find("routing.free_length_m_0.92_0.88") != std::string::npos);
+}

@@ -1,0 +1,146 @@
+// The page of a study: its ranking sorted by any column and filtered by words, two jobs side by side. Without scripts
+// the table stands as it was written, best life first.
+const table = document.getElementById('ranking');
+const rows = [...table.tBodies[0].rows], heads = [...table.tHead.rows[0].cells];
+
+function made(name, attributes = {}, ...children) {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  element.append(...children);
+  return element;
+}
+
+// ---- sorting ----------------------------------------------------------------------------------------------------------
+
+// A number where the cell tells one, else its text; null: nothing to sort by, which stands last either way.
+function valueOf(row, column) {
+  const cell = row.cells[column];
+  if (!cell || cell.colSpan > 1) return null;
+  if ('value' in cell.dataset) return cell.dataset.value === '' ? null : Number(cell.dataset.value);
+  return cell.textContent.trim().toLowerCase() || null;
+}
+
+function sortBy(column, direction) {
+  const sign = direction === 'ascending' ? 1 : -1;
+  const keyed = rows.map((row, written) => ({row, written, value: valueOf(row, column)}));
+  keyed.sort((a, b) => {
+    if (a.value === null || b.value === null) return (a.value === null) - (b.value === null) || a.written - b.written;
+    const order = typeof a.value === 'string' ? a.value.localeCompare(b.value) : a.value < b.value ? -1 : +(a.value > b.value);
+    return sign * order || a.written - b.written;
+  });
+  table.tBodies[0].append(...keyed.map(entry => entry.row));
+  heads.forEach((head, k) => head.setAttribute('aria-sort', k === column ? direction : 'none'));
+}
+
+heads.forEach((head, column) => {
+  const button = made('button', {type: 'button', class: 'sort'});
+  button.append(...head.childNodes);
+  head.append(button);
+  head.setAttribute('aria-sort', 'none');
+  // Lives are looked at from the longest on, names and ranks from the first.
+  const first = head.classList.contains('number') && column > 0 ? 'descending' : 'ascending';
+  const other = first === 'ascending' ? 'descending' : 'ascending';
+  button.addEventListener('click', () => sortBy(column, head.getAttribute('aria-sort') === first ? other : first));
+});
+heads[0].setAttribute('aria-sort', 'ascending');
+
+// ---- filtering --------------------------------------------------------------------------------------------------------
+
+const words = made('input', {type: 'search', 'aria-label': 'show only jobs with these words', placeholder: 'filter jobs'});
+const warned = made('input', {type: 'checkbox'});
+const count = made('span', {role: 'status'});
+const texts = rows.map(row => row.textContent.toLowerCase());
+function filter() {
+  const wanted = words.value.toLowerCase().split(/\s+/).filter(Boolean);
+  let shown = 0;
+  rows.forEach((row, k) => {
+    row.hidden = !wanted.every(word => texts[k].includes(word)) || (warned.checked && !(Number(row.dataset.warnings) > 0));
+    shown += !row.hidden;
+  });
+  count.textContent = shown === rows.length ? '' : `${shown} of ${rows.length} jobs`;
+}
+words.addEventListener('input', filter);
+warned.addEventListener('change', filter);
+const compared = made('section', {id: 'compared', 'aria-live': 'polite'});
+table.parentElement.before(made('div', {class: 'tools'}, words, made('label', {}, warned, ' with warnings only'), count));
+table.parentElement.after(compared);
+
+// ---- two jobs side by side --------------------------------------------------------------------------------------------
+
+// Of settings as dresslife writes them: "fatigue.stress" -> "cyclic", "dresspack.components.0.count" -> "4".
+function settingsOf(text) {
+  const values = new Map(), counts = new Map(), stack = [];
+  const last = () => stack[stack.length - 1], path = () => stack.map(part => part.key).join('.');
+  for (const line of text.split('\n')) {
+    let indent = line.search(/\S/), rest = line.trim();
+    if (indent < 0) continue;
+    for (; rest === '-' || rest.startsWith('- '); rest = rest.slice(2).trimStart(), indent += 2) {
+      while (last() && (last().indent > indent || (last().indent === indent && last().item))) stack.pop();
+      const list = path(), at = counts.get(list) || 0;
+      counts.set(list, at + 1);
+      stack.push({indent, key: at, item: true});
+    }
+    const pair = /^([\w-]+):(?:\s+(.*))?$/.exec(rest);
+    if (!pair) {
+      values.set(path(), `${values.get(path()) || ''} ${rest}`.trim());
+      continue;
+    }
+    while (last() && last().indent >= indent) stack.pop();
+    stack.push({indent, key: pair[1]});
+    if (pair[2] !== undefined) values.set(path(), pair[2]);
+  }
+  return values;
+}
+
+const settingsText = row => document.querySelector(`#job-${row.dataset.rank} pre.settings`)?.textContent;
+
+function differences([one, other]) {
+  const lines = [];
+  for (let column = 2; column < heads.length; ++column) {
+    const [a, b] = [one, other].map(row => row.cells[column]?.innerText.trim() || '-');
+    if (a !== b) lines.push([heads[column].innerText, a, b]);
+  }
+  const texts = [one, other].map(settingsText);
+  if (!texts.every(Boolean)) return {lines, settings: null};
+  const [a, b] = texts.map(settingsOf), settings = [];
+  for (const key of new Set([...a.keys(), ...b.keys()]))
+    if (a.get(key) !== b.get(key)) settings.push([key, a.get(key) ?? '-', b.get(key) ?? '-']);
+  return {lines, settings};
+}
+
+function comparison(caption, lines, names) {
+  const cells = (line, tag) => line.map((text, k) => made(k ? tag : 'th', {scope: k ? 'col' : 'row'}, text));
+  const body = made('tbody', {}, ...lines.map(line => made('tr', {}, ...cells(line, 'td'))));
+  return made('div', {class: 'wide'}, made('table', {}, made('caption', {}, caption),
+      made('thead', {}, made('tr', {}, ...cells(['', ...names], 'th'))), body));
+}
+
+let picked = [];
+function compare() {
+  compared.replaceChildren();
+  if (picked.length < 2) {
+    if (picked.length) compared.append(made('p', {class: 'soft'}, 'Choose a second job to see what differs.'));
+    return;
+  }
+  const names = picked.map(row => row.dataset.job), {lines, settings} = differences(picked);
+  compared.append(made('h3', {}, `${names[0]} beside ${names[1]}`), comparison('What differs in the results', lines, names));
+  if (settings === null)
+    compared.append(made('p', {class: 'soft'}, 'The settings of at least one of them are not on this page (it holds those of ' +
+        'the 20 best and the 20 worst): see job.yaml in their folders.'));
+  else if (settings.length === 0)
+    compared.append(made('p', {class: 'soft'}, 'Their settings are the same.'));
+  else
+    compared.append(comparison('What differs in the settings', settings, names));
+}
+
+for (const row of rows) {
+  const box = made('input', {type: 'checkbox', 'aria-label': `compare ${row.dataset.job}`});
+  box.addEventListener('change', () => {
+    picked = picked.filter(other => other !== row);
+    if (box.checked) picked.push(row);
+    if (picked.length > 2) picked.shift().querySelector('.pick input').checked = false;
+    compare();
+  });
+  row.cells[1].prepend(made('label', {class: 'pick', title: 'compare with another job'}, box));
+}
+document.body.dataset.ready = 'yes';
