@@ -74,6 +74,7 @@ struct Statement {
   std::vector<Expression> arguments;
   std::vector<Branch> branches;
   bool keeps_counter = false;  ///< FOR: its variable is the program's, and goes on behind the loop
+  bool elsewhere = false;      ///< declare: without a value here because another task's module gives it
   Place place;
 };
 

@@ -182,16 +182,25 @@ bool FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
   return true;
 }
 
+/// User frame and tool of a Cartesian position, whose numbers it completes; both are asked for at once.
+std::optional<std::pair<NamedFrame, NamedFrame>> FanucRun::frames_of(FanucPosition& p) {
+  if (p.frame >= 0) compare_active(false, p.frame);
+  if (p.tool >= 0) compare_active(true, p.tool);
+  const bool in_frame = active(false, p.frame), with_tool = active(true, p.tool);
+  const auto object = in_frame ? frame(false, p.frame) : std::nullopt;
+  const auto tool = with_tool ? frame(true, p.tool) : std::nullopt;
+  if (!object || !tool) return {};
+  return std::pair(*object, *tool);
+}
+
 /// Pose and frames of a move to a Cartesian position. With P the pose of UT in UF, or (remote) its inverse:
 /// flange = UF P UT^-1. Offsets: UF OFFSET P TOOL_OFFSET UT^-1. A remote move stands the other way round: the
 /// tool is UF in the world, the robot carries UT, and the tool's pose in it is P^-1.
 bool FanucRun::place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose) {
   FanucPosition p = position;
-  if (p.frame >= 0) compare_active(false, p.frame);
-  if (p.tool >= 0) compare_active(true, p.tool);
-  if (!active(false, p.frame) || !active(true, p.tool)) return false;
-  const auto object = frame(false, p.frame), tool = frame(true, p.tool);
-  if (!object || !tool) return false;
+  const auto frames = frames_of(p);
+  if (!frames) return false;
+  const auto& [object, tool] = *frames;
   pose = frame_of_fanuc(p.values);
   if (p.remote) pose = inverse(pose);
   for (const auto* offset : {&options.offset, &options.tool_offset}) {
@@ -207,11 +216,11 @@ bool FanucRun::place(const FanucPosition& position, const Options& options, Inst
   }
   if (options.remote && move.kind != Instruction::Kind::joint) {
     pose = inverse(pose);
-    NamedFrame standing = *object;
+    NamedFrame standing = object;
     standing.stationary = true;
-    return use(standing, true, move) && use(*tool, false, move);
+    return use(standing, true, move) && use(tool, false, move);
   }
-  return (p.frame == 0 || use(*object, false, move)) && (p.tool == 0 || use(*tool, true, move));
+  return (p.frame == 0 || use(object, false, move)) && (p.tool == 0 || use(tool, true, move));
 }
 
 // ---- speeds and options ----------------------------------------------------------------------------------
@@ -369,7 +378,7 @@ bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options)
 }
 
 bool FanucRun::read_options(FanucCursor& at, Instruction& move, Options& options) {
-  while (!at.at_end() && !options.failed) {
+  while (!at.at_end()) {
     charge();
     if (at.take_sign(',') || at.take_sign(':') || read_option(at, move, options)) continue;
     if (at.rest().starts_with("[")) {  // of a word that is skipped: SPOT[SD=1], DO[3:on]
@@ -457,10 +466,20 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
     at.move_to(at.offset() + colon);
     at.take_sign(':');
   }
+  const std::size_t begin = at.offset();
   const auto target = target_position(at);
-  if (!target) return;
-  if (target->form == FanucPosition::Form::other_groups) return note("moves other groups than the robot");
-  if (!read_speed(at, move) || !read_options(at, move, options)) return;
+  if (!target && at.offset() == begin) return;
+  if (target && target->form == FanucPosition::Form::other_groups)
+    return note("moves other groups than the robot");
+  const bool fast = read_speed(at, move), set = read_options(at, move, options);
+  if (!target || !fast || !set) {  // what else it lacks is asked for in the same round
+    FanucPosition there;
+    there.frame = there.tool = -1;
+    if (target) there = *target;
+    const bool pose = target ? target->form == FanucPosition::Form::pose : kind != Instruction::Kind::joint;
+    if (pose) frames_of(there);
+    return;
+  }
   via_options.remote = options.remote;
   if (via && !place_via(*via, *target, via_options, options, move)) return;
   const bool joints = target->form == FanucPosition::Form::joints;

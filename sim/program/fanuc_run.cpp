@@ -376,7 +376,8 @@ void FanucRun::assign_position(FanucCursor& at) {
   const int number = whole(*index->number);
   if (index->part) return values_.set_component(number, whole(*index->part), values_.expression(at));
   const auto sum = position_sum(at);
-  if (sum)
+  const bool told = values_.given(fmt::format("pr[{}]", number)).has_value();  // counts where this is unknown
+  if (sum && (sum->known() || !told))
     values_.set_position(number, *sum);
   else
     values_.forget_position(number);

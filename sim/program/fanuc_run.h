@@ -103,6 +103,7 @@ class FanucRun {
   bool place_joints(const FanucPosition& position, const Options& options, Instruction& move);
   bool place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
                  const Options& options, Instruction& move);
+  std::optional<std::pair<NamedFrame, NamedFrame>> frames_of(FanucPosition& p);
   bool place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose);
   bool read_speed(FanucCursor& at, Instruction& move);
   std::optional<double> override_share();

@@ -571,6 +571,17 @@ void Interpreter::leave_all_routines() {
   module_ = -1;
 }
 
+/// Single values that another task's module gives and this program writes, too: how tasks wait for each
+/// other.
+std::string Interpreter::shared_and_written() const {
+  std::string names;
+  for (const auto& [name, variable] : globals_)
+    if (variable.datum && variable.datum->statement.elsewhere && variable.assigned &&
+        variable.value.items.empty())
+      names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
 /// A routine that begins again at its end: as an endless loop around it. What cannot be told of a later cycle
 /// does not take away the first one.
 void Interpreter::run_cycles(const Routine& routine) {
@@ -582,7 +593,11 @@ void Interpreter::run_cycles(const Routine& routine) {
     const Problems told = problems_;
     const bool ended = ends_within(routine);
     constexpr std::size_t few_moves = 2;  // make no motion
-    if (problems_.count() > told.count() && passes.count() > 0 && passes.end(passes.count()) >= few_moves) {
+    const bool one_cycle = passes.count() > 0 && passes.end(passes.count()) >= few_moves;
+    if (problems_.count() > told.count() && one_cycle && !passes.only_lines_of_the_first())
+      return problems_.hint(told.count(), fmt::format("in pass {} of {}: --passes {} ends before",
+                                                      passes.count() + 1, routine.written, passes.count()));
+    if (problems_.count() > told.count() && one_cycle) {
       const Problem& first = problems_.list()[told.count()];
       const std::string why = fmt::format("{} ({})", first.what, first.where.text());
       problems_ = told;
@@ -601,6 +616,14 @@ void Interpreter::run_cycles(const Routine& routine) {
                     program_.instructions.size() > searched_moves))
       break;
   }
+  const std::size_t last = passes.count();
+  if (!wanted && passes.repeats() && passes.end(last) == passes.end(last - 1))
+    if (const std::string shared = shared_and_written(); !shared.empty())
+      note(routine.place,
+           fmt::format("{} ends in passes without a move, and another task may write what has no value here "
+                       "({}): choose with --assume what it decides",
+                       routine.written, shared),
+           true);
   const std::size_t kept = passes.kept(wanted);
   const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
   program_.instructions.resize(passes.end(kept));
@@ -728,7 +751,9 @@ Value Interpreter::declared_value(const Statement& statement) {
     charge(static_cast<std::size_t>(count));
     value = list_value(std::vector<Value>(static_cast<std::size_t>(size), value));
   }
-  return value;
+  if (!statement.elsewhere) return value;
+  static const std::string why = "is a PERS without a value here: another task's module gives it";
+  return forgotten(std::move(value), std::make_shared<const Cause>(Cause{statement.name, why}));
 }
 
 /// Of an array: a list of so many levels.

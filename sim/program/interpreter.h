@@ -175,6 +175,7 @@ class Interpreter {
 
   void start(const Routine& routine);
   void run_cycles(const Routine& routine);
+  std::string shared_and_written() const;
   bool ends_within(const Routine& routine);
   void leave_all_routines();
   Flow execute(const std::vector<Statement>& body);

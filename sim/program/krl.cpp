@@ -83,14 +83,24 @@ void Krl::ask_for_target(const Expression& written, const Value& value, Interpre
              fmt::format("give the .dat file that declares it, write the target as a constant, or {}",
                          fmt::format("--value '{}={{X ...}}'", path)));
   } else {
-    ask_for_part(written, value, run);
+    Coordinates none;
+    none.unknown = value;
+    ask_for_part(written, none, run);
   }
 }
 
-void Krl::ask_for_part(const Expression& written, const Value& unknown, Interpreter& run) {
-  const std::string remedy = run.remedy_for(unknown);
+/// All that the target lacks in one line: it is answered in one round.
+void Krl::ask_for_part(const Expression& written, const Coordinates& read, Interpreter& run) {
+  std::string remedy = run.remedy_for(read.unknown);
+  const Cause* first = read.unknown.first_cause();
+  const char* before = ", likewise ";
+  for (const std::string& name : read.more)
+    if (!remedy.empty() && first && name != first->name) {
+      remedy += fmt::format("{}'{}=...'", before, name);
+      before = ", ";
+    }
   run.complain(written.place,
-               "moves to a place that is known only while the robot runs" + run.because(unknown),
+               "moves to a place that is known only while the robot runs" + run.because(read.unknown),
                remedy.empty() ? "write the target as a constant" : "give it with " + remedy);
 }
 
@@ -105,7 +115,7 @@ bool Krl::read_external(const Expression& written, const Value& value, bool rela
                         Interpreter& run) {
   const Coordinates read = coordinates(value, external_names);
   if (!read.unknown.known()) {
-    ask_for_part(written, read.unknown, run);
+    ask_for_part(written, read, run);
     return false;
   }
   std::size_t count = 0;
@@ -147,7 +157,7 @@ bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instr
     return false;
   }
   if (!read.unknown.known() || !read.any()) {
-    read.unknown.known() ? ask_for_target(via, value, run) : ask_for_part(via, read.unknown, run);
+    read.unknown.known() ? ask_for_target(via, value, run) : ask_for_part(via, read, run);
     return false;
   }
   const auto numbers = moved(read, from, place_before(frames));
@@ -179,9 +189,9 @@ bool Krl::read_target(const Expression& written, From from, const Frames& frames
                       Interpreter& run) {
   const Value value = run.evaluate(written);
   const Coordinates axes = coordinates(value, axis_names), frame = coordinates(value, frame_names);
-  for (const Value* unknown : {&axes.unknown, &frame.unknown})
-    if (!unknown->known()) {
-      ask_for_part(written, *unknown, run);
+  for (const Coordinates* read : {&axes, &frame})
+    if (!read->unknown.known()) {
+      ask_for_part(written, *read, run);
       return false;
     }
   const bool outside = coordinates(value, external_names).any();  // PTP {E1 200}: the robot stays
@@ -390,7 +400,13 @@ void Krl::set_frames(const Frames& frames, Instruction& move, Interpreter& run) 
 
 bool Krl::ask_for_frames(const Frames& frames, const Statement& statement, Interpreter& run) {
   if (frames.unknown.known()) return false;
-  const Cause* cause = frames.unknown.first_cause();
+  ask_for_frame(frames.unknown, statement, run);
+  if (!frames.base_too.known()) ask_for_frame(frames.base_too, statement, run);
+  return true;
+}
+
+void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interpreter& run) {
+  const Cause* cause = unknown.first_cause();
   const bool listed =
       cause && (cause->name.starts_with("TOOL_DATA[") || cause->name.starts_with("BASE_DATA["));
   if (listed) {
@@ -402,12 +418,10 @@ bool Krl::ask_for_frames(const Frames& frames, const Statement& statement, Inter
                  "with the name '{}'",
                  tool ? "tools" : "work_objects", cause->name));
   } else {
-    run.miss(
-        cause ? cause->name : "frame", statement.place,
-        "moves with a $TOOL or $BASE that is known only while the robot runs" + run.because(frames.unknown),
-        "assign a constant frame");
+    run.miss(cause ? cause->name : "frame", statement.place,
+             "moves with a $TOOL or $BASE that is known only while the robot runs" + run.because(unknown),
+             "assign a constant frame");
   }
-  return true;
 }
 
 /// The arc, on by the angle of CA where there is one, and with a tool that turns with the way where it does.
@@ -605,6 +619,11 @@ bool Krl::instruction(const Statement& statement, Interpreter& run) {
   }
   if (statement.name == "bas") {
     basics(statement, run);
+    return true;
+  }
+  if (statement.name == "rsi_movecorr") {
+    numbers_.reset(), axes_.reset();
+    run.note(statement.place, "RSI_MOVECORR: a sensor leads the robot", true);
     return true;
   }
   if (statement.name.starts_with("interrupt_")) {

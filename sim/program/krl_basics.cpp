@@ -230,8 +230,8 @@ Frame Krl::current(const char* variable, const char* list, Frames& frames, std::
   }
   const Coordinates read = coordinates(*value, frame_names);
   if (!read.all()) {
-    if (frames.unknown.known())
-      frames.unknown = read.unknown.known() ? unknown_value(variable, "is set in part only") : read.unknown;
+    Value& why = frames.unknown.known() ? frames.unknown : frames.base_too;
+    why = read.unknown.known() ? unknown_value(variable, "is set in part only") : read.unknown;
     return {};
   }
   name = name_of(list, read.numbers, run);
@@ -241,7 +241,7 @@ Frame Krl::current(const char* variable, const char* list, Frames& frames, std::
 Krl::Frames Krl::current_frames(Interpreter& run) {
   Frames frames;
   frames.tool_name = "$TOOL", frames.base_name = "$BASE";
-  frames.unknown = truth_value(true);
+  frames.unknown = frames.base_too = truth_value(true);
   frames.tool = current("$tool", "tool_data", frames, frames.tool_name, run);
   frames.base = current("$base", "base_data", frames, frames.base_name, run);
   const Value* mode = run.variable("$ipo_mode");

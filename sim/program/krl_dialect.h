@@ -50,6 +50,7 @@ class Krl final : public Dialect {
     bool stationary = false;  ///< $IPO_MODE is #TCP: the tool stands at $BASE, the work hangs at $TOOL
     bool held = false;        ///< one of them is not assigned: it is what the controller had before
     Value unknown;            ///< why they are not known; known: they are
+    Value base_too;           ///< why the base is not, where the tool is not either
 
     bool same(const Frames& other) const;
     Frame flange(const Frame& pose) const;  ///< that holds the tool at the pose
@@ -68,12 +69,13 @@ class Krl final : public Dialect {
   bool read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
                    Interpreter& run);
   void ask_for_target(const Expression& written, const Value& value, Interpreter& run);
-  void ask_for_part(const Expression& written, const Value& unknown, Interpreter& run);
+  void ask_for_part(const Expression& written, const krl::Coordinates& read, Interpreter& run);
   bool read_external(const Expression& written, const Value& value, bool relative, Instruction& move,
                      Interpreter& run);
   std::optional<std::array<double, 6>> place_before(const Frames& frames) const;
   void set_frames(const Frames& frames, Instruction& move, Interpreter& run);
   bool ask_for_frames(const Frames& frames, const Statement& statement, Interpreter& run);
+  static void ask_for_frame(const Value& unknown, const Statement& statement, Interpreter& run);
   bool read_speed(const Statement& statement, Instruction& move, Interpreter& run);
   bool read_axis_speed(const Statement& statement, Instruction& move, Interpreter& run);
   bool read_path_speed(const Statement& statement, Instruction& move, Interpreter& run);

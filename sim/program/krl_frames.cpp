@@ -30,6 +30,8 @@ Coordinates coordinates(const Value& record, const char* const (&names)[6]) {
       read.given[i] = true;
     } else if (read.unknown.known()) {
       read.unknown = part->known() ? unknown_value("", "is no number") : *part;
+    } else if (const Cause* cause = part->first_cause()) {
+      read.more.push_back(cause->name);
     }
   }
   return read;

@@ -6,6 +6,8 @@
 #include <array>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "sim/program/interpreter.h"
 
@@ -23,7 +25,8 @@ constexpr const char* external_names[] = {"e1", "e2", "e3", "e4", "e5", "e6"};
 struct Coordinates {
   std::array<double, 6> numbers{};
   std::array<bool, 6> given{};
-  Value unknown;  ///< the first that is known only while the robot runs; known: there is none
+  Value unknown;                  ///< the first that is known only while the robot runs; known: there is none
+  std::vector<std::string> more;  ///< names of the further ones
   bool any() const {
     return std::any_of(given.begin(), given.end(), [](bool g) { return g; });
   }

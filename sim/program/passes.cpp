@@ -40,20 +40,44 @@ bool Passes::repeats() const {
   return false;
 }
 
-std::size_t Passes::by_motion() const {
+template <class Same>
+std::size_t Passes::period(const Same& same) const {
   const std::size_t last = count();
   for (std::size_t period = 1; period * (repeats_for_certainty + 1) <= last; ++period) {
     std::size_t first = last - period;  // the earliest pass from which on each equals the one a period later
-    while (first >= 1 && same_motion(first, first + period)) --first;
+    while (first >= 1 && same(first, first + period)) --first;
     if (first + 1 + repeats_for_certainty * period <= last) return first + period;
   }
   return 0;
+}
+
+std::size_t Passes::by_motion() const {
+  return period([this](std::size_t a, std::size_t b) { return same_motion(a, b); });
+}
+
+std::set<Passes::Line> Passes::lines(std::size_t begin, std::size_t end) const {
+  std::set<Line> found;
+  for (std::size_t i = begin; i < end; ++i) found.emplace((*moves_)[i].where.file, (*moves_)[i].where.line);
+  return found;
+}
+
+std::size_t Passes::by_lines() const {
+  std::vector<std::set<Line>> of;
+  for (std::size_t pass = 1; pass <= count(); ++pass) of.push_back(lines(ends_[pass - 1], ends_[pass]));
+  return period([&](std::size_t a, std::size_t b) { return of[a - 1] == of[b - 1]; });
+}
+
+bool Passes::only_lines_of_the_first() const {
+  const std::set<Line> first = lines(ends_[0], ends_[1]), later = lines(ends_[1], ends_.back());
+  return std::includes(first.begin(), first.end(), later.begin(), later.end());
 }
 
 std::size_t Passes::kept(std::size_t wanted) const {
   if (wanted) return wanted;
   if (repeats()) return count() - 1;
   if (const std::size_t periodic = by_motion()) return periodic;
+  if (const std::size_t periodic = by_lines()) return periodic;
+  if (count() > 1 && !only_lines_of_the_first()) return count();
   std::size_t first = 1;  // that moves
   while (first < count() && end(first) == end(0)) ++first;
   return first;

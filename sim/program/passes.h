@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/program/program.h"
@@ -21,11 +24,20 @@ class Passes {
   /// Variables that only count never come back. Passes whose motion repeats, judged by the moves alone:
   /// how many there are up to the end of the first period; 0: no period is seen.
   std::size_t by_motion() const;
+  /// Likewise, judged by the lines that move alone: the same states again, if at other places.
+  std::size_t by_lines() const;
+  /// Whether the later passes moved only on lines on which the first one did, too. A program that goes
+  /// through states moves on others: its first pass is no cycle.
+  bool only_lines_of_the_first() const;
   /// How many passes the motion is.
   std::size_t kept(std::size_t wanted) const;
 
  private:
+  using Line = std::pair<std::string, int>;
   bool same_motion(std::size_t a, std::size_t b) const;
+  std::set<Line> lines(std::size_t begin, std::size_t end) const;
+  template <class Same>
+  std::size_t period(const Same& same) const;
 
   const std::vector<Instruction>* moves_;
   std::vector<std::size_t> ends_;

@@ -335,7 +335,9 @@ void run_rapid(const Code& code, const ImportOptions& options, const std::vector
       if (names.size() < 40) names.push_back(other.written);
     problems.add(
         {code.files.empty() ? "" : code.files[0].name(), 1, 1}, fmt::format("has no routine '{}'", start),
-        fmt::format("name one with --routine (motion.routine in a job): {}", fmt::join(names, ", ")));
+        names.empty()
+            ? "give the modules that hold its routines (--module, motion.modules)"
+            : fmt::format("name one with --routine (motion.routine in a job): {}", fmt::join(names, ", ")));
     return;
   }
   Rapid rapid(code, tools, work_objects);

@@ -15,9 +15,6 @@ class RapidParser : StatementParser {
 
   void run() {
     while (!at_.at_end() && !at_.at_word("module")) at_.next();  // %%% VERSION and LANGUAGE %%%
-    if (at_.at_end())
-      problems_.add({code_.files[file_].name(), 1, 1}, "holds no MODULE",
-                    "give a RAPID module (.mod, .prg, .sys)");
     while (!at_.at_end() && !problems_.full()) module();
   }
 
@@ -95,6 +92,7 @@ class RapidParser : StatementParser {
   Statement declaration() {
     Statement statement;
     statement.kind = Kind::declare;
+    const bool persistent = at_.at_word("pers");
     at_.next();  // CONST, VAR, PERS
     statement.text = at_.word("a type");
     statement.place = at_.place();
@@ -105,7 +103,10 @@ class RapidParser : StatementParser {
       while (at_.take_sign(","));
       at_.need_sign("}");
     }
-    if (at_.take_sign(":=")) statement.arguments[0] = at_.expression();
+    if (at_.take_sign(":="))
+      statement.arguments[0] = at_.expression();
+    else
+      statement.elsewhere = persistent;
     at_.need_sign(";");
     return statement;
   }
@@ -371,7 +372,13 @@ void parse_rapid(Code& code, int file, Problems& problems) {
   if (is_encoded(code.files[file].text()))
     return problems.add({code.files[file].name(), 1, 1}, "is encoded: its routines and data cannot be read",
                         "give the module as text where the program needs it");
-  const std::vector<Token> tokens = tokens_of(code.files[file], {'!', "", false, false}, problems);
+  Problems in_words;
+  const std::vector<Token> tokens = tokens_of(code.files[file], {'!', "", false, false}, in_words);
+  const auto opens = [](const Token& token) { return lower_case(token.text) == "module"; };
+  if (std::none_of(tokens.begin(), tokens.end(), opens))
+    return problems.add({code.files[file].name(), 1, 1}, "holds no MODULE",
+                        "give a RAPID module (.mod, .prg, .sys)");
+  for (const Problem& problem : in_words.list()) problems.add(problem.where, problem.what, problem.remedy);
   RapidParser(code, file, tokens, problems).run();
 }
 

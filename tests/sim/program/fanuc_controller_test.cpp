@@ -449,3 +449,24 @@ TEST_CASE("fanuc: what programs beside and condition handlers write is unknown")
   CHECK(run(start + choice).problems.size() == 1);  // not among the files
   CHECK(run("   1:  R[1]=0 ;\n   2:  MONITOR WATCH ;\n" + choice).problems.size() == 1);
 }
+
+TEST_CASE("fanuc: all that a move lacks is asked for in one round") {
+  // A place, a speed, a blend, an offset, and the frames that the place is given in.
+  const Reading r = run("   1:L PR[9] R[7]mm/sec CNT R[8] Offset,PR[4] ;\n");
+  std::string all;
+  for (std::size_t i = 0; i < r.problems.size(); ++i) all += r.problem(i) + "\n";
+  for (const char* name : {"PR[9]", "R[7]", "R[8]", "PR[4]", "UFRAME_NUM", "UTOOL_NUM"})
+    CHECK_THAT(all, Catch::Contains(name));
+}
+
+TEST_CASE("fanuc: a position register that is given counts where the program copies one that nobody knows") {
+  Asked asked;
+  asked.values["PR[4]"] = "X 500 Y 0 Z 300 W 180 P 0 R 0";
+  const Reading r =
+      run("   1:  UFRAME_NUM=0 ;\n   2:  UTOOL_NUM=0 ;\n   3:  PR[4]=PR[5] ;\n"
+          "   4:  PR[4,3]=400 ;\n   5:L PR[4] 100mm/sec FINE ;\n",
+          asked);
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.move(0).target.pose.position.x() == Approx(0.5).epsilon(rounding));
+  CHECK(r.move(0).target.pose.position.z() == Approx(0.4).epsilon(rounding));
+}

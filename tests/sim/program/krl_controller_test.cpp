@@ -593,3 +593,27 @@ TEST_CASE("krl: what a submit program writes to may have any value") {
   CHECK(first_axes(run(body, data, submit, {Language::krl, given})) == std::vector<double>{1, 2, 3});
   CHECK(first_axes(run(body, data)) == std::vector<double>{1, 3});
 }
+
+TEST_CASE("krl: all that a move lacks is asked for in one round") {
+  const Reading frames = run("$TOOL=TOOL_DATA[3]\n$BASE=BASE_DATA[4]\nPTP " + pose);
+  REQUIRE(frames.problems.size() == 2);
+  CHECK_THAT(frames.problem(0) + frames.problem(1),
+             Catch::Contains("moves with TOOL_DATA[3]") && Catch::Contains("moves with BASE_DATA[4]"));
+  // Three components that an input decides: a line that names them all.
+  const Reading place = run("DECL FRAME f\nf=" + pose +
+                            "\nf.X=$ANIN[1]\nf.Y=$ANIN[2]\nf.Z=$ANIN[3]\n$TOOL=$NULLFRAME\nBAS(#BASE,0)\n"
+                            "PTP f");
+  REQUIRE(place.problems.size() == 1);
+  CHECK_THAT(place.problem(), Catch::Contains("likewise"));
+}
+
+TEST_CASE("krl: RSI_MOVECORR leads the robot away, and back where the program says") {
+  const Reading led = run("PTP " + axes(1) + "\nRSI_MOVECORR()\nPTP " + axes(2));
+  CHECK(first_axes(led) == std::vector<double>{1, 2});
+  REQUIRE_FALSE(led.program.skipped.empty());
+  CHECK(led.program.skipped[0].may_move);
+  CHECK(led.program.skipped[0].what == "RSI_MOVECORR: a sensor leads the robot");
+  // Nobody knows the axes that the move leaves out.
+  CHECK_THAT(run("PTP " + axes(1) + "\nRSI_MOVECORR()\nPTP {A1 2}").problem(),
+             Catch::Contains("gives some coordinates only"));
+}

@@ -342,6 +342,53 @@ TEST_CASE("rapid controller: main begins again at its end") {
         Angles{1});
 }
 
+TEST_CASE("rapid controller: one state of a machine is no motion") {
+  // An input leads from the third state on: the two before are known, and nobody knows what follows.
+  const std::string machine = "TEST state\nCASE 0:\n" + go(1) + go(2) + "state:=1;\nCASE 1:\n" + go(3) +
+                              "state:=2;\nCASE 2:\nIF di1=1 state:=3;\nCASE 3:\n" + go(4) + "ENDTEST\n",
+                    data = "VAR num state:=0;\n";
+  CHECK_THAT(run(machine, data).problem(), Catch::Contains("in pass 4 of main: --passes 3 ends before"));
+  ImportOptions three;
+  three.passes = 3;
+  CHECK(first_axes(run(machine, data, three)) == Angles{1, 2, 3});
+  // Two states at places that move on for ever are one cycle, not the first state alone.
+  const std::string shift =
+      "TEST state\nCASE 0:\nMoveL Offs(p,0,y,0),v100,fine,tool0;\nstate:=1;\nCASE 1:\n"
+      "MoveL Offs(p,0,0,y),v100,fine,tool0;\nstate:=0;\ny:=y+1;\nENDTEST\n";
+  const Reading cycle = run(shift, pose + "VAR num state:=0;\nVAR num y:=0;\n");
+  CHECK(cycle.problem() == "no such problem");
+  CHECK(cycle.program.instructions.size() == 2);
+  CHECK(warns(cycle, "its passes differ and none repeats an earlier one"));
+}
+
+TEST_CASE("rapid controller: a PERS without a value has it from another task's module") {
+  const std::string turn = "MoveAbsJ [[a,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n";
+  const std::string words = "'a' is a PERS without a value here: another task's module gives it";
+  CHECK_THAT(run(turn, "PERS num a;\n").problem(), Catch::Contains(words));
+  CHECK(first_axes(run(turn, "PERS num a;\n", giving("a", "7"))) == Angles{7});
+  CHECK(first_axes(run("a:=3;\n" + turn, "PERS num a;\n")) == Angles{3});
+  // Element by element, too.
+  const std::string list = "MoveAbsJ [[b{2},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n";
+  CHECK(run(list, "PERS num b{3};\n").problems.size() == 1);
+  CHECK(first_axes(run("b{2}:=4;\n" + list, "PERS num b{3};\n")) == Angles{4});
+  CHECK(first_axes(run(list, "VAR num b{3};\n")) == Angles{0});
+  // Two tasks that wait for each other: this one stands still until the other one sets what it has cleared.
+  const std::string waits = "TEST state\nCASE 0:\n" + go(1) +
+                            "a:=0;\nstate:=1;\nCASE 1:\nIF a=1 state:=2;\n"
+                            "CASE 2:\n" +
+                            go(2) + "ENDTEST\n";
+  CHECK(warns(run(waits, "PERS num a;\nVAR num state;\n"),
+              "another task may write what has no value here (a)"));
+  CHECK_FALSE(warns(run(waits, "VAR num a;\nVAR num state;\n"), "another task"));
+}
+
+TEST_CASE("rapid controller: a file of another language is told in a line") {
+  const Reading other =
+      Reader{Language::rapid}({{"arm.prg", "#!/usr/bin/env python3\nprint(f'{x!r}')  # ?\n"}});
+  CHECK(other.problems.size() == 2);  // no routine, no module
+  CHECK_THAT(other.problem(0) + other.problem(1), Catch::Contains("holds no MODULE"));
+}
+
 TEST_CASE("rapid controller: a function may move the robot where a condition or an assignment calls it") {
   const std::string step =
       "FUNC bool step(num at)\nMoveAbsJ [[at,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n"
