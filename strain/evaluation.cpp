@@ -440,6 +440,7 @@ Evaluation::Seen Evaluation::seen(Site site, const StrainMeasures& of) {
   seen.by[Worst::tension] = tension;
   seen.by[Worst::range_times_tension] = range * tension;
   seen.by[Worst::cycles] = of.cycle_sum;
+  seen.by[Worst::ranges] = of.range_sum;
   seen.by[Worst::yielding_cycles] = -1;  // asked of wires only whose planes are judged
   return seen;
 }
@@ -450,12 +451,14 @@ void Evaluation::Worst::consider(const Seen& seen) {
       value[measure] = seen.by[measure];
       site[measure] = seen.site;
     }
-  const float sum = seen.by[cycles];
-  if (by_cycles.size() == most_by_cycles && sum <= by_cycles.back().first) return;
-  const auto place = std::find_if(by_cycles.begin(), by_cycles.end(),
-                                  [&](const auto& other) { return sum > other.first; });
-  by_cycles.insert(place, {sum, seen.site});
-  if (by_cycles.size() > most_by_cycles) by_cycles.pop_back();
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    auto& most = by_sum[k];
+    const float sum = seen.by[sums[k]];
+    if (most.size() == most_by_sum && sum <= most.back().first) continue;
+    const auto smaller = [](float than, const auto& other) { return than > other.first; };
+    most.insert(std::upper_bound(most.begin(), most.end(), sum, smaller), {sum, seen.site});
+    if (most.size() > most_by_sum) most.pop_back();
+  }
 }
 
 std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const ClampMeans& means,
@@ -477,8 +480,8 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
     const bool same = bound->means.plan() == means_.plan();
-    put_bound(same ? worst : worst_of(segment, bound->means, motion, {}), bound->means, segment, motion,
-              bound == &stick_ ? sink.bound_stick : sink.bound_free);
+    const std::vector<Site> sites = sites_of_bound(same ? worst : worst_of(segment, bound->means, motion, {}), *bound);
+    put_bound(sites, bound->means, segment, motion, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
   std::vector<Site> to_probe;
   const auto wire_range = [&](const Worst& of) {  // the hose's wall is no wire
@@ -538,16 +541,26 @@ void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
       [&](std::size_t k) { sink.probe(found[k % found.size()]); });
 }
 
-void Evaluation::put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
-                           const SegmentMotion& motion,
-                           const std::function<void(const SiteRows&)>& sink) {
+std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst>& worst, Bound& bound) const {
+  constexpr float nearly = 0.7f;  // where all slides, hundreds of wires have sums so near the largest, and any may be the worst
+  bound.most.resize(worst.size());
   std::set<Site> sites;
-  for (const Worst& layer : worst) {
+  for (std::size_t k = 0; k < worst.size(); ++k) {
     for (int by = 0; by < Worst::measures; ++by)
-      if (layer.value[by] >= 0) sites.insert(layer.site[by]);
-    for (const auto& [sum, site] : layer.by_cycles) sites.insert(site);
+      if (worst[k].value[by] >= 0) sites.insert(worst[k].site[by]);
+    for (std::size_t sum = 0; sum < Worst::sums.size(); ++sum) {
+      const auto& list = worst[k].by_sum[sum];
+      float& most = bound.most[k][sum];
+      if (!list.empty()) most = std::max(most, list.front().first);
+      for (std::size_t i = 0; i < list.size(); ++i)
+        if (i < Worst::always_by_sum || list[i].first >= nearly * most) sites.insert(list[i].second);
+    }
   }
-  const std::vector<Site> list(sites.begin(), sites.end());
+  return {sites.begin(), sites.end()};
+}
+
+void Evaluation::put_bound(const std::vector<Site>& list, const ClampMeans& means, std::size_t segment,
+                           const SegmentMotion& motion, const std::function<void(const SiteRows&)>& sink) {
   std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one nesting for all of a piece
   const auto piece = [&](std::size_t k) { return std::pair(list[k].fibre, wires_[list[k].wire].bundle); };
   for (std::size_t k = 0; k < list.size(); ++k)

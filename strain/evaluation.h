@@ -124,13 +124,14 @@ class Evaluation {
   /// measures. Which of them lives shortest depends on the material and the mean-stress correction.
   struct Seen;
   struct Worst {
-    enum By { range, size, tension, range_times_tension, cycles, yielding_cycles, measures };
+    enum By { range, size, tension, range_times_tension, cycles, ranges, yielding_cycles, measures };
     std::array<Site, measures> site;
-    std::array<float, measures> value{-1, -1, -1, -1, -1, -1};
-    /// Those with the largest sums over cycles, largest first: of many middling cycles no sum knows the damage well
-    /// enough for the first alone to be the worst.
-    std::vector<std::pair<float, Site>> by_cycles;
-    static constexpr std::size_t most_by_cycles = 12;
+    std::array<float, measures> value{-1, -1, -1, -1, -1, -1, -1};
+    /// Those with the largest sums, over cycles and over ranges, largest first: of many middling cycles no sum knows the
+    /// damage well enough for the first alone to be the worst.
+    static constexpr std::array<By, 2> sums{cycles, ranges};
+    static constexpr std::size_t always_by_sum = 12, most_by_sum = 128;
+    std::array<std::vector<std::pair<float, Site>>, sums.size()> by_sum;
     void consider(const Seen& seen);
   };
   struct Seen {
@@ -140,6 +141,7 @@ class Evaluation {
   /// One way of sliding and what it needs.
   struct Bound {
     ClampMeans means;
+    std::vector<std::array<float, Worst::sums.size()>> most{};  ///< (layer) the largest sums in the segments so far
   };
 
   /// What one thread keeps between bundles.
@@ -202,9 +204,9 @@ class Evaluation {
   std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
                               const std::function<void(const SiteRows&)>& sink);
   void put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion, const Sink& sink);
-  void put_bound(const std::vector<Worst>& worst, const ClampMeans& means, std::size_t segment,
-                 const SegmentMotion& motion,
-                 const std::function<void(const SiteRows&)>& sink);
+  std::vector<Site> sites_of_bound(const std::vector<Worst>& worst, Bound& bound) const;
+  void put_bound(const std::vector<Site>& sites, const ClampMeans& means, std::size_t segment,
+                 const SegmentMotion& motion, const std::function<void(const SiteRows&)>& sink);
 
   const Construction& construction_;
   SpanPlace place_;

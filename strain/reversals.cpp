@@ -71,7 +71,7 @@ LaneRun LaneScan::next(std::size_t count, std::span<TurningList> out) {
 LaneRun LaneScan::next_to_rank() { return {&state_, nullptr, nullptr, &ranks_, nullptr}; }
 
 StrainMeasures LaneScan::measures(std::size_t wire) const {
-  return {ranks_.low[wire], ranks_.high[wire], ranks_.cycle_sum[wire]};
+  return {ranks_.low[wire], ranks_.high[wire], ranks_.cycle_sum[wire], ranks_.range_sum[wire]};
 }
 
 void LaneScan::done(std::span<TurningList> out) const {

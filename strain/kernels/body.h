@@ -1008,12 +1008,12 @@ void mix(MixedLanes& state, const float* waves, std::size_t stride, std::size_t 
 
 StrainMeasures measures(const float* strain, std::size_t count) {
   const FloatPack zero{};
-  FloatPack low = zero + strain[0], high = low, sum{};
+  FloatPack low = zero + strain[0], high = low, cycle_sum{}, range_sum{};
   const auto take = [&](const FloatPack& before, const FloatPack& now) {
     low = -larger(-low, -now);
     high = larger(high, now);
-    const FloatPack product = larger(larger(before, now), zero) * (now - before);
-    sum += larger(product, -product) * product * product;
+    cycle_sum += cycle_share(before, now);
+    range_sum += range_share(before, now);
   };
   std::size_t k = 1;
   for (; k + float_pack_size <= count; k += float_pack_size)
@@ -1033,7 +1033,7 @@ StrainMeasures measures(const float* strain, std::size_t count) {
     }
     take(load<FloatPack>(from), load<FloatPack>(to));
   }
-  return {-largest_lane(-low), largest_lane(high), sum_of_lanes(sum)};
+  return {-largest_lane(-low), largest_lane(high), sum_of_lanes(cycle_sum), sum_of_lanes(range_sum)};
 }
 
 }  // namespace

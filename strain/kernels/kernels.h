@@ -155,6 +155,9 @@ struct StrainMeasures {
   /// Something like the damage of Smith, Watson and Topper: sum of (range times tensile peak)^3 between
   /// neighbours, a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
   float cycle_sum;
+  /// The same where the mean stress has relaxed or the metal yields: sum of range^3, between the powers of short (1.7)
+  /// and long (8.9) lives.
+  float range_sum;
 };
 
 /// The same of sixteen wires that are ranked without keeping their turning points.
@@ -164,8 +167,10 @@ struct LaneRanks {
   alignas(64) float extreme[lanes];    ///< furthest strain since then, times the direction
   alignas(64) float low[lanes];
   alignas(64) float high[lanes];
-  alignas(64) float sum[lanes];        ///< up to the last turning point
-  alignas(64) float cycle_sum[lanes];  ///< up to the last sample
+  alignas(64) float cycle_sum_to_turn[lanes];  ///< up to the last turning point
+  alignas(64) float range_sum_to_turn[lanes];
+  alignas(64) float cycle_sum[lanes];          ///< up to the last sample
+  alignas(64) float range_sum[lanes];
 };
 
 /// Up to sixteen wires and what they go through next: waves, or strain[t * lanes + lane].

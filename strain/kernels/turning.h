@@ -380,13 +380,19 @@ inline FloatPack cycle_share(const FloatPack& before, const FloatPack& now) {
   return larger(product, -product) * product * product;
 }
 
+/// And to range_sum.
+inline FloatPack range_share(const FloatPack& before, const FloatPack& now) {
+  const FloatPack range = now - before;
+  return larger(range, -range) * range * range;
+}
+
 /// Here turns need no list: a wire is followed as strain times its direction, whose highest value is the
 /// turning point once it has fallen from there by the gate. The first direction is a guess that can cost one
 /// range below the gate.
 struct Ranking {
   const LaneRun* run;
   int lane;
-  FloatPack below_gate, direction, turn, extreme, sum, low, high;
+  FloatPack below_gate, direction, turn, extreme, cycle_sum, range_sum, low, high;
 
   Ranking() = default;
   /// first: its strain at the first sample of all.
@@ -396,12 +402,13 @@ struct Ranking {
     direction = load<FloatPack>(ranks.direction + lane);
     turn = load<FloatPack>(ranks.turn + lane);
     extreme = load<FloatPack>(ranks.extreme + lane);
-    sum = load<FloatPack>(ranks.sum + lane);
+    cycle_sum = load<FloatPack>(ranks.cycle_sum_to_turn + lane);
+    range_sum = load<FloatPack>(ranks.range_sum_to_turn + lane);
     low = load<FloatPack>(ranks.low + lane);
     high = load<FloatPack>(ranks.high + lane);
     if (run->state->sample != 0) return;
     direction = FloatPack{} + 1.0f;
-    sum = FloatPack{};
+    cycle_sum = range_sum = FloatPack{};
     low = high = turn = extreme = first;
   }
 
@@ -412,7 +419,8 @@ struct Ranking {
     extreme = larger(extreme, y);
     const Mask turned = greater(extreme - y, below_gate);
     const FloatPack now = direction * extreme;
-    sum += select(turned, cycle_share(turn, now), FloatPack{});
+    cycle_sum += select(turned, cycle_share(turn, now), FloatPack{});
+    range_sum += select(turned, range_share(turn, now), FloatPack{});
     turn = select(turned, now, turn);
     extreme = select(turned, -y, extreme);
     direction = select(turned, -direction, direction);
@@ -423,11 +431,13 @@ struct Ranking {
     store(direction, ranks.direction + lane);
     store(turn, ranks.turn + lane);
     store(extreme, ranks.extreme + lane);
-    store(sum, ranks.sum + lane);
+    store(cycle_sum, ranks.cycle_sum_to_turn + lane);
+    store(range_sum, ranks.range_sum_to_turn + lane);
     store(low, ranks.low + lane);
     store(high, ranks.high + lane);
     const FloatPack peak = direction * extreme;
-    store(FloatPack(sum + cycle_share(turn, peak) + cycle_share(peak, last)), ranks.cycle_sum + lane);
+    store(FloatPack(cycle_sum + cycle_share(turn, peak) + cycle_share(peak, last)), ranks.cycle_sum + lane);
+    store(FloatPack(range_sum + range_share(turn, peak) + range_share(peak, last)), ranks.range_sum + lane);
   }
 };
 
