@@ -330,7 +330,7 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
     }
     return largest;
   };
-  constexpr std::size_t most_picked = 5 * (5 + 12);  // layers of wires; measures, and the twelve by their cycles
+  constexpr std::size_t most_picked = 5 * (6 + 2 * 128);  // layers of wires; measures, and the most by either sum
   for (std::size_t segment = 0; segment < few_segments; ++segment) {
     constexpr float close = 1e-3f;  // strains of all wires are waves, without a third harmonic (W13)
     CHECK(largest_range(free.stick, segment) == Approx(largest_range(inside.sites, segment)).epsilon(close));
