@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <set>
+#include <string>
+#include <unordered_map>
 
 #include "pipeline/progress.h"
 #include "pipeline/study/build_graph.h"
@@ -25,8 +27,16 @@ void share_cores(int at_a_time, std::size_t jobs) {
 int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& options, std::size_t left,
                std::vector<JobState>& states, Progress& progress) {
   share_cores(options.jobs, left);
+  std::unordered_map<std::string, std::size_t> last_stages;  // after which a job's files are needed no more
+  for (std::size_t k = 0; study.keep != Keep::all && k < states.size(); ++k)
+    last_stages.emplace("fatigue " + study.jobs[k].name, k);
   const BuildResult built = run_build_graph(places, options.jobs, [&](const BuildEvent& event) {
     progress.show(fmt::format("{}/{}  {}", event.finished, event.total, event.what));
+    if (const auto job = last_stages.find(event.what); job != last_stages.end()) {
+      JobState state = states[job->second];
+      look_at(state, places.job(study.jobs[job->second].name));
+      remove_unkept(state, places.job(study.jobs[job->second].name));
+    }
   });
   progress.clear();
   if (!built.words.empty())
@@ -44,13 +54,14 @@ int make_rest(const StudyRequest& request, Standing& standing, const RunOptions&
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;
     left += !states[k].done();
+    remove_unkept(states[k], places.job(study.jobs[k].name));
     if (!states[k].damaged.empty())
       progress.note(fmt::format("{}: {}", places.job(study.jobs[k].name).string(), states[k].words()));
   }
   if (remembered)
     renew_receipts(study, places, states);
   else
-    write_build_graph(study, places, states, options.limits);
+    write_build_graph(study, places, states, options.limits, options.launcher);
   if (!remembered) remember(request, standing);
   return left == 0 ? 0 : build_rest(study, places, options, left, standing.states, progress);
 }
@@ -60,7 +71,7 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
   Progress progress(study.name, options.quiet);
   std::size_t left = 0;
   for (std::size_t k = 0; k < states.size(); ++k) left += study.jobs[k].failure.empty() && !states[k].done();
-  write_build_graph(study, places, states, options.limits);
+  write_build_graph(study, places, states, options.limits, options.launcher);
   if (left > 0) build_rest(study, places, options, left, states, progress);
   return ranking_of(study, places, states);
 }

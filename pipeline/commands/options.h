@@ -22,6 +22,7 @@ struct StudyOptions {
 struct RunOptions : StudyOptions {
   int jobs;  ///< stages at a time
   bool quiet = false;
+  std::string launcher;  ///< before each stage's command
   StageLimits limits{24 * 3600, installed_memory_mb()};  // a day, and what the machine has
   RunOptions();
 };

@@ -564,7 +564,8 @@ std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
       std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
   std::vector<bool> detailed(rows.size(), false);
   for (std::size_t i = 0; i < done; ++i)
-    detailed[i] = done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2;
+    detailed[i] = (done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2) &&
+                  !rows[i].life_file.empty();  // else a study that keeps lives alone
   return detailed;
 }
 

@@ -66,6 +66,40 @@ void set_recipes(JobState& state, const Job& job, const StudyPlaces& places, Dig
   state.settings = recipe_of(all, files, {}, digests).substr(0, digits);
 }
 
+/// Whether an output may be absent of a job that is done.
+bool may_lack(Keep keep, std::size_t stage) {
+  switch (keep) {
+    case Keep::all:
+      return false;
+    case Keep::histories:
+      return stages[stage].part == Part::sim;
+    case Keep::lives:
+      return true;
+  }
+  return false;
+}
+
+/// Receipts tell that all stages have made their outputs, one from the other, as far as these are there.
+void follow_receipts(JobState& state, const fs::path& folder) {
+  std::string made_before = "-";
+  for (state.next = 0; state.next < stage_count; ++state.next) {
+    const Stage& stage = stages[state.next];
+    std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
+    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != made_before) return;
+    // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
+    if (!state.failure.empty()) receipt->state = {};
+    const FileState now = state_of(folder / stage.output);
+    const bool removed = !now.exists() && may_lack(state.keep, state.next);
+    if (!removed && !is_as_noted(*receipt, folder / stage.output)) {
+      if (now.exists()) state.damaged = stage.output;
+      return;
+    }
+    if (!removed && (now != receipt->state || !receipt->state_suffices())) state.compared.push_back(state.next);
+    made_before = receipt->output;
+    state.told = std::move(receipt->told);
+  }
+}
+
 std::string failure_key(const JobState& state) { return fmt::format("{}", fmt::join(state.recipes, " ")); }
 
 /// The reason of the last attempt, if it was one with these recipes.
@@ -79,7 +113,15 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
   return key == failure_key(state) ? reason : "";
 }
 
-std::string rules(const StageLimits& limits) {
+/// The words before a stage's program: as Ninja reads them.
+std::string launching(const std::string& launcher) {
+  if (launcher.empty()) return "";
+  std::string words = "env -u DRESSLIFE_PARENT -u DRESSLIFE_MEMORY ";
+  for (const char letter : launcher) words += letter == '$' ? "$$" : std::string(1, letter);
+  return words + ' ';
+}
+
+std::string rules(const StageLimits& limits, const std::string& launcher) {
   std::string text = "ninja_required_version = 1.8\nbuilddir = .stage\n\n";
   for (const Stage& stage : stages) {
     // The stage before is checked against the same job, so the settings come from job.yaml at every stage.
@@ -87,11 +129,11 @@ std::string rules(const StageLimits& limits) {
     // `exec`: the shell's process becomes the stage's, which then ends with Ninja. `3>&1`: Ninja takes the end of
     // its pipe for the end of the stage and waits for that stage alone, so the pipe must live as long as the stage.
     text += fmt::format(
-        "rule {0}\n  command = exec \"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
+        "rule {0}\n  command = exec {9}\"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
         "--force "
         "--quiet --job-time {6} --job-memory {7} 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
         stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(),
-        limits.seconds, limits.megabytes, log_file(stage).string());
+        limits.seconds, limits.megabytes, log_file(stage).string(), launching(launcher));
   }
   return text;
 }
@@ -225,24 +267,24 @@ void look_at(JobState& state, const fs::path& folder) {
   state.told.clear();
   state.failure = noted_failure(state, folder);
   state.has_results = std::any_of(stages.begin(), stages.end(), [&](const Stage& stage) {
-    return state_of(folder / stage.output).exists();
+    return state_of(folder / stage.output).exists() ||
+           (state.keep == Keep::lives && state_of(folder / receipt_file(stage)).exists());
   });
-  std::string made_before = "-";
-  for (state.next = 0; state.next < stage_count; ++state.next) {
-    const Stage& stage = stages[state.next];
-    std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
-    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != made_before) return;
-    // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
-    if (!state.failure.empty()) receipt->state = {};
-    const FileState now = state_of(folder / stage.output);
-    if (!is_as_noted(*receipt, folder / stage.output)) {
-      if (now.exists()) state.damaged = stage.output;
-      return;
-    }
-    if (now != receipt->state || !receipt->state_suffices()) state.compared.push_back(state.next);
-    made_before = receipt->output;
-    state.told = std::move(receipt->told);
+  follow_receipts(state, folder);
+  // What is to run reads the output before it, which may have been removed.
+  while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists()) --state.next;
+}
+
+std::uintmax_t remove_unkept(const JobState& state, const fs::path& folder) {
+  std::uintmax_t freed = 0;
+  for (std::size_t k = 0; state.done() && k < stage_count; ++k) {
+    const fs::path output = folder / stages[k].output;
+    std::error_code ignored;
+    if (!may_lack(state.keep, k) || !fs::is_regular_file(fs::symlink_status(output, ignored))) continue;
+    const std::uintmax_t size = fs::file_size(output, ignored);
+    if (fs::remove(output, ignored)) freed += size;
   }
+  return freed;
 }
 
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places) {
@@ -257,6 +299,7 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, D
     const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) continue;
     set_recipes(states[k], *job.job, places, digests);
+    states[k].keep = study.keep;
     look_at(states[k], places.job(job.name));
   }
   return states;
@@ -271,13 +314,13 @@ void renew_receipts(const Study& study, const StudyPlaces& places, const std::ve
 }
 
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
-                       const StageLimits& limits) {
+                       const StageLimits& limits, const std::string& launcher) {
   fs::create_directories(places.folder / ".stage");
   for (const char* memory : {".ninja_log", ".ninja_deps"})  // of times, which decide nothing here
     fs::remove_all(places.folder / ".stage" / memory);
   fs::remove_all(places.folder / memory_file);  // of stages that have ended
   renew_receipts(study, places, states);
-  std::string graph = rules(limits);
+  std::string graph = rules(limits, launcher);
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) continue;
@@ -326,6 +369,7 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
     const fs::path folder = places.job(study.jobs[k].name);
     fs::remove(folder / failure_file);
     look_at(states[k], folder);
+    remove_unkept(states[k], folder);
     for (const Stage& stage : stages) remove_leftovers(folder / stage.output);
     join_logs(folder);
     if (states[k].done()) continue;

@@ -42,6 +42,7 @@ struct JobState {
   std::string failure;   ///< why the last attempt with these recipes failed
   bool has_results = false;           ///< of any settings
   std::vector<Told> told;             ///< of a job that is done, what its life.h5 says
+  Keep keep = Keep::all;
   std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared, as no times vouch for them
   bool done() const { return next == stage_count; }
   /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings, "to do" without
@@ -63,12 +64,17 @@ StageFiles files_of_stage(std::size_t stage);
 /// Brings a state up to date whose recipes are known.
 void look_at(JobState& state, const std::filesystem::path& folder);
 
+/// Removes what the study does not keep of a job that is done. Returns the bytes that it took.
+std::uintmax_t remove_unkept(const JobState& state, const std::filesystem::path& folder);
+
 /// Notes of outputs whose bytes had to be compared that they need no look the next time.
 void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states);
 
-/// Writes every job's job.yaml and build.ninja. Errors: InputError when the folder cannot be written.
+/// Writes every job's job.yaml and build.ninja. launcher: shell words before each stage's command, that start it
+/// elsewhere and end with its exit status ("srun -n1"); a stage that is launched does not end with this program and
+/// minds no memory that others were promised. Errors: InputError when the folder cannot be written.
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
-                       const StageLimits& limits = {});
+                       const StageLimits& limits = {}, const std::string& launcher = "");
 
 struct BuildEvent {
   int finished = 0, total = 0;

@@ -43,7 +43,7 @@ std::string digest_of(const StudyRequest& request) {
 
 std::string noted(const std::string& found) { return found == "yes" || found == "no" ? found : xxh3(found); }
 
-constexpr std::string_view title = "dresslife study 1";
+constexpr std::string_view title = "dresslife study 2";
 
 /// Whether every look that a line tells of finds the same now.
 bool finds_the_same(Words& line) {
@@ -80,6 +80,8 @@ std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces&
     const std::string_view what = lines.until(' ');
     if (what == "look") {
       if (!finds_the_same(lines)) return std::nullopt;
+    } else if (what == "keep") {
+      standing.study.keep = static_cast<Keep>(lines.number<int>('\n'));
     } else if (what == "digest") {
       const std::string_view was = lines.until(' ');
       if (standing.digests.of(lines.until('\n')) != was) return std::nullopt;
@@ -87,6 +89,7 @@ std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces&
       StudyJob& job = standing.study.jobs.emplace_back();
       FileState settings;
       standing.states.push_back(state_from(lines, job.name, settings));
+      standing.states.back().keep = standing.study.keep;
       if (settings.changed_ns >= written || state_of(settings_of(places, job.name)) != settings) return std::nullopt;
     }
   }
@@ -108,6 +111,7 @@ std::optional<std::string> text_of(const StudyRequest& request, const Standing& 
     if (!fits_a_line(file.string())) return std::nullopt;
     text += fmt::format("digest {} {}\n", digest, file.string());
   }
+  text += fmt::format("keep {}\n", static_cast<int>(standing.study.keep));
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     const JobState& state = standing.states[k];

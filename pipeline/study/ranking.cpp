@@ -255,6 +255,7 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
     JobResult result{job.name, places.life(job.name), job.failure, states[k].settings, states[k].told};
+    if (states[k].done() && states[k].keep == Keep::lives && !state_of(result.life_file).exists()) result.life_file.clear();
     if (job.failure.empty() && !states[k].done())
       result.failure = states[k].failure.empty() ? states[k].words() : states[k].failure;
     results.push_back(std::move(result));

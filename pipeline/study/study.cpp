@@ -117,13 +117,13 @@ StudyJob make_job(const Node& base, const Variant& variant, const std::string& f
 
 void check_keys(const Node& study) {
   if (!study.is_map()) throw InputError(study.where, "holds no study", "write base: and vary: or jobs:");
-  const std::vector<std::string> known{"name", "base", "vary", "jobs", "table", "sample"};
+  const std::vector<std::string> known{"name", "base", "vary", "jobs", "table", "sample", "keep"};
   for (const Entry& entry : study.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     const std::string near = nearest_word(entry.key, known);
     throw InputError(
         entry.where, fmt::format("unknown key '{}' of a study", entry.key),
-        near.empty() ? "keys here: name, base, vary, jobs, table, sample" : fmt::format("did you mean '{}'?", near));
+        near.empty() ? "keys here: name, base, vary, jobs, table, sample, keep" : fmt::format("did you mean '{}'?", near));
   }
   if (!study.find("base"))
     throw InputError(study.where, "base is missing",
@@ -135,6 +135,26 @@ void check_name(const std::string& job, const Where& where) {
     if (job == own)
       throw InputError(where, fmt::format("a job is named '{}' (a file of the study itself)", own),
                        "give it another name");
+}
+
+struct Disk {
+  Keep keep = Keep::all;
+};
+
+void describe(Fields& f, Disk& disk) {
+  f.choice("keep", disk.keep, "");
+}
+
+/// A study's own settings.
+Disk disk_of(const Node& study) {
+  Disk disk;
+  if (const Node* keep = study.find("keep")) {
+    Node root;
+    root["keep"] = *keep;
+    root.where = study.where;
+    read_fields(root, disk);
+  }
+  return disk;
 }
 
 /// A job by itself is a study of one.
@@ -173,6 +193,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
   }
   check_keys(document);
   study.name = name_of(document, file);
+  study.keep = disk_of(document).keep;
 
   const Node base = base_of(document);
   std::set<std::string> names;
@@ -197,6 +218,9 @@ std::string study_manual() {
          "with `vary`, each of them is varied |\n"
          "| `table` | a CSV file | none | a fleet, one job per row: `name`, and a key path as the title of every other "
          "column (`program` stands for `motion`); an empty cell leaves the base as it is; further rows run alone |\n"
+         "| `keep` | `all`, `histories`, `lives` | `all` | what stays of a job that is done: all its files; strain.h5 and "
+         "life.h5; what the ranking says, and no result's file. Nothing is to do for lack of the others; a job whose settings "
+         "change is then made from its beginning |\n"
          "| `sample` | map | none | keys whose values are drawn, for each of the jobs that the other sections make |\n\n" +
          sampling_manual();
 }

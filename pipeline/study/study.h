@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dresslife::pipeline {
@@ -27,9 +28,28 @@ struct StudyJob {
   std::string failure;             ///< else: the one line that says why not
 };
 
+/// What of a job stays on the disk when it is done.
+enum class Keep {
+  all,
+  histories,  ///< strain.h5 and life.h5: of which wires other materials make lives
+  lives,      ///< what the ranking says, in its receipts: no result's file
+};
+constexpr std::string_view word(Keep value) {
+  switch (value) {
+    case Keep::all:
+      return "all";
+    case Keep::histories:
+      return "histories";
+    case Keep::lives:
+      return "lives";
+  }
+  return {};
+}
+
 struct Study {
   std::string name;
   std::vector<StudyJob> jobs;  ///< in the order of the file
+  Keep keep = Keep::all;
 };
 
 /// The name of a study, without expanding it. Errors: InputError.

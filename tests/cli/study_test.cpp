@@ -158,3 +158,28 @@ TEST_CASE("a study that cannot be read is refused with its place") {
           "study.yaml:2:29: error: vary.simulation.segments must be a list of values");
   refused("base: none.yaml\n", "none.yaml: error: cannot be read");
 }
+
+TEST_CASE("clean removes what a study does not keep and jobs that it has no more, and nothing of others") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("s.yaml", "base: job.yaml\njobs: {a: {}, b: {}}\n");
+  REQUIRE(run(scratch, "dresslife", "run s.yaml --quiet").status == 0);
+  scratch.write("runs/s/b/notes.txt", "mine");
+  scratch.write("runs/s/own/notes.txt", "mine");
+  scratch.write("s.yaml", "base: job.yaml\nkeep: lives\njobs: {a: {}}\n");
+  const Outcome cleaned = run(scratch, "dresslife", "clean s.yaml");
+  INFO(cleaned.err);
+  CHECK(cleaned.status == 0);
+  CHECK(cleaned.out.find("1 jobs that the study has no more") != std::string::npos);
+  CHECK_FALSE(fs::exists(scratch / "runs/s/a/motion.h5"));
+  CHECK_FALSE(fs::exists(scratch / "runs/s/a/life.h5"));
+  CHECK_FALSE(fs::exists(scratch / "runs/s/b/life.h5"));
+  CHECK_FALSE(fs::exists(scratch / "runs/s/b/.stage"));
+  CHECK(content(scratch / "runs/s/b/notes.txt") == "mine");
+  CHECK(content(scratch / "runs/s/own/notes.txt") == "mine");
+  const Outcome status = run(scratch, "dresslife", "status s.yaml");
+  CHECK(status.out.find("1 of 1 jobs done") != std::string::npos);
+  const Outcome again = run(scratch, "dresslife", "run s.yaml");
+  CHECK(again.err.find("nothing to do") != std::string::npos);
+  CHECK(again.out.find("no such file") == std::string::npos);
+}

@@ -4,10 +4,12 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
+#include "pipeline/study/ranking.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -110,6 +112,77 @@ TEST_CASE("build graph: a changed setting reruns what depends on it and nothing 
   CHECK(run("strain.gate=0.01") == 2);
   CHECK(run("motion.zone_deg=3") == 3);
   CHECK(bench.calls("two") == "sim strain fatigue ");
+}
+
+TEST_CASE("build graph: what a study does not keep goes when its job is done, and is not to do for that") {
+  for (const Keep keep : {Keep::histories, Keep::lives}) {
+    Bench bench;
+    Study study = bench.study({{"one", "simulation.segments=20"}});
+    study.keep = keep;
+    const fs::path folder = bench.places().job("one");
+    CHECK(bench.run(study).executed == 3);
+    CHECK_FALSE(fs::exists(folder / "motion.h5"));
+    CHECK(fs::exists(folder / "strain.h5") == (keep == Keep::histories));
+    CHECK(fs::exists(folder / "life.h5") == (keep == Keep::histories));
+    CHECK(bench.words(study) == Words{"done"});
+    CHECK(bench.run(study).executed == 0);
+    const std::vector<RankingRow> rows = ranking_of(study, bench.places(), states_of(study, bench.places()));
+    REQUIRE(rows.at(0).done());
+    CHECK(rows[0].life_hours > 0);
+
+    // Another stress law needs strain.h5: there, or made again from the beginning.
+    Study other = bench.study({{"one", "fatigue.stress=elastic"}});
+    other.keep = keep;
+    CHECK(bench.words(other) == Words{"stale"});
+    CHECK(bench.run(other).executed == (keep == Keep::histories ? 1 : 3));
+    CHECK(bench.words(other) == Words{"done"});
+
+    // Who keeps all wants what is gone.
+    other.keep = Keep::all;
+    CHECK(bench.words(other) == Words{keep == Keep::histories ? "stale" : "to do"});
+    bench.run(other);
+    CHECK(bench.words(other) == Words{"done"});
+    CHECK(fs::exists(folder / "motion.h5"));
+  }
+}
+
+TEST_CASE("build graph: a study that keeps lives alone notices a damaged result that is there, and keeps what failed jobs need") {
+  Bench bench;
+  Study study = bench.study({{"one", "simulation.segments=20"}});
+  study.keep = Keep::lives;
+  const fs::path folder = bench.places().job("one");
+  bench.tell_stage("one", "fail-fatigue");
+  bench.run(study);
+  CHECK(fs::exists(folder / "motion.h5"));
+  CHECK(fs::exists(folder / "strain.h5"));
+  fs::remove(folder / "fail-fatigue");
+  CHECK(bench.run(study).executed == 1);
+  CHECK_FALSE(fs::exists(folder / "motion.h5"));
+  std::ofstream(folder / "life.h5") << "somebody's";
+  CHECK(bench.words(study)[0].starts_with("damaged  life.h5"));
+  fs::remove(folder / "life.h5");
+  CHECK(bench.words(study) == Words{"done"});
+  fs::remove(folder / ".stage/strain.receipt");
+  CHECK(bench.words(study) == Words{"stale"});
+  CHECK(bench.run(study).executed == 3);
+}
+
+TEST_CASE("build graph: a launcher starts every stage, and its exit status is the stage's") {
+  Bench bench;
+  const Study study = bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}});
+  bench.tell_stage("two", "fail-strain");
+  std::vector<JobState> states = states_of(study, bench.places());
+  write_build_graph(study, bench.places(), states, {},
+                    "sh -c 'echo \"${DRESSLIFE_PARENT-none} $1\" >> launched; exec \"$@\"' --");
+  const BuildResult result = run_build_graph(bench.places(), 1, {});
+  close_run(study, bench.places(), result, states);
+  CHECK(states[0].done());
+  CHECK(states[1].failure.find("strain broke") != std::string::npos);
+  std::istringstream launched(bytes_of(bench.places().folder / "launched"));
+  int lines = 0;
+  for (std::string line; std::getline(launched, line);)
+    if (line.starts_with("none /")) ++lines;  // its folder's name has a line feed
+  CHECK(lines == 5);
 }
 
 TEST_CASE("build graph: an output that comes out the same ends the chain") {
