@@ -147,6 +147,7 @@ bool has_ratings(const Job& job) {
 
 RatedStudy rated_study(const Study& study) {
   Maker maker;
+  if (study.keep == Keep::lives) return maker.take();  // a relative life needs the damage of every place, in life.h5
   for (const StudyJob& job : study.jobs)
     if (job.failure.empty() && job.job && has_ratings(*job.job)) maker.add(job);
   return maker.take();
