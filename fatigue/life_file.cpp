@@ -10,6 +10,7 @@
 #include "fatigue/attribution.h"
 #include "fatigue/conductors.h"
 #include "fatigue/planes.h"
+#include "fatigue/response.h"
 #include "fatigue/stress_path.h"
 #include "fatigue/verdict.h"
 #include "pipeline/files/motion_layout.h"
@@ -274,7 +275,9 @@ Conductors loaded_conductors(const Context& c) {
   return conductors;
 }
 
-void write_scatter(const Context& c, const Conductors& conductors, const LifeScatter& scatter) {
+/// drawn: over what is not known, too; null: only the scatter of wires is told.
+void write_scatter(const Context& c, const Conductors& conductors, const LifeScatter& scatter,
+                   const pipeline::DrawnLives* drawn) {
   std::vector<std::uint32_t> wires;
   std::vector<double> lives;
   for (const Bundle& bundle : conductors.bundle)
@@ -289,7 +292,9 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   put(c.life, "/conductor/place_life", scatter.place);
   const std::array<const char*, percentiles.size()> ends{"p10", "p50", "p90"};
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    c.life.attribute(fmt::format("life_hours_{}", ends[i]), hours(scatter.first_place.lives[i], c.repeat_seconds()));
+    const double by_scatter = hours(scatter.first_place.lives[i], c.repeat_seconds());
+    c.life.attribute(fmt::format("life_hours_{}", ends[i]), drawn ? hours(drawn->percentiles[i], c.repeat_seconds()) : by_scatter);
+    if (drawn) c.life.attribute(fmt::format("scatter_life_hours_{}", ends[i]), by_scatter);
     c.life.attribute(fmt::format("first_wire_life_hours_{}", ends[i]),
                      hours(scatter.first_wire[i], c.repeat_seconds()));
     c.life.attribute(fmt::format("conductor_life_hours_{}", ends[i]),
@@ -297,9 +302,9 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   }
 }
 
-/// The planner's place beside the lives; where no conductor can fail it has no name.
-void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first) {
-  const double p10 = hours(first.lives[0], c.repeat_seconds());
+/// The planner's place beside the lives; where no conductor can fail it has no name. p10 [repeats]
+void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first, double p10_repeats) {
+  const double p10 = hours(p10_repeats, c.repeat_seconds());
   c.life.attribute("life_months_p10", months(p10, c.job.fatigue.operating_hours_per_week));
   const bool known = first.conductor < conductors.path.size();
   c.life.attribute("failing_conductor", known ? conductors.path[first.conductor] : "");
@@ -444,7 +449,7 @@ void write_mean_stress(const Context& c) {
 }
 
 /// The worst wire's life, place and moment. Returns the summary for the terminal.
-std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles, const FirstPlace& planned) {
+std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycles, double p10_repeats) {
   const Worst worst = worst_of(c, c.worst, cycles);
   c.life.attribute("life_repeats", worst.repeats);
   c.life.attribute("life_hours", worst.life_hours);
@@ -461,7 +466,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
   copy_forces(c);
   if (c.worst == no_site) return "no wire was evaluated";
   if (worst.damage == 0) return "no wire is damaged";
-  const double p10 = hours(planned.lives[0], c.repeat_seconds());
+  const double p10 = hours(p10_repeats, c.repeat_seconds());
   return fmt::format(
       "{} ({} months) until 10 % of such dresspacks have a conductor {} at one place; worst wire: {} h ({} "
       "repeats) until {} breaks, {:.2f} m from the tool{}",
@@ -562,6 +567,61 @@ void write_shear(const Context& c) {
   c.life.attribute("worst_shear_range", *high - *low);
 }
 
+/// Those of the job's own wires that may be the worst once something is known better.
+VariedStrains likely_worst(const Context& c) {
+  constexpr std::size_t anywhere = 32;
+  std::vector<std::size_t> sites = worst_by_segment(c, true);
+  const std::vector<std::size_t> worst = worst_wires(c.damage, anywhere);
+  sites.insert(sites.end(), worst.begin(), worst.end());
+  std::sort(sites.begin(), sites.end());
+  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  if (!sites.empty() && sites.back() == no_site) sites.pop_back();
+  VariedStrains own;
+  for (const std::size_t site : sites) own.site.push_back(site), own.strains.push_back(c.strains_of(site));
+  return own;
+}
+
+/// log10 of the planner's lives, with this factor on the scatter of wires.
+std::array<double, percentiles.size()> log_planned(const Percentiles& lives) {
+  std::array<double, percentiles.size()> logs;
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    logs[i] = std::isfinite(lives[i]) ? std::log10(lives[i]) : pipeline::LifeResponse::endless;
+  return logs;
+}
+
+/// (F27) What the life hangs on, and lives over all of it.
+pipeline::DrawnLives write_response(const Context& c, const Conductors& conductors, const std::vector<PlacesOfConductor>& places,
+                                    const FirstPlace& planned) {
+  pipeline::LifeResponse response;
+  response.knowledge = pipeline::knowledge_of(c.job);
+  if (c.job.calibration)  // z counts from the job as it stands, in whose keys are the calibration's medians
+    for (const pipeline::LearnedParameter& learned : c.job.calibration->parameters)
+      for (std::size_t p = 0; p < pipeline::uncertain_count; ++p)
+        if (pipeline::uncertain_parameters()[p].name == learned.name)
+          response.knowledge.mean(static_cast<Eigen::Index>(p)) -= learned.median;
+  response.construction = c.job.dresspacks[c.dresspack_of(c.worst)].dresspack.name;
+  if (c.worst != no_site) response.material = pipeline::material_of(c.job, c.sites.material()[c.worst]).name;
+  fill_response(response, likely_worst(c), read_variations(c.strain, c.sites.size()), c.sites, c.component, c.job, c.threads);
+  response.planned = {log_planned(planned.lives)};
+  if (!c.job.fatigue.load_sharing && std::isfinite(planned.lives[0])) {
+    response.scatter = {-1.5, 0, 1.5};
+    const auto with = [&](double z) {
+      const double factor = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::scatter)].value(z);
+      const Scatter scatter{c.job.fatigue.scatter_log10 * c.job.fatigue.scatter_factor * factor, c.job.fatigue.scatter_shared};
+      return log_planned(first_place_lives(places, conductors.bundle, c.segment_length.size(),
+                                           c.job.fatigue.failed_wires_percent, scatter, 0).lives);
+    };
+    response.planned = {with(response.scatter.front()), response.planned.front(), with(response.scatter.back())};
+  }
+  const pipeline::DrawnLives drawn = pipeline::drawn_lives(response, "");
+  const std::size_t most = pipeline::largest_share(drawn.share);
+  c.life.attribute("life_response", response.text());
+  c.life.attribute("life_shares", pipeline::share_words(drawn.share));
+  c.life.attribute("measure_next", most < pipeline::uncertain_count ? std::string(pipeline::uncertain_parameters()[most].name) : "");
+  c.life.attribute("measure_next_share", drawn.share[most]);
+  return drawn;
+}
+
 /// Judges the planes, where the strain file asks for it, in the place of the equivalent strain; then lets mean stress
 /// relax over each site's life.
 void judge(Context& c) {
@@ -633,13 +693,12 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   c.worst = c.damage.worst_wire();
   c.worst_wall = c.damage.worst_wall();
   const Conductors conductors = loaded_conductors(c);
+  const std::size_t segments = c.segment_length.size();
+  const std::vector<PlacesOfConductor> places =
+      places_of(c.damage, c.component, conductors, segments,
+                [&](std::size_t site) { return static_cast<std::size_t>(c.sites.segment(site)); });
   std::future<LifeScatter> scatter =
-      pipeline::beside<LifeScatter>([&, segments = c.segment_length.size()] {
-        return life_scatter(conductors,
-                            places_of(c.damage, c.component, conductors, segments,
-                                      [&](std::size_t site) { return static_cast<std::size_t>(c.sites.segment(site)); }),
-                            segments, c.job.fatigue);
-      });
+      pipeline::beside<LifeScatter>([&] { return life_scatter(conductors, places, segments, c.job.fatigue); });
   write_bound(c, "stick", pipeline::Slip::stick, [&](double share) { progress((1 + share) / 3); });
   write_bound(c, "free", pipeline::Slip::free, [&](double share) { progress((2 + share) / 3); });
   const auto cycles = c.cycles_of(c.worst);
@@ -649,12 +708,15 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_dresspacks(c);
   write_layers(c);
   const LifeScatter lives = scatter.get();
-  write_scatter(c, conductors, lives);
-  write_first_place(c, conductors, lives.first_place);
+  std::optional<pipeline::DrawnLives> drawn;
+  if (job.uncertainty.enabled) drawn = write_response(c, conductors, places, lives.first_place);
+  const double p10_repeats = drawn ? drawn->percentiles[0] : lives.first_place.lives[0];
+  write_scatter(c, conductors, lives, drawn ? &*drawn : nullptr);
+  write_first_place(c, conductors, lives.first_place, p10_repeats);
   write_shear(c);
   write_program(c, cycles);
   write_causes(c, cycles, write_worst_strain(c));
-  const std::string summary = write_worst(c, cycles, lives.first_place);
+  const std::string summary = write_worst(c, cycles, p10_repeats);
   return {warnings_of(c, cycles), summary + write_hose(c)};
 }
 

@@ -110,4 +110,10 @@ void ClampMeans::attach(BundleNesting& nesting, int part, const SegmentMotion& m
           k == 0 ? motion.strain[construction_.cable_of(line[k])] : of_part(line[k]) + first;
 }
 
+ClampMeans ClampMeans::rubbing(double factor) const {
+  ClampMeans means = *this;
+  for (LayerSlip& slip : means.plan_) slip.cap.constant *= factor, slip.cap.per_mean *= factor;
+  return means;
+}
+
 }  // namespace dresslife::strain

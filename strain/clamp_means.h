@@ -23,6 +23,8 @@ class ClampMeans {
   void next_block();
 
   const std::vector<LayerSlip>& plan() const { return plan_; }
+  /// The same with so many times the friction. Precondition: all samples have been added.
+  ClampMeans rubbing(double factor) const;
   bool needed() const { return !groups_.empty(); }
 
   /// (sample) strain of a part; null when it does not slide from clamp to clamp.

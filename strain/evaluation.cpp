@@ -100,7 +100,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
   for (std::size_t k = 0; k < threads; ++k)
-    workers_.push_back({{construction, scan_}, {}, {}, {construction, means_}});
+    workers_.push_back({{construction, scan_}, {}, {}, {}});
+  add_held(means_);
   for (std::size_t b = 0; b < construction.bundles().size(); ++b) {
     const Bundle& bundle = construction.bundles()[b];
     first_wire_.push_back(wires_.size());
@@ -182,6 +183,21 @@ bool Evaluation::mixed(const ClampMeans& means) const {
                                          [](const LayerSlip& slip) { return slip.friction; });
 }
 
+bool Evaluation::rubs_inside() const {
+  return std::any_of(means_.plan().begin(), means_.plan().end(), [](const LayerSlip& slip) { return slip.friction; });
+}
+
+void Evaluation::add_held(const ClampMeans& means) {
+  for (Worker& worker : workers_) worker.held.push_back(std::make_unique<HeldStrains>(construction_, means));
+}
+
+HeldStrains* Evaluation::held_of(const ClampMeans& means, Worker& worker) const {
+  if (&means == &means_) return worker.held[0].get();
+  for (std::size_t k = 0; k < rubbing_.size(); ++k)
+    if (&means == rubbing_[k].second.get()) return worker.held[1 + k].get();
+  return nullptr;
+}
+
 const DeformationColumns& Evaluation::columns_of(Site site, const ClampMeans& means,
                                                  const SegmentMotion& motion) const {
   return motion.columns(construction_, means.plan(), construction_.bundles()[wires_[site.wire].bundle].part);
@@ -192,7 +208,7 @@ BundleNesting Evaluation::part_nesting(int part, std::size_t segment, const Clam
                                        Worker& worker) const {
   BundleNesting nesting = nesting_to(construction_, means.plan(), part, arcs_[segment], fibres);
   means.attach(nesting, part, motion);
-  if (&means == &means_) worker.held.attach(nesting, part);
+  if (HeldStrains* const held = held_of(means, worker)) held->attach(nesting, part);
   return nesting;
 }
 
@@ -476,7 +492,7 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
                           const Sink& sink) {
   cables_.finish();
   const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
-  for (Worker& worker : workers_) worker.held.begin(arcs_[segment], motion);
+  for (Worker& worker : workers_) worker.held[0]->begin(arcs_[segment], motion);
   const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
     const bool same = bound->means.plan() == means_.plan();
@@ -490,6 +506,20 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   const auto of_all = std::max_element(worst.begin(), worst.end(), [&](const Worst& a, const Worst& b) {
     return wire_range(a) < wire_range(b);
   });
+  likely_.clear();
+  float most = 0;
+  for (const Worst& layer : worst)
+    if (wire_range(layer) >= 0) most = std::max(most, layer.value[Worst::cycles]);
+  constexpr float near = 1e-2f;  // of a sum of sixth powers: a layer that sees less than half as much stays behind
+  for (const Worst& layer : worst) {
+    if (wire_range(layer) < 0 || layer.value[Worst::cycles] < near * most) continue;
+    for (const Worst::By by : {Worst::range, Worst::range_times_tension}) likely_.push_back(layer.site[by]);
+    constexpr std::size_t by_cycles = 2;
+    const auto& list = layer.by_sum.front();
+    for (std::size_t k = 0; k < std::min(by_cycles, list.size()); ++k) likely_.push_back(list[k].second);
+  }
+  std::sort(likely_.begin(), likely_.end());
+  likely_.erase(std::unique(likely_.begin(), likely_.end()), likely_.end());
   if (of_all != worst.end() && wire_range(*of_all) >= 0) {
     to_probe.push_back(of_all->site[Worst::range]);
     if (of_all->value[Worst::range] > worst_range_) {
@@ -561,6 +591,18 @@ std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst
 
 void Evaluation::put_bound(const std::vector<Site>& list, const ClampMeans& means, std::size_t segment,
                            const SegmentMotion& motion, const std::function<void(const SiteRows&)>& sink) {
+  const std::vector<TurningList> turning = turning_of(list, segment, means, motion);
+  SiteRows rows;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const int part = construction_.bundles()[wires_[list[k].wire].bundle].part;
+    append_site(rows, list[k], segment, helix_of(part, segment));
+    append_points(rows, turning[k].points());
+  }
+  sink(rows);
+}
+
+std::vector<TurningList> Evaluation::turning_of(const std::vector<Site>& list, std::size_t segment, const ClampMeans& means,
+                                                const SegmentMotion& motion) {
   std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one nesting for all of a piece
   const auto piece = [&](std::size_t k) { return std::pair(list[k].fibre, wires_[list[k].wire].bundle); };
   for (std::size_t k = 0; k < list.size(); ++k)
@@ -576,13 +618,30 @@ void Evaluation::put_bound(const std::vector<Site>& list, const ClampMeans& mean
                  std::span(turning).subspan(first, count));
     }
   });
-  SiteRows rows;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const int part = construction_.bundles()[wires_[list[k].wire].bundle].part;
-    append_site(rows, list[k], segment, helix_of(part, segment));
-    append_points(rows, turning[k].points());
+  return turning;
+}
+
+std::vector<SiteRows> Evaluation::varied(const std::vector<Site>& sites, const std::vector<double>& factors, std::size_t segment,
+                                         const DeformationHistory& history, std::size_t row) {
+  cables_.finish();
+  const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
+  std::vector<SiteRows> all;
+  for (const double factor : factors) {
+    const ClampMeans& means = means_rubbing(factor);
+    for (Worker& worker : workers_) held_of(means, worker)->begin(arcs_[segment], motion);
+    SiteRows& rows = all.emplace_back();
+    for (const TurningList& turning : turning_of(sites, segment, means, motion)) append_points(rows, turning.points());
   }
-  sink(rows);
+  return all;
+}
+
+const ClampMeans& Evaluation::means_rubbing(double factor) {
+  if (factor == 1) return means_;
+  for (const auto& [known, means] : rubbing_)
+    if (known == factor) return *means;
+  rubbing_.emplace_back(factor, std::make_unique<const ClampMeans>(means_.rubbing(factor)));
+  add_held(*rubbing_.back().second);
+  return *rubbing_.back().second;
 }
 
 }  // namespace dresslife::strain

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +68,13 @@ struct SpanPlace {
 
 class Evaluation {
  public:
+  /// Of one segment.
+  struct Site {
+    std::size_t wire = 0;
+    int fibre = 0;
+    auto operator<=>(const Site&) const = default;
+  };
+
   /// lengths: rest lengths of the segments [m]. threads: share the bundles of a segment; any number gives the
   /// same. Errors: InputError for a probe that names no wire or no segment.
   Evaluation(const Construction& construction, const pipeline::Strain& settings, std::vector<double> lengths,
@@ -85,7 +93,7 @@ class Evaluation {
   /// One line on the site with the largest strain range so far; sites: of the file.
   std::string summary(std::size_t sites) const;
   /// Memory for what friction holds, which grows with the motion.
-  std::size_t held_bytes() const { return workers_.size() * workers_[0].held.bytes(samples_); }
+  std::size_t held_bytes() const { return workers_.size() * workers_[0].held[0]->bytes(samples_); }
   float worst_range() const { return worst_range_; }
 
   /// First pass, in order of time.
@@ -110,15 +118,21 @@ class Evaluation {
   /// order.
   void evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row, const Sink& sink);
 
+  /// Whether friction holds anything inside the cables.
+  bool rubs_inside() const;
+  /// Those that a segment's damage may go by once something is known better. Precondition: it was evaluated last.
+  const std::vector<Site>& likely_worst() const { return likely_; }
+  /// The wires' site rows and turning points, in the order of `sites`, with friction times each of `factors`, (factor). Segments as
+  /// in evaluate(); of an evaluation with other slack, play or grips there is no need to evaluate anything before.
+  std::vector<SiteRows> varied(const std::vector<Site>& sites, const std::vector<double>& factors, std::size_t segment,
+                               const DeformationHistory& history, std::size_t row);
+  /// Row of the file's own sites.
+  std::size_t row_of(std::size_t segment, Site site) const { return site_row(segment, site); }
+
  private:
   struct Wire {  ///< one wire of the construction; sites are segment x wire x fibre
     int bundle, layer, number;
     std::string path;
-  };
-  struct Site {
-    std::size_t wire = 0;
-    int fibre = 0;
-    auto operator<=>(const Site&) const = default;
   };
   /// The sites of one wire layer of the construction, over all its bundles, that see most, by each of several
   /// measures. Which of them lives shortest depends on the material and the mean-stress correction.
@@ -149,7 +163,8 @@ class Evaluation {
     BundleScan scan;
     PartStates parent;
     std::pair<int, int> parent_is;  ///< part and order of the states, in the run at hand; order 0: none yet
-    HeldStrains held;               ///< of the segment being evaluated, for the job's own way of sliding
+    /// Of the segment being evaluated: for the job's own way of sliding, then with other friction.
+    std::vector<std::unique_ptr<HeldStrains>> held;
   };
   /// The sites of one bundle, wire by wire.
   struct BundleSites {
@@ -160,6 +175,12 @@ class Evaluation {
   /// Wires whose strain is put together one by one: of layers with friction, and all when shear counts.
   bool mixed(const ClampMeans& means) const;
   void add_means(const DeformationHistory& block);
+  /// What friction holds under these means; null: nothing.
+  HeldStrains* held_of(const ClampMeans& means, Worker& worker) const;
+  void add_held(const ClampMeans& means);
+  const ClampMeans& means_rubbing(double factor);
+  std::vector<TurningList> turning_of(const std::vector<Site>& list, std::size_t segment, const ClampMeans& means,
+                                      const SegmentMotion& motion);
   const DeformationColumns& columns_of(Site site, const ClampMeans& means, const SegmentMotion& motion) const;
   void find_probes(const std::vector<pipeline::Probe>& probes);
   BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means,
@@ -218,6 +239,8 @@ class Evaluation {
   bool with_planes_;
   ClampMeans means_;
   Bound stick_, free_;
+  std::vector<std::pair<double, std::unique_ptr<const ClampMeans>>> rubbing_;  ///< with so many times the friction
+  std::vector<Site> likely_;
   CablePaths cables_;
   CablePaths::Keeper keeper_;
   std::size_t meant_ = 0;  ///< samples that the means have had

@@ -14,6 +14,7 @@
 #include "strain/history.h"
 #include "strain/slip.h"
 #include "strain/strain_file.h"
+#include "strain/variations.h"
 
 namespace dresslife::strain {
 namespace {
@@ -113,6 +114,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   need.add(listed, "parts and wires", "fewer of them (dresspack.components)");
   if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb())) return need;  // too many to be listed
 
+  // Every other way in which cables lie is kept beside the job's own, each with four frictions.
+  const double laid = 1 + static_cast<double>(placements_at_most(job)), frictions = job.uncertainty.enabled ? 4 : 1;
   double cable_rows = 0, part_rows = 0, found = 0;
   for (const pipeline::MotionSpan& span : spans) {
     if (span.dresspack >= job.dresspacks.size()) continue;
@@ -123,11 +126,11 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
     const double in_span = static_cast<double>(span.segments);
     // Strain and force of each cable; strain and pressing along one that rubs, curvature along a loose one
     // (cable_paths.h).
-    cable_rows += 2 * counts.cables + in_span * (1.5 * counts.rubbing + counts.loose);
-    part_rows = std::max(part_rows, counts.clamp_rows);
+    cable_rows += laid * (2 * counts.cables + in_span * (1.5 * counts.rubbing + counts.loose));
+    part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
     // A thread's states of a part and of its parent, and what friction holds of every level.
     constexpr double states = 4, in_single = 3, turned = 1 + phases_per_pitch;
-    found = std::max(found, workers * (2 * states * (counts.depth + 1) + in_single + counts.depth * turned));
+    found = std::max(found, workers * (2 * states * (counts.depth + 1) + in_single + laid * frictions * counts.depth * turned));
     // Bundles that wait to be written: every site's turning points, in lists and in rows (evaluation.cpp).
     constexpr double turns_of_samples = 0.25, point = 16;
     const double ahead = threads == 1 ? 1 : std::min(counts.bundles, 2 * workers);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
+#include <list>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -13,6 +14,8 @@
 #include "pipeline/job/overlap.h"
 #include "strain/cable_bending.h"
 #include "strain/evaluation.h"
+#include "strain/variations.h"
+#include "pipeline/threads.h"
 
 namespace dresslife::strain {
 namespace {
@@ -200,6 +203,26 @@ class SiteWriter {
   std::vector<std::uint64_t> offsets_;
 };
 
+/// Appends what variations make of likely worst wires.
+class VariationWriter {
+ public:
+  VariationWriter(FileWriter& file, const std::vector<Variations::Point>& points) : file_(file) {
+    std::vector<double> z;
+    for (const Variations::Point& point : points) z.insert(z.end(), point.begin(), point.end());
+    if (!z.empty()) file.append("/variation/z", z);
+  }
+
+  void append(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
+    file_.append("/variation/row/variation", std::vector<std::uint32_t>(sites.size(), static_cast<std::uint32_t>(variation)));
+    file_.append("/variation/row/site", std::vector<std::uint32_t>(sites.begin(), sites.end()));
+    file_.append("/variation/row/turning", std::vector<std::uint32_t>(rows.turning.begin(), rows.turning.end()));
+    file_.append("/variation/strain", rows.strain);
+  }
+
+ private:
+  FileWriter& file_;
+};
+
 void copy_program(const FileReader& motion, FileWriter& strain) {
   strain.append("/time", motion.read<double>("/time"));
   strain.append("/segment/length", motion.read<double>("/segment/length"));
@@ -278,9 +301,10 @@ struct Evaluations {
   std::vector<std::unique_ptr<Evaluation>> of_span;  // refer to them
   int levels = 0;                                    // of the deepest wire
 
-  Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads) {
+  Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads,
+              const pipeline::StrainFactors& factors) {
     for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
-      constructions.emplace_back(mounted.dresspack, job.strain.kinematics, job.strain.factors);
+      constructions.emplace_back(mounted.dresspack, job.strain.kinematics, factors);
       levels = std::max(levels, constructions.back().levels());
     }
     const std::vector<pipeline::MotionSpan>& spans = reader.spans();
@@ -417,8 +441,12 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
-  const Evaluations all(job, reader, threads);
+  const Evaluations all(job, reader, threads, job.strain.factors);
   const auto& evaluations = all.of_span;
+  std::list<Evaluations> otherwise_laid;
+  const Variations variations(job, evaluations, [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
+    return otherwise_laid.emplace_back(job, reader, threads, factors).of_span;
+  });
   strain.set_axis("segment", segments);
   strain.set_axis("level", all.levels);
   strain.set_axis("sample", samples);
@@ -451,7 +479,12 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
         const auto own = block.pull.subspan((t * segments + begin) * 2, size * 2);
         pull.insert(pull.end(), own.begin(), own.end());
       }
-      use(*evaluations[k], SpanBlock{of_span, pull, reader.step()});
+      const SpanBlock span_block{of_span, pull, reader.step()};
+      std::vector<Evaluation*> together = variations.placed(k);
+      together.insert(together.begin(), evaluations[k].get());
+      pipeline::in_parallel(threads, [&](std::size_t part) {
+        for (std::size_t e = part; e < together.size(); e += threads) use(*together[e], span_block);
+      });
     }
   };
   const auto any = [&](auto does) { return std::any_of(evaluations.begin(), evaluations.end(), does); };
@@ -463,7 +496,10 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
              static_cast<double>(samples));
   });
-  for (const auto& evaluation : evaluations) evaluation->end_first_pass();
+  for (std::size_t k = 0; k < evaluations.size(); ++k) {
+    evaluations[k]->end_first_pass();
+    for (Evaluation* const placed : variations.placed(k)) placed->end_first_pass();
+  }
   if (any([](const auto& evaluation) { return evaluation->wants_again(); }))
     reader.run(false, [&](const MotionBlock& block) {
       each_span(block, [](Evaluation& evaluation, const SpanBlock& of_span) {
@@ -487,6 +523,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     strain.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
     strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
   };
+  VariationWriter varied(strain, variations.points());
   std::size_t span = 0, segment = 0;
   sink.progress = [&](double) {
     const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);
@@ -498,7 +535,12 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     const std::size_t row = segment % per_pass;
     if (row == 0 && segment > 0)
       reader.run(false, [&](const MotionBlock& block) { keep(segment, block.first, block.deformation); });
-    evaluations[span]->evaluate(segment - reader.spans()[span].first_segment, history, row, sink);
+    const std::size_t in_span = segment - reader.spans()[span].first_segment;
+    evaluations[span]->evaluate(in_span, history, row, sink);
+    variations.evaluate(span, in_span, history, row,
+                        [&](std::size_t variation, const std::vector<std::size_t>& of, const SiteRows& rows) {
+                          varied.append(variation, of, rows);
+                        });
   }
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),

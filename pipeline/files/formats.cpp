@@ -307,6 +307,16 @@ Format make_strain_format() {
       {"/plane/strain", Type::f32, {"plane", "sample"}, "1", "strain along their fibre", false, true});
   format.datasets.push_back(
       {"/plane/shear", Type::f32, {"plane", "sample"}, "1", "their shear strain gamma", false, true});
+  const auto varied = [&](const char* path, Type type, std::vector<std::string> shape, const char* meaning) {
+    format.datasets.push_back({path, type, std::move(shape), "1", meaning, false, true});
+  };
+  varied("/variation/z", Type::f64, {"variation", "5"},
+         "further ways in which the strains of likely worst wires were worked out: the standardised variables of "
+         "friction_inside, friction_hose, slack, play and grip (pipeline/job/uncertainty.h); only where uncertainty is enabled");
+  varied("/variation/row/variation", Type::u32, {"variation_row"}, "variation of a row: one wire, so varied");
+  varied("/variation/row/site", Type::u32, {"variation_row"}, "its site");
+  varied("/variation/row/turning", Type::u32, {"variation_row"}, "how many turning points it has: they follow each other, row by row");
+  varied("/variation/strain", Type::f32, {"variation_turn"}, "strain at its turning points");
   return format;
 }
 
@@ -507,10 +517,17 @@ Format make_life_format() {
        true, true},
       {"life_hours_p10",
        "the planner's: by then 10 % of such dresspacks have a conductor that has lost fatigue.failed_wires_percent of its "
-       "wires in one segment. In files without first_wire_life_hours_p10 these three tell of the first broken wire",
+       "wires in one segment, over all that is not known (section uncertainty) and the scatter of wires. In files without first_wire_life_hours_p10 these three tell of the first broken wire",
        false, true},
       {"life_hours_p50", "the same of half of them", false, true},
       {"life_hours_p90", "the same of 90 %", false, true},
+      {"scatter_life_hours_p10", "the same over the scatter of wires alone; only where uncertainty is enabled", false, true},
+      {"scatter_life_hours_p50", "the same of half of them", false, true},
+      {"scatter_life_hours_p90", "the same of 90 %", false, true},
+      {"life_response", "how the life answers to what is not known, as pipeline/job/life_response.h writes it", true, true},
+      {"life_shares", "which parameters explain how much of the variance of log life, largest first", true, true},
+      {"measure_next", "the parameter that explains most; empty: the scatter of wires does", true, true},
+      {"measure_next_share", "how much, 0 to 1", false, true},
       {"life_months_p10", "the first of them at the job's operating hours per week", false, true},
       {"failing_conductor", "where a share of wires breaks soonest by their medians: path of the conductor", true, true},
       {"failing_position_from_tool", "and its distance from the tool clamp along the dresspack, m", false, true},

@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>

@@ -111,6 +111,15 @@ std::string number_cell(double value, const std::string& words) {
   return fmt::format("<td class=\"number\"{}>{}</td>", sorted_by(value), words);
 }
 
+/// Where half and 90 % lie, and how sure the job's place is, below its life.
+std::string certainty_cell(const RankingRow& row) {
+  if (std::isnan(row.scatter_hours[0])) return "";
+  std::string text = fmt::format("<br><span class=\"soft\">p50 {}<br>p90 {}", life_cell(row.planned_hours[1]),
+                                 life_cell(row.planned_hours[2]));
+  if (row.outlives_next) text += fmt::format("<br>outlives the next in {:.0f} % of draws", 100 * *row.outlives_next);
+  return text + "</span>";
+}
+
 std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -140,7 +149,7 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
     const auto count = static_cast<double>(warnings_of(row).size());
     text += fmt::format("{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
                         number_cell(static_cast<double>(i + 1), std::to_string(i + 1)), name,
-                        number_cell(row.headline_hours(), "<b>" + life_cell(row.headline_hours()) + "</b>"),
+                        number_cell(row.headline_hours(), "<b>" + life_cell(row.headline_hours()) + "</b>" + certainty_cell(row)),
                         number_cell(bounds.first, life_cell(bounds.first) + " .. " + life_cell(bounds.second)),
                         number_cell(row.first_wire_hours[0], first_break_cell(row)),
                         number_cell(row.headline_months(), calendar_cell(row.headline_months())), where, moved,
@@ -412,6 +421,12 @@ std::string facts(const RankingRow& row) {
                          "worst wire",
                          row.planned() ? "" : "<b>", printed(row.life_hours), row.planned() ? "" : "</b>",
                          printed(row.life_repeats), row.repeat_seconds, calendar_words(row.life_months)));
+  if (!std::isnan(row.scatter_hours[0]))
+    fact("by the scatter of wires alone", fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, all else as the job has it",
+                                                      hours_words(row.scatter_hours[0]), hours_words(row.scatter_hours[1]),
+                                                      hours_words(row.scatter_hours[2])));
+  if (!row.life_shares.empty()) fact("its spread comes from", escaped(row.life_shares));
+  if (const std::string certainty = certainty_words(row); !certainty.empty()) fact("how sure", escaped(certainty));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
   fact("bounds",
        fmt::format("{} (inside of the cables stuck) .. {} (free)",

@@ -148,13 +148,15 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
 ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   ValidationStudy made;
   made.study.name = "validate_" + file.stem().string();
+  std::vector<std::string> all_sets{"uncertainty.enabled=false"};  // the model's own, by the scatter of wires
+  all_sets.insert(all_sets.end(), sets.begin(), sets.end());
   for (ObservedTest& test : read_observed_tests(file)) {
     Observation& observation = test.observation;
     if (!observation.is_life()) continue;
     for (ObservedTest::Variant& variant : test.variants) {
       StudyJob job{variant.name, nullptr, variant.failure};
       try {
-        if (job.failure.empty()) job.job = std::make_shared<const Job>(job_from(std::move(variant.job), sets));
+        if (job.failure.empty()) job.job = std::make_shared<const Job>(job_from(std::move(variant.job), all_sets));
       } catch (const InputError& problem) {
         job.failure = problem.what();
       }
@@ -170,7 +172,7 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
 
 std::array<double, 3> lives_of(const Observation& observation, const RankingRow& row) {
   const auto& hours = observation.criterion == FailureCriterion::first_wire ? row.first_wire_hours
-                      : row.planned()                                       ? row.planned_hours
+                      : row.planned()                                       ? row.by_scatter()
                                                                             : row.conductor_hours;
   const double unit = observation.hours ? 1 : 3600 / row.repeat_seconds * observation.cycles_per_repeat;
   std::array<double, 3> lives;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "pipeline/files/files.h"
+#include "pipeline/job/life_response.h"
 #include "pipeline/job/units.h"
 #include "pipeline/limits.h"
 #include "pipeline/readable.h"
@@ -65,6 +66,13 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
   }
   if (!plans) return;
   read("life_months_p10", row.planned_months);
+  for (std::size_t i = 0; i < ends.size(); ++i) read(fmt::format("scatter_life_hours_{}", ends[i]), row.scatter_hours[i]);
+  if (file.has_attribute("life_response")) {
+    row.life_response = file.text_attribute("life_response");
+    row.life_shares = file.text_attribute("life_shares");
+    row.measure_next = file.text_attribute("measure_next");
+    row.measure_next_share = file.number_attribute("measure_next_share");
+  }
   row.failing_conductor = file.text_attribute("failing_conductor");
   row.failing_position_from_tool = file.number_attribute("failing_position_from_tool");
 }
@@ -133,6 +141,29 @@ RankingRow read_row(const JobResult& result) {
     row.failure = problem.what();
   }
   return row;
+}
+
+/// How sure the order of neighbours is: what their jobs share is drawn once for both. Draws get fewer the more jobs there are, and
+/// beyond `most` jobs nobody reads the order of two of them.
+void tell_orders(std::vector<RankingRow>& rows) {
+  constexpr std::size_t most = 1000, draws_in_all = 2'000'000;
+  if (rows.size() < 2 || rows.size() > most) return;
+  const std::size_t draws = std::min(life_draws, draws_in_all / rows.size());
+  std::vector<double> before;  // log10 hours (draw)
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::vector<double> lives;
+    if (rows[k].done() && !rows[k].life_response.empty()) {
+      try {
+        lives = draw_lives(LifeResponse::from_text(rows[k].life_response), rows[k].job, draws);
+      } catch (const std::invalid_argument& problem) {
+        rows[k].failure = fmt::format("{}: attribute 'life_response' is no response ({}); make the file anew with dresslife-fatigue",
+                                      rows[k].life_file.string(), problem.what());
+      }
+      for (double& life : lives) life += std::log10(rows[k].repeat_seconds / 3600);
+    }
+    if (!before.empty() && !lives.empty()) rows[k - 1].outlives_next = share_outliving(before, lives);
+    before = std::move(lives);
+  }
 }
 
 bool better(const RankingRow& one, const RankingRow& other) {
@@ -246,6 +277,7 @@ std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
   rows.reserve(results.size());
   for (const JobResult& result : results) rows.push_back(read_row(result));
   std::stable_sort(rows.begin(), rows.end(), better);
+  tell_orders(rows);
   return rows;
 }
 
@@ -261,6 +293,17 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
     results.push_back(std::move(result));
   }
   return read_ranking(results);
+}
+
+std::string certainty_words(const RankingRow& row) {
+  std::vector<std::string> parts;
+  if (row.outlives_next) parts.push_back(fmt::format("outlives the next in {:.0f} % of draws", 100 * *row.outlives_next));
+  if (!row.measure_next.empty() && row.measure_next_share > 0)
+    for (const UncertainParameter& parameter : uncertain_parameters())
+      if (parameter.name == row.measure_next)
+        parts.push_back(fmt::format("{:.0f} % of its spread by {}; measure next: {}", 100 * row.measure_next_share,
+                                    parameter.name, parameter.measure));
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string joint_words(const RankingRow& row) {
@@ -289,12 +332,13 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "clamp_moment_share,force_ok,life_hours_mean_stress_kept,life_hours_without_mean_stress,"
       "life_months_p10,life_hours_p10_all_stick,life_hours_p10_all_free,first_wire_life_hours_p10,"
       "first_wire_life_hours_p50,first_wire_life_hours_p90,failing_conductor,failing_position_from_tool_m,"
-      "rated_cycles_per_hour,relative_life_hours,rated_cable" +
+      "rated_cycles_per_hour,relative_life_hours,rated_cable,scatter_life_hours_p10,scatter_life_hours_p50,"
+      "scatter_life_hours_p90,outlives_next,life_shares,measure_next,measure_next_share" +
       fmt::format(",{}\n", fmt::join(warning_columns(), ","));
   for (const RankingRow& row : rows) {
     if (!row.done()) {
       const bool waits = row.failure == "stale" || row.failure == "to do";
-      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,,,,,,,,,,,,,,{}\n", csv_cell(row.job),
+      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,,,,,,,,,,,,,,,,,,,,,{}\n", csv_cell(row.job),
                           waits ? row.failure : "failed", csv_cell(row.failure), row.settings,
                           std::string(warning_columns().size(), ','));
       continue;
@@ -338,6 +382,11 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     cells.push_back(row.relative ? shortest_text(row.relative->cycles_per_hour) : "");
     cells.push_back(row.relative ? shortest_text(row.relative->hours()) : "");
     cells.push_back(row.relative ? row.relative->cable : "");
+    for (const double life : row.scatter_hours) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
+    cells.push_back(row.outlives_next ? shortest_text(*row.outlives_next) : "");
+    cells.push_back(row.life_shares);
+    cells.push_back(row.measure_next);
+    cells.push_back(row.measure_next.empty() ? "" : shortest_text(row.measure_next_share));
     for (const std::string& cell : warning_cells(row)) cells.push_back(cell);
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
@@ -389,6 +438,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     if (!third.empty()) text += indent + shortened(third, width - indent.size()) + '\n';
     if (row.done() && row.relative)
       text += indent + shortened(one_line(relative_words(*row.relative)), width - indent.size()) + '\n';
+    const std::string certainty = row.done() ? certainty_words(row) : "";
+    if (!certainty.empty()) text += indent + shortened(certainty, width - indent.size()) + '\n';
   }
   return text + selected.summary;
 }

@@ -65,6 +65,13 @@ struct RankingRow {
   std::array<double, 3> first_wire_hours{unknown, unknown, unknown};
   /// The planner's: by then 10, 50, 90 % have a conductor that has lost its share of wires at one place.
   std::array<double, 3> planned_hours{unknown, unknown, unknown};
+  /// The same over the scatter of wires alone; NaN: nothing else was uncertain.
+  std::array<double, 3> scatter_hours{unknown, unknown, unknown};
+  std::string life_response;         ///< how its life hangs on what is not known (life_response.h); empty: not told
+  std::string life_shares;           ///< which parameters explain its spread: "friction_inside 53 %; strength 29 %"
+  std::string measure_next;          ///< the parameter that explains most; empty: none but the scatter of wires
+  double measure_next_share = 0;
+  std::optional<double> outlives_next;  ///< share of draws in which it lives longer than the next row's job
   double planned_months = unknown;   ///< of the first of them, by the calendar
   std::string failing_conductor;     ///< where that is likeliest; empty: unknown or nowhere
   double failing_position_from_tool = 0;  ///< [m]
@@ -90,14 +97,17 @@ struct RankingRow {
   }
   double hours_of(double repeats) const { return repeats * repeat_seconds / 3600; }
   bool planned() const { return !std::isnan(planned_hours[0]); }
+  /// The planner's lives with all but the wires' scatter as the job has it.
+  const std::array<double, 3>& by_scatter() const { return std::isnan(scatter_hours[0]) ? planned_hours : scatter_hours; }
   /// What jobs are ranked by: the planner's life in 10 % of dresspacks; of older files the worst wire's.
   double headline_hours() const { return planned() ? planned_hours[0] : life_hours; }
   double headline_months() const { return planned() ? planned_months : life_months; }
   double headline_repeats() const { return planned() ? planned_hours[0] * 3600 / repeat_seconds : life_repeats; }
   /// The same had the worst wire lived so many repeats: a bound, by the ratio of the worst wires' lives.
   double headline_hours_of(double repeats) const {
-    const bool comparable = planned() && std::isfinite(life_repeats) && std::isfinite(planned_hours[0]);
-    return comparable ? planned_hours[0] * (repeats / life_repeats) : hours_of(repeats);
+    const double planner = by_scatter()[0];
+    const bool comparable = planned() && std::isfinite(life_repeats) && std::isfinite(planner);
+    return comparable ? planner * (repeats / life_repeats) : hours_of(repeats);
   }
 };
 
@@ -123,6 +133,9 @@ std::string relative_words(const RelativeLife& relative);
 
 /// What the worst joint's motion costs, in words: "41 % by joint_6", "all by joint_4, which others relieve".
 std::string joint_words(const RankingRow& row);
+
+/// "outlives the next in 93 % of draws; friction_inside makes 53 % of its spread: measure ..."; empty where nothing is uncertain.
+std::string certainty_words(const RankingRow& row);
 
 /// "cables pull with 0.34 of what tears them, ..." where forces are not believable; else nothing.
 std::string force_words(const RankingRow& row);

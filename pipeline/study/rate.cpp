@@ -34,7 +34,9 @@ std::string fit_for_a_folder(std::string text) {
 
 class Maker {
  public:
-  Maker(const fs::path& file, const std::vector<std::string>& sets) : file_(file), sets_(sets) {}
+  Maker(const fs::path& file, const std::vector<std::string>& sets) : file_(file), sets_{"uncertainty.enabled=false"} {
+    sets_.insert(sets_.end(), sets.begin(), sets.end());  // a rating stands beside the model's own, by the scatter of wires
+  }
 
   RateStudy make(const fs::path& rigs) {
     made_.study.name = "rate_" + fit_for_a_folder(file_.stem().string());
@@ -154,7 +156,7 @@ RateStudy rate_study(const fs::path& file, const fs::path& rigs, const std::vect
 
 CycleLives cycles_of(const RankingRow& row) {
   CycleLives lives{row.life_repeats, row.life_repeats_all_stick, row.life_repeats_all_free, {}};
-  for (std::size_t i = 0; i < 3; ++i) lives.conductor[i] = (row.planned() ? row.planned_hours : row.conductor_hours)[i] * 3600 / row.repeat_seconds;
+  for (std::size_t i = 0; i < 3; ++i) lives.conductor[i] = (row.planned() ? row.by_scatter() : row.conductor_hours)[i] * 3600 / row.repeat_seconds;
   return lives;
 }
 

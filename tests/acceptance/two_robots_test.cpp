@@ -104,9 +104,9 @@ TEST_CASE("the life of robot 1 is converged in segments and time step") {
   const fs::path study =
       scratch.write("convergence.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml
 jobs:
-  shipped: {motion: spot_robot_1}
-  twice_the_segments: {motion: spot_robot_1, simulation.segments: 128}
-  half_the_step: {motion: spot_robot_1, simulation.time_step_ms: 2.5}
+  shipped: {motion: spot_robot_1, uncertainty.enabled: false}
+  twice_the_segments: {motion: spot_robot_1, simulation.segments: 128, uncertainty.enabled: false}
+  half_the_step: {motion: spot_robot_1, simulation.time_step_ms: 2.5, uncertainty.enabled: false}
 )");
   auto rows = run_study(scratch, study.string(), "convergence");
   const double shipped = rows["shipped"].repeats;

@@ -14,6 +14,7 @@
 #include "fatigue/scatter.h"
 #include "fatigue/verdict.h"
 #include "pipeline/job/job.h"
+#include "pipeline/job/life_response.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;
@@ -133,6 +134,7 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
 
 pipeline::Job test_job() {
   pipeline::Job job;
+  job.uncertainty.enabled = false;  // but where a test asks for it
   auto cu = copper(), al = aluminium();
   cu.name = "copper";
   al.name = "aluminium";
@@ -725,4 +727,46 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
     const bool all_same = shared.damage == alone.damage && shared.range == alone.range;
     CHECK(all_same);
   }
+}
+
+TEST_CASE("uncertainty: the planner's lives widen about those of the scatter, which stay as they were") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  job.uncertainty.enabled = false;
+  const FileReader without(run(folder, example(), job, "without.h5").file, pipeline::life_format());
+  job.uncertainty.enabled = true;
+  const FileReader with(run(folder, example(), job, "with.h5").file, pipeline::life_format());
+  CHECK_FALSE(without.has_attribute("scatter_life_hours_p10"));
+  CHECK_FALSE(without.has_attribute("life_response"));
+  for (const std::string end : {"p10", "p50", "p90"})
+    CHECK(with.number_attribute("scatter_life_hours_" + end) == without.number_attribute("life_hours_" + end));
+  CHECK(with.number_attribute("life_hours_p10") < without.number_attribute("life_hours_p10"));
+  CHECK(with.number_attribute("life_hours_p90") > without.number_attribute("life_hours_p90"));
+  CHECK(with.number_attribute("life_hours") == without.number_attribute("life_hours"));
+  CHECK(with.read<double>("/damage") == without.read<double>("/damage"));
+  CHECK(with.text_attribute("measure_next") == "model");  // at these strains the slope of life is nearly that of (8)'s ductile part
+}
+
+TEST_CASE("uncertainty: the response is what the stage tells with the keys that it stands for") {
+  const Folder folder;
+  pipeline::Job job = test_job();
+  job.uncertainty.enabled = true;
+  const FileReader told(run(folder, example(), job).file, pipeline::life_format());
+  const auto response = pipeline::LifeResponse::from_text(told.text_attribute("life_response"));
+  const double life = told.number_attribute("life_repeats");
+  for (const double strength : response.strength)
+    for (const double slope : response.slope) {
+      pipeline::ParameterPoint z{};
+      z[index_of(pipeline::Uncertain::strength)] = strength, z[index_of(pipeline::Uncertain::slope)] = slope;
+      pipeline::Job moved = test_job();
+      moved.fatigue.strength_factor = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::strength)].value(strength);
+      moved.fatigue.slope_change = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::slope)].value(slope);
+      const FileReader again(run(folder, example(), moved, "moved.h5").file, pipeline::life_format());
+      constexpr double digits = 1e-5;  // of the text, in decades
+      CHECK(response.change(z) == Approx(std::log10(again.number_attribute("life_repeats") / life)).margin(digits));
+    }
+  pipeline::Job lasting = test_job();
+  lasting.fatigue.model_factor = 3;
+  const FileReader longer(run(folder, example(), lasting, "longer.h5").file, pipeline::life_format());
+  CHECK(longer.number_attribute("life_repeats") == Approx(3 * life).epsilon(1e-4));
 }

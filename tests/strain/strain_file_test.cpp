@@ -229,3 +229,54 @@ TEST_CASE("a motion without samples or a dresspack without wires is refused in w
              Catch::Contains("without components"));
   CHECK(scratch.entries() == 1);  // nothing left of the output
 }
+
+TEST_CASE("variations hold the strains that the same job has with the keys that they stand for") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  std::string text = pipeline::sample_job;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("material: copper}", "material: copper, friction_coefficient: 0.3, radial_line_load_N_per_m: 60}");
+  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 1\n");
+  replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  replace("slip: [stick, free]", "slip: [free, friction]");
+  const auto job = [&](std::vector<std::string> sets) {
+    return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), std::move(sets));
+  };
+  evaluate(scratch / "motion.h5", scratch / "all.h5", job({"uncertainty.enabled=true"}));
+  evaluate(scratch / "motion.h5", scratch / "threads.h5", job({"uncertainty.enabled=true"}), strain::default_history_bytes, 3);
+  const FileReader all(scratch / "all.h5", pipeline::strain_format());
+  const auto z = all.read<double>("/variation/z");
+  const auto variation = all.read<std::uint32_t>("/variation/row/variation"), site = all.read<std::uint32_t>("/variation/row/site"),
+             turning = all.read<std::uint32_t>("/variation/row/turning");
+  const auto strain = all.read<float>("/variation/strain");
+  CHECK(FileReader(scratch / "threads.h5", pipeline::strain_format()).read<float>("/variation/strain") == strain);
+  REQUIRE(z.size() == 15 * 5);  // friction and slack crossed
+  for (std::size_t v = 0; v < 15; ++v) {
+    std::array<double, pipeline::uncertain_count> at{};
+    std::copy_n(z.begin() + v * 5, 5, at.begin());
+    std::vector<std::string> sets = pipeline::sets_at(at);
+    REQUIRE(!sets.empty());
+    INFO(sets.front() << (sets.size() > 1 ? sets.back() : ""));
+    sets.push_back("uncertainty.enabled=false");
+    evaluate(scratch / "motion.h5", scratch / "one.h5", job(sets));
+    const FileReader one(scratch / "one.h5", pipeline::strain_format());
+    CHECK_FALSE(one.has("/variation/z"));
+    const auto offset = one.read<std::uint64_t>("/reversal/offset");
+    const auto own = one.read<float>("/reversal/strain");
+    std::size_t next = 0, compared = 0;
+    double worst = 0;
+    for (std::size_t row = 0; row < site.size(); next += turning[row++]) {
+      if (variation[row] != v) continue;
+      const auto [low, high] = std::minmax_element(strain.begin() + next, strain.begin() + next + turning[row]);
+      const auto [own_low, own_high] = std::minmax_element(own.begin() + offset[site[row]], own.begin() + offset[site[row] + 1]);
+      worst = std::max<double>({worst, std::abs(*low - *own_low) / (*own_high - *own_low), std::abs(*high - *own_high) / (*own_high - *own_low)});
+      ++compared;
+    }
+    CHECK(compared >= segments);
+    constexpr double third_harmonic = 1e-3;  // that the waves of a layer (W13) leave out, of the strain's range
+    CHECK(worst < third_harmonic);
+  }
+}

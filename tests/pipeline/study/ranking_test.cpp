@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "pipeline/job/life_response.h"
 #include "pipeline/readable.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
@@ -264,6 +265,43 @@ TEST_CASE("ranking: jobs are ranked and told by the life that 10 % do not reach,
   const std::string text = ranking_table(rows);
   CHECK(text.find("p10 life [h]") != std::string::npos);
   CHECK(text.find("p50 90.0, p90 150 h; first wire after 15.0 .. 37.5 h") != std::string::npos);
+}
+
+/// Of a job whose lives all are one power of ten [repeats], known as badly as any.
+std::string response_of(double log10_life) {
+  LifeResponse response;
+  response.knowledge = prior_of({});
+  response.worst_life = {log10_life};
+  response.planned = {{log10_life, log10_life, log10_life}};
+  return response.text();
+}
+
+TEST_CASE("ranking: how sure an order is, what makes a life uncertain, and what to measure next") {
+  const Scratch scratch;
+  SampleLife longer = living(20000), shorter = living(10000), certain = living(5000);
+  longer.planned_hours = 60, shorter.planned_hours = 50, certain.planned_hours = 40;
+  longer.life_response = response_of(4.5), shorter.life_response = response_of(4);
+  auto rows = read_ranking({job_with(scratch, "shorter", shorter), job_with(scratch, "longer", longer),
+                            job_with(scratch, "certain", certain)});
+  REQUIRE(names(rows) == std::vector<std::string>{"longer", "shorter", "certain"});
+  CHECK(rows[0].outlives_next == 1);  // they share all that is not known here
+  CHECK_FALSE(rows[1].outlives_next);
+  CHECK(rows[0].scatter_hours[1] == Approx(150));
+  CHECK(rows[0].headline_hours() == 60);
+  CHECK(rows[0].headline_hours_of(rows[0].life_repeats / 4) == Approx(30));  // a bound: what is not known left out
+  const std::string table = ranking_table(rows);
+  CHECK(table.find("outlives the next in 100 % of draws; 53 % of its spread by friction_inside; measure next: a cable's") !=
+        std::string::npos);
+  const auto csv = read_csv(ranking_csv(rows));
+  CHECK(csv[0].size() == csv[1].size());
+  const auto column = std::find(csv[0].begin(), csv[0].end(), "measure_next_share");
+  REQUIRE(column != csv[0].end());
+  const auto at = static_cast<std::size_t>(column - csv[0].begin());
+  CHECK(csv[1][at] == "0.53");
+  CHECK(csv[3][at].empty());
+  shorter.life_response = "point 1";
+  rows = read_ranking({job_with(scratch, "shorter", shorter), job_with(scratch, "longer", longer)});
+  CHECK(rows[1].failure.find("'life_response' is no response") != std::string::npos);
 }
 
 TEST_CASE("ranking: a joint that costs more than the whole is told in words") {

@@ -1,0 +1,121 @@
+#include "strain/variations.h"
+
+#include <algorithm>
+
+namespace dresslife::strain {
+namespace {
+
+using pipeline::Uncertain;
+
+// Where there is little slack cables come to pull, and lives fall by decades from one tenth of a per cent to the next.
+constexpr double low_slack = -2.25;
+
+bool any_component(const pipeline::Job& job, const std::function<bool(const pipeline::Component&)>& holds) {
+  return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [&](const pipeline::MountedDresspack& mounted) {
+    return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(), holds);
+  });
+}
+
+bool has_slack(const pipeline::Component& part) { return part.laying.slack > 0; }
+bool has_grip(const pipeline::Component& part) { return part.laying.base_grip || part.laying.tool_grip; }
+bool rubs_on_hose(const pipeline::Component& part) { return !part.components.empty() && part.friction.value_or(0) > 0; }
+
+constexpr std::size_t slack_nodes = 3, other_nodes = 2;
+
+/// Whether moving a parameter but friction inside moves any strain.
+bool matters(const pipeline::Job& job, const Variations::Spans& spans, Uncertain parameter) {
+  const auto any = [&](auto does) { return std::any_of(spans.begin(), spans.end(), does); };
+  if (!any([](const auto& evaluation) { return evaluation->any_cables(); })) return false;
+  if (parameter == Uncertain::slack) return any_component(job, has_slack);
+  if (parameter == Uncertain::grip) return any_component(job, has_grip);
+  return rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose);
+}
+
+/// The factor of a strain parameter at z, on top of the job's own.
+pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain parameter, double z) {
+  const double by = pipeline::uncertain_parameters()[index_of(parameter)].value(z);
+  switch (parameter) {
+    case Uncertain::friction_hose:
+      factors.hose_friction *= by;
+      break;
+    case Uncertain::slack:
+      factors.slack *= by;
+      break;
+    case Uncertain::play:
+      factors.play *= by;
+      break;
+    case Uncertain::grip:
+      factors.grip *= by;
+      break;
+    case Uncertain::friction_inside:
+    case Uncertain::strength:
+    case Uncertain::slope:
+    case Uncertain::scatter:
+    case Uncertain::model:
+      break;  // moves nothing of where cables lie
+  }
+  return factors;
+}
+
+}  // namespace
+
+std::size_t placements_at_most(const pipeline::Job& job) {
+  if (!job.uncertainty.enabled) return 0;
+  return (any_component(job, has_slack) ? slack_nodes : 0) +
+         (any_component(job, has_grip) ? other_nodes : 0) +
+         (rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose) ? other_nodes : 0);
+}
+
+Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Build& build) : as_told_(as_told) {
+  if (!job.uncertainty.enabled) return;
+  const bool rubs_inside =
+      std::any_of(as_told.begin(), as_told.end(), [](const auto& evaluation) { return evaluation->rubs_inside(); });
+  std::vector<double> around, all{0};  // z of friction inside
+  // Where rubbing is little, lives bend away toward those without damage.
+  if (rubs_inside) around = {-reach, -reach / 2, reach}, all = {0, -reach, -reach / 2, reach};
+  if (!around.empty()) add(as_told, {}, around);
+  const auto lay = [&](Uncertain parameter, const auto& nodes, const std::vector<double>& friction) {
+    if (!matters(job, as_told, parameter)) return;
+    for (const double z : nodes) {
+      Point point{};
+      point[index_of(parameter)] = z;
+      add(build(moved(job.strain.factors, parameter, z)), point, friction);
+    }
+  };
+  lay(Uncertain::slack, std::array<double, slack_nodes>{low_slack, -1.25, reach}, all);
+  lay(Uncertain::friction_hose, std::array<double, other_nodes>{-reach, reach}, {0});
+  lay(Uncertain::grip, std::array<double, other_nodes>{-reach, reach}, {0});
+}
+
+void Variations::add(const Spans& spans, Point z, const std::vector<double>& friction) {
+  Placement placement{&spans, {}, {}};
+  const std::size_t inside = index_of(Uncertain::friction_inside);
+  for (const double of_friction : friction) {
+    placement.factors.push_back(pipeline::uncertain_parameters()[inside].value(of_friction));
+    placement.variation.push_back(points_.size());
+    z[inside] = of_friction;
+    points_.push_back(z);
+  }
+  placements_.push_back(std::move(placement));
+}
+
+std::vector<Evaluation*> Variations::placed(std::size_t span) const {
+  std::vector<Evaluation*> all;
+  for (const Placement& placement : placements_)
+    if (placement.spans != &as_told_) all.push_back((*placement.spans)[span].get());
+  return all;
+}
+
+void Variations::evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history, std::size_t row,
+                          const Put& put) const {
+  const std::vector<Evaluation::Site>& likely = as_told_[span]->likely_worst();
+  if (likely.empty()) return;
+  std::vector<std::size_t> sites;
+  for (const Evaluation::Site site : likely) sites.push_back(as_told_[span]->row_of(segment, site));
+  for (const Placement& placement : placements_) {
+    const std::vector<SiteRows> rows = (*placement.spans)[span]->varied(likely, placement.factors, segment, history, row);
+    for (std::size_t k = 0; k < rows.size(); ++k) put(placement.variation[k], sites, rows[k]);
+  }
+}
+
+}  // namespace dresslife::strain

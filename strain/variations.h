@@ -1,0 +1,57 @@
+// Strains of the likely worst wires with other friction, slack, play and grips: what dresslife-fatigue needs to tell how a life hangs
+// on what is not known (pipeline/job/uncertainty.h).
+//
+// Friction inside is crossed with slack, friction along the hose and grips are moved one by one. Play is left out: in the shipped programs
+// it moves lives by a tenth of a decade, and would cost as much as a slack. Where cables lie and pull is
+// worked out anew for each but friction inside; the wires are those that see most in each segment and layer of the job as it is.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "pipeline/job/job.h"
+#include "strain/evaluation.h"
+
+namespace dresslife::strain {
+
+/// In how many ways cables are laid besides the job's own, at most; 0 where its uncertainty is off.
+std::size_t placements_at_most(const pipeline::Job& job);
+
+class Variations {
+ public:
+  static constexpr double reach = 1.5;  ///< 87 % of all that may be lie between
+  using Point = std::array<double, 5>;  ///< z of the strain parameters, in the order of uncertain_parameters()
+  using Spans = std::vector<std::unique_ptr<Evaluation>>;
+  /// Evaluations of all spans with other factors; they stay the caller's.
+  using Build = std::function<const Spans&(const pipeline::StrainFactors&)>;
+
+  /// Nothing is varied where the job's uncertainty is off, or nothing can slide.
+  Variations(const pipeline::Job& job, const Spans& as_told, const Build& build);
+
+  bool empty() const { return points_.empty(); }
+  const std::vector<Point>& points() const { return points_; }  ///< (variation)
+  /// Evaluations of a span that want the motion like the job's own.
+  std::vector<Evaluation*> placed(std::size_t span) const;
+
+  /// What a variation makes of a site: its row in the file and its turning points.
+  using Put = std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
+  /// Of one segment, right after the job's own evaluation of it.
+  void evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history, std::size_t row, const Put& put) const;
+
+ private:
+  /// One way in which cables lie, with factors of friction inside and the variation that each of them is.
+  struct Placement {
+    const Spans* spans;
+    std::vector<double> factors;
+    std::vector<std::size_t> variation;
+  };
+  void add(const Spans& spans, Point z, const std::vector<double>& friction);
+
+  const Spans& as_told_;
+  std::vector<Point> points_;
+  std::vector<Placement> placements_;
+};
+
+}  // namespace dresslife::strain
