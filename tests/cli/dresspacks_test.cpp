@@ -1,6 +1,7 @@
 // Two dresspacks on one robot, from a job file to the ranking and the report.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include "pipeline/files/files.h"
 #include "tests/cli/process.h"
@@ -100,11 +101,22 @@ TEST_CASE("the relative life of a rated cable is the same beside another dresspa
     const Outcome outcome = run(scratch, "dresslife", "run " + job + ".yaml --quiet");
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
-    std::string ranking = content(scratch / ("runs/" + job + "/ranking.csv"));
-    const std::string title = ranking.substr(0, ranking.find('\n'));
-    const auto later = std::count(title.begin() + title.find(",rated_cycles_per_hour") + 1, title.end(), ',');
-    for (auto cell = later; cell > 0; --cell) ranking.erase(ranking.rfind(','));
-    return std::stod(ranking.substr(ranking.rfind(',') + 1));
+    std::istringstream lines(content(scratch / ("runs/" + job + "/ranking.csv")));
+    std::vector<std::vector<std::string>> rows;
+    for (std::string line; std::getline(lines, line);) {
+      rows.push_back({""});
+      bool quoted = false;
+      for (const char letter : line)
+        if (letter == '"')
+          quoted = !quoted;
+        else if (letter == ',' && !quoted)
+          rows.back().emplace_back();
+        else
+          rows.back().back() += letter;
+    }
+    REQUIRE(rows.size() == 2);
+    const auto column = std::find(rows[0].begin(), rows[0].end(), "rated_cycles_per_hour") - rows[0].begin();
+    return std::stod(rows[1].at(static_cast<std::size_t>(column)));
   };
   const double alone = per_hour("alone");
   CHECK(alone > 0);
