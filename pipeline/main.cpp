@@ -27,8 +27,8 @@ std::vector<Command> add_commands(CLI::App& program) {
   std::vector<Command> commands{add_run(program),     add_status(program),   add_report(program),   add_clean(program),
                                 add_show(program),    add_plot(program),     add_export(program),
                                 add_rate(program),    add_validate(program), add_calibrate(program),
-                                add_draw(program),
-                                add_preview(program), add_page(program)};
+                                add_draw(program),    add_preview(program),  add_page(program),
+                                add_route(program)};
   program.add_subcommand(
       "import",
       "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help");

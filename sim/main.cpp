@@ -1,26 +1,63 @@
 // dresslife-sim: a job in, motion.h5 out.
+#include <charconv>
 #include <optional>
+#include <string>
 
 #include "pipeline/job/job.h"
 #include "pipeline/stage.h"
+#include "sim/exercise.h"
 #include "sim/memory.h"
 #include "sim/motion_file.h"
 #include "sim/preview.h"
 #include "sim/prescribed.h"
+#include "sim/proposal.h"
+#include "sim/screening_file.h"
 #include "sim/simulate.h"
 
 using namespace dresslife;
 
 namespace {
 
-void preview(const pipeline::StageCall& call, const pipeline::Job& job) {
+enum Option { preview, screen, propose, ring, tried, seed, exercise };
+
+/// A count on the command line. Errors: InputError at the option.
+std::uint64_t whole(const std::string& option, const std::string& text, std::uint64_t least, std::uint64_t most) {
+  std::uint64_t value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size() || value < least || value > most)
+    throw pipeline::InputError({option}, fmt::format("'{}' is no whole number from {} to {}", text, least, most),
+                               "write one");
+  return value;
+}
+
+void write_proposals(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::FileWriter& file) {
+  const auto last = [&](Option option) { return call.options[option].empty() ? "" : call.options[option].back(); };
+  sim::ProposalSettings settings;
+  settings.count = static_cast<int>(whole("--propose", last(propose), 1, 24));
+  if (!last(tried).empty()) settings.tried = static_cast<int>(whole("--tried", last(tried), 1, 1'000'000));
+  if (!last(seed).empty()) settings.seed = whole("--seed", last(seed), 0, 1'000'000'000);
+  settings.ring_link = last(ring);
+  sim::write_proposals(job, settings, file);
+}
+
+/// What is asked for without a run. Returns false when it is the run that is asked for.
+bool told_at_rest(const pipeline::StageCall& call, pipeline::Job& job) {
+  const auto asked = [&](Option option) { return !call.options[option].empty(); };
+  if (!asked(preview) && !asked(screen) && !asked(propose)) return false;
   if (job.motion.is_prescribed())
     throw pipeline::InputError(job.motion.where, "a prescribed deformation has no cell to preview (nothing moves)",
                                "run it, and look at its page");
-  pipeline::FileWriter file(call.output, pipeline::preview_format());
-  sim::write_preview(job, file);
+  if (asked(exercise)) job.motion = sim::exercise(job.robot);
+  pipeline::FileWriter file(call.output, asked(preview) ? pipeline::preview_format() : pipeline::screening_format());
+  if (asked(preview))
+    sim::write_preview(job, file);
+  else if (asked(screen))
+    sim::write_screening(job, call.options[screen].back(), file);
+  else
+    write_proposals(call, job, file);
   pipeline::stamp(file, call, job, "");
   file.commit();
+  return true;
 }
 
 void prescribe(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {
@@ -63,12 +100,21 @@ int main(int argc, char** argv) {
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
       .input_is_job = true,
       .options = {{"--preview", "",
-                   "simulate nothing; write what stands where, and which lengths suit (preview.h5)"}},
+                   "simulate nothing; write what stands where, and which lengths suit (preview.h5)"},
+                  {"--screen", "LIST.yaml",
+                   "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)"},
+                  {"--propose", "COUNT",
+                   "simulate nothing; write routings with clamps on the job's links that geometry finds nothing "
+                   "against (screening.h5)"},
+                  {"--ring", "LINK", "with --propose: also a guide ring on this link"},
+                  {"--tried", "COUNT", "with --propose: routings that are looked at; 1200"},
+                  {"--seed", "NUMBER", "with --propose: of the search's chances; 1"},
+                  {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about"}},
       .part = pipeline::Part::sim};
   return pipeline::run_stage(info, argc, argv,
                              [](const pipeline::StageCall& call, pipeline::Progress& progress) {
-                               const pipeline::Job job = pipeline::read_job(call.input, call.sets);
-                               if (!call.options.front().empty()) return preview(call, job);
+                               pipeline::Job job = pipeline::read_job(call.input, call.sets);
+                               if (told_at_rest(call, job)) return;
                                return job.motion.is_prescribed() ? prescribe(call, job, progress)
                                                                  : simulate(call, job, progress);
                              });

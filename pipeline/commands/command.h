@@ -26,6 +26,7 @@ Command add_calibrate(CLI::App& program);
 // One job, one dresspack
 Command add_show(CLI::App& program);
 Command add_preview(CLI::App& program);
+Command add_route(CLI::App& program);
 Command add_draw(CLI::App& program);
 Command add_page(CLI::App& program);
 Command add_plot(CLI::App& program);

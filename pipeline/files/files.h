@@ -56,6 +56,7 @@ const Format& motion_format();
 const Format& strain_format();
 const Format& life_format();
 const Format& preview_format();
+const Format& screening_format();
 
 /// All formats as Markdown.
 std::string file_manual();

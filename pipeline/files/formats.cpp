@@ -638,6 +638,21 @@ Format make_preview_format() {
   return format;
 }
 
+Format make_screening_format() {
+  Format format{"dresslife-screening", 1, "dresslife-sim --screen or --propose",
+                "what geometry alone says of routings", {}, {}};
+  const auto add = [&](Dataset dataset) { format.datasets.push_back(std::move(dataset)); };
+  add({"/limit/name", Type::text, {"limit"}, "1", "too short, too long, bent too tightly, twisted too far, in the robot"});
+  add({"/candidate/changes", Type::text, {"candidate"}, "1", "YAML: what was changed in the job, or the routing that is proposed"});
+  add({"/candidate/refusal", Type::text, {"candidate"}, "1", "why it is no job; empty: it is one"});
+  add({"/candidate/rejected", Type::i32, {"candidate"}, "1", "1: cannot work, 0: may"});
+  add({"/candidate/beyond", Type::f64, {"candidate", "limit"}, "1",
+       "how far beyond each limit, (V1) to (V5) in sim/screening.h; <= 0: kept; 0 where it is no job", true});
+  add({"/candidate/time", Type::f64, {"candidate", "limit"}, "s", "when"});
+  format.attributes = {{"motion", "YAML of the motion for which routings are proposed; empty: the job's own", true}};
+  return format;
+}
+
 }  // namespace
 
 const Dataset& Format::find(std::string_view path) const {
@@ -665,9 +680,15 @@ const Format& preview_format() {
   return format;
 }
 
+const Format& screening_format() {
+  static const Format format = make_screening_format();
+  return format;
+}
+
 std::string file_manual() {
   std::string text;
-  for (const Format* format : {&motion_format(), &strain_format(), &life_format(), &preview_format()}) {
+  for (const Format* format :
+       {&motion_format(), &strain_format(), &life_format(), &preview_format(), &screening_format()}) {
     text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version,
                         format->purpose, format->made_by);
     text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";

@@ -51,14 +51,14 @@ Vector3 sag_direction(const Rod& rod, const Vector3& chord, const Vector3& base_
                                                                      : along.unitOrthogonal();
 }
 
-Curve fitted_curve(const Rod& rod, const ClampFrames& clamps, int count) {
+Curve fitted_curve(const Rod& rod, const ClampFrames& clamps, double most_speed, int count) {
   const double length = rod.properties().length;
   Curve curve{clamps.base.position, clamps.tool.position, tangent(clamps.base.orientation),
               tangent(clamps.tool.orientation), Vector3::Zero()};
   curve.sag_direction = sag_direction(rod, curve.to - curve.from, curve.from_tangent);
-  curve.speed = length;
+  curve.speed = most_speed * length;
   if (length_of(curve.points(count)) > length)
-    stretch_to(curve, &Curve::speed, length, length, count);
+    stretch_to(curve, &Curve::speed, most_speed * length, length, count);
   else
     stretch_to(curve, &Curve::sag, length, length, count);
   return curve;
@@ -88,10 +88,10 @@ Quaternion transported(const Quaternion& q, const Vector3& t) {
 
 }  // namespace
 
-StartCurve start_curve(const Rod& rod, const ClampFrames& clamps) {
+StartCurve start_curve(const Rod& rod, const ClampFrames& clamps, double most_speed) {
   const int n = rod.segments();
   const std::vector<Vector3> joints =
-      evenly(fitted_curve(rod, clamps, points_per_segment * n).points(points_per_segment * n), n);
+      evenly(fitted_curve(rod, clamps, most_speed, points_per_segment * n).points(points_per_segment * n), n);
   StartCurve result;
   RodState& state = result.state;
   state = rod.straight(clamps.base);

@@ -13,6 +13,7 @@ struct StartCurve {
 /// A cubic between the clamps along their directions, with as much speed there as its length allows; length
 /// still missing goes into a sag (with gravity, where it has a part across the chord). When even the straight
 /// line is longer than the hose, the segments are spaced evenly along it.
-StartCurve start_curve(const Rod& rod, const ClampFrames& clamps);
+/// most_speed: in lengths; more makes a rounder arch and less sag.
+StartCurve start_curve(const Rod& rod, const ClampFrames& clamps, double most_speed = 1);
 
 }  // namespace dresslife::sim

@@ -1,0 +1,228 @@
+#include "pipeline/commands/command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "pipeline/commands/making.h"
+#include "pipeline/commands/options.h"
+#include "pipeline/commands/pictures.h"
+#include "pipeline/commands/results.h"
+#include "pipeline/errors.h"
+#include "pipeline/files/digest.h"
+#include "pipeline/improve/draft.h"
+#include "pipeline/improve/outcome.h"
+#include "pipeline/improve/screened.h"
+#include "pipeline/installation.h"
+#include "pipeline/report/page_shell.h"
+#include "pipeline/report/preview_page.h"
+#include "pipeline/study/folder_lock.h"
+#include "pipeline/study/stage_program.h"
+#include "pipeline/whole_file.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int trials = 5;  // routings of one search that are run
+
+struct Options : RunOptions {
+  RouteRequest request;
+  std::string ring, job, scale = "auto";
+  int tried = 1200, seed = 1;
+};
+
+/// One search and what became of its routings.
+struct Trial {
+  double factor = 1;
+  ScreenedList proposals;
+  std::vector<Outcome> outcomes;  // (proposal) empty limits: it was not run
+  std::optional<std::size_t>
+      best;  // that ran: feasible and of the longest life, else least beyond its limits
+
+  bool feasible() const { return best && outcomes[*best].feasible(); }
+};
+
+/// Whether a job that ran is to be preferred.
+bool better(const Outcome& a, const Outcome& b) {
+  if (a.violation() != b.violation()) return a.violation() < b.violation();
+  return a.hours > b.hours;
+}
+
+constexpr std::string_view mark = "# Proposed by dresslife route";
+
+/// A job that it wrote itself may be replaced.
+void check_job_file(const fs::path& file) {
+  check_replaceable(file);
+  std::error_code failure;
+  if (fs::exists(file, failure) && beginning_of(file, mark.size()) != mark)
+    throw InputError({file.string()}, "is there already and was not proposed by dresslife route",
+                     "name another file after --job");
+}
+
+ScreenedList proposed(const Draft& draft, const Options& options, double factor, const fs::path& folder) {
+  Node document = parse_yaml(job_text(draft.job), "draft");
+  if (factor != 1) document["dresspack"] = *routed(draft, "{}", "{}", factor).find("dresspack");
+  const fs::path job = folder / "draft.yaml";
+  write_text_if_changed(job, to_yaml(document));
+  const PassingFile told("screening.h5");
+  std::vector<std::string> arguments{job.string(),
+                                     "--propose",
+                                     std::to_string(trials),
+                                     "--tried",
+                                     std::to_string(options.tried),
+                                     "--seed",
+                                     std::to_string(options.seed),
+                                     "-o",
+                                     told.path().string(),
+                                     "--quiet"};
+  if (draft.exercise) arguments.push_back("--exercise");
+  if (!options.ring.empty()) arguments.insert(arguments.end(), {"--ring", options.ring});
+  if (run_stage_program("dresslife-sim", arguments) != 0)
+    throw InputError({draft.name}, "no routing can be proposed (see above)", "mend what is told there");
+  return read_screening(told.path());
+}
+
+Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places) {
+  Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}};
+  Study study{fmt::format("{} at {:.0f} %", draft.name, 100 * factor), {}};
+  for (std::size_t k = 0; k < trial.proposals.candidates.size(); ++k) {
+    const ScreenedCandidate& candidate = trial.proposals.candidates[k];
+    if (candidate.rejected) continue;
+    const Node document = routed(draft, candidate.changes, trial.proposals.motion, factor);
+    study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * factor, k + 1),
+                          std::make_shared<const Job>(job_from(document)), ""});
+  }
+  trial.outcomes.resize(trial.proposals.candidates.size());
+  if (study.jobs.empty()) return trial;
+  for (const RankingRow& row : made_rows(study, places, options)) {
+    const std::size_t k = std::stoul(row.job.substr(row.job.rfind('_') + 1)) - 1;
+    trial.outcomes[k] = outcome_of(row, places.job(row.job));
+    if (!trial.outcomes[k].failure.empty()) continue;
+    if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
+  }
+  return trial;
+}
+
+/// What stood against the best of them.
+std::string obstacle(const Trial& trial) {
+  if (trial.best) return trial.outcomes[*trial.best].words();
+  const ScreenedCandidate& first = trial.proposals.candidates.front();
+  return first.rejected ? trial.proposals.words(first) : trial.outcomes.front().words();
+}
+
+std::vector<double> factors_of(const Options& options) {
+  if (options.scale == "auto") return {1, 0.8, 0.65, 0.5, 0.4, 0.3};
+  double factor = 0;
+  if (!CLI::detail::lexical_cast(options.scale, factor) || !(factor >= 0.05 && factor <= 2))
+    throw InputError({"--scale"},
+                     fmt::format("'{}' is neither auto nor a number from 0.05 to 2", options.scale),
+                     "write one");
+  return {factor};
+}
+
+void write_page(const fs::path& job, const fs::path& page) {
+  const PassingFile told("preview.h5");
+  if (tell_preview(job, {}, {}, told.path()) == 0)
+    write_text_if_changed(page, preview_page(told.path(), job.stem().string(), xxh3(shell_digest())));
+}
+
+std::string words_of(const Trial& trial, const Draft& draft) {
+  const Outcome& best = trial.outcomes[*trial.best];
+  const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
+  std::string text = trial.proposals.candidates[*trial.best].changes;
+  if (trial.factor != 1)
+    text += fmt::format(
+        "{} is too big here: this is for one of the same make at {:.0f} % of its size, {:.0f} mm wide\n",
+        dresspack.name, 100 * trial.factor, 1e3 * dresspack.diameter * trial.factor);
+  if (draft.exercise)
+    text += "No program was given: the wrist was only moved about. Look again with yours.\n";
+  const std::string life =
+      std::isinf(best.hours) ? "no wire is damaged" : fmt::format("p10 life {:.3g} h", best.hours);
+  return text + (best.feasible()
+                     ? fmt::format("It keeps all limits in a run; {}.\n", life)
+                     : fmt::format("It runs, but no routing was found that keeps all limits: {}; {}.\n",
+                                   best.words(), life));
+}
+
+int route(const Options& options) {
+  const Draft draft = draft_of(options.request);
+  const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
+  const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
+  check_job_file(job);
+  check_replaceable(page);
+  const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
+  const FolderLock lock(places.folder);
+  std::optional<Trial> chosen;
+  for (const double factor : factors_of(options)) {
+    Trial trial = tried(draft, options, factor, places);
+    const bool feasible = trial.feasible();
+    if (!feasible)
+      tell(fmt::format("note: at {:.0f} % of the dresspack's size: {}\n", 100 * factor, obstacle(trial)));
+    if (trial.best && (!chosen || better(trial.outcomes[*trial.best], chosen->outcomes[*chosen->best])))
+      chosen = std::move(trial);
+    if (feasible) break;
+  }
+  if (!chosen)
+    throw InputError({options.request.of},
+                     "no routing was found that runs (the notes above say what stands against it)",
+                     "try other links (--from, --to), another --seed, a ring, or a gentler program");
+  const std::string& routing = chosen->proposals.candidates[*chosen->best].changes;
+  const Node document = routed(draft, routing, chosen->proposals.motion, chosen->factor);
+  write_text_if_changed(job, fmt::format("{} {}\n{}", mark, options.request.of, to_yaml(document)));
+  write_page(job, page);
+  print(shown(words_of(*chosen, draft)));
+  print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
+  return 0;
+}
+
+}  // namespace
+
+Command add_route(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* words = program.add_subcommand("route",
+                                           "propose a routing from nothing: clamps on two links and a "
+                                           "length, tried in a run, as a job with its preview");
+  words->add_option("of", options->request.of, "JOB.yaml whose routing does not count, or a ROBOT")
+      ->required()
+      ->type_name("");
+  words
+      ->add_option("--dresspack", options->request.dresspack, "instead of the job's; of a robot spot_welding")
+      ->type_name("NAME");
+  words
+      ->add_option("--motion", options->request.motion,
+                   "instead of the job's; of a robot one that moves its wrist about")
+      ->type_name("NAME");
+  words
+      ->add_option("--from", options->request.base_link,
+                   "link of the base clamp; else the job's, or that which axis 3 moves")
+      ->type_name("LINK");
+  words->add_option("--to", options->request.tool_link, "link of the tool clamp; else the job's, or the last")
+      ->type_name("LINK");
+  words->add_option("--ring", options->ring, "also a guide ring on this link")->type_name("LINK");
+  words->add_option("--scale", options->scale, "of the dresspack's size; auto: as it is, or as big as goes")
+      ->type_name("auto|FACTOR")
+      ->capture_default_str();
+  words->add_option("--tried", options->tried, "routings that geometry looks at, of each size")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("COUNT")
+      ->capture_default_str();
+  words->add_option("--seed", options->seed, "of the search's chances")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->capture_default_str();
+  words->add_option("--job", options->job, "job to write; else NAME_routed.yaml here")
+      ->type_name("FILE.yaml");
+  words->add_option("-o,--output", options->out, "folder of the runs that try it")
+      ->type_name("DIR")
+      ->capture_default_str();
+  add_run_options(*words, *options);
+  add_sets(*words, "override a key of the job", options->request.sets);
+  return {words, [options] { return route(*options); }};
+}
+
+}  // namespace dresslife::pipeline

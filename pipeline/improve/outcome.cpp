@@ -1,0 +1,105 @@
+#include "pipeline/improve/outcome.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/files/files.h"
+#include "pipeline/job/believable.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double unasked = -1e3;  // of a limit that nothing asks for: far from it, and finite for who fits
+
+enum Limit { bend, twist, too_short, too_long, pull, contact, believable };
+
+void see(Outcome& outcome, Limit limit, double g) {
+  outcome.beyond[limit] = std::max(outcome.beyond[limit], g);
+}
+
+double log_ratio(double value, double limit) {
+  return value > 0 ? std::clamp(std::log(value / limit), unasked, -unasked) : unasked;
+}
+
+/// One line of the checks. Its limit of slack is a share of the length, which it tells: that is what is
+/// missing in.
+void see_check(Outcome& outcome, const std::string& name, double value, double limit,
+               const AskedLimits& asked) {
+  constexpr double least_share = 0.02, most_share = 1.0 / 3;  // of a length, as the checks ask for slack
+  if (name == "smallest bend radius") see(outcome, bend, log_ratio(limit, value));
+  if (name == "largest twist") see(outcome, twist, std::abs(value) / limit - 1);
+  if (name == "least slack: too short below") see(outcome, too_short, least_share * (limit - value) / limit);
+  if (name == "least slack: too long above") see(outcome, too_long, most_share * (value - limit) / limit);
+  if (name == "largest tension") see(outcome, pull, log_ratio(value, limit));
+  if (name == "largest tension" && asked.tension) see(outcome, pull, log_ratio(value, *asked.tension));
+  if (name == "largest contact force" && asked.contact_force)
+    see(outcome, contact, log_ratio(value, *asked.contact_force));
+}
+
+void see_checks(Outcome& outcome, const std::filesystem::path& motion_file, const AskedLimits& asked) {
+  const FileReader file(motion_file, motion_format());
+  if (!file.has("/check/name")) return;
+  const auto names = file.read<std::string>("/check/name");
+  const auto values = file.read<double>("/check/value"), limits = file.read<double>("/check/limit");
+  for (std::size_t k = 0; k < names.size(); ++k) see_check(outcome, names[k], values[k], limits[k], asked);
+}
+
+}  // namespace
+
+const std::vector<std::string>& outcome_limit_names() {
+  static const std::vector<std::string> names{"bend radius", "twist",         "too short",       "too long",
+                                              "tension",     "contact force", "forces in cables"};
+  return names;
+}
+
+bool Outcome::feasible() const { return failure.empty() && violation() == 0; }
+
+double Outcome::violation() const {
+  double sum = 0;
+  for (const double g : beyond) sum += std::max(0.0, g);
+  return sum;
+}
+
+std::string Outcome::words() const {
+  if (!failure.empty()) return failure;
+  std::string text;
+  for (std::size_t k = 0; k < beyond.size(); ++k)
+    if (beyond[k] > 0)
+      text +=
+          fmt::format("{}{} passed by {:.2g}", text.empty() ? "" : ", ", outcome_limit_names()[k], beyond[k]);
+  return text;
+}
+
+Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked) {
+  Outcome outcome;
+  outcome.beyond.assign(outcome_limits, unasked);
+  outcome.failure = row.failure;
+  if (!row.done()) return outcome;
+  outcome.hours = row.headline_hours();
+  const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
+  see(outcome, believable, log_ratio(share, believable_share));
+  try {
+    see_checks(outcome, folder / "motion.h5", asked);
+  } catch (const InputError& problem) {
+    outcome.failure = problem.what();
+  }
+  return outcome;
+}
+
+Outcome worst_of(const std::vector<Outcome>& jobs) {
+  Outcome worst;
+  worst.hours = std::numeric_limits<double>::infinity();
+  worst.beyond.assign(outcome_limits, unasked);
+  for (const Outcome& job : jobs) {
+    if (worst.failure.empty()) worst.failure = job.failure;
+    worst.hours = std::min(worst.hours, job.hours);
+    for (std::size_t k = 0; k < worst.beyond.size(); ++k)
+      worst.beyond[k] = std::max(worst.beyond[k], job.beyond[k]);
+  }
+  return worst;
+}
+
+}  // namespace dresslife::pipeline

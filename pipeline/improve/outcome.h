@@ -1,0 +1,41 @@
+// How a job turned out for a search: what it aims at, and how far it is beyond each limit. A job that failed
+// has a place, too: so much worse than the worst that ran as geometry says that it is wrong.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/study/ranking.h"
+
+namespace dresslife::pipeline {
+
+/// Limits that a user may add to those of the checks.
+struct AskedLimits {
+  std::optional<double> contact_force;  ///< largest of the dresspack on the robot [N]
+  std::optional<double> tension;        ///< largest of the hose [N]
+};
+
+/// The limits, in the order of Outcome::beyond. Relative: how many times, or which share of the length.
+inline constexpr int outcome_limits = 7;
+const std::vector<std::string>& outcome_limit_names();
+
+struct Outcome {
+  std::string failure;         ///< why there is no life; empty: there is one
+  double hours = 0;            ///< planner's life in 10 % of dresspacks; infinite without damage
+  std::vector<double> beyond;  ///< (limit) <= 0: kept; as ScreenedCandidate::beyond is graded
+  bool feasible() const;       ///< done, and every limit is kept
+  double violation() const;    ///< sum of what is beyond
+
+  /// "bend radius by 0.12, ...": what is passed, or the failure; empty: feasible.
+  std::string words() const;
+};
+
+/// Of a job that ran in `folder`: its checks from motion.h5, its life from the row. Nothing is thrown: a file
+/// that cannot be read is a failure.
+Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked = {});
+
+/// The worst of several jobs: least life, most of each limit, the first failure.
+Outcome worst_of(const std::vector<Outcome>& jobs);
+
+}  // namespace dresslife::pipeline

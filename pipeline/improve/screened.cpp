@@ -1,0 +1,43 @@
+#include "pipeline/improve/screened.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pipeline/files/files.h"
+
+namespace dresslife::pipeline {
+
+double ScreenedCandidate::violation() const {
+  double sum = 0;
+  for (const double g : beyond) sum += std::max(0.0, g);
+  return sum;
+}
+
+std::string ScreenedList::words(const ScreenedCandidate& candidate) const {
+  std::string text;
+  for (std::size_t k = 0; k < limits.size(); ++k)
+    if (candidate.beyond[k] > 0)
+      text += fmt::format("{}{} by {:.2f}", text.empty() ? "" : ", ", limits[k], candidate.beyond[k]);
+  return text;
+}
+
+ScreenedList read_screening(const std::filesystem::path& path) {
+  const FileReader file(path, screening_format());
+  ScreenedList list;
+  list.limits = file.read<std::string>("/limit/name");
+  list.motion = file.text_attribute("motion");
+  const auto changes = file.read<std::string>("/candidate/changes"),
+             refusals = file.read<std::string>("/candidate/refusal");
+  const auto rejected = file.read<std::int32_t>("/candidate/rejected");
+  const auto beyond = file.read<double>("/candidate/beyond");
+  const std::size_t limits = list.limits.size();
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    const auto first = beyond.begin() + static_cast<std::ptrdiff_t>(k * limits);
+    list.candidates.push_back({changes[k], refusals[k], rejected[k] != 0,
+                               std::vector<double>(first, first + static_cast<std::ptrdiff_t>(limits))});
+  }
+  return list;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,25 @@
+// screening.h5: what geometry alone says of many routings of a job, or the routings that it proposes.
+#pragma once
+
+#include <filesystem>
+
+#include "pipeline/files/files.h"
+
+namespace dresslife::pipeline {
+struct Job;
+}
+
+namespace dresslife::sim {
+
+struct ProposalSettings;
+
+/// Writes all of screening_format() but the stamp, a candidate for each item of a YAML list of maps from key
+/// paths to values, each of which changes the job. A candidate that is no job, or whose motion the robot
+/// cannot run, says why in the file. Errors: InputError for a file that is no such list.
+void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates,
+                     pipeline::FileWriter& file);
+
+/// The same of proposals (proposal.h), best first.
+void write_proposals(const pipeline::Job& job, const ProposalSettings& settings, pipeline::FileWriter& file);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,93 @@
+// dresslife route: a job from a robot and a hose.
+#include <catch2/catch.hpp>
+
+#include "pipeline/files/files.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+using dresslife::pipeline::FileReader;
+using dresslife::pipeline::screening_format;
+
+namespace {
+
+/// A thin hose that bends easily, and wires enough to have a life.
+const char* const small_dresspack = R"(name: thin hose
+source: made for the tests
+diameter_mm: 12
+mass_kg_per_m: 0.2
+bending_stiffness_Nm2: 0.5
+torsional_stiffness_Nm2: 0.5
+axial_stiffness_N: 50000
+damping_time_ms: 20
+damping_source: made for the tests
+least_bend_radius_mm: 60
+components:
+  - name: cable
+    count: 2
+    radius_mm: 2
+    helix_radius_mm: 3
+    components:
+      - {name: wire, count: 6, radius_mm: 0.1, helix_radius_mm: 1, lay_angle_deg: 15, material: copper}
+)";
+
+}  // namespace
+
+TEST_CASE("route writes a job that runs, from a robot and a hose") {
+  Scratch scratch;
+  scratch.write("hose.yaml", small_dresspack);
+  const std::string line =
+      "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 150 --quiet "
+      "--set simulation.segments=16 --job found.yaml";
+  const Outcome told = run(scratch, "dresslife", line);
+  INFO(told.err);
+  REQUIRE(told.status == 0);
+  CHECK(told.out.find("base_clamp: {link: link_3, ") == 0);
+  CHECK(told.out.find("tool_clamp: {link: link_6, ") != std::string::npos);
+  CHECK(told.out.find("No program was given") != std::string::npos);
+  CHECK(told.out.find("Job: found.yaml\nPreview: found_preview.html\n") != std::string::npos);
+  CHECK(content(scratch / "found_preview.html").find("The simulation takes this job.") != std::string::npos);
+  const std::string job = content(scratch / "found.yaml");
+  const Outcome ran = run(scratch, "dresslife-sim", "found.yaml -o motion.h5 --quiet");
+  INFO(ran.err);
+  CHECK(ran.status == 0);
+
+  // The same again is the same job; another's file is left alone.
+  CHECK(run(scratch, "dresslife", line).status == 0);
+  CHECK(content(scratch / "found.yaml") == job);
+  const Outcome over = run(scratch, "dresslife", "route abb_irb2600_12_165 --job hose.yaml");
+  CHECK(over.status == 1);
+  CHECK(over.err ==
+        "hose.yaml: error: is there already and was not proposed by dresslife route; name another file after "
+        "--job\n");
+}
+
+TEST_CASE("route refuses what it cannot route") {
+  Scratch scratch;
+  CHECK(run(scratch, "dresslife", "route nothing_like_it")
+            .err.find("'nothing_like_it' is not in the catalogue") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "route abb_irb2600_12_165 --scale big").err ==
+        "--scale: error: 'big' is neither auto nor a number from 0.05 to 2; write one\n");
+  CHECK(run(scratch, "dresslife", "route abb_irb2600_12_165 --ring link_9 --scale 1").status == 1);
+  CHECK(run(scratch, "dresslife", "route").status == 2);
+}
+
+TEST_CASE("screen grades every change of a job, and says which is no job") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write(
+      "list.yaml",
+      "- {routing.free_length_m: 0.9}\n- {routing.free_length_m: 0.7}\n- {routing.free_length_m: -1}\n");
+  const Outcome told = run(scratch, "dresslife-sim", "job.yaml --screen list.yaml -o screening.h5 --quiet");
+  INFO(told.err);
+  REQUIRE(told.status == 0);
+  const Outcome shown = run(scratch, "dresslife", "show screening.h5");
+  INFO(shown.out + shown.err);
+  CHECK(shown.status == 0);
+  CHECK(shown.out.find("dresslife-screening version 1") != std::string::npos);
+  const auto refusals = FileReader(scratch / "screening.h5", screening_format()).read<std::string>("/candidate/refusal");
+  REQUIRE(refusals.size() == 3);
+  CHECK(refusals[0].empty());
+  CHECK(refusals[2].find("routing.free_length_m is -1") != std::string::npos);
+  CHECK(run(scratch, "dresslife-sim", "job.yaml --screen job.yaml -o screening.h5 --quiet").status == 1);
+  CHECK(run(scratch, "dresslife-sim", "job.yaml --propose none -o screening.h5 --quiet").status == 1);
+}
