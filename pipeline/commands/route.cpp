@@ -138,7 +138,7 @@ std::string words_of(const Trial& trial, const Draft& draft) {
   std::string text = trial.proposals.candidates[*trial.best].changes;
   if (trial.factor != 1)
     text += fmt::format(
-        "{} is too big here: this is for one of the same make at {:.0f} % of its size, {:.0f} mm wide\n",
+        "This is not for {} as it is but for one of the same make at {:.0f} % of its size, {:.0f} mm wide\n",
         dresspack.name, 100 * trial.factor, 1e3 * dresspack.diameter * trial.factor);
   if (draft.exercise)
     text += "No program was given: the wrist was only moved about. Look again with yours.\n";
