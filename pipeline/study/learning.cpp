@@ -185,8 +185,8 @@ double observed_value(const Observation& observation) { return observation.cycle
 
 /// What was run of a test: a life, or how a cable bends, of each variant.
 struct EmulatedTest {
-  std::optional<ObservedLife> life;
-  std::vector<Measurement> bending;  ///< (variant), of the same numbers
+  std::optional<ObservedLife> life{};
+  std::vector<Measurement> bending{};  ///< (variant), of the same numbers
   std::size_t shown = 0;             ///< number that is told
   double per_shown = 1;              ///< by which it is divided: a stiffness by its curvature
 

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -21,8 +20,6 @@ struct LooseCable {
   std::array<double, 2> place{};  ///< a0, from the hose's axis toward d1 and d2 [m]
   double radius = 0;              ///< [m]
   double axial_stiffness = 0;     ///< E A, of its wires [N]
-  /// Force over strain where it is not E A times it, rising [N].
-  std::function<double(double strain)> force{};
   double bending_stiffness = 0;  ///< E I, as its wires slide [N m2]
   double mass_per_length = 0;    ///< [kg/m]
   double slack = 0;              ///< length beyond the path on which it was laid in, over it

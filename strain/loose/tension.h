@@ -2,7 +2,7 @@
 // (README W33).
 //
 // The cable is gripped at both ends and slides along its path in between:
-//     strain = (1 + g) / ((1 + slack) (1 + g0)) - 1 - slipped,   T = force(strain),   |T| <= grip,
+//     strain = (1 + g) / ((1 + slack) (1 + g0)) - 1 - slipped,   T = E A strain,   |T| <= grip,
 // g the mean gain of its path, g0 that of the path on which it was laid in. Where T would exceed the grip,
 // the cable slips: it has another free length from then on.
 #pragma once
@@ -41,13 +41,10 @@ class CableTension {
   double slipped() const { return slipped_; }  ///< through the clamps, over the cable's length; > 0: let out
 
  private:
-  double force(double strain) const;
-  double strain_of(double force) const;
   double stretch(std::span<const double> gain) const;
 
-  double axial_stiffness_, slack_, laid_in_, free_length_rate_, grip_;
-  std::function<double(double)> force_;
-  double most_ = without_limit, least_ = -without_limit;  ///< strains at the grip, pulled and pressed
+  double axial_stiffness_, slack_, laid_in_, free_length_rate_;
+  double most_;  ///< strain at the grip, pulled or pressed
   double slipped_ = 0;
   bool held_ = false;  ///< while slack is fed in
 };
