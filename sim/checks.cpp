@@ -7,10 +7,13 @@
 #include <numeric>
 #include <span>
 
+#include "pipeline/files/check_names.h"
+
 namespace dresslife::sim {
 namespace {
 
 using pipeline::WarningKind;
+namespace check_name = pipeline::check_name;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
@@ -136,18 +139,18 @@ void MotionChecks::add_lines(int dresspack, std::vector<Check>& checks) const {
   const Whole& whole = whole_[dresspack];
   const double radius = bend.value > 0 ? 1 / bend.value : unlimited;
   const Check lines[] = {
-      {WarningKind::bend_radius, "smallest bend radius", "m", radius, limits.least_bend_radius, radius < limits.least_bend_radius,
+      {WarningKind::bend_radius, check_name::bend_radius, "m", radius, limits.least_bend_radius, radius < limits.least_bend_radius,
        bend.time, link(bend)},
-      {WarningKind::twist, "largest twist", "rad/m", twist.value, limits.most_twist, std::abs(twist.value) > limits.most_twist,
+      {WarningKind::twist, check_name::twist, "rad/m", twist.value, limits.most_twist, std::abs(twist.value) > limits.most_twist,
        twist.time, link(twist)},
-      {{}, "largest net twist", "rad", whole.most_net_twist.value, unlimited, false, whole.most_net_twist.time,
+      {{}, check_name::net_twist, "rad", whole.most_net_twist.value, unlimited, false, whole.most_net_twist.time,
        -1},
-      {{}, "net twist left by a repeat", "rad", whole.net_twist - whole.net_twist_at_begin, unlimited, false,
+      {{}, check_name::twist_left, "rad", whole.net_twist - whole.net_twist_at_begin, unlimited, false,
        end_, -1},
-      {WarningKind::tension, "largest tension", "N", pull.value, limits.most_tension, pull.value > limits.most_tension, pull.time,
+      {WarningKind::tension, check_name::tension, "N", pull.value, limits.most_tension, pull.value > limits.most_tension, pull.time,
        link(pull)},
-      {{}, "deepest contact", "m", whole.depth.value, unlimited, false, whole.depth.time, segment(whole.depth)},
-      {{}, "largest contact force", "N", whole.force.value, unlimited, false, whole.force.time,
+      {{}, check_name::contact_depth, "m", whole.depth.value, unlimited, false, whole.depth.time, segment(whole.depth)},
+      {{}, check_name::contact_force, "N", whole.force.value, unlimited, false, whole.force.time,
        segment(whole.force)},
   };
   checks.insert(checks.end(), std::begin(lines), std::end(lines));
@@ -170,15 +173,15 @@ void MotionChecks::add_slack(int dresspack, std::vector<Check>& checks) const {
   }
   if (tight) {
     const double shortest = least_slack_share * length(*tight), longest = most_slack_share * length(*loose);
-    checks.push_back({WarningKind::slack, "least slack: too short below", "m", tight->value, shortest, tight->value < shortest,
+    checks.push_back({WarningKind::slack, check_name::too_short, "m", tight->value, shortest, tight->value < shortest,
                       tight->time, middle(*tight)});
-    checks.push_back({WarningKind::slack, "least slack: too long above", "m", loose->value, longest, loose->value > longest,
+    checks.push_back({WarningKind::slack, check_name::too_long, "m", loose->value, longest, loose->value > longest,
                       loose->time, middle(*loose)});
-    checks.push_back({{}, "most slack", "m", most->value, unlimited, false, most->time, middle(*most)});
+    checks.push_back({{}, check_name::most_slack, "m", most->value, unlimited, false, most->time, middle(*most)});
   }
   if (const Extreme& travel = travel_[first]; travel.seen) {
     const double stroke = rod_.spans()[first].properties.slider->stroke;
-    checks.push_back({WarningKind::slack, "travel of the retraction unit", "m", travel.value, stroke, travel.value >= stroke,
+    checks.push_back({WarningKind::slack, check_name::travel, "m", travel.value, stroke, travel.value >= stroke,
                       travel.time, rod_.spans()[first].first_arc});
   }
 }

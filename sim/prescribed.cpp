@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/files/check_names.h"
 #include "sim/deformation_file.h"
 #include "sim/motion_file.h"
 #include "sim/rig_deformation.h"
@@ -12,6 +13,7 @@ namespace {
 
 using pipeline::InputError;
 using pipeline::WarningKind;
+namespace check_name = pipeline::check_name;
 
 using State = PrescribedDeformation::State;
 
@@ -60,11 +62,11 @@ class Extremes {
     };
     const Extreme bend = of(curvature), turn = of(twist), pull = of(tension);
     const double radius = bend.value > 0 ? 1 / bend.value : std::numeric_limits<double>::infinity();
-    return {{WarningKind::bend_radius, "smallest bend radius", "m", radius, limits_.least_bend_radius, radius < limits_.least_bend_radius,
+    return {{WarningKind::bend_radius, check_name::bend_radius, "m", radius, limits_.least_bend_radius, radius < limits_.least_bend_radius,
              bend.time, bend.place * step_},
-            {WarningKind::twist, "largest twist", "rad/m", turn.value, limits_.most_twist, std::abs(turn.value) > limits_.most_twist,
+            {WarningKind::twist, check_name::twist, "rad/m", turn.value, limits_.most_twist, std::abs(turn.value) > limits_.most_twist,
              turn.time, turn.place * step_},
-            {WarningKind::tension, "largest tension", "N", pull.value, limits_.most_tension, pull.value > limits_.most_tension,
+            {WarningKind::tension, check_name::tension, "N", pull.value, limits_.most_tension, pull.value > limits_.most_tension,
              pull.time, pull.place * step_}};
   }
 

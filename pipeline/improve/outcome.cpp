@@ -5,16 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
+#include "pipeline/errors.h"
+#include "pipeline/files/check_names.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/believable.h"
+#include "pipeline/job/fields.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr double unasked = -1e3;  // of a limit that nothing asks for: far from it, and finite for who fits
 
-enum Limit { bend, twist, too_short, too_long, pull, contact, believable };
+enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable };
 
 void see(Outcome& outcome, Limit limit, double g) {
   outcome.beyond[limit] = std::max(outcome.beyond[limit], g);
@@ -24,19 +28,25 @@ double log_ratio(double value, double limit) {
   return value > 0 ? std::clamp(std::log(value / limit), unasked, -unasked) : unasked;
 }
 
-/// One line of the checks. Its limit of slack is a share of the length, which it tells: that is what is
-/// missing in.
-void see_check(Outcome& outcome, const std::string& name, double value, double limit,
-               const AskedLimits& asked) {
+/// Less slack than asked for, as a share of the length. Its limit is a share of the length, too: so the length is known.
+void see_slack(Outcome& outcome, const std::string& name, double slack, double limit) {
   constexpr double least_share = 0.02, most_share = 1.0 / 3;  // of a length, as the checks ask for slack
-  if (name == "smallest bend radius") see(outcome, bend, log_ratio(limit, value));
-  if (name == "largest twist") see(outcome, twist, std::abs(value) / limit - 1);
-  if (name == "least slack: too short below") see(outcome, too_short, least_share * (limit - value) / limit);
-  if (name == "least slack: too long above") see(outcome, too_long, most_share * (value - limit) / limit);
-  if (name == "largest tension") see(outcome, pull, log_ratio(value, limit));
-  if (name == "largest tension" && asked.tension) see(outcome, pull, log_ratio(value, *asked.tension));
-  if (name == "largest contact force" && asked.contact_force)
+  if (name == check_name::too_short) see(outcome, too_short, least_share * (limit - slack) / limit);
+  if (name == check_name::too_long) see(outcome, too_long, most_share * (slack - limit) / limit);
+}
+
+void see_check(Outcome& outcome, const std::string& name, double value, double limit, const AskedLimits& asked) {
+  if (std::find(check_name::all.begin(), check_name::all.end(), name) == check_name::all.end())
+    throw std::logic_error(fmt::format("'{}' is a check that no search knows (check_names.h)", name));
+  see_slack(outcome, name, value, limit);
+  if (name == check_name::bend_radius) see(outcome, bend, log_ratio(limit, value));
+  if (name == check_name::twist) see(outcome, twist, std::abs(value) / limit - 1);
+  if (name == check_name::tension) see(outcome, pull, log_ratio(value, limit));
+  if (name == check_name::tension && asked.tension) see(outcome, pull, log_ratio(value, *asked.tension));
+  if (name == check_name::contact_force && asked.contact_force)
     see(outcome, contact, log_ratio(value, *asked.contact_force));
+  constexpr double at_its_end = 1e-9;  // a unit that is pulled out wholly holds no more
+  if (name == check_name::travel) see(outcome, stroke, value / limit - 1 + at_its_end);
 }
 
 void see_checks(Outcome& outcome, const std::filesystem::path& motion_file, const AskedLimits& asked) {
@@ -51,7 +61,8 @@ void see_checks(Outcome& outcome, const std::filesystem::path& motion_file, cons
 
 const std::vector<std::string>& outcome_limit_names() {
   static const std::vector<std::string> names{"bend radius", "twist",         "too short",       "too long",
-                                              "tension",     "contact force", "forces in cables"};
+                                              "tension",     "contact force", "retraction's stroke",
+                                              "forces in cables"};
   return names;
 }
 
@@ -87,6 +98,11 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
     outcome.failure = problem.what();
   }
   return outcome;
+}
+
+void describe(Fields& f, AskedLimits& limits) {
+  f.maybe_number("contact_force_N", limits.contact_force, above(0), "largest of the dresspack on robot and cell");
+  f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
 }
 
 Outcome worst_of(const std::vector<Outcome>& jobs) {

@@ -10,14 +10,17 @@
 
 namespace dresslife::pipeline {
 
-/// Limits that a user may add to those of the checks.
+class Fields;
+
+/// Limits that a user may add to those of the checks: the section `limits` of a study.
 struct AskedLimits {
   std::optional<double> contact_force;  ///< largest of the dresspack on the robot [N]
   std::optional<double> tension;        ///< largest of the hose [N]
 };
+void describe(Fields& f, AskedLimits& limits);
 
 /// The limits, in the order of Outcome::beyond. Relative: how many times, or which share of the length.
-inline constexpr int outcome_limits = 7;
+inline constexpr int outcome_limits = 8;
 const std::vector<std::string>& outcome_limit_names();
 
 struct Outcome {
@@ -31,8 +34,8 @@ struct Outcome {
   std::string words() const;
 };
 
-/// Of a job that ran in `folder`: its checks from motion.h5, its life from the row. Nothing is thrown: a file
-/// that cannot be read is a failure.
+/// Of a job that ran in `folder`: its checks from motion.h5, its life from the row. A file that
+/// cannot be read is a failure, a check that nobody knows our fault (std::logic_error).
 Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked = {});
 
 /// The worst of several jobs: least life, most of each limit, the first failure.

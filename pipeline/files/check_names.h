@@ -1,0 +1,25 @@
+// The names of the checks of motions in motion.h5 (/check/name): who writes and who reads them means the same.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace dresslife::pipeline::check_name {
+
+inline constexpr char bend_radius[] = "smallest bend radius";
+inline constexpr char twist[] = "largest twist";
+inline constexpr char net_twist[] = "largest net twist";
+inline constexpr char twist_left[] = "net twist left by a repeat";
+inline constexpr char tension[] = "largest tension";
+inline constexpr char contact_depth[] = "deepest contact";
+inline constexpr char contact_force[] = "largest contact force";
+inline constexpr char too_short[] = "least slack: too short below";
+inline constexpr char too_long[] = "least slack: too long above";
+inline constexpr char most_slack[] = "most slack";
+inline constexpr char travel[] = "travel of the retraction unit";
+
+inline constexpr std::array<std::string_view, 11> all{bend_radius,   twist,         net_twist, twist_left,
+                                                      tension,       contact_depth, contact_force,
+                                                      too_short,     too_long,      most_slack, travel};
+
+}  // namespace dresslife::pipeline::check_name

@@ -1,0 +1,39 @@
+// A smooth function through what was seen at some places, and how sure it is between them.
+//
+// (Q4) values = m + f + noise, f a Gaussian process: cov f(x) f(x') = s^2 k(r), r^2 = sum ((x_i - x'_i)/l_i)^2,
+//      k(r) = (1 + sqrt(5) r + 5 r^2/3) exp(-sqrt(5) r)  (Matern 5/2; Rasmussen and Williams, Gaussian Processes for
+//      Machine Learning, 2006, eq. 4.17), noise variance s^2 n. m is the mean of the values, s^2 the likeliest given
+//      the rest; l and n maximise the likelihood (eq. 5.8) times a wide lognormal prior on each.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace dresslife::pipeline {
+
+class GaussianProcess {
+ public:
+  /// ln l_i, then ln n.
+  using Shape = Eigen::VectorXd;
+  static Shape usual_shape(Eigen::Index variables);
+
+  /// points: (place, variable), values: (place), finite, at least one.
+  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape);
+
+  /// The likeliest shape, sought from `start` with so many evaluations.
+  static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& start,
+                               int evaluations);
+
+  struct Told {
+    double mean = 0, deviation = 0;  ///< of the function at a place, without noise
+  };
+  Told at(const Eigen::VectorXd& place) const;
+
+ private:
+  Eigen::MatrixXd scaled_;  // (place, variable) / l
+  Eigen::VectorXd per_length_, weights_;
+  Eigen::LLT<Eigen::MatrixXd> covariance_;
+  double mean_ = 0, variance_ = 0;
+};
+
+}  // namespace dresslife::pipeline
