@@ -36,6 +36,16 @@ void add_run_options(CLI::App& command, RunOptions& options) {
   command.add_flag("--quiet", options.quiet, "no progress, no notes");
 }
 
+void add_launcher(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--launcher", options.launcher,
+                  "shell words before each stage's command, which start it elsewhere and end as it ends: 'srun -n1 -c1 --exact'")
+      ->type_name("WORDS")
+      ->check([](const std::string& text) {
+        return text.find('\n') == std::string::npos ? std::string() : std::string("must be one line");
+      });
+}
+
 fs::path named_file(const std::string& name, const char* shelf) {
   std::error_code failure;
   const bool is_name = fs::path(name).parent_path().empty() && fs::path(name).extension() != ".yaml";

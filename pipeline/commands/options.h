@@ -34,6 +34,9 @@ void add_study_options(CLI::App& command, StudyOptions& options);
 /// --jobs and --quiet: of commands that run stages.
 void add_run_options(CLI::App& command, RunOptions& options);
 
+/// --launcher: of commands whose stages may run elsewhere.
+void add_launcher(CLI::App& command, RunOptions& options);
+
 /// What a user names: a file, or an entry of the catalogue ("two_robots" of studies). Errors: InputError,
 /// neither.
 std::filesystem::path named_file(const std::string& name, const char* shelf);

@@ -68,13 +68,7 @@ Command add_run(CLI::App& program) {
                    "let no stage of a job take more memory; 0: no limit")
       ->type_name("MB")
       ->default_str("all of the machine's");
-  words
-      ->add_option("--launcher", options->launcher,
-                   "shell words before each stage's command, which start it elsewhere and end as it ends: 'srun -n1 -c1 --exact'")
-      ->type_name("WORDS")
-      ->check([](const std::string& text) {
-        return text.find('\n') == std::string::npos ? std::string() : std::string("must be one line");
-      });
+  add_launcher(*words, *options);
   add_study_options(*words, *options);
   return {words, [options] { return run(*options); }};
 }

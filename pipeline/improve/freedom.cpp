@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -354,14 +355,14 @@ Node Freedom::usual(const Job& job) {
     const Routing& routing = job.dresspacks[k].routing;
     const std::string path = single ? "routing." : fmt::format("dresspacks.{}.routing.", k + 1);
     const double length = routing.free_length;
-    free[path + "free_length_m"] = scalar(fmt::format("{:.4g} .. {:.4g}", 0.9 * length, 1.25 * length));
+    free[path + "free_length_m"] = scalar(fmt::format("{:.4g} .. {:.4g}", 0.9 * length, 1.35 * length));
     for (const char* clamp : {"base_clamp", "tool_clamp"}) {
       const std::optional<Clamp>& of = std::string_view(clamp) == "base_clamp" ? routing.base_clamp : routing.tool_clamp;
       if (!of) continue;
-      free[path + clamp + ".position_m"] = scalar("0.05 around");
-      free[path + clamp + ".direction"] = scalar("30 deg around");
+      free[path + clamp + ".position_m"] = scalar("0.15 around");
+      free[path + clamp + ".direction"] = scalar("45 deg around");
     }
-    if (routing.tool_clamp) free[path + "pre_twist_deg"] = scalar("-90 .. 90");
+    if (routing.tool_clamp) free[path + "pre_twist_deg"] = scalar("-180 .. 180");
   }
   place_at(free, {"free"});
   return free;

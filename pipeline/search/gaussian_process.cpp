@@ -75,7 +75,7 @@ GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, 
   if (centred.squaredNorm() <= flat) return start;
   constexpr double widest = 5;  // of a logarithm about the usual
   const Shape usual = usual_shape(points.cols());
-  Box box{usual.array() - widest, usual.array() + widest};
+  SearchBox box{usual.array() - widest, usual.array() + widest};
   box.low[usual.size() - 1] = std::log(least_noise);
   box.high[usual.size() - 1] = 0;
   return minimised([&](const VectorXd& shape) { return unlikeliness(points, centred, shape); }, {}, box, start, 0.5,

@@ -24,7 +24,7 @@ double value_of(unsigned size, const double* place, double*, void* function) {
 
 void limits_at(unsigned count, double* beyond, unsigned size, const double* place, double*, void* limits) {
   Eigen::Map<VectorXd>(beyond, static_cast<Eigen::Index>(count)) =
-      static_cast<const Limits*>(limits)->beyond(vector_at(size, place));
+      static_cast<const LimitFunctions*>(limits)->beyond(vector_at(size, place));
 }
 
 void check(nlopt_result result) {
@@ -34,13 +34,13 @@ void check(nlopt_result result) {
 
 }  // namespace
 
-VectorXd minimised(const Function& function, const Limits& limits, const Box& box, VectorXd start, double step,
+VectorXd minimised(const Function& function, const LimitFunctions& limits, const SearchBox& box, VectorXd start, double step,
                    int evaluations) {
   const auto size = static_cast<unsigned>(start.size());
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
       nlopt_create(limits.count > 0 ? NLOPT_LN_COBYLA : NLOPT_LN_SBPLX, size), nlopt_destroy);
   Function callable = function;
-  Limits of = limits;
+  LimitFunctions of = limits;
   check(nlopt_set_min_objective(search.get(), value_of, &callable));
   if (limits.count > 0) {
     const std::vector<double> exact(static_cast<std::size_t>(limits.count), 0.0);

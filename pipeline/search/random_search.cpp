@@ -7,8 +7,8 @@ namespace dresslife::pipeline {
 
 using Eigen::VectorXd;
 
-RandomSearch::RandomSearch(Eigen::Index variables, std::uint64_t seed, VectorXd start, Screen screen)
-    : variables_(variables), numbers_(seed), start_(std::move(start)), screen_(std::move(screen)) {}
+RandomSearch::RandomSearch(Eigen::Index variables, std::uint64_t seed, Screen screen)
+    : variables_(variables), numbers_(seed), screen_(std::move(screen)) {}
 
 VectorXd RandomSearch::drawn() {
   VectorXd place(variables_);
@@ -19,7 +19,6 @@ VectorXd RandomSearch::drawn() {
 std::vector<VectorXd> RandomSearch::ask(int count) {
   constexpr std::size_t drawn_for_each = 16;  // then the least bad of them is looked at
   std::vector<VectorXd> places;
-  if (start_.size() > 0 && count > 0) places.push_back(std::exchange(start_, {}));
   while (places.size() < static_cast<std::size_t>(count)) {
     std::vector<VectorXd> some;
     while (some.size() < drawn_for_each) some.push_back(drawn());

@@ -8,8 +8,8 @@ namespace dresslife::pipeline {
 
 class RandomSearch : public Search {
  public:
-  /// start: the first place; empty: none. screen: places that it rejects are drawn again, a few times.
-  RandomSearch(Eigen::Index variables, std::uint64_t seed, Eigen::VectorXd start, Screen screen);
+  /// screen: places that it rejects are drawn again, a few times.
+  RandomSearch(Eigen::Index variables, std::uint64_t seed, Screen screen);
   std::vector<Eigen::VectorXd> ask(int count) override;
   void tell(const std::vector<Look>&) override {}
 
@@ -18,7 +18,6 @@ class RandomSearch : public Search {
 
   Eigen::Index variables_;
   NormalNumbers numbers_;
-  Eigen::VectorXd start_;
   Screen screen_;
 };
 

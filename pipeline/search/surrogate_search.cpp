@@ -50,7 +50,7 @@ VectorXd numbers_of(const std::vector<const Look*>& looks, const Of& of) {
   return numbers;
 }
 
-Box around(const VectorXd& centre, double width) {
+SearchBox around(const VectorXd& centre, double width) {
   return {(centre.array() - width).max(0.0).matrix(), (centre.array() + width).min(1.0).matrix()};
 }
 
@@ -61,7 +61,7 @@ struct SurrogateSearch::Models {
   MatrixXd ran, all;                // (look, variable)
   VectorXd aim;                     // (look that ran)
   std::vector<VectorXd> limits;     // (limit)(look that ran)
-  VectorXd failed;                  // (look) 1: it did not run, -1: it did; empty: all ran
+  VectorXd failed;                  // (look) -1: it ran; else 1 and how far it was from that; empty: all ran
   std::vector<GaussianProcess::Shape> shapes;
   std::optional<GaussianProcess> of_aim, of_failure;
   std::vector<GaussianProcess> of_limits;
@@ -94,7 +94,7 @@ SurrogateSearch::Models::Models(const std::vector<Look>& looks) {
     if (varies(g)) limits.push_back(g);
   }
   if (those.size() < everyone.size())
-    failed = numbers_of(everyone, [](const Look& look) { return look.ran ? -1 : 1; });
+    failed = numbers_of(everyone, [](const Look& look) { return look.ran ? -1 : 1 + tamed(look.violation()); });
 }
 
 void SurrogateSearch::Models::fit(std::vector<GaussianProcess::Shape>& known) {
@@ -184,7 +184,7 @@ bool SurrogateSearch::is_known(const VectorXd& place) const {
 }
 
 /// A share of the variables, at least one, lie anywhere in the box, the others as at the centre.
-std::vector<VectorXd> SurrogateSearch::candidates(const Box& box, const VectorXd& centre, double share) {
+std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const VectorXd& centre, double share) {
   std::vector<VectorXd> some;
   while (some.size() < candidate_count) {
     VectorXd place = centre;
@@ -208,7 +208,7 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
 }
 
 VectorXd SurrogateSearch::pick(const Models& models, const VectorXd& best, double width, const Trust& trust) {
-  const Box box = trust.anywhere ? Box{VectorXd::Zero(variables_), VectorXd::Ones(variables_)} : around(best, width);
+  const SearchBox box = trust.anywhere ? SearchBox{VectorXd::Zero(variables_), VectorXd::Ones(variables_)} : around(best, width);
   const auto excess = [&](const VectorXd& place) {
     return models.beyond(place, trust.of_limits).cwiseMax(0.0).sum();
   };
@@ -225,7 +225,7 @@ VectorXd SurrogateSearch::pick(const Models& models, const VectorXd& best, doubl
   };
   std::stable_sort(some.begin(), some.end(), better_one);
 
-  Limits limits;
+  LimitFunctions limits;
   if (models.any_feasible) {
     limits.count = static_cast<int>(models.beyond(best, 0).size());
     limits.beyond = [&](const VectorXd& place) { return models.beyond(place, trust.of_limits); };
@@ -268,7 +268,6 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
     ++asked_;
   };
   const auto wanted = static_cast<std::size_t>(count);
-  if (asked_ == 0 && settings_.start.size() > 0 && wanted > 0) take(settings_.start);
   const bool any_ran = std::any_of(looks_.begin(), looks_.end(), [](const Look& look) { return look.ran; });
   while (places.size() < wanted && (!any_ran || asked_ < settings_.first_looks)) take(first_look());
   if (places.size() == wanted) return places;

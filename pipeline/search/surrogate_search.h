@@ -13,9 +13,8 @@ namespace dresslife::pipeline {
 
 struct SurrogateSettings {
   std::uint64_t seed = 1;
-  Eigen::VectorXd start;   ///< looked at first; empty: nothing is known
-  int first_looks = 0;     ///< spread over the box before a model is made; 0: twice as many as variables, and 2
-  std::size_t aims = 1;    ///< 2: places along the front between both
+  int first_looks = 0;   ///< spread over the box before a model is made; 0: twice as many as variables, and 2
+  std::size_t aims = 1;  ///< 2: places along the front between both
 };
 
 class SurrogateSearch : public Search {
@@ -40,7 +39,7 @@ class SurrogateSearch : public Search {
 
   Eigen::VectorXd first_look();
   Eigen::VectorXd pick(const Models& models, const Eigen::VectorXd& best, double width, const Trust& trust);
-  std::vector<Eigen::VectorXd> candidates(const Box& box, const Eigen::VectorXd& centre, double share);
+  std::vector<Eigen::VectorXd> candidates(const SearchBox& box, const Eigen::VectorXd& centre, double share);
   Eigen::VectorXd allowed(const std::vector<Eigen::VectorXd>& by_merit);
   bool is_known(const Eigen::VectorXd& place) const;
   std::vector<Look> by_weight(double weight) const;

@@ -117,13 +117,13 @@ StudyJob make_job(const Node& base, const Variant& variant, const std::string& f
 
 void check_keys(const Node& study) {
   if (!study.is_map()) throw InputError(study.where, "holds no study", "write base: and vary: or jobs:");
-  const std::vector<std::string> known{"name", "base", "vary", "jobs", "table", "sample", "keep"};
+  const std::vector<std::string> known{"name", "base", "vary", "jobs", "table", "sample", "keep", "free", "limits"};
   for (const Entry& entry : study.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     const std::string near = nearest_word(entry.key, known);
     throw InputError(
         entry.where, fmt::format("unknown key '{}' of a study", entry.key),
-        near.empty() ? "keys here: name, base, vary, jobs, table, sample, keep" : fmt::format("did you mean '{}'?", near));
+        near.empty() ? "keys here: name, base, vary, jobs, table, sample, keep, free, limits" : fmt::format("did you mean '{}'?", near));
   }
   if (!study.find("base"))
     throw InputError(study.where, "base is missing",
@@ -221,6 +221,10 @@ std::string study_manual() {
          "| `keep` | `all`, `histories`, `lives` | `all` | what stays of a job that is done: all its files; strain.h5 and "
          "life.h5; what the ranking says, and no result's file. Nothing is to do for lack of the others; a job whose settings "
          "change is then made from its beginning |\n"
+         "| `free` | map of key paths to what they may be | none | what `dresslife improve` may change: `LOW .. HIGH`, `SPREAD "
+         "around` (the job's own value), `ANGLE deg around` (a direction), `LOW .. HIGH along LINK` (a position), or a list; "
+         "`dresslife run` leaves it alone |\n"
+         "| `limits` | `contact_force_N`, `tension_N` | none | what `dresslife improve` keeps besides the checks |\n"
          "| `sample` | map | none | keys whose values are drawn, for each of the jobs that the other sections make |\n\n" +
          sampling_manual();
 }

@@ -1,0 +1,89 @@
+// dresslife improve: jobs that live longer, and a search that is killed.
+#include <catch2/catch.hpp>
+
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+/// The small job, its cables held so lightly that nothing tears, of which the length is free.
+void write_small_study(const Scratch& scratch) {
+  write_small_job(scratch);
+  scratch.write("better.yaml", R"(base: job.yaml
+jobs:
+  hose:
+    dresspack.least_bend_radius_mm: 60
+    dresspack.components.1.base_grip_N: 2
+    dresspack.components.1.tool_grip_N: 2
+    strain.slip: [free, stick]
+free:
+  routing.free_length_m: 0.85 .. 0.95
+limits: {tension_N: 400}
+)");
+}
+
+std::size_t lines_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+TEST_CASE("improve finds a job that lives longer, and says by what") {
+  Scratch scratch;
+  write_small_study(scratch);
+  const Outcome told = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");
+  INFO(told.out << told.err);
+  REQUIRE(told.status == 0);
+  CHECK(told.out.find("As it is: ") == 0);
+  CHECK(told.out.find("    --set 'routing.free_length_m=0.9") != std::string::npos);
+  CHECK(told.out.find(" % of draws\n") != std::string::npos);
+  const std::string table = content(scratch / "runs/better_improve/improve.csv");
+  CHECK(lines_of(table) == 11);  // and its header
+  CHECK(table.find("\n0,1,") != std::string::npos);
+  CHECK(fs::exists(scratch / "runs/better_improve/report.html"));
+  CHECK(fs::exists(scratch / "runs/better_improve/before/life.h5"));
+
+  // The same again runs nothing; the study itself does not look at what is free.
+  const Outcome again = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");
+  CHECK(again.out == told.out);
+  CHECK(run(scratch, "dresslife", "run better.yaml --quiet").status == 0);
+  const Outcome chance = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet --method random -o chance");
+  CHECK(chance.status == 0);
+  CHECK(content(scratch / "chance/better_improve/improve.csv") != table);
+}
+
+TEST_CASE("a search that is killed ends where it would have ended") {
+  Scratch scratch;
+  write_small_study(scratch);
+  const std::string line = "improve better.yaml --trials 10 --quiet -j 2 -o ";
+  REQUIRE(run(scratch, "dresslife", line + "whole").status == 0);
+  // Killed once the sixth trial is there, then begun again.
+  const Outcome killed = run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line +
+                                                "killed & pid=$!\n"
+                                                "for k in $(seq 600); do\n"
+                                                "  [ -e killed/better_improve/trial_0006/life.h5 ] && break\n"
+                                                "  sleep 0.1\n"
+                                                "done\n"
+                                                "kill -9 $pid; wait $pid; echo $?");
+  REQUIRE(killed.out == "137\n");
+  REQUIRE_FALSE(fs::exists(scratch / "killed/better_improve/improve.csv"));
+  REQUIRE(run(scratch, "dresslife", line + "killed").status == 0);
+  CHECK(content(scratch / "killed/better_improve/improve.csv") == content(scratch / "whole/better_improve/improve.csv"));
+}
+
+TEST_CASE("improve refuses what it cannot search") {
+  Scratch scratch;
+  write_small_study(scratch);
+  CHECK(run(scratch, "dresslife", "improve better.yaml --free routing.free_length_m=2").err ==
+        "--free routing.free_length_m=2: error: free.routing.free_length_m is '2'; write LOW .. HIGH, SPREAD around, ANGLE "
+        "deg around, LOW .. HIGH along LINK (or along [x, y, z]), or a list [A, B, ...]\n");
+  CHECK(run(scratch, "dresslife", "improve better.yaml --free nonsense").status == 1);
+  CHECK(run(scratch, "dresslife", "improve better.yaml --trials 1").status == 2);
+  scratch.write("bad.yaml", "base: job.yaml\nfree: {routing.free_length_m: 1 .. 2}\nlimits: {force_N: 4}\n");
+  CHECK(run(scratch, "dresslife", "improve bad.yaml").err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") == 0);
+  // Nothing keeps a limit: the exit status says so.
+  const Outcome none = run(scratch, "dresslife", "improve better.yaml --trials 3 --quiet --set dresspack.least_bend_radius_mm=5000");
+  CHECK(none.status == 1);
+  CHECK(none.out.find("No feasible job was found in 3 trials") != std::string::npos);
+}
