@@ -9,9 +9,9 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/installation.h"
 #include "pipeline/job/fields.h"
+#include "pipeline/learning/learning.h"
 #include "pipeline/report/calibration_picture.h"
 #include "pipeline/study/folder_lock.h"
-#include "pipeline/study/learning.h"
 #include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {

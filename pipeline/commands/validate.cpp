@@ -8,9 +8,9 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/installation.h"
+#include "pipeline/learning/observations.h"
 #include "pipeline/report/validation_picture.h"
 #include "pipeline/study/folder_lock.h"
-#include "pipeline/study/observations.h"
 #include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {

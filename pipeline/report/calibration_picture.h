@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "pipeline/study/learning.h"
+#include "pipeline/learning/learning.h"
 
 namespace dresslife::pipeline {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/study/observations.h"
+#include "pipeline/learning/observations.h"
 
 namespace dresslife::pipeline {
 

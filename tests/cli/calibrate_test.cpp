@@ -6,7 +6,7 @@
 #include <random>
 
 #include "pipeline/files/files.h"
-#include "pipeline/study/measured_bending.h"
+#include "pipeline/learning/measured_bending.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

@@ -1,4 +1,4 @@
-#include "pipeline/study/observations.h"
+#include "pipeline/learning/observations.h"
 
 #include <fmt/format.h>
 
@@ -211,7 +211,7 @@ Prediction predicted(const Observation& observation, const Study& study, const s
 }
 
 Judgement judged(const Observation& observation, const Prediction& prediction) {
-  const double life = observation.cycles ? *observation.cycles : *observation.hours;
+  const double life = observed_life(observation);
   const bool above = bounds_above(observation.outcome), below = bounds_below(observation.outcome);
   if (below && prediction.high < life) return {Agreement::too_short, life / prediction.high};
   if (above && prediction.low > life) return {Agreement::too_long, prediction.low / life};
@@ -251,7 +251,7 @@ std::string observed_text(const Observation& observation) {
   const char* sign = observation.outcome == ObservedEnd::broken      ? ""
                      : observation.outcome == ObservedEnd::broken_by ? "at most "
                                                                      : "at least ";
-  const double life = observation.cycles ? *observation.cycles : *observation.hours;
+  const double life = observed_life(observation);
   return fmt::format("{}{}{}", sign, readable(life, 3), observation.hours ? " h" : "");
 }
 

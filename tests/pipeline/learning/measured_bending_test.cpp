@@ -1,4 +1,4 @@
-#include "pipeline/study/measured_bending.h"
+#include "pipeline/learning/measured_bending.h"
 
 #include <catch2/catch.hpp>
 #include <algorithm>

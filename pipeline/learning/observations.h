@@ -126,6 +126,11 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
 /// Lives by which 10, 50 and 90 % have failed by the observation's criterion, in the observer's unit; infinite without damage.
 std::array<double, 3> lives_of(const Observation& observation, const RankingRow& row);
 
+/// Of a life [cycles or h].
+inline double observed_life(const Observation& observation) {
+  return observation.cycles ? *observation.cycles : *observation.hours;
+}
+
 /// "at least 100,000", "460 h", "0.21 N m2 at 1 1/m".
 std::string observed_text(const Observation& observation);
 
