@@ -28,6 +28,9 @@ MotionFile::MotionFile(pipeline::FileWriter& file, const RunDescription& descrip
   file_.append("/segment/length", std::span<const double>(description.segment_length));
   file_.append("/segment/dresspack", std::span<const std::int32_t>(description.dresspack));
   file_.append("/dresspack/name", std::span<const std::string>(description.dresspacks));
+  file_.append("/dresspack/bending_stiffness", std::span<const double>(description.bending_stiffness));
+  file_.append("/dresspack/torsional_stiffness", std::span<const double>(description.torsional_stiffness));
+  file_.append("/dresspack/axial_stiffness", std::span<const double>(description.axial_stiffness));
   if (description.clamp_segment.size() > 2)
     file_.append("/clamp/segment", std::span<const std::int32_t>(description.clamp_segment.data(),
                                                                  description.clamp_segment.size()));

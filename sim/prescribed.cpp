@@ -106,7 +106,7 @@ RunDescription description_of(const PrescribedDeformation& deformation, const pi
   const int n = setup.simulation.segments;
   RunDescription description;
   description.samples = static_cast<int>(deformation.times.size());
-  description.dresspacks = {setup.dresspacks.front().name};
+  describe_dresspack(description, setup.dresspacks.front());
   description.dresspack.assign(n, 0);
   description.segment_length.assign(n, setup.dresspacks.front().routing.free_length / n);
   description.clamp_segment = {0, n};

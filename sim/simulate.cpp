@@ -48,6 +48,13 @@ std::vector<MotionLimits> limits_of(const pipeline::Setup& setup) {
 
 }  // namespace
 
+void describe_dresspack(RunDescription& description, const pipeline::MountedDresspack& mounted) {
+  description.dresspacks.push_back(mounted.name);
+  description.bending_stiffness.push_back(mounted.dresspack.bending_stiffness);
+  description.torsional_stiffness.push_back(mounted.dresspack.torsional_stiffness);
+  description.axial_stiffness.push_back(mounted.dresspack.axial_stiffness);
+}
+
 Simulation::Simulation(const pipeline::Setup& setup)
     : setup_(setup), rod_(rod_of(setup_)), path_(path_of(setup_)) {
   if (setup_.simulation.choose_time_step)
@@ -55,8 +62,7 @@ Simulation::Simulation(const pipeline::Setup& setup)
   robot_ = dynamic_cast<RobotPath*>(path_.get());
   check_size(setup_, path_->duration(), rod_.segments());
   description_.samples = intervals(path_->duration(), setup_.simulation.sample_rate) + 1;
-  for (const pipeline::MountedDresspack& mounted : setup_.dresspacks)
-    description_.dresspacks.push_back(mounted.name);
+  for (const pipeline::MountedDresspack& mounted : setup_.dresspacks) describe_dresspack(description_, mounted);
   for (int i = 0; i < rod_.segments(); ++i) {
     description_.dresspack.push_back(rod_.span_of(i).dresspack);
     description_.segment_length.push_back(rod_.span_of(i).segment_length);

@@ -26,6 +26,8 @@ class Simulation;
 struct RunDescription {
   int samples = 0;
   std::vector<std::string> dresspacks;  ///< their names; the only one's may be empty
+  /// (dresspack) as it was simulated, given or from its construction [N m2], [N m2], [N]
+  std::vector<double> bending_stiffness, torsional_stiffness, axial_stiffness;
   std::vector<int> dresspack;           ///< (segment) that it belongs to
   std::vector<double> segment_length;   ///< (segment) unstretched [m]
   std::vector<int> clamp_segment;       ///< (clamp) segments on its base side
@@ -34,6 +36,9 @@ struct RunDescription {
   int joints = 0;                       ///< of the robot
   std::vector<std::string> step_texts;  ///< (line) of the program
 };
+
+/// The next dresspack's name and stiffnesses.
+void describe_dresspack(RunDescription& description, const pipeline::MountedDresspack& mounted);
 
 /// One sample; the references hold until the callback returns.
 struct Sample {

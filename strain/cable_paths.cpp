@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "pipeline/helices/shares.h"
+
 namespace dresslife::strain {
 namespace {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "strain/cable_bending.h"
-#include "strain/corrugation.h"
+#include "pipeline/job/cable_bending.h"
+#include "pipeline/job/corrugation.h"
 
 namespace dresslife::strain {
 namespace {
@@ -21,17 +21,6 @@ std::string element(const Layer& layer, int number) {
 
 }  // namespace
 
-double axial_stiffness(const pipeline::Dresspack& dresspack, const pipeline::Component& part) {
-  if (part.components.empty()) {
-    const pipeline::Material* const material = pipeline::find_material(dresspack, part.material);
-    return material ? material->youngs_modulus * pi * part.radius * part.radius : 0;
-  }
-  double sum = 0;
-  for (const pipeline::Component& inner : part.components)
-    sum += inner.count * axial_stiffness(dresspack, inner) * std::pow(std::cos(inner.lay_angle), 3);
-  return sum;
-}
-
 double Layer::pitch() const {
   if (helix_radius == 0 || lay_angle == 0) return std::numeric_limits<double>::infinity();
   return 2 * pi * helix_radius / std::abs(std::tan(lay_angle));
@@ -45,7 +34,7 @@ Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinem
       hose_bending_stiffness_(dresspack.bending_stiffness) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   if (!dresspack.hose_material.empty()) {
-    const WallFactors factors = wall_factors(dresspack);
+    const pipeline::WallFactors factors = pipeline::wall_factors(dresspack);
     pipeline::Component wall;
     wall.name = pipeline::hose_wall_name;
     wall.count = hose_places;
@@ -116,7 +105,7 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   layer.tension = component.tension;
   layer.jacket_stiffness = component.jacket_stiffness;
   layer.radial_stiffness = component.radial_stiffness.value_or(layer.radial_stiffness);
-  layer.axial_stiffness = axial_stiffness(dresspack, component);
+  layer.axial_stiffness = pipeline::axial_stiffness(dresspack, component);
   if (layer.is_cable()) {
     layer.loose = pipeline::lies_loose(dresspack, component);
     layer.laying = component.laying;
@@ -132,7 +121,7 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
                                            "too (one friction level belongs to both)",
                                            component.name),
                                "keep one of the two");
-  const double inside = measured ? strain::friction_level(dresspack, component) : friction_level;
+  const double inside = measured ? pipeline::friction_level(dresspack, component) : friction_level;
   for (const auto& inner : component.components) add(dresspack, inner, index, level + 1, inside);
 }
 

@@ -10,13 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/helices/helix.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/job/strain.h"
 #include "strain/cable_force.h"
-#include "strain/helix.h"
 #include "strain/loose/rings.h"
 
 namespace dresslife::strain {
+
+using namespace helices;  // rods and placements are the words of this stage
 
 constexpr int dresspack_itself = -1;  ///< as the parent of a part or layer
 constexpr int no_cable = -1;
@@ -65,10 +67,6 @@ struct Bundle {
   int part;  ///< or dresspack_itself
   std::vector<int> wire_layers;
 };
-
-/// E A of a part along its own axis, of its wires alone [N]. A helix of stiffness E A has E A cos^3(alpha)
-/// along its parent: strain and force are cos^2 and cos of those along the parent.
-double axial_stiffness(const pipeline::Dresspack& dresspack, const pipeline::Component& part);
 
 class Construction {
  public:

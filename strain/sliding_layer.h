@@ -20,9 +20,11 @@
 #include <array>
 #include <span>
 
-#include "strain/helix.h"
+#include "pipeline/helices/helix.h"
 
 namespace dresslife::strain {
+
+using namespace helices;
 
 /// Up to here the closed forms differ from the exact harmonics by less than 1e-6 of the layer's largest
 /// strain; beyond, five nodes do (W13).

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/helices/shares.h"
+
 namespace dresslife::strain {
 namespace {
 
@@ -24,18 +26,6 @@ FrictionCap friction_cap(const Layer& layer, double evening_length) {
 }
 
 }  // namespace
-
-double elastic_share(double jacket_stiffness, double axial_stiffness, double evening_length) {
-  if (jacket_stiffness == 0) return 0;
-  const double waves = 2 * std::numbers::pi / evening_length;  // [rad/m]
-  return jacket_stiffness / (jacket_stiffness + axial_stiffness * waves * waves);
-}
-
-double radial_share(double axial_stiffness, double lay_angle, double helix_radius, double radial_stiffness) {
-  if (helix_radius == 0) return 1;
-  const double press = std::pow(std::sin(lay_angle), 2) / helix_radius;  // of a tension [1/m]
-  return 1 / (1 + axial_stiffness * press * press / radial_stiffness);
-}
 
 std::vector<LayerSlip> plan_slip(const Construction& construction, const std::vector<pipeline::Slip>& slip,
                                  double free_length) {

@@ -10,9 +10,10 @@
 
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/believable.h"
+#include "pipeline/job/cable_bending.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/overlap.h"
-#include "strain/cable_bending.h"
+#include "pipeline/job/stiffness.h"
 #include "strain/evaluation.h"
 #include "strain/variations.h"
 #include "pipeline/threads.h"
@@ -404,11 +405,13 @@ std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::uniqu
   return warnings;
 }
 
-/// Parts that lie in each other, whatever the motion.
-std::vector<Warning> parts_in_each_other(const pipeline::Job& job) {
+/// What is wrong in the descriptions of dresspacks, whatever the motion: parts that lie in each other, a stiffness that
+/// is not that of the parts.
+std::vector<Warning> construction_warnings(const pipeline::Job& job) {
   std::vector<Warning> all;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks)
-    for (Warning warning : pipeline::overlap_warnings(mounted.dresspack)) {
+    for (Warning warning : pipeline::joined(pipeline::overlap_warnings(mounted.dresspack),
+                                            pipeline::stiffness_warnings(mounted.dresspack))) {
       warning.where = mounted.name;  // its line in the resolved job helps nobody
       all.push_back(warning);
     }
@@ -425,7 +428,7 @@ void write_bending(FileWriter& file, const pipeline::Job& job) {
   std::vector<double> curvature, moment;
   for (int k = 0; k <= decades * of_a_decade; ++k) curvature.push_back(least * std::pow(10, double(k) / of_a_decade));
   try {
-    moment = bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
+    moment = pipeline::bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
   } catch (const pipeline::InputError&) {
     return;  // straight parts beside the axis: how far they slide hangs on the length
   }
@@ -506,7 +509,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
         if (evaluation.wants_again()) evaluation.add_again(of_span.deformation);
       });
     });
-  const std::vector<Warning> warnings = pipeline::joined(parts_in_each_other(job), write_cables(strain, evaluations));
+  const std::vector<Warning> warnings = pipeline::joined(construction_warnings(job), write_cables(strain, evaluations));
   write_bending(strain, job);
 
   Sink sink;

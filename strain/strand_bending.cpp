@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/helices/shares.h"
+
 namespace dresslife::strain {
 namespace {
 
@@ -29,7 +31,7 @@ StrandBending::StrandBending(const Strand& strand) {
     double line_load = own + layer->line_load;
     if (strand.outer_layers_press) line_load += 2 * pressed_inward / layer->count;
     pressed_inward += layer->count * (own + layer->line_load);
-    const double elastic = elastic_share(layer->jacket_stiffness, EA, 2 * pi * R / sine);
+    const double elastic = helices::elastic_share(layer->jacket_stiffness, EA, 2 * pi * R / sine);
     const double largest = pi / 2 * strand.friction * line_load * R / (EA * sine);  // (W16)
     for (int k = 0; k < angles_per_quarter; ++k) {
       const double share = (k + 0.5) / angles_per_quarter, lever = R * std::sin(pi / 2 * share);

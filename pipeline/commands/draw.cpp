@@ -7,6 +7,7 @@
 #include "pipeline/commands/pictures.h"
 #include "pipeline/job/job_text.h"
 #include "pipeline/job/overlap.h"
+#include "pipeline/job/stiffness.h"
 #include "pipeline/report/cross_section.h"
 
 namespace dresslife::pipeline {
@@ -20,7 +21,8 @@ int draw(const Options& options) {
   if (!options.picture.empty()) check_picture(options.picture);
   const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"));
   print(shown(construction_text(dresspack)));
-  for (const Warning& warning : overlap_warnings(dresspack)) tell(warning.line() + "\n");
+  for (const Warning& warning : joined(overlap_warnings(dresspack), stiffness_warnings(dresspack)))
+    tell(warning.line() + "\n");
   if (options.picture.empty()) return 0;
   write_picture(options.picture, cross_section_picture(dresspack));
   return 0;

@@ -197,6 +197,12 @@ Format make_motion_format() {
       {"/tension", Type::f64, {"sample", "segment"}, "N", "axial force in each segment"},
   };
   add_dresspacks(format.datasets);
+  const auto stiffness = [&](const char* path, const char* unit, const char* meaning) {
+    format.datasets.push_back({path, Type::f64, {"dresspack"}, unit, meaning, false, true});
+  };
+  stiffness("/dresspack/bending_stiffness", "N m2", "E I as it was simulated, given or from the construction");
+  stiffness("/dresspack/torsional_stiffness", "N m2", "G J, likewise");
+  stiffness("/dresspack/axial_stiffness", "N", "E A, likewise");
   add_checks(format.datasets);
   format.attributes = {
       {"repeats", "repeats of the motion that were run; the last one is in the file", false, true},

@@ -37,6 +37,9 @@ Dresspack scaled(Dresspack dresspack, double factor) {
   multiply(area, {&dresspack.mass_per_length, &dresspack.axial_stiffness});
   multiply(area, {&dresspack.most_tension});
   multiply(area * area, {&dresspack.bending_stiffness, &dresspack.torsional_stiffness});
+  multiply(area * area, {&dresspack.core_bending_stiffness, &dresspack.core_torsional_stiffness});
+  multiply(area, {&dresspack.core_axial_stiffness});
+  multiply(1 / factor, {&dresspack.construction_curvature});
   multiply(1 / factor, {&dresspack.rest_curvature});
   multiply(1 / factor, {&dresspack.most_twist});
   if (Corrugation* wall = dresspack.hose_corrugation ? &*dresspack.hose_corrugation : nullptr)

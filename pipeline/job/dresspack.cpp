@@ -87,9 +87,23 @@ void describe(Fields& f, Dresspack& dresspack) {
   const Range range = dresspack.cable_alone ? at_least(0) : above(0);
   f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
   f.number("mass_kg_per_m", dresspack.mass_per_length, need, range, "of the filled hose");
-  f.number("bending_stiffness_Nm2", dresspack.bending_stiffness, need, range, "EI of the filled hose");
-  f.number("torsional_stiffness_Nm2", dresspack.torsional_stiffness, need, range, "GJ of the filled hose");
-  f.number("axial_stiffness_N", dresspack.axial_stiffness, need, range, "EA of the filled hose");
+  constexpr std::string_view from = "from_construction";
+  f.number_or_word("bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction, from, need,
+                   range, "EI of the filled hose; or of its parts, wall and core in their construction_state");
+  f.number_or_word("torsional_stiffness_Nm2", dresspack.torsional_stiffness, dresspack.torsional_from_construction, from,
+                   need, range, "GJ of the filled hose, likewise");
+  f.number_or_word("axial_stiffness_N", dresspack.axial_stiffness, dresspack.axial_from_construction, from, need, range,
+                   "EA of the filled hose, likewise");
+  f.choice("construction_state", dresspack.construction_state,
+           "in which from_construction takes a stiffness: parts slide, are held by their friction, or are glued");
+  f.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional, between(1e-3, 100),
+           "to which the hose is bent in construction_state friction: the larger, the more has slid");
+  f.maybe_number("core_bending_stiffness_Nm2", dresspack.core_bending_stiffness, at_least(0),
+                 "EI of what fills the middle and is no component; read where a stiffness is from_construction");
+  f.maybe_number("core_torsional_stiffness_Nm2", dresspack.core_torsional_stiffness, at_least(0),
+                 "its GJ; without it 0.8 of its EI, as of a solid round bar");
+  f.maybe_number("core_axial_stiffness_N", dresspack.core_axial_stiffness, at_least(0),
+                 "its EA; 0 of what is laid in with slack");
   f.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(),
            "of the delivered hose when nothing pulls on it, toward the x axis of its base clamp, which "
            "base_clamp.roll_deg turns; its parts are free of strain in that shape");
@@ -184,7 +198,7 @@ int check_component(const Component& component, const Component* parent) {
   return depth + 1;
 }
 
-/// A thin wall with round crests and roots fits the profile (strain/corrugation.h).
+/// A thin wall with round crests and roots fits the profile (corrugation.h).
 void check_hose(const Dresspack& dresspack) {
   if (!dresspack.hose_corrugation) return;
   const Corrugation& c = *dresspack.hose_corrugation;
@@ -267,6 +281,10 @@ void check_ratings(const Component& component, bool first_level) {
 }
 
 }  // namespace
+
+bool is_from_construction(const Dresspack& dresspack) {
+  return dresspack.bending_from_construction || dresspack.torsional_from_construction || dresspack.axial_from_construction;
+}
 
 void drop_ratings(Dresspack& dresspack) {
   dresspack.ratings.clear();

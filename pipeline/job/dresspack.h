@@ -50,6 +50,20 @@ constexpr std::string_view word(Position value) {
   return {};
 }
 
+/// Of what a hose's stiffness is taken from (stiffness.h): whether its parts slip.
+enum class SlipState { sliding, friction, stuck };
+constexpr std::string_view word(SlipState value) {
+  switch (value) {
+    case SlipState::sliding:
+      return "sliding";
+    case SlipState::friction:
+      return "friction";
+    case SlipState::stuck:
+      return "stuck";
+  }
+  return {};
+}
+
 /// How a part of the first level is laid into its dresspack and clamped (strain/README.md, W32 to W37).
 struct Laying {
   Position position = Position::automatic;
@@ -102,6 +116,13 @@ struct Dresspack {
   double bending_stiffness = 0;                 ///< EI [N m2]
   double torsional_stiffness = 0;               ///< GJ [N m2]
   double axial_stiffness = 0;                   ///< EA [N]
+  /// Whether those three were taken from the construction, in that state and bent as far (stiffness.h).
+  bool bending_from_construction = false, torsional_from_construction = false, axial_from_construction = false;
+  SlipState construction_state = SlipState::friction;
+  double construction_curvature = 1;                ///< [1/m]
+  std::optional<double> core_bending_stiffness;     ///< of what fills the middle and is no component: EI [N m2]
+  std::optional<double> core_torsional_stiffness;   ///< GJ [N m2]
+  std::optional<double> core_axial_stiffness;       ///< EA [N]
   double rest_curvature = 0;                    ///< of the unloaded hose, toward x of its base clamp [1/m]
   double damping_time = 0;                      ///< Kelvin-Voigt tau of bending and twist [s]
   std::string damping_source;                   ///< where the damping was measured or why it is guessed
@@ -138,6 +159,9 @@ bool is_hose_wall(const Dresspack& dresspack, std::string_view component);
 void describe(Fields& f, Component& component);
 void describe(Fields& f, Corrugation& corrugation);
 void describe(Fields& f, Dresspack& dresspack);
+
+/// Whether any of its stiffnesses is taken from its construction.
+bool is_from_construction(const Dresspack& dresspack);
 
 /// Takes out what no stage reads.
 void drop_ratings(Dresspack& dresspack);

@@ -102,12 +102,12 @@ class FieldReader final : public Fields {
       value = number_of(*node, key, range, meaning) * unit_of_key(key).to_si;
   }
 
-  void number_or_auto(Key key, double& value, bool& automatic, Range range,
+  void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
                       std::string_view meaning) override {
-    const Node* node = take(key, Need::optional, meaning);
+    const Node* node = take(key, need, meaning);
     if (!node) return;
-    automatic = node->is_scalar() && node->text == "auto";
-    if (!automatic) value = number_of(*node, key, range, meaning) * unit_of_key(key).to_si;
+    by_word = node->is_scalar() && node->text == word;
+    if (!by_word) value = number_of(*node, key, range, meaning, word) * unit_of_key(key).to_si;
   }
 
   void integer(Key key, int& value, Need need, Range range, std::string_view meaning) override {
@@ -256,14 +256,16 @@ class FieldReader final : public Fields {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
   }
 
-  double number_of(const Node& node, Key key, Range range, std::string_view meaning) const {
+  /// word: that may stand instead; empty: none.
+  double number_of(const Node& node, Key key, Range range, std::string_view meaning, std::string_view word = "") const {
     const std::optional<double> value =
         node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
     if (!value) {
       const std::string unit = unit_note(key);
       throw InputError(node.where,
-                       fmt::format("{} is {} (must be a number{})", name_of(key),
+                       fmt::format("{} is {} (must be a number{}{})", name_of(key),
                                    node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
+                                   word.empty() ? "" : fmt::format(" or {}", word),
                                    unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
                        fmt::format("give {}", meaning));
     }
@@ -338,8 +340,9 @@ class FieldEcho final : public Fields {
     if (value) put(key, scalar(text_in_unit(*value, unit_of_key(key))));
   }
 
-  void number_or_auto(Key key, double& value, bool& automatic, Range, std::string_view) override {
-    put(key, scalar(automatic ? "auto" : text_in_unit(value, unit_of_key(key))));
+  void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need, Range,
+                      std::string_view) override {
+    put(key, scalar(by_word ? std::string(word) : text_in_unit(value, unit_of_key(key))));
   }
 
   void integer(Key key, int& value, Need, Range, std::string_view) override {
@@ -458,9 +461,10 @@ class FieldManual final : public Fields {
     row(key, range.text(), "none", meaning);
   }
 
-  void number_or_auto(Key key, double& value, bool& automatic, Range range,
+  void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
                       std::string_view meaning) override {
-    row(key, range.text() + " \\| auto", automatic ? "auto" : text_in_unit(value, unit_of_key(key)), meaning);
+    row(key, fmt::format("{} \\| {}", range.text(), word),
+        default_or(need, by_word ? std::string(word) : text_in_unit(value, unit_of_key(key))), meaning);
   }
 
   void integer(Key key, int& value, Need need, Range range, std::string_view meaning) override {

@@ -58,8 +58,8 @@ class Fields {
   virtual void text(Key key, std::string& value, Need need, std::string_view meaning) = 0;
   virtual void number(Key key, double& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) = 0;
-  /// A number, or the word auto; optional.
-  virtual void number_or_auto(Key key, double& value, bool& automatic, Range range,
+  /// A number, or this word: then by_word is set and the value stays.
+  virtual void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
                               std::string_view meaning) = 0;
   virtual void integer(Key key, int& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void boolean(Key key, bool& value, Need need, std::string_view meaning) = 0;

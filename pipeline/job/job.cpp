@@ -8,6 +8,7 @@
 #include "pipeline/job/fields.h"
 #include "pipeline/job/overlap.h"
 #include "pipeline/job/sources.h"
+#include "pipeline/job/stiffness.h"
 #include "pipeline/job/urdf.h"
 
 namespace dresslife::pipeline {
@@ -187,6 +188,15 @@ void check(const Job& job, const Node& document) {
   check_slopes(job, where("fatigue"));
 }
 
+/// Once what they are taken from is known to be sound.
+void take_stiffnesses(Job& job) {
+  for (MountedDresspack& mounted : job.dresspacks) {
+    if (!is_from_construction(mounted.dresspack)) continue;
+    check_dresspack(mounted.dresspack, job.strain.slip);
+    take_from_construction(mounted.dresspack);
+  }
+}
+
 /// strain.gate of a job with a rig that names none: above the rounding of strains in single precision (W26).
 constexpr double gate_of_rigs = 1e-6;
 
@@ -226,6 +236,7 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   if (document.find("dresspacks")) job.dresspacks.clear();
   read_fields(document, job);
   for (MountedDresspack& mounted : job.dresspacks) place_clamps(mounted.routing, job.robot);
+  take_stiffnesses(job);
   if (job.motion.rig) {
     check_rig(*job.motion.rig);
     const Node* strain = document.find("strain");
@@ -298,6 +309,9 @@ void describe(Fields& echo, StrainKeys& keys) {
     echo.number("core_diameter_mm", dresspack.core_diameter, Need::optional, any_number(), "");
   if (dresspack.rest_curvature != 0)
     echo.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(), "");
+  if (dresspack.construction_curvature != Dresspack{}.construction_curvature)
+    echo.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional, any_number(), "");
+  echo.maybe_number("core_bending_stiffness_Nm2", dresspack.core_bending_stiffness, any_number(), "");
   if (dresspack.hose_material.empty()) return;
   echo.text("hose_material", dresspack.hose_material, Need::optional, "");
   echo.maybe_number("hose_strain_factor", dresspack.hose_strain_factor, any_number(), "");
@@ -324,12 +338,22 @@ void describe_each(Fields& echo, const Forms& forms, std::vector<Keys> keys) {
     echo.list("dresspacks", keys, Need::required, "");
 }
 
+/// The motion hangs on how stiff the dresspack is, not on why.
+void count_as_numbers(Dresspack& dresspack) {
+  const Dresspack untold;
+  dresspack.bending_from_construction = dresspack.torsional_from_construction = dresspack.axial_from_construction = false;
+  dresspack.construction_state = untold.construction_state;
+  dresspack.construction_curvature = untold.construction_curvature;
+  dresspack.core_bending_stiffness = dresspack.core_torsional_stiffness = dresspack.core_axial_stiffness = {};
+}
+
 void describe_sim(Fields& echo, Job copy) {
   const Forms forms = forms_of(copy);
   for (MountedDresspack& mounted : copy.dresspacks) {
     drop_ratings(mounted.dresspack);
-    if (copy.motion.is_prescribed()) break;  // its wires say how a pull stretches the cable
     Dresspack& dresspack = mounted.dresspack;
+    count_as_numbers(dresspack);
+    if (copy.motion.is_prescribed()) break;  // its wires say how a pull stretches the cable
     dresspack.components.clear();
     dresspack.materials.clear();
     dresspack.hose_material.clear();
@@ -407,6 +431,7 @@ Dresspack read_dresspack(const std::filesystem::path& file) {
   check_dresspack(dresspack, {Slip::free});
   check_materials(dresspack.materials);
   refuse_gross_overlap(dresspack);
+  take_from_construction(dresspack);
   return dresspack;
 }
 

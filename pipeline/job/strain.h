@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/helices/kinematics.h"
+
 namespace dresslife::pipeline {
 
 class Fields;
@@ -25,27 +27,6 @@ constexpr bool is_thesis(DeformationMeasure value) {
     case DeformationMeasure::thesis:
       return true;
     case DeformationMeasure::rotation_vector:
-      return false;
-  }
-  return false;
-}
-
-enum class Kinematics { exact, thesis };
-constexpr std::string_view word(Kinematics value) {
-  switch (value) {
-    case Kinematics::exact:
-      return "exact";
-    case Kinematics::thesis:
-      return "thesis";
-  }
-  return {};
-}
-/// Whether (12) to (23) are used as they are printed; else the geometry itself.
-constexpr bool is_thesis(Kinematics value) {
-  switch (value) {
-    case Kinematics::thesis:
-      return true;
-    case Kinematics::exact:
       return false;
   }
   return false;

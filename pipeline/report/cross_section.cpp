@@ -8,6 +8,7 @@
 #include <set>
 
 #include "pipeline/job/overlap.h"
+#include "pipeline/job/stiffness.h"
 #include "pipeline/report/plot.h"
 
 namespace dresslife::pipeline {
@@ -265,7 +266,7 @@ std::string construction_text(const Dresspack& dresspack) {
   for (std::size_t k = 1; k + 1 < bending.size(); ++k)
     text += fmt::format(", {:.3g} when parts of level {} are solid", bending[k], bending.size() - 1 - k);
   text += fmt::format(", {:.3g} when nothing slides\n", bending.back());
-  return text;
+  return text + stiffness_text(dresspack);
 }
 
 }  // namespace dresslife::pipeline

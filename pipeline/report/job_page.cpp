@@ -11,6 +11,7 @@
 #include "pipeline/files/digest.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job_text.h"
+#include "pipeline/job/stiffness.h"
 #include "pipeline/readable.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/json.h"
@@ -84,8 +85,31 @@ std::string headline(const RankingRow& row) {
   return text;
 }
 
+/// "E I 25 N m2, G J 20 N m2, E A 1e+05 N" of each dresspack as it was simulated; empty where an older file does not tell.
+std::string stiffness_words(const FileReader& motion) {
+  if (!motion.has("/dresspack/bending_stiffness")) return "";
+  const auto bending = motion.read<double>("/dresspack/bending_stiffness"),
+             torsional = motion.read<double>("/dresspack/torsional_stiffness"),
+             axial = motion.read<double>("/dresspack/axial_stiffness");
+  const std::vector<std::string> names = dresspack_names(motion);
+  std::vector<std::string> words;
+  for (std::size_t d = 0; d < bending.size() && d < names.size(); ++d)
+    if (bending[d] > 0)
+      words.push_back(fmt::format("{}E I {:.3g} N m2, G J {:.3g} N m2, E A {:.3g} N",
+                                  names[d].empty() ? "" : names[d] + ": ", bending[d], torsional[d], axial[d]));
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+/// Of every dresspack that takes a stiffness from its construction, what it would be otherwise.
+std::string construction_words(const Setup& setup) {
+  std::string words;
+  for (const MountedDresspack& mounted : setup.dresspacks)
+    if (is_from_construction(mounted.dresspack)) words += stiffness_text(mounted.dresspack);
+  return words;
+}
+
 /// The settings that decide most, as they were in the end.
-std::string assumptions(const RankingRow& row, const FileReader* motion) {
+std::string assumptions(const RankingRow& row, const FileReader* motion, const FileReader* strain, const Setup* setup) {
   std::string list;
   const auto fact = [&](const std::string& name, const std::string& value) {
     list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
@@ -95,6 +119,14 @@ std::string assumptions(const RankingRow& row, const FileReader* motion) {
   if (row.force_ok() && row.largest_force_share.value_or(0) > 0)
     fact("forces",
          fmt::format("cables pull with at most {:.2g} of what tears them", *row.largest_force_share));
+  if (strain && strain->has_attribute("loose_mesh_error"))
+    fact("mesh of loose cables",
+         fmt::format("{:.2g} % of their curvature is missed by {} places along the hose (above 2 % is warned of)",
+                     100 * strain->number_attribute("loose_mesh_error"), strain->rows("/segment/length")));
+  const std::string stiffness = motion ? stiffness_words(*motion) : "";
+  if (!stiffness.empty()) fact("hose as simulated", escaped(stiffness));
+  if (const std::string words = setup ? construction_words(*setup) : ""; !words.empty())
+    fact("from construction", "<pre>" + escaped(words) + "</pre>");
   if (motion && motion->has_attribute("time_step"))
     fact("time step", fmt::format("{:.3g} ms{}", 1e3 * motion->number_attribute("time_step"),
                                   motion->has_attribute("curvature_error")
@@ -180,7 +212,7 @@ class Page {
         "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div>\n<div "
         "id=\"place\"></div>\n";
     if (setup_) text += cross_section(row_, *setup_);
-    text += "</div></div>\n<h2>What the numbers rest on</h2>\n" + assumptions(row_, motion_.get());
+    text += "</div></div>\n<h2>What the numbers rest on</h2>\n" + assumptions(row_, motion_.get(), strain_.get(), setup_ ? &*setup_ : nullptr);
     if (motion_) text += check_table(files_.motion());
     text += "<p class=\"soft\" id=\"shown\"></p>\n";
     return text + folded("Settings", life_.text_attribute("job")) +

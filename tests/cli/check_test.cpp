@@ -57,7 +57,7 @@ TEST_CASE("scripts/check refuses what breaks an arrow, a home or a rule, and say
        "what every program shares includes a room"},
       {"fatigue/damage.cpp", "#include <hdf5.h>", "'hdf5' is included outside its home"},
       {"sim/simulate.cpp", "#include <ode/ode.h>", "'ode/' is included outside its home"},
-      {"strain/helix.h", "  printf(\"x\");", "printing or exiting outside a main"},
+      {"pipeline/helices/helix.h", "  printf(\"x\");", "printing or exiting outside a main"},
       {"sim/README.md", "See [the rod](rod/gone.h).", "a page links to what is not there"},
       {"README.md", "It lives in `sim/gone.cpp`.", "names a file that is not there"},
   };

@@ -1,4 +1,4 @@
-#include "strain/cable_bending.h"
+#include "pipeline/job/cable_bending.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,6 +8,8 @@
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;
+using dresslife::pipeline::CableBending;
+using dresslife::pipeline::friction_level;
 using namespace test_dresspacks;
 
 namespace {

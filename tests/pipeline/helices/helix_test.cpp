@@ -1,12 +1,12 @@
-#include "strain/helix.h"
+#include "pipeline/helices/helix.h"
 
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 
-#include "tests/strain/space_curve.h"
+#include "tests/pipeline/helices/space_curve.h"
 
-using namespace dresslife::strain;
+using namespace dresslife::helices;
 using dresslife::pipeline::Kinematics;
 
 namespace {

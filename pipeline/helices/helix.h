@@ -1,5 +1,5 @@
 // Nested helices: from the state of a parent rod to the state of a component that lies in it on a helix.
-// README W5 to W12.
+// W5 to W12 of strain/README.md, which has the measurements.
 //
 // A rod is a curve with a frame (d1, d2, d3 = tangent), described per ideal length l of its own: `stretch`,
 // path length per l, is 1 for the undeformed dresspack; `bend1`, `bend2`, `twist` are the frame's rotation
@@ -17,13 +17,13 @@
 //     bend2   = cos(alpha) (R sigma^2 + y X) / V
 //     twist   = cos(alpha) sigma stretch / V
 // with the parent's state on the right. Axial strain is the stretch over that of the undeformed construction,
-// minus one (W7). Nothing is approximated. `thesis` kinematics is Backman's set (12) to (23), see README W9.
+// minus one (W7). Nothing is approximated. `thesis` kinematics is Backman's set (12) to (23), see W9 there.
 #pragma once
 
-#include "pipeline/job/strain.h"
-#include "strain/series.h"
+#include "pipeline/helices/kinematics.h"
+#include "pipeline/helices/series.h"
 
-namespace dresslife::strain {
+namespace dresslife::helices {
 
 constexpr int highest_level = 6;  ///< of nesting; Series::capacity must exceed it by two
 
@@ -256,4 +256,4 @@ T fibre_strain(const FibreShape& fibre, const T& axial, const T& bend1_change, c
 }
 
 }  // namespace DRESSLIFE_MACHINE
-}  // namespace dresslife::strain
+}  // namespace dresslife::helices

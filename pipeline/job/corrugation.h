@@ -1,4 +1,4 @@
-// How much a corrugated wall is strained when the hose stretches (README W22).
+// How much a corrugated wall is strained when the hose stretches (W22 of strain/README.md).
 //
 // Along the hose one corrugation is a thin beam folded to and fro: round crests and roots of mean radius r =
 // pitch/4, joined by straight flanks across the hose. Let w = height - wall be the depth of the wall's middle
@@ -23,7 +23,7 @@
 
 #include "pipeline/job/dresspack.h"
 
-namespace dresslife::strain {
+namespace dresslife::pipeline {
 
 struct WallFactors {
   double strain = 1;  ///< meridional, at the surface of crest and root, over the strain of the hose
@@ -31,8 +31,17 @@ struct WallFactors {
   double radius = 0;  ///< at which stretch by bending and shear by twist are taken [m]
 };
 
+/// One corrugation.
+struct Fold {
+  double radius = 0;      ///< r, of crests and roots [m]
+  double half_flank = 0;  ///< a [m]
+  double compliance = 0;  ///< J [m3]
+  double unfolded() const;  ///< length along the wall [m]
+};
+Fold fold_of(const Corrugation& profile);
+
 /// Of the wall that the dresspack describes: by hose_corrugation, else hose_strain_factor at half the
 /// diameter. Precondition: checked when the job was read.
-WallFactors wall_factors(const pipeline::Dresspack& dresspack);
+WallFactors wall_factors(const Dresspack& dresspack);
 
-}  // namespace dresslife::strain
+}  // namespace dresslife::pipeline

@@ -1,12 +1,12 @@
 // The strain of a corrugated wall: closed forms, the makers' formula, and a beam integrated numerically.
-#include "strain/corrugation.h"
+#include "pipeline/job/corrugation.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 using namespace dresslife;
-using namespace dresslife::strain;
+using namespace dresslife::pipeline;
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace dresslife::strain {
+namespace dresslife::helices {
 
 template <class T>
 struct Series {
@@ -153,4 +153,4 @@ inline Series<double> sine_series(double sine, double cosine, double rate, int o
 }
 
 }  // namespace DRESSLIFE_MACHINE
-}  // namespace dresslife::strain
+}  // namespace dresslife::helices

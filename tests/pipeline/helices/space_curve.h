@@ -1,5 +1,5 @@
 // The oracle of the nested kinematics: helices laid in space on a bent, twisted and stretched rod, their
-// lengths and frames by finite differences of positions. It shares no formula with strain/helix.h: only the
+// lengths and frames by finite differences of positions. It shares no formula with pipeline/helices/helix.h: only the
 // definition of a helix.
 #pragma once
 

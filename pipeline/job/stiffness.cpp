@@ -1,0 +1,189 @@
+#include "pipeline/job/stiffness.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/job/cable_bending.h"
+#include "pipeline/job/corrugation.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double polymer_modulus = 50e6;  // ESTIMATE [Pa]: a soft jacket of polyurethane, PVC or TPE, as in W35
+constexpr double torsion_of_polymer = 2.0 / 3;  // G J over E I of a round that keeps its volume: G = E/3, J = 2 I
+constexpr double torsion_of_core = 0.8;         // ESTIMATE, as of a solid round bar
+constexpr double believable = 2;                // a life moves by up to a factor of five with twice the E I (README)
+
+/// Of a round of polymer.
+double round_bending(double radius) { return polymer_modulus * pi / 4 * std::pow(radius, 4); }
+
+/// Of a part's jacket and insulation: given, else of a round as wide as it is. A measured stiffness has it in it.
+double polymer_of(const Component& part) {
+  if (part.components.empty()) return 0;
+  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness) return part.polymer_bending_stiffness;
+  return round_bending(part.radius);
+}
+
+bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_value(); }
+
+/// Of all in it. What is no hose is a cable itself, of parts in a jacket, or holds nothing but one.
+double polymer_of(const Dresspack& dresspack) {
+  double sum = 0;
+  bool on_axis = false;
+  for (const Component& part : dresspack.components) {
+    sum += part.count * polymer_of(part);
+    on_axis |= part.helix_radius == 0 && !part.components.empty();
+  }
+  return is_hose(dresspack) || on_axis ? sum : round_bending(dresspack.diameter / 2);
+}
+
+bool knows_wall(const Dresspack& dresspack) {
+  return dresspack.hose_corrugation || (dresspack.inner_diameter && !dresspack.hose_strain_factor);
+}
+
+HoseStiffness wall_of(const Dresspack& dresspack) {
+  const Material* const material = find_material(dresspack, dresspack.hose_material);
+  if (material == nullptr || !knows_wall(dresspack)) return {};
+  const double E = material->youngs_modulus, G = E / (2 * (1 + material->poisson_ratio));
+  if (!dresspack.hose_corrugation) {
+    const double outer = dresspack.diameter / 2, inner = *dresspack.inner_diameter / 2;
+    const double I = pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4));
+    return {E * I, G * 2 * I, E * pi * (outer * outer - inner * inner)};
+  }
+  const Corrugation& profile = *dresspack.hose_corrugation;
+  const Fold fold = fold_of(profile);
+  const double R = wall_factors(dresspack).radius;
+  const double EA = 2 * pi * R * profile.pitch * E * std::pow(profile.wall, 3) / (48 * fold.compliance);
+  return {EA * R * R / 2, 2 * pi * R * R * R * profile.wall * G * profile.pitch / fold.unfolded(), EA};
+}
+
+HoseStiffness core_of(const Dresspack& dresspack) {
+  const double bending = dresspack.core_bending_stiffness.value_or(0);
+  return {bending, dresspack.core_torsional_stiffness.value_or(torsion_of_core * bending),
+          dresspack.core_axial_stiffness.value_or(0)};
+}
+
+/// A layer of the dresspack by itself, as if it were all of a cable.
+Component alone(const Component& layer) {
+  Component cable;
+  cable.components = {layer};
+  return cable;
+}
+
+double bending_of_wires(const Dresspack& dresspack, SlipState state, double curvature) {
+  Component all;
+  all.components = dresspack.components;
+  const CableBending bending(dresspack, all, StraightParts::slide);
+  switch (state) {
+    case SlipState::sliding:
+      return bending.free_stiffness();
+    case SlipState::friction:
+      return bending.moment(curvature, 1) / curvature;
+    case SlipState::stuck:
+      return bending.stuck_stiffness();
+  }
+  return 0;
+}
+
+std::string state_words(const Dresspack& dresspack) {
+  const std::string state(word(dresspack.construction_state));
+  return dresspack.construction_state == SlipState::friction
+             ? fmt::format("{} at {:.3g} 1/m", state, dresspack.construction_curvature)
+             : state;
+}
+
+}  // namespace
+
+HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState state, double curvature) {
+  const HoseStiffness wall = wall_of(dresspack), core = core_of(dresspack);
+  const double polymer = polymer_of(dresspack);
+  HoseStiffness sum{wall.bending + core.bending + polymer + bending_of_wires(dresspack, state, curvature),
+                    wall.torsional + core.torsional + torsion_of_polymer * polymer, wall.axial + core.axial};
+  for (const Component& layer : dresspack.components) {
+    const PullAndTwist wires = pull_and_twist(dresspack, alone(layer));
+    const bool pulls = state == SlipState::stuck || layer.laying.slack == 0;
+    sum.torsional += pulls ? wires.torque_by_twist : wires.relaxed();
+    sum.axial += pulls ? wires.pull_by_elongation : 0;
+  }
+  return sum;
+}
+
+std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
+  std::vector<std::string> missing;
+  if (dresspack.core_diameter > 0 && !dresspack.core_bending_stiffness)
+    missing.push_back(fmt::format("what fills its core of {:.3g} mm (core_bending_stiffness_Nm2)",
+                                  1e3 * dresspack.core_diameter));
+  if (is_hose(dresspack) && dresspack.hose_material.empty()) missing.push_back("its wall (hose_material)");
+  else if (is_hose(dresspack) && !knows_wall(dresspack)) missing.push_back("its wall (hose_corrugation)");
+  return missing;
+}
+
+void take_from_construction(Dresspack& dresspack) {
+  if (!is_from_construction(dresspack)) return;
+  const HoseStiffness taken =
+      stiffness_of_construction(dresspack, dresspack.construction_state, dresspack.construction_curvature);
+  const auto take = [&](bool wanted, const char* key, double value, double& to) {
+    if (!wanted) return;
+    if (!(value > 0))
+      throw InputError(dresspack.where,
+                       fmt::format("dresspack.{} is from_construction, which has none (no part, wall or core of it carries)",
+                                   key),
+                       fmt::format("give {}, components with wires, hose_material and its profile, or the core's", key));
+    to = value;
+  };
+  take(dresspack.bending_from_construction, "bending_stiffness_Nm2", taken.bending, dresspack.bending_stiffness);
+  take(dresspack.torsional_from_construction, "torsional_stiffness_Nm2", taken.torsional,
+       dresspack.torsional_stiffness);
+  take(dresspack.axial_from_construction, "axial_stiffness_N", taken.axial, dresspack.axial_stiffness);
+}
+
+std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
+  const double given = dresspack.bending_stiffness, curvature = dresspack.construction_curvature;
+  if (dresspack.components.empty() || given <= 0) return {};
+  const auto missing = missing_in_construction(dresspack);
+  const std::string without = missing.empty() ? "" : fmt::format(" without {}", fmt::join(missing, " and "));
+  const auto warning = [](std::string words) {
+    return std::vector<Warning>{{WarningKind::material, "", std::move(words)}};
+  };
+  if (dresspack.bending_from_construction)
+    return missing.empty() ? std::vector<Warning>{}
+                           : warning(fmt::format("bending_stiffness_Nm2 is from_construction, {:.3g}{} (count that, or give "
+                                                 "a measured one)",
+                                                 given, without));
+  const auto bending = [&](SlipState state) { return stiffness_of_construction(dresspack, state, curvature).bending; };
+  const double sliding = bending(SlipState::sliding), friction = bending(SlipState::friction),
+               stuck = bending(SlipState::stuck);
+  // How solid a jacket is that holds parts, and how it holds them, is not known of a cable.
+  const double least = is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
+  const double most = !missing.empty() ? HUGE_VAL : is_hose(dresspack) ? std::min(friction * believable, stuck) : stuck;
+  if (given >= least && given <= most) return {};
+  return warning(fmt::format(
+      "bending_stiffness_Nm2 is {:.3g}, {:.2g} times what the dresspack's parts{} have by their friction and pressures at {:.3g} "
+      "1/m: {:.3g}, {:.3g} sliding, {:.3g} glued (measure it by the sag of a hanging length, or write from_construction)",
+      given, given / friction, without, curvature, friction, sliding, stuck));
+}
+
+std::string stiffness_text(const Dresspack& dresspack) {
+  if (dresspack.components.empty() && dresspack.hose_material.empty()) return "";
+  const double curvature = dresspack.construction_curvature;
+  const HoseStiffness sliding = stiffness_of_construction(dresspack, SlipState::sliding, curvature),
+                      friction = stiffness_of_construction(dresspack, SlipState::friction, curvature),
+                      stuck = stiffness_of_construction(dresspack, SlipState::stuck, curvature);
+  std::string text;
+  const auto line = [&](const char* name, const char* unit, double used, bool taken, double HoseStiffness::*of) {
+    text += fmt::format("{} {:.4g} {} {}; of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n",
+                        name, used, unit, taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given",
+                        sliding.*of, friction.*of, curvature, stuck.*of);
+  };
+  line("E I", "N m2", dresspack.bending_stiffness, dresspack.bending_from_construction, &HoseStiffness::bending);
+  line("G J", "N m2", dresspack.torsional_stiffness, dresspack.torsional_from_construction, &HoseStiffness::torsional);
+  line("E A", "N", dresspack.axial_stiffness, dresspack.axial_from_construction, &HoseStiffness::axial);
+  const auto missing = missing_in_construction(dresspack);
+  return missing.empty() ? text : text + fmt::format("without {}\n", fmt::join(missing, " and "));
+}
+
+}  // namespace dresslife::pipeline
