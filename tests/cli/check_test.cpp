@@ -52,7 +52,7 @@ TEST_CASE("scripts/check refuses what breaks an arrow, a home or a rule, and say
       {"fatigue/kernels/lockstep.h", "#include \"fatigue/damage.h\"",
        "fatigue/kernels may include itself and: "},
       {"pipeline/job/job.cpp", "#include \"pipeline/files/files.h\"",
-       "pipeline/job may include itself and: base"},
+       "pipeline/job may include itself and: pipeline/helices base"},
       {"pipeline/threads.cpp", "#include \"pipeline/job/job.h\"",
        "what every program shares includes a room"},
       {"fatigue/damage.cpp", "#include <hdf5.h>", "'hdf5' is included outside its home"},
