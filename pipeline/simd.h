@@ -174,6 +174,7 @@ HWY_INLINE Vector<Tag> smaller(const Vector<Tag>& a, const Vector<Tag>& b) {
 }
 HWY_INLINE float largest_lane(const FloatPack& a) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.raw)); }
 HWY_INLINE float sum_of_lanes(const FloatPack& a) { return hn::GetLane(hn::SumOfLanes(FloatTag(), a.raw)); }
+HWY_INLINE double sum_of_lanes(const Pack& a) { return hn::GetLane(hn::SumOfLanes(DoubleTag(), a.raw)); }
 HWY_INLINE std::int64_t first_lane(const LongPack& a) { return hn::GetLane(a.raw); }
 HWY_INLINE FloatPack size_of(const FloatPack& a) { return hn::Abs(a.raw); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 
 namespace dresslife::strain {
 namespace {
@@ -14,16 +15,23 @@ constexpr double settled = 1e-7;   // change of strain in a round: 0.1 N of a ca
 }  // namespace
 
 LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings)
-    : settings_(settings), hose_(settings.length, settings.elements), states_(cables.size()) {
+    : settings_(settings),
+      hose_(settings.length, settings.elements),
+      lines_(cables, hose_, settings.rest_curvature),
+      frames_(cables.size(), &hose_.turn),
+      states_(cables.size()) {
   assert(settings.elements >= 4 && settings.length > 0);
-  for (const LooseCable& cable : cables) {
-    lines_.emplace_back(cable, hose_, settings.rest_curvature);
-    ring_of_.push_back(cable.ring);
-    if (cable.ring == no_ring) continue;
-    while (rings_.size() <= static_cast<std::size_t>(cable.ring))
-      rings_.emplace_back(hose_, settings.rest_curvature);
-    rings_[cable.ring].add(cable, hose_);
+  std::map<int, std::vector<LooseCable>> rings;
+  for (const LooseCable& cable : cables)
+    if (cable.ring != no_ring) rings[cable.ring].push_back(cable);
+  std::map<int, const CableLines::Frame*> frame_of;
+  rings_.reserve(rings.size());
+  for (const auto& [number, of_ring] : rings) {
+    rings_.emplace_back(of_ring, hose_, settings.rest_curvature);
+    frame_of[number] = &rings_.back().frame();
   }
+  for (std::size_t k = 0; k < cables.size(); ++k)
+    if (cables[k].ring != no_ring) frames_[k] = frame_of[cables[k].ring];
 }
 
 void LooseCables::advance(std::span<const HoseNode> hose, double step) {
@@ -39,37 +47,34 @@ void LooseCables::settle(double step) {
   for (int round = 0; round < feeding_rounds + most_rounds; ++round) {
     const double share = std::min(1.0, static_cast<double>(round) / feeding_rounds);
     for (Ring& ring : rings_) ring.feed_in(share);
-    for (CableLine& line : lines_) line.feed_in(share);
+    lines_.feed_in(share);
     relax(step);
     started_ = false;  // nothing goes on moving from one round to the next
     double sum = 0;
     for (const CableState& state : states_) sum += std::abs(state.strain);
-    if (round > feeding_rounds && std::abs(sum - before) < settled * static_cast<double>(lines_.size())) break;
+    if (round > feeding_rounds && std::abs(sum - before) < settled * static_cast<double>(cables())) break;
     before = sum;
   }
 }
 
 bool LooseCables::relax(double step) {
-  const int most = started_ ? CableLine::most_iterations : CableLine::most_iterations_at_start;
+  const int most = started_ ? CableLines::most_iterations : CableLines::most_iterations_at_start;
   bool rest = true;
-  for (Ring& ring : rings_)
-    if (ring.cables() > 0) rest &= ring.advance(hose_, step, started_);
-  for (std::size_t k = 0; k < lines_.size(); ++k) {
-    const auto& frame = ring_of_[k] == no_ring ? hose_.turn : rings_[ring_of_[k]].frame();
-    lines_[k].begin(hose_, frame, step, started_);
-    const int took = lines_[k].relax(hose_, most);
-    lines_[k].end(hose_, frame, started_ ? step : 0, states_[k]);
+  for (Ring& ring : rings_) rest &= ring.advance(hose_, step, started_);
+  lines_.begin(hose_, frames_, step, started_);
+  for (const std::int32_t took : lines_.relax(most)) {
     iterations_ += static_cast<std::size_t>(took);
     rest &= took < most;
   }
+  lines_.end(hose_, frames_, started_ ? step : 0, states_);
   started_ = true;
   return rest;
 }
 
 double LooseCables::mesh_error() const {
   double largest = 0;
-  for (const CableLine& line : lines_)
-    if (line.bent() > 0) largest = std::max(largest, std::sqrt(line.missed() / line.bent()));
+  for (std::size_t k = 0; k < cables(); ++k)
+    if (lines_.bent(k) > 0) largest = std::max(largest, std::sqrt(lines_.missed(k) / lines_.bent(k)));
   return largest;
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "strain/loose/cable_line.h"
+#include "strain/loose/cable_lines.h"
 #include "strain/loose/ring.h"
 
 namespace dresslife::strain {
@@ -21,10 +21,11 @@ class LooseCables {
  public:
   /// cables: of one hose; those that meet each other as fit_in_hose() leaves them (strain/loose/rings.h).
   LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings);
+  LooseCables(const LooseCables&) = delete;  // its cables know its frames
 
   std::size_t nodes() const { return hose_.nodes(); }
-  std::size_t cables() const { return lines_.size(); }
-  const LooseCable& cable(std::size_t k) const { return lines_[k].cable(); }
+  std::size_t cables() const { return lines_.count(); }
+  const LooseCable& cable(std::size_t k) const { return lines_.cable(k); }
 
   /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].
   void advance(std::span<const HoseNode> hose, double step);
@@ -46,9 +47,9 @@ class LooseCables {
 
   LooseSettings settings_;
   HoseLine hose_;
-  std::vector<CableLine> lines_;
-  std::vector<int> ring_of_;
+  CableLines lines_;
   std::vector<Ring> rings_;
+  std::vector<const CableLines::Frame*> frames_;  ///< (cable)
   std::vector<CableState> states_;
   std::size_t restless_ = 0, iterations_ = 0;
   bool started_ = false;

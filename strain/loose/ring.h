@@ -1,7 +1,7 @@
 // Cables around the axis of a hose that turn as one (README W35).
 //
 // With every cable at its place in the ring, A = e^(i (phi + psi(s))) a0, the turn psi is where the sum of
-// their energies (strain/loose/cable_line.h) is least; psi = psi' = 0 at the clamps. A turn takes all cables
+// their energies (strain/loose/cable_lines.h) is least; psi = psi' = 0 at the clamps. A turn takes all cables
 // along, so no contact stands in its way. With t = J A, a cable's way when its ring turns, the slope of the
 // sum is that of slope . t, its matrix that of bending, tension and drag between these ways, less slope . A
 // on the diagonal since places go along circles; each cable's stretch adds a matrix of rank one (Woodbury).
@@ -10,18 +10,14 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "strain/loose/cable_line.h"
+#include "strain/loose/cable_lines.h"
 
 namespace dresslife::strain {
 
 class Ring {
  public:
-  Ring(const HoseLine& hose, double rest_curvature);
-  void add(const LooseCable& cable, const HoseLine& hose);
-  std::size_t cables() const { return lines_.size(); }
-  void feed_in(double share) {  ///< see CableTension
-    for (CableLine& line : lines_) line.feed_in(share);
-  }
+  Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature);
+  void feed_in(double share) { lines_.feed_in(share); }  ///< see CableTension
 
   /// Turns to the minimum at the next sample. time: since the sample before [s]. goes_on: as it turned then.
   /// Returns whether it has come to rest.
@@ -31,17 +27,15 @@ class Ring {
 
  private:
   void place(const HoseLine& hose);
-  void assemble(const HoseLine& hose);
-  Eigen::VectorXd newton_turn(const HoseLine& hose, const Eigen::VectorXd& right);
+  Eigen::VectorXd newton_turn();
   double step(const HoseLine& hose);
-  Eigen::VectorXd slope() const;
 
-  double rest_curvature_;
-  std::vector<CableLine> lines_;        ///< as they lie when each keeps to its place
+  CableLines lines_;                    ///< as they lie when each keeps to its place
   std::vector<double> psi_, velocity_;  ///< (node) against the hose [rad], [rad/s]
   std::vector<Eigen::Vector2d> frame_;
-  std::vector<double> bands_;  ///< (row, 3) diagonal and the two beside it, then its factors
-  std::vector<double> table_;  ///< (row, 1 + cable) right-hand sides, then solutions
+  std::vector<double> bands_, factors_;    ///< (row, 3) diagonal and the two beside it; row: a node inside
+  LaneRows gained_, solved_, products_;    ///< (row, lane) of the cables' mean gains, their solutions; (lane, lane)
+  std::vector<double> slope_;              ///< (row) of the sum of the energies
 };
 
 }  // namespace dresslife::strain

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <numeric>
 
 namespace dresslife::strain {
 
 CableTension::CableTension(const LooseCable& cable, double laid_in)
-    : axial_stiffness_(cable.axial_stiffness),
-      slack_(cable.slack),
-      laid_in_(laid_in),
-      free_length_rate_((1 + cable.slack) * (1 + laid_in)),
-      most_(cable.grip == without_limit ? without_limit : cable.grip / cable.axial_stiffness) {
+    : slack_(cable.slack), laid_in_(laid_in), free_length_rate_((1 + cable.slack) * (1 + laid_in)) {
   assert(free_length_rate_ > 0 && cable.grip >= 0);
+  if (cable.grip == 0)
+    most_ = 0;
+  else if (cable.grip < cable.axial_stiffness)  // beyond, it would be torn out of itself
+    most_ = cable.grip / cable.axial_stiffness;
 }
 
 void CableTension::feed_in(double share) {
@@ -22,22 +20,11 @@ void CableTension::feed_in(double share) {
   held_ = share < 1;
 }
 
-double CableTension::stretch(std::span<const double> gain) const {
-  const double mean = std::accumulate(gain.begin(), gain.end(), 0.0) / static_cast<double>(gain.size());
-  return (1 + mean) / free_length_rate_ - 1;
-}
-
-void CableTension::answer(std::span<const double> gain, Pull& pull) const {
-  const double tried = stretch(gain) - slipped_;
-  pull.strain = held_ ? tried : std::clamp(tried, -most_, most_);
-  pull.mean = axial_stiffness_ * pull.strain;
-  pull.stiffness = pull.strain == tried ? axial_stiffness_ / free_length_rate_ : 0;
-  pull.tension.assign(gain.size(), pull.mean);
-}
-
-void CableTension::settle(std::span<const double> gain, Pull& pull) {
-  answer(gain, pull);
-  slipped_ = stretch(gain) - pull.strain;
+double CableTension::settle(double mean_gain) {
+  const double stretch = (1 + mean_gain) / free_length_rate_ - 1, most = most_strain();
+  const double strain = std::clamp(stretch - slipped_, -most, most);
+  slipped_ = stretch - strain;
+  return strain;
 }
 
 }  // namespace dresslife::strain

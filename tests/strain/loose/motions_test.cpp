@@ -2,6 +2,7 @@
 // for.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -196,6 +197,44 @@ TEST_CASE("cables meet what lies around them") {
   CHECK(tight[0].gap == 0);
   CHECK(tight[0].farthest == Approx(0.01));
   CHECK(tight[0].nearest == Approx(0.01));
+}
+
+TEST_CASE("where a cable lies hangs on none that is worked out beside it") {
+  std::vector<LooseCable> cables = ring_of_ten(0.008);
+  for (std::size_t k = 0; k < cables.size(); ++k) {  // unlike each other: some rest long before others
+    cables[k].ring = no_ring;
+    cables[k].gap = without_limit;
+    cables[k].play = 1e-3 * static_cast<double>(k);
+    if (k % 3 == 0) cables[k].grip = 200;
+  }
+  const LooseSettings settings{2.035, 64};
+  LooseCables together(cables, settings);
+  std::vector<std::unique_ptr<LooseCables>> alone;
+  for (const LooseCable& cable : cables) alone.push_back(std::make_unique<LooseCables>(std::vector{cable}, settings));
+  for (int t = 0; t <= 40; ++t) {
+    const std::vector<HoseNode> nodes = hose(64, [&](double z) { return arm(z, t / 40.0); });
+    // the first sample ends when all of them lie still, so that those that did before go on for a little
+    together.advance(nodes, step);
+    for (std::size_t k = 0; k < cables.size(); ++k) {
+      alone[k]->advance(nodes, step);
+      CAPTURE(t, k);
+      REQUIRE(std::abs(alone[k]->state(0).strain - together.state(k).strain) < 1e-6);  // of the 1e-2 that they move by
+    }
+  }
+}
+
+TEST_CASE("spare lanes and the cables beside it change no digit of a cable") {
+  std::vector<LooseCable> cables(9, signal_cable(0.015));
+  LooseCables nine(cables, {2.035, 64}), one({cables[0]}, {2.035, 64});
+  for (int t = 0; t <= 20; ++t) {
+    const std::vector<HoseNode> nodes = hose(64, [&](double z) { return arm(z, t / 40.0); });
+    nine.advance(nodes, step);
+    one.advance(nodes, step);
+    for (std::size_t k = 0; k < cables.size(); ++k) {
+      REQUIRE(nine.state(k).offset == one.state(0).offset);
+      REQUIRE(nine.state(k).strain == one.state(0).strain);
+    }
+  }
 }
 
 TEST_CASE("whatever a hose does, every number is finite") {

@@ -1,0 +1,180 @@
+#include "strain/loose/cable_lines.h"
+
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace dresslife::strain {
+
+using Eigen::Vector2d;
+
+CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest)
+    : cables_(cables),
+      rest_curvature_(rest),
+      at_(hose.nodes()),
+      bent_(hose.nodes()),
+      gain_(hose.nodes() - 1),
+      bent_sum_(cables.size(), 0.0),
+      missed_sum_(cables.size(), 0.0) {
+  assert(!cables.empty());
+  batch_.nodes = hose.nodes();
+  batch_.lanes = (cables.size() + most_lanes - 1) / most_lanes * most_lanes;
+  batch_.length = hose.length;
+  batch_.spacing = hose.spacing;
+  lane_rows_.assign(OfLane::lane_rows, batch_.lanes);
+  for (LaneRows& rows : node_rows_) rows.assign(2 * batch_.nodes, batch_.lanes);
+  press_.assign(batch_.nodes, batch_.lanes);
+  blocks_.assign(3 * batch_.nodes, batch_.lanes);
+  factors_.assign(7 * batch_.nodes, batch_.lanes);
+  place0_.assign(2, batch_.lanes);
+  iterations_.assign(batch_.lanes, 0);
+  for (const LooseCable& cable : cables_) tensions_.emplace_back(cable, -rest * cable.place[0]);
+  for (std::size_t k = 0; k < batch_.lanes; ++k) {
+    const LooseCable& cable = cables_[k < count() ? k : 0];
+    const Vector2d a0(cable.place[0], cable.place[1]);
+    of_lane(bending_stiffness, k) = cable.bending_stiffness;
+    of_lane(axial_stiffness, k) = cable.axial_stiffness;
+    of_lane(mass_per_length, k) = cable.mass_per_length;
+    of_lane(wall_stiffness, k) = cable.wall_stiffness;
+    of_lane(play, k) = cable.play;
+    of_lane(farthest, k) = cable.farthest;
+    of_lane(nearest, k) = cable.nearest;
+    of_lane(gap, k) = cable.gap;
+    of_lane(per_radius, k) = a0.norm() > 0 ? 1 / a0.norm() : 0;
+    of_lane(counts, k) = k < count() ? 1 : 0;
+    for (std::size_t d = 0; d < 2; ++d) place0_[d * batch_.lanes + k] = cable.place[d];
+    for (std::size_t i = 0; i < batch_.nodes; ++i) put(path, i, k, a0);
+  }
+  point_at_rows();
+}
+
+void CableLines::point_at_rows() {
+  const auto lanes = [&](OfLane row) { return &of_lane(row, 0); };
+  const auto nodes = [&](OfNode row) { return node_rows_[row].data(); };
+  batch_.bending_stiffness = lanes(bending_stiffness), batch_.axial_stiffness = lanes(axial_stiffness);
+  batch_.mass_per_length = lanes(mass_per_length), batch_.wall_stiffness = lanes(wall_stiffness);
+  batch_.play = lanes(play), batch_.farthest = lanes(farthest), batch_.nearest = lanes(nearest);
+  batch_.gap = lanes(gap), batch_.per_radius = lanes(per_radius), batch_.drag = lanes(drag);
+  batch_.free_length_rate = lanes(free_length_rate), batch_.slipped = lanes(slipped);
+  batch_.least_strain = lanes(least_strain), batch_.most_strain = lanes(most_strain), batch_.counts = lanes(counts);
+  batch_.strain = lanes(strain), batch_.tension = lanes(tension), batch_.stiffness = lanes(stiffness);
+  batch_.place = nodes(place_at), batch_.before = nodes(before), batch_.path = nodes(path);
+  batch_.slope = nodes(slope), batch_.gained = nodes(gained), batch_.step = nodes(step_to);
+  batch_.soft = nodes(soft), batch_.from = nodes(from), batch_.going = nodes(going);
+  batch_.press = press_.data(), batch_.blocks = blocks_.data(), batch_.factors = factors_.data();
+}
+
+Vector2d CableLines::vector(OfNode row, std::size_t node, std::size_t k) const {
+  const double* const at = node_rows_[row].data() + 2 * node * batch_.lanes + k;
+  return {at[0], at[batch_.lanes]};
+}
+
+void CableLines::put(OfNode row, std::size_t node, std::size_t k, const Vector2d& value) {
+  double* const at = node_rows_[row].data() + 2 * node * batch_.lanes + k;
+  at[0] = value.x();
+  at[batch_.lanes] = value.y();
+}
+
+void CableLines::feed_in(double share) {
+  for (CableTension& tension : tensions_) tension.feed_in(share);
+}
+
+void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time, bool goes_on) {
+  batch_.curvature = hose.curvature.front().data();
+  batch_.rest = hose.rest.front().data();
+  batch_.pull = hose.pull.front().data();
+  batch_.elongation = hose.elongation.data();
+  const double ahead = goes_on ? time : 0;
+  const std::size_t last = batch_.nodes - 1;
+  for (std::size_t k = 0; k < batch_.lanes; ++k) {
+    const std::size_t cable = k < count() ? k : 0;
+    const CableTension& pulled = tensions_[cable];
+    of_lane(drag, k) = cables_[cable].drag / time;
+    of_lane(free_length_rate, k) = pulled.free_length_rate();
+    of_lane(slipped, k) = pulled.slipped();
+    of_lane(most_strain, k) = pulled.most_strain();
+    of_lane(least_strain, k) = -pulled.most_strain();
+    const Frame& frame = *frames[cable];
+    const Vector2d a0(place0_[k], place0_[batch_.lanes + k]);
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Vector2d place = turned(a0, frame[i]), at = vector(path, i, k);  // the path waits in the frame
+      put(place_at, i, k, place);
+      put(before, i, k, turned(at, frame[i]));
+      const bool clamped = i == 0 || i == last;
+      put(path, i, k, clamped ? place : turned(Vector2d(at + ahead * vector(velocity, i, k)), frame[i]));
+    }
+  }
+}
+
+std::span<const std::int32_t> CableLines::relax(int most) {
+  loose_kernels().relax(batch_, most, iterations_.data());
+  return {iterations_.data(), count()};
+}
+
+void CableLines::place(const Frame& frame) { loose_kernels().place(batch_, place0_.data(), frame.front().data()); }
+
+/// at_, bent_ and gain_ of cable k. Returns the mean gain.
+double CableLines::follow(const HoseLine& hose, std::size_t k) {
+  const double h = hose.spacing, inverse = 1 / (h * h);
+  const std::size_t last = hose.nodes() - 1;
+  for (std::size_t i = 0; i <= last; ++i) at_[i] = vector(path, i, k);
+  double behind = 0;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double rate = hose.elongation[i] - hose.curvature[i].dot(at_[i]);
+    if (i > 0) gain_[i - 1] = (behind + rate) / 2 + (at_[i] - at_[i - 1]).squaredNorm() * inverse / 2;
+    behind = rate;
+    const Vector2d& from = at_[i > 0 ? i - 1 : 1];  // beyond a clamp lies the mirror image
+    const Vector2d& to = at_[i < last ? i + 1 : last - 1];
+    bent_[i] = hose.curvature[i] - hose.rest[i] + inverse * (from - 2 * at_[i] + to);
+  }
+  return std::accumulate(gain_.begin(), gain_.end(), 0.0) / static_cast<double>(gain_.size());
+}
+
+/// The sample counts in bent() and missed().
+void CableLines::judge_mesh(const HoseLine& hose, std::size_t k) {
+  const auto own = [&](std::size_t i) { return Vector2d(bent_[i] - hose.curvature[i] + hose.rest[i]); };
+  Vector2d behind = own(0), here = own(1);
+  for (std::size_t i = 1; i + 1 < hose.nodes(); ++i) {
+    const Vector2d ahead = own(i + 1);
+    bent_sum_[k] += (bent_[i] + hose.rest[i]).squaredNorm();
+    missed_sum_[k] += (behind - 2 * here + ahead).squaredNorm() / 144;
+    behind = here;
+    here = ahead;
+  }
+}
+
+void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) const {
+  const std::size_t nodes = hose.nodes();
+  state.gain = gain_;
+  state.tension.assign(nodes - 1, cables_[k].axial_stiffness * state.strain);
+  state.press.resize(nodes);
+  state.offset.resize(2 * nodes);
+  state.curvature.resize(2 * nodes);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const Vector2d bends = turned_back(bent_[i], hose.turn[i]), at = turned_back(at_[i], hose.turn[i]);
+    state.press[i] = press_[i * batch_.lanes + k];
+    state.curvature[2 * i] = -bends.y();
+    state.curvature[2 * i + 1] = bends.x() + rest_curvature_;
+    state.offset[2 * i] = at.x() - cables_[k].place[0];
+    state.offset[2 * i + 1] = at.y() - cables_[k].place[1];
+  }
+}
+
+void CableLines::end(const HoseLine& hose, std::span<const Frame* const> frames, double time,
+                     std::span<CableState> states) {
+  for (std::size_t k = 0; k < count(); ++k) {
+    const double settled = tensions_[k].settle(follow(hose, k));
+    if (!states.empty()) {
+      judge_mesh(hose, k);
+      states[k].strain = settled;
+      tell(hose, k, states[k]);
+    }
+    const Frame& frame = *frames[k];
+    for (std::size_t i = 0; i < batch_.nodes; ++i) {
+      if (time > 0) put(velocity, i, k, turned_back(Vector2d(at_[i] - vector(before, i, k)), frame[i]) / time);
+      put(path, i, k, turned_back(at_[i], frame[i]));
+    }
+  }
+}
+
+}  // namespace dresslife::strain

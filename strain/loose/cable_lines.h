@@ -1,0 +1,105 @@
+// Loose cables between two clamps, each by itself: where they rest (README W32 to W36).
+//
+// At A(s) in the hose's untwisted frame (strain/loose/hose_line.h) a cable has the energy
+//     Pi = L W(mean g) + int E I |K - K0 + A''|^2 / 2 - w . A + eta |A - A_before|^2 / 2 + contact ds,
+//     g = e - K . A + |A'|^2 / 2,
+// W that of its tension (strain/loose/tension.h), w weight and inertia per length, eta |..| what holds it
+// sideways (W36), contact k_w depth^2 / 2 with the hose's wall, its core, and the bounds of its place. At the
+// clamps it stays at its place, along the hose's end whatever the hose's twist (b = 0, A' = 0).
+//
+// Newton's method: bending and tension tie a node to the two next ones, so the matrix has two bands of 2 x 2
+// blocks, and the stretch of the free length adds a matrix of rank one (Sherman and Morrison). No cable knows of
+// another, so they go side by side in the lanes of a register (strain/loose/kernels).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "strain/loose/cable.h"
+#include "strain/loose/hose_line.h"
+#include "strain/loose/kernels/loose_kernels.h"
+#include "strain/loose/tension.h"
+
+namespace dresslife::strain {
+
+/// Numbers of cables side by side, at the start of a cache line.
+class LaneRows {
+ public:
+  void assign(std::size_t rows, std::size_t lanes) { blocks_.assign(rows * lanes / most_lanes, {}); }
+  double* data() { return blocks_.empty() ? nullptr : blocks_.front().of; }
+  const double* data() const { return blocks_.empty() ? nullptr : blocks_.front().of; }
+  double& operator[](std::size_t k) { return data()[k]; }
+  double operator[](std::size_t k) const { return data()[k]; }
+
+ private:
+  struct alignas(64) Block {
+    double of[most_lanes] = {};
+  };
+  std::vector<Block> blocks_;
+};
+
+class CableLines {
+ public:
+  /// hose: of so many nodes; it is read again in every call.
+  CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature);
+  CableLines(CableLines&&) = default;  // rows stay where they are
+
+  std::size_t count() const { return cables_.size(); }
+  const LooseCable& cable(std::size_t k) const { return cables_[k]; }
+  const LineBatch& batch() const { return batch_; }
+
+  /// (node) the directions in which a cable's place stays, cosine and sine against the untwisted frame: the hose's, or
+  /// those of its ring.
+  using Frame = std::vector<Eigen::Vector2d>;
+  /// The next sample. frames: (cable). step: since the sample before [s]. goes_on: moves in the frame as it did then, else
+  /// it stays as it was there.
+  void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on);
+  /// Moves to the minimum of the energy. Returns the iterations (cable), at most `most`.
+  std::span<const std::int32_t> relax(int most);
+  /// Cables of a ring (strain/loose/ring.h) to their places in a frame.
+  void place(const Frame& frame);
+  /// The sample is over. frames, step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody asks.
+  void end(const HoseLine& hose, std::span<const Frame* const> frames, double step, std::span<CableState> states);
+
+  void feed_in(double share);  ///< see CableTension
+
+  /// What the distance h of the nodes leaves out of a path's waves: second differences have their curvature a by h^2 a'' /
+  /// 12 wrong. Both squared and summed over nodes and samples so far, of which a state was asked.
+  double bent(std::size_t cable) const { return bent_sum_[cable]; }      ///< its curvature, the hose's with it [1/m2]
+  double missed(std::size_t cable) const { return missed_sum_[cable]; }  ///< of h^2 a'' / 12 [1/m2]
+
+  static constexpr int most_iterations = 60;             ///< enough from one sample to the next
+  static constexpr int most_iterations_at_start = 2000;  ///< from its place to where it rests
+
+ private:
+  /// Of what is kept by lane.
+  enum OfLane {
+    bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
+    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, lane_rows
+  };
+  /// Of what is kept by node, each (node, 2, lane).
+  enum OfNode { path, place_at, before, velocity, slope, gained, step_to, soft, from, going, node_rows };
+
+  void judge_mesh(const HoseLine& hose, std::size_t k);
+  void tell(const HoseLine& hose, std::size_t k, CableState& state) const;
+  double& of_lane(OfLane row, std::size_t k) { return lane_rows_[static_cast<std::size_t>(row) * batch_.lanes + k]; }
+  Eigen::Vector2d vector(OfNode row, std::size_t node, std::size_t k) const;
+  void put(OfNode row, std::size_t node, std::size_t k, const Eigen::Vector2d& value);
+  double follow(const HoseLine& hose, std::size_t k);
+  void point_at_rows();
+
+  std::vector<LooseCable> cables_;
+  std::vector<CableTension> tensions_;
+  double rest_curvature_;
+  LineBatch batch_;
+  LaneRows lane_rows_, node_rows_[OfNode::node_rows], press_, blocks_, factors_, place0_;
+  // Of one cable where it rests: its path (node) [m], its curvature less that at rest (node) [1/m], gain (element).
+  std::vector<Eigen::Vector2d> at_, bent_;
+  std::vector<double> gain_;
+  std::vector<std::int32_t> iterations_;
+  std::vector<double> bent_sum_, missed_sum_;
+};
+
+}  // namespace dresslife::strain

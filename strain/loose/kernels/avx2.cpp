@@ -1,0 +1,23 @@
+// The hot loops of loose cables for AVX2.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define DRESSLIFE_MACHINE avx2
+#define DRESSLIFE_MACHINE_KERNELS avx2_loose
+#define DRESSLIFE_MACHINE_NAME "avx2"
+#define DRESSLIFE_TARGET HWY_AVX2
+
+// Everything from outside comes first: it must be compiled for any machine.
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "pipeline/simd.h"
+
+DRESSLIFE_BEGIN_MACHINE
+#include "strain/loose/kernels/body.h"
+DRESSLIFE_END_MACHINE
+#endif

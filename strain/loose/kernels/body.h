@@ -1,0 +1,538 @@
+// The hot loops of loose cables, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of which names
+// it (pipeline/simd.h). Needs every standard header it uses to be included before.
+//
+// The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill that wait.
+#include "pipeline/simd.h"
+// simd.h declares what the templates below are used with
+#include "strain/loose/kernels/loose_kernels.h"
+
+namespace dresslife::strain {
+namespace DRESSLIFE_MACHINE_KERNELS {
+namespace {
+
+using namespace simd;
+
+// A cable rests where Newton's next step moves no node by more. The steps shrink quadratically, so what is
+// left is far less; 1e-7 m over two elements of 30 mm are 1e-4 1/m of curvature, 5e-7 of a cable's strain.
+constexpr double at_rest = 1e-7;  // [m]
+// Farther in one step, contacts would be jumped over: a cable's radius.
+constexpr double longest_step = 4e-3;  // [m]
+constexpr double first_shift = 100;    // of stiffness per length where that is not positive [N/m2]
+constexpr int most_shifts = 60;        // by factors of four: beyond what any number of a cable holds
+constexpr int most_tries = 12;
+
+inline Pack at(const double* of, std::size_t lane) { return load<Pack>(of + lane); }
+
+struct Pair {
+  Pack x, y;
+
+  friend HWY_INLINE Pair operator+(const Pair& a, const Pair& b) { return {a.x + b.x, a.y + b.y}; }
+  friend HWY_INLINE Pair operator-(const Pair& a, const Pair& b) { return {a.x - b.x, a.y - b.y}; }
+  friend HWY_INLINE Pair operator*(const Pack& a, const Pair& b) { return {a * b.x, a * b.y}; }
+};
+inline Pack dot(const Pair& a, const Pair& b) { return a.x * b.x + a.y * b.y; }
+inline Pair select(const DoubleMask& mask, const Pair& yes, const Pair& no) {
+  return {simd::select(mask, yes.x, no.x), simd::select(mask, yes.y, no.y)};
+}
+
+/// `packs` packs of cables from lane `first` on.
+template <int packs>
+struct Lines {
+  const LineBatch& of;
+  std::size_t first;
+
+  std::size_t lane(int p) const { return first + static_cast<std::size_t>(p) * pack_size; }
+  Pair pair(const double* values, std::size_t node, int p) const {
+    const double* const from = values + 2 * node * of.lanes + lane(p);
+    return {load<Pack>(from), load<Pack>(from + of.lanes)};
+  }
+  void put(const Pair& pair, double* values, std::size_t node, int p) const {
+    double* const to = values + 2 * node * of.lanes + lane(p);
+    store(pair.x, to);
+    store(pair.y, to + of.lanes);
+  }
+  static Pair same(const double* values, std::size_t node) { return {Pack(values[2 * node]), Pack(values[2 * node + 1])}; }
+
+  void answer() const;
+  template <bool with_contact>
+  void slopes() const;
+  struct Touch;
+  void contacts(std::size_t node, int p, Touch& touch) const;
+  void factor(const Pack* shift, Pack* negative) const;
+  void substitute() const;
+  void newton_step(const Pack* active, Pack* down, Pack* largest) const;
+  void go(const Pack* share, const Pack* active) const;
+  void keep_from() const;
+  Pack along_way(int p) const;
+  void evaluate() const {
+    answer();
+    slopes<true>();
+  }
+  void relax(int most, std::int32_t* iterations) const;
+};
+
+/// Strain and tension from the gain of the path (README W33), and what the tension gains with it.
+template <int packs>
+void Lines<packs>::answer() const {
+  const std::size_t last = of.nodes - 1;
+  const double per_length = 0.5 / (of.spacing * of.spacing);
+  Pack ends[packs], inside[packs], steep[packs];
+  Pair before[packs];
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Pair K = same(of.curvature, i);
+    const Pack e(of.elongation[i]);
+    for (int p = 0; p < packs; ++p) {
+      const Pair A = pair(of.path, i, p);
+      const Pack bent = e - dot(K, A);
+      if (i == 0) {
+        ends[p] = bent;
+        inside[p] = steep[p] = Pack(0.0);
+      } else {
+        const Pair way = A - before[p];
+        steep[p] += dot(way, way);
+        if (i < last) inside[p] += bent;
+        if (i == last) ends[p] += bent;
+      }
+      before[p] = A;
+    }
+  }
+  for (int p = 0; p < packs; ++p) {
+    const std::size_t k = lane(p);
+    const Pack sum = inside[p] + 0.5 * ends[p] + per_length * steep[p];
+    const Pack rate = at(of.free_length_rate, k), mean = sum / Pack(static_cast<double>(last));
+    const Pack tried = (1.0 + mean) / rate - 1.0 - at(of.slipped, k);
+    const Pack strain = smaller(larger(tried, at(of.least_strain, k)), at(of.most_strain, k));
+    const Pack EA = at(of.axial_stiffness, k);
+    store(strain, of.strain + k);
+    store(EA * strain, of.tension + k);
+    store(simd::select(equal(strain, tried), EA / rate, Pack(0.0)), of.stiffness + k);
+  }
+}
+
+/// What contact at one node adds, per length.
+template <int packs>
+struct Lines<packs>::Touch {
+  Pack press, xx, xy, yy;
+  Pair slope;
+
+  inline Touch() : press(0.0), xx(0.0), xy(0.0), yy(0.0), slope{Pack(0.0), Pack(0.0)} {}
+
+  /// Along `normal`, which leads out of what is touched, where `mask`. depth > 0. across: stiffness across the normal over
+  /// that along it.
+  inline void add(const DoubleMask& mask, const Pack& stiffness, const Pair& normal, const Pack& depth, const Pack& across) {
+    const Pack none(0.0), force = stiffness * depth, rest = 1.0 - across;
+    press += simd::select(mask, force, none);
+    slope = slope - select(mask, force * normal, {none, none});
+    xx += simd::select(mask, stiffness * (normal.x * normal.x * rest + across), none);
+    yy += simd::select(mask, stiffness * (normal.y * normal.y * rest + across), none);
+    xy += simd::select(mask, stiffness * (normal.x * normal.y * rest), none);
+  }
+};
+
+template <int packs>
+inline void Lines<packs>::contacts(std::size_t node, int p, Touch& touch) const {
+  const std::size_t k = lane(p);
+  const Pack zero(0.0), wall = at(of.wall_stiffness, k);
+  const Pair A = pair(of.path, node, p), place = pair(of.place, node, p), offset = A - place;
+  const Pack away2 = dot(A, A), moved2 = dot(offset, offset);
+  const Pack far = at(of.farthest, k), near = at(of.nearest, k), play = at(of.play, k), gap = at(of.gap, k);
+  const DoubleMask beyond = greater(away2, far * far);
+  const DoubleMask within = greater(near * near, away2) & greater(away2, zero);
+  if (bits(beyond | within)) {
+    const Pack away = square_root(away2), per_away = 1.0 / away;
+    const Pair out = per_away * A;
+    const Pack deep = away - far, shallow = near - away;
+    touch.add(beyond, wall, {-out.x, -out.y}, deep, deep * per_away);
+    touch.add(within, wall, out, shallow, -(shallow * per_away));
+  }
+  // without play a spring in every direction
+  const DoubleMask sprung = equal(play, zero), at_play = greater(moved2, play * play) | sprung;
+  if (bits(at_play)) {
+    const Pack moved = square_root(moved2), depth = moved - play;
+    const Pack per_moved = simd::select(greater(moved, zero), 1.0 / moved, zero);
+    touch.add(at_play, wall, -per_moved * offset, depth, simd::select(sprung, Pack(1.0), depth * per_moved));
+  }
+  const Pack per_radius = at(of.per_radius, k);
+  const Pair along{-(per_radius * place.y), per_radius * place.x};
+  const Pack moved = dot(along, A), side = simd::select(greater(moved, zero), Pack(-1.0), Pack(1.0));
+  const Pack depth = -(side * moved) - gap;
+  const DoubleMask beside = greater(depth, zero);
+  if (bits(beside)) touch.add(beside, wall, side * along, depth, zero);
+}
+
+/// Of the energy over each node inside; with_contact: with press and blocks.
+template <int packs>
+template <bool with_contact>
+void Lines<packs>::slopes() const {
+  const std::size_t last = of.nodes - 1, lanes = of.lanes;
+  const double h = of.spacing, per_h = 1 / h, per_h2 = per_h * per_h;
+  Pair here[packs], next[packs], bent_before[packs], bent_here[packs];
+  Pack bending[packs], mass[packs], drag[packs], tension[packs];
+  const auto bent_hose = [&](std::size_t i) { return same(of.curvature, i) - same(of.rest, i); };
+  for (int p = 0; p < packs; ++p) {
+    const std::size_t k = lane(p);
+    const Pair clamped = pair(of.path, 0, p);
+    here[p] = clamped;
+    next[p] = pair(of.path, 1, p);
+    // A clamp holds it along the hose's end, A' = 0: beyond lies the mirror image.
+    bent_here[p] = bent_hose(0) + Pack(2 * per_h2) * (next[p] - here[p]);
+    bending[p] = at(of.bending_stiffness, k) * Pack(per_h);
+    mass[p] = at(of.mass_per_length, k) * Pack(h);
+    drag[p] = at(of.drag, k) * Pack(h);
+    tension[p] = at(of.tension, k);
+  }
+  for (std::size_t i = 0; i < last; ++i) {
+    const Pair hose_bent = bent_hose(i + 1), K = Pack(h) * same(of.curvature, i), pull = same(of.pull, i);
+    for (int p = 0; p < packs; ++p) {
+      const Pair after = i + 2 <= last ? pair(of.path, i + 2, p) : here[p];
+      const Pair bent_next = hose_bent + Pack(per_h2) * ((here[p] - next[p]) + (after - next[p]));
+      if (i > 0) {
+        const Pair A = here[p], ahead = next[p], behind = pair(of.path, i - 1, p);
+        const Pair gained = Pack(per_h) * ((A - behind) - (ahead - A)) - K;
+        Pair slope = bending[p] * ((bent_before[p] - bent_here[p]) + (bent_next - bent_here[p])) + tension[p] * gained -
+                     mass[p] * pull + drag[p] * (A - pair(of.before, i, p));
+        put(gained, of.gained, i, p);
+        if constexpr (with_contact) {
+          Touch touch;
+          contacts(i, p, touch);
+          slope = slope + Pack(h) * touch.slope;
+          store(touch.press, of.press + i * lanes + lane(p));
+          double* const block = of.blocks + 3 * i * lanes + lane(p);
+          store(touch.xx, block);
+          store(touch.xy, block + lanes);
+          store(touch.yy, block + 2 * lanes);
+        }
+        put(slope, of.slope, i, p);
+      }
+      bent_before[p] = bent_here[p];
+      bent_here[p] = bent_next;
+      here[p] = next[p];
+      next[p] = after;
+    }
+  }
+}
+
+/// L D L^T of bending, tension, drag and contact: of each node the inverse of its pivot, and that times what ties it to
+/// the next one. negative: how many pivots are, which is how many eigenvalues are (Sylvester).
+template <int packs>
+void Lines<packs>::factor(const Pack* shift, Pack* negative) const {
+  const std::size_t last = of.nodes - 1, lanes = of.lanes;
+  const double h = of.spacing;
+  Pack tied2[packs], tie[packs], diagonal[packs];
+  // what the elimination of the nodes before leaves: of the diagonal of this node and the next, and the tie
+  Pack here_xx[packs], here_xy[packs], here_yy[packs], next_xx[packs], next_xy[packs], next_yy[packs];
+  Pack xx[packs], xy[packs], yx[packs], yy[packs];
+  for (int p = 0; p < packs; ++p) {
+    const std::size_t k = lane(p);
+    tied2[p] = at(of.bending_stiffness, k) * Pack(1 / (h * h * h));
+    const Pack pulled = at(of.tension, k) * Pack(1 / h);
+    tie[p] = -4.0 * tied2[p] - pulled;
+    diagonal[p] = 6.0 * tied2[p] + 2.0 * pulled + Pack(h) * (at(of.drag, k) + shift[p]);
+    negative[p] = here_xx[p] = here_xy[p] = here_yy[p] = next_xx[p] = next_xy[p] = next_yy[p] = Pack(0.0);
+    xx[p] = xy[p] = yx[p] = yy[p] = Pack(0.0);
+  }
+  for (std::size_t i = 1; i < last; ++i) {
+    const bool at_clamp = i == 1 || i + 1 == last;
+    for (int p = 0; p < packs; ++p) {
+      const double* const block = of.blocks + 3 * i * lanes + lane(p);
+      const Pack own = at_clamp ? diagonal[p] + tied2[p] : diagonal[p];
+      const Pack dxx = own + Pack(h) * load<Pack>(block) + here_xx[p];
+      const Pack dyy = own + Pack(h) * load<Pack>(block + 2 * lanes) + here_yy[p];
+      const Pack dxy = Pack(h) * load<Pack>(block + lanes) + here_xy[p];
+      const Pack determinant = dxx * dyy - dxy * dxy, inverse = 1.0 / determinant;
+      negative[p] += simd::select(greater(Pack(0.0), determinant), Pack(1.0),
+                                  simd::select(greater(Pack(0.0), dxx + dyy), Pack(2.0), Pack(0.0)));
+      const Pack ixx = dyy * inverse, ixy = -(dxy * inverse), iyy = dxx * inverse;
+      const Pack exx = tie[p] + xx[p], exy = xy[p], eyx = yx[p], eyy = tie[p] + yy[p];
+      const Pack f_xx = ixx * exx + ixy * eyx, f_xy = ixx * exy + ixy * eyy;
+      const Pack f_yx = ixy * exx + iyy * eyx, f_yy = ixy * exy + iyy * eyy;
+      double* const to = of.factors + 7 * i * lanes + lane(p);
+      const Pack values[] = {ixx, ixy, iyy, f_xx, f_xy, f_yx, f_yy};
+      for (std::size_t v = 0; v < 7; ++v) store(values[v], to + v * lanes);
+      here_xx[p] = next_xx[p] - exx * f_xx - eyx * f_yx;
+      here_xy[p] = next_xy[p] - exx * f_xy - eyx * f_yy;
+      here_yy[p] = next_yy[p] - exy * f_xy - eyy * f_yy;
+      const Pack far = -(tied2[p] * tied2[p]);
+      next_xx[p] = far * ixx, next_xy[p] = far * ixy, next_yy[p] = far * iyy;
+      xx[p] = -(tied2[p] * f_xx), xy[p] = -(tied2[p] * f_yx), yx[p] = -(tied2[p] * f_xy), yy[p] = -(tied2[p] * f_yy);
+    }
+  }
+}
+
+/// -slope and gained as right-hand sides, to their solutions in step and soft.
+template <int packs>
+void Lines<packs>::substitute() const {
+  const std::size_t last = of.nodes - 1, lanes = of.lanes;
+  constexpr int sides = 2;
+  double* const solution[sides] = {of.step, of.soft};
+  Pack tied2[packs];
+  Pair here[packs][sides], next[packs][sides];  // what is taken off the right-hand sides of this node and the next
+  for (int p = 0; p < packs; ++p) {
+    tied2[p] = at(of.bending_stiffness, lane(p)) * Pack(1 / (of.spacing * of.spacing * of.spacing));
+    for (int s = 0; s < sides; ++s) here[p][s] = next[p][s] = {Pack(0.0), Pack(0.0)};
+  }
+  for (std::size_t i = 1; i < last; ++i)
+    for (int p = 0; p < packs; ++p) {
+      const double* const f = of.factors + 7 * i * lanes + lane(p);
+      const Pack ixx = load<Pack>(f), ixy = load<Pack>(f + lanes), iyy = load<Pack>(f + 2 * lanes);
+      const Pack exx = load<Pack>(f + 3 * lanes), exy = load<Pack>(f + 4 * lanes);
+      const Pack eyx = load<Pack>(f + 5 * lanes), eyy = load<Pack>(f + 6 * lanes);
+      const Pair slope = pair(of.slope, i, p);
+      const Pair right[sides] = {{-slope.x, -slope.y}, pair(of.gained, i, p)};
+      for (int s = 0; s < sides; ++s) {
+        const Pair y = right[s] - here[p][s];
+        const Pair x{ixx * y.x + ixy * y.y, ixy * y.x + iyy * y.y};
+        put(x, solution[s], i, p);
+        here[p][s] = next[p][s] + Pair{exx * y.x + eyx * y.y, exy * y.x + eyy * y.y};
+        next[p][s] = tied2[p] * x;
+      }
+    }
+  for (int p = 0; p < packs; ++p)
+    for (int s = 0; s < sides; ++s) here[p][s] = next[p][s] = {Pack(0.0), Pack(0.0)};  // the next one and the one after it
+  for (std::size_t i = last - 1; i > 0; --i)
+    for (int p = 0; p < packs; ++p) {
+      const double* const f = of.factors + 7 * i * lanes + lane(p);
+      const Pack ixx = load<Pack>(f), ixy = load<Pack>(f + lanes), iyy = load<Pack>(f + 2 * lanes);
+      const Pack exx = load<Pack>(f + 3 * lanes), exy = load<Pack>(f + 4 * lanes);
+      const Pack eyx = load<Pack>(f + 5 * lanes), eyy = load<Pack>(f + 6 * lanes);
+      for (int s = 0; s < sides; ++s) {
+        const Pair near = here[p][s], far = tied2[p] * next[p][s], y = pair(solution[s], i, p);
+        const Pair x = y - Pair{ixx * far.x + ixy * far.y, ixy * far.x + iyy * far.y} -
+                       Pair{exx * near.x + exy * near.y, eyx * near.x + eyy * near.y};
+        put(x, solution[s], i, p);
+        next[p][s] = near;
+        here[p][s] = x;
+      }
+    }
+}
+
+/// step: to the minimum of the quadratic at hand, shifted by as much stiffness as makes that positive; 0 where not
+/// active. down: the slope along it. largest: way of a node.
+template <int packs>
+void Lines<packs>::newton_step(const Pack* active, Pack* down, Pack* largest) const {
+  const std::size_t last = of.nodes - 1;
+  Pack shift[packs], negative[packs], back[packs];
+  for (Pack& of_pack : shift) of_pack = Pack(0.0);
+  for (int tries = 0; tries < most_shifts; ++tries) {
+    factor(shift, negative);
+    substitute();
+    unsigned failed = 0;
+    Pack along[packs], soft[packs];
+    for (int p = 0; p < packs; ++p) along[p] = soft[p] = Pack(0.0);
+    for (std::size_t i = 1; i < last; ++i)
+      for (int p = 0; p < packs; ++p) {
+        const Pair gained = pair(of.gained, i, p);
+        along[p] += dot(gained, pair(of.step, i, p));
+        soft[p] += dot(gained, pair(of.soft, i, p));
+      }
+    for (int p = 0; p < packs; ++p) {
+      const Pack spring = at(of.stiffness, lane(p)) / Pack(of.length), whole = 1.0 + spring * soft[p];
+      // The whole matrix is positive if its eigenvalues with and without the rank one say so (Haynsworth).
+      const Pack zero(0.0);
+      const DoubleMask positive = (equal(negative[p], zero) & greater(whole, zero)) |
+                                  (equal(negative[p], Pack(1.0)) & at_least(zero, whole));
+      const DoubleMask good = positive | equal(active[p], zero);
+      failed |= (~bits(good) & ((1u << pack_size) - 1));
+      shift[p] = simd::select(good, shift[p], simd::select(equal(shift[p], zero), Pack(first_shift), 4.0 * shift[p]));
+      back[p] = spring * along[p] / whole;
+    }
+    if (!failed) break;
+  }
+  for (int p = 0; p < packs; ++p) down[p] = largest[p] = Pack(0.0);
+  for (std::size_t i = 1; i < last; ++i)
+    for (int p = 0; p < packs; ++p) {
+      const Pair none{Pack(0.0), Pack(0.0)};
+      const Pair step = select(greater(active[p], Pack(0.0)), pair(of.step, i, p) - back[p] * pair(of.soft, i, p), none);
+      put(step, of.step, i, p);
+      down[p] += dot(pair(of.slope, i, p), step);
+      largest[p] = larger(dot(step, step), largest[p]);
+    }
+  for (int p = 0; p < packs; ++p) largest[p] = square_root(largest[p]);
+}
+
+/// path: `share` of the step on from `from`. A node that lies against a round wall goes along it: in polar coordinates
+/// about its centre, since a straight way would press it in by the square of its length. going: where each node is
+/// heading there.
+template <int packs>
+void Lines<packs>::go(const Pack* share, const Pack* active) const {
+  for (std::size_t i = 1; i + 1 < of.nodes; ++i)
+    for (int p = 0; p < packs; ++p) {
+      const std::size_t k = lane(p);
+      const Pack zero(0.0), play = at(of.play, k), far = at(of.farthest, k), near = at(of.nearest, k);
+      const Pair from = pair(of.from, i, p), step = pair(of.step, i, p), place = pair(of.place, i, p);
+      const Pair offset = from - place;
+      const DoubleMask moves = greater(active[p], zero), on_play = greater(dot(offset, offset), play * play);
+      const Pair centre = select(on_play, place, {zero, zero}), arm = from - centre;
+      const Pack reach2 = dot(arm, arm);
+      const DoubleMask round =
+          (on_play | at_least(reach2, far * far) | at_least(near * near, reach2)) & greater(reach2, zero) & moves;
+      Pair path = from + share[p] * step, going = step;
+      if (bits(round)) {
+        const Pack reach = square_root(reach2), per_reach = 1.0 / reach;
+        const Pair out = per_reach * arm, across{-out.y, out.x};
+        const Pack rise = dot(out, step), turn = dot(across, step) * per_reach;
+        // by 2 atan(half), which is the angle itself up to its third power: no sine, no cosine
+        const Pack half = 0.5 * share[p] * turn, scale = 1.0 / (1.0 + half * half);
+        const Pack cosine = (1.0 - half * half) * scale, sine = 2.0 * half * scale;
+        const Pair now{out.x * cosine - out.y * sine, out.x * sine + out.y * cosine};
+        const Pair turned{across.x * cosine - across.y * sine, across.x * sine + across.y * cosine};
+        const Pack far_out = reach + share[p] * rise;
+        path = select(round, centre + far_out * now, path);
+        going = select(round, rise * now + (far_out * turn * scale) * turned, going);
+      }
+      put(select(moves, path, from), of.path, i, p);
+      put(going, of.going, i, p);
+    }
+}
+
+template <int packs>
+void Lines<packs>::keep_from() const {
+  for (std::size_t i = 1; i + 1 < of.nodes; ++i)
+    for (int p = 0; p < packs; ++p) put(pair(of.path, i, p), of.from, i, p);
+}
+
+template <int packs>
+Pack Lines<packs>::along_way(int p) const {
+  Pack sum(0.0);
+  for (std::size_t i = 1; i + 1 < of.nodes; ++i) sum += dot(pair(of.slope, i, p), pair(of.going, i, p));
+  return sum;
+}
+
+/// Cables that rest wait for the others: what they do hangs on none of them.
+template <int packs>
+__attribute__((flatten)) void Lines<packs>::relax(int most, std::int32_t* iterations) const {
+  Pack active[packs], share[packs], down[packs], largest[packs];
+  double took[packs * pack_size] = {};
+  for (int p = 0; p < packs; ++p) active[p] = at(of.counts, lane(p));
+  evaluate();
+  for (int iteration = 1; iteration <= most; ++iteration) {
+    newton_step(active, down, largest);
+    for (int p = 0; p < packs; ++p) {
+      share[p] = smaller(Pack(longest_step) / largest[p], Pack(1.0));
+      store(Pack(load<Pack>(took + p * pack_size) + active[p]), took + p * pack_size);
+    }
+    keep_from();
+    for (int tries = 0; tries < most_tries; ++tries) {
+      go(share, active);
+      evaluate();
+      unsigned left = 0;
+      for (int p = 0; p < packs; ++p) {
+        const Pack there = along_way(p);
+        const DoubleMask near = greater(Pack(at_rest), largest[p]), down_enough = at_least(-0.5 * down[p], there);
+        const DoubleMask good = near | down_enough | equal(active[p], Pack(0.0));
+        left |= ~bits(good) & ((1u << pack_size) - 1);
+        const Pack shorter = smaller(larger(-down[p] / (there - down[p]), Pack(0.1)), Pack(0.7));
+        share[p] = simd::select(good, share[p], share[p] * shorter);
+      }
+      if (!left) break;
+    }
+    unsigned moving = 0;
+    for (int p = 0; p < packs; ++p) {
+      active[p] = simd::select(greater(Pack(at_rest), largest[p]), Pack(0.0), active[p]);
+      moving |= bits(greater(active[p], Pack(0.0)));
+    }
+    if (!moving) break;
+  }
+  for (int k = 0; k < packs * pack_size; ++k) iterations[first + k] = static_cast<std::int32_t>(took[k]);
+}
+
+void relax(const LineBatch& batch, int most, std::int32_t* iterations) {
+  std::size_t lane = 0;
+  for (; lane + 2 * pack_size <= batch.lanes; lane += 2 * pack_size) Lines<2>{batch, lane}.relax(most, iterations);
+  for (; lane < batch.lanes; lane += pack_size) Lines<1>{batch, lane}.relax(most, iterations);
+}
+
+// ---- rings ------------------------------------------------------------------------------------------------
+
+void place(const LineBatch& batch, const double* place0, const double* frame) {
+  for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+    const Lines<1> lines{batch, k};
+    const Pair a0{load<Pack>(place0 + k), load<Pack>(place0 + batch.lanes + k)};
+    for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
+      const Pair by = Lines<1>::same(frame, i);
+      lines.put({a0.x * by.x - a0.y * by.y, a0.x * by.y + a0.y * by.x}, batch.path, i, 0);
+    }
+    lines.answer();
+    lines.slopes<false>();
+  }
+}
+
+/// A cable's way when its ring turns.
+inline Pair across(const Pair& path) { return {-path.y, path.x}; }
+
+void slope_of_turn(const LineBatch& batch, double* slope) {
+  for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
+    Pack sum(0.0);
+    for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
+      const Lines<1> lines{batch, k};
+      sum += at(batch.counts, k) * dot(lines.pair(batch.slope, i, 0), across(lines.pair(batch.path, i, 0)));
+    }
+    slope[i - 1] = sum_of_lanes(sum);
+  }
+}
+
+void assemble_turn(const LineBatch& batch, const RingSystem& system) {
+  const std::size_t last = batch.nodes - 1, lanes = batch.lanes;
+  const double h = batch.spacing;
+  slope_of_turn(batch, system.slope);
+  for (std::size_t i = 1; i < last; ++i) {
+    const bool at_clamp = i == 1 || i + 1 == last;
+    Pack own(0.0), next(0.0), after(0.0);
+    for (std::size_t k = 0; k < lanes; k += pack_size) {
+      const Lines<1> lines{batch, k};
+      const Pack counts = at(batch.counts, k), pulled = at(batch.tension, k) * Pack(1 / h);
+      const Pack bending = at(batch.bending_stiffness, k) * Pack(1 / (h * h * h));
+      const Pair A = lines.pair(batch.path, i, 0), slope = lines.pair(batch.slope, i, 0);
+      const Pack diagonal = (at_clamp ? 7.0 : 6.0) * bending + 2.0 * pulled + Pack(h) * at(batch.drag, k);
+      own += counts * (diagonal * dot(A, A) - dot(slope, A));
+      if (i + 1 < last) next += counts * (4.0 * bending + pulled) * dot(A, lines.pair(batch.path, i + 1, 0));
+      if (i + 2 < last) after += counts * bending * dot(A, lines.pair(batch.path, i + 2, 0));
+      store(Pack(counts * dot(lines.pair(batch.gained, i, 0), across(A))), system.table + (i - 1) * lanes + k);
+    }
+    double* const row = system.bands + 3 * (i - 1);
+    row[0] = sum_of_lanes(own);
+    row[1] = -sum_of_lanes(next);
+    row[2] = sum_of_lanes(after);
+  }
+}
+
+void substitute_turn(const double* bands, std::size_t rows, std::size_t lanes, double* table) {
+  for (std::size_t k = 0; k < lanes; k += pack_size) {
+    Pack before(0.0), before2(0.0);  // of the two rows before
+    for (std::size_t i = 0; i < rows; ++i) {
+      double* const at_row = table + i * lanes + k;
+      Pack x = load<Pack>(at_row);
+      if (i > 0) x -= Pack(bands[3 * (i - 1) + 1]) * before;
+      if (i > 1) x -= Pack(bands[3 * (i - 2) + 2]) * before2;
+      store(x, at_row);
+      before2 = before;
+      before = x;
+    }
+    Pack after(0.0), after2(0.0);
+    for (std::size_t i = rows; i-- > 0;) {
+      double* const at_row = table + i * lanes + k;
+      const Pack x = load<Pack>(at_row) / Pack(bands[3 * i]) - Pack(bands[3 * i + 1]) * after -
+                     Pack(bands[3 * i + 2]) * after2;
+      store(x, at_row);
+      after2 = after;
+      after = x;
+    }
+  }
+}
+
+void products(const double* a, const double* b, std::size_t rows, std::size_t lanes, double* product) {
+  for (std::size_t k = 0; k < lanes; ++k)
+    for (std::size_t j = 0; j < lanes; j += pack_size) {
+      Pack sum(0.0);
+      for (std::size_t i = 0; i < rows; ++i) sum += Pack(a[i * lanes + k]) * load<Pack>(b + i * lanes + j);
+      store(sum, product + k * lanes + j);
+    }
+}
+
+}  // namespace
+
+extern const LooseKernels set;
+const LooseKernels set{relax, place, assemble_turn, slope_of_turn, substitute_turn, products};
+
+}  // namespace DRESSLIFE_MACHINE_KERNELS
+}  // namespace dresslife::strain
