@@ -33,7 +33,8 @@ std::array<double, 2> place_of(const Construction& construction, int part, doubl
 }  // namespace
 
 CablePaths::CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, const CablesInJob& job,
-                       std::vector<double> lengths, const std::vector<double>& arcs, std::size_t samples)
+                       std::vector<double> lengths, const std::vector<double>& arcs, std::size_t samples,
+                       const Scratch& scratch)
     : construction_(construction),
       lengths_(std::move(lengths)),
       stride_(padded(samples) + padding),
@@ -73,7 +74,6 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
       cable.pressing.assign(segments * samples, 0.0f);
     }
     if (cable.loose) {
-      cable.curvature.assign(segments * 2 * samples, 0.0f);
       LooseCable& lies = loose.emplace_back();
       lies.place = cable.place;
       lies.radius = layer.part_radius;
@@ -97,6 +97,7 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     loose_.emplace(loose, LooseSettings{length, std::max<std::size_t>(segments, 8),
                                         construction.rest_curvature()});
     nodes_.resize(loose_->nodes());
+    curvature_.emplace(segments, 2 * loosened_.size(), samples, scratch);
   }
   if (any()) hose_curvature_.assign(4 * samples, 0.0f);
 }
@@ -176,6 +177,7 @@ void CablePaths::add_loose(const SpanBlock& block) {
   const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
   const DeformationHistory& deformation = block.deformation;
   const std::size_t every = std::max<std::size_t>(1, all_ / most_offset_samples);
+  curvature_->begin(deformation.samples());
   for (std::size_t t = 0; t < deformation.samples(); ++t) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       // between the centres of two segments, and on in a line beyond the last ones
@@ -196,7 +198,7 @@ void CablePaths::add_loose(const SpanBlock& block) {
       for (int d = 0; d < 2; ++d) node.pull[d] = pull_a[d] + share * (pull_b[d] - pull_a[d]);
     }
     loose_->advance(nodes_, block.step);
-    for (std::size_t k = 0; k < loosened_.size(); ++k) put_loose(loosened_[k], k, next_ + t);
+    for (std::size_t k = 0; k < loosened_.size(); ++k) put_loose(loosened_[k], k, next_ + t, t);
     if ((next_ + t) % every != 0) continue;
     offset_samples_.push_back(next_ + t);
     offsets_.resize(offset_samples_.size() * cables_.size() * segments * 2, 0.0);
@@ -209,9 +211,10 @@ void CablePaths::add_loose(const SpanBlock& block) {
               (offset[2 * (i * elements / segments) + d] + offset[2 * ((i + 1) * elements / segments) + d]) / 2;
         }
   }
+  curvature_->end();
 }
 
-void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size_t sample) {
+void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size_t sample, std::size_t of_block) {
   Cable& cable = cables_[index];
   const CableState& state = loose_->state(state_index);
   const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
@@ -225,7 +228,7 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
       double sum = 0;
       for (std::size_t e = first; e < end; ++e)
         sum += (state.curvature[2 * e + d] + state.curvature[2 * (e + 1) + d]) / 2;
-      cable.curvature[(2 * i + d) * all_ + sample] = static_cast<float>(sum / (end - first));
+      curvature_->at(i, 2 * state_index + d, of_block) = static_cast<float>(sum / (end - first));
     }
     if (!cable.rubs) continue;
     double gain = 0, press = 0;
@@ -357,20 +360,26 @@ const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t
   motion_.strain.assign(cables, nullptr);
   motion_.loose.assign(cables, {});
   rows_.resize(3 * paths.cables_.size());
+  std::size_t loose = 0;
   for (std::size_t k = 0; k < paths.cables_.size(); ++k) {
     const Cable& cable = paths.cables_[k];
     const auto index = static_cast<std::size_t>(paths.construction_.cable_of(cable.part));
-    const auto row = [&](std::size_t kind, const auto& from, std::size_t at) {
-      std::vector<double>& to = rows_[3 * k + kind];
+    if (cable.rubs) {
+      std::vector<double>& own = rows_[3 * k];
+      own.assign(stride, 0.0);
+      std::copy_n(cable.along.begin() + static_cast<std::ptrdiff_t>(segment * all + first), count, own.begin());
+    }
+    const double* const strain = cable.rubs ? rows_[3 * k].data() : cable.strain.data() + first;
+    motion_.strain[index] = strain;
+    if (!cable.loose) continue;
+    const auto bent = [&](std::size_t about) {
+      std::vector<double>& to = rows_[3 * k + 1 + about];
       to.assign(stride, 0.0);
-      for (std::size_t t = 0; t < count; ++t) to[t] = from[at + first + t];
+      paths.curvature_->read(segment, 2 * loose + about, first, count, to.data());
       return to.data();
     };
-    const double* strain = cable.rubs ? row(0, cable.along, segment * all) : cable.strain.data() + first;
-    motion_.strain[index] = strain;
-    if (cable.loose)
-      motion_.loose[index] = {row(1, cable.curvature, 2 * segment * all),
-                              row(2, cable.curvature, (2 * segment + 1) * all), hose.twist, strain};
+    motion_.loose[index] = {bent(0), bent(1), hose.twist, strain};
+    ++loose;
   }
   return motion_;
 }

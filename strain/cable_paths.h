@@ -16,6 +16,7 @@
 #include "strain/loose/loose_cables.h"
 #include "strain/path_rates.h"
 #include "strain/segment_motion.h"
+#include "strain/segment_rows.h"
 #include "strain/sliding_line.h"
 
 namespace dresslife::strain {
@@ -40,7 +41,8 @@ class CablePaths {
  public:
   /// plan: of all layers, as they slide. lengths, arcs: of the span's segments [m].
   CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, const CablesInJob& job,
-             std::vector<double> lengths, const std::vector<double>& arcs, std::size_t samples);
+             std::vector<double> lengths, const std::vector<double>& arcs, std::size_t samples,
+             const Scratch& scratch = {});
 
   /// Whether there is any cable that can slide.
   bool any() const { return !cables_.empty(); }
@@ -103,12 +105,11 @@ class CablePaths {
     std::vector<double> along{};   ///< (segment, sample) the same, each segment its own: with friction
     std::array<std::vector<double>, 3> stuck{};  ///< (sample) strain where it sticks: the largest, at base, at tool
     std::vector<float> pressing{}; ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
-    std::vector<float> curvature{};  ///< (segment, 2, sample) of a loose one's own path [1/m]
   };
 
   void add_held(const SpanBlock& block);
   void add_loose(const SpanBlock& block);
-  void put_loose(std::size_t cable, std::size_t state, std::size_t sample);
+  void put_loose(std::size_t cable, std::size_t state, std::size_t sample, std::size_t of_block);
   void add_stuck(Cable& cable, std::size_t segment, std::span<const double> path, double rest);
   void slide(Cable& cable);
   void weigh();
@@ -122,6 +123,7 @@ class CablePaths {
   std::optional<PathRates> rates_;
   std::vector<std::size_t> loosened_;       ///< of cables_, in the order of loose_
   std::optional<LooseCables> loose_;
+  std::optional<SegmentRows> curvature_;    ///< (segment, loose cable x 2, sample) of their own paths [1/m]
   std::vector<HoseNode> nodes_;
   std::vector<float> hose_curvature_;       ///< (clamp, 2, sample) at the base and the tool end [1/m]
   std::vector<double> cable_moment_, hose_moment_, offsets_;

@@ -78,7 +78,7 @@ void SiteRows::clear() {
 
 Evaluation::Evaluation(const Construction& construction, const pipeline::Strain& settings,
                        std::vector<double> lengths, std::size_t samples, std::size_t threads,
-                       const SpanPlace& place)
+                       const SpanPlace& place, const Scratch& scratch)
     : construction_(construction),
       place_(place),
       lengths_(std::move(lengths)),
@@ -95,7 +95,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       free_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::free, total(lengths_)),
              lengths_, arcs_, samples}},
       cables_(construction, free_.means.plan(),
-              {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end}, lengths_, arcs_, samples) {
+              {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end}, lengths_, arcs_, samples,
+              scratch) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";

@@ -78,7 +78,7 @@ class Evaluation {
   /// lengths: rest lengths of the segments [m]. threads: share the bundles of a segment; any number gives the
   /// same. Errors: InputError for a probe that names no wire or no segment.
   Evaluation(const Construction& construction, const pipeline::Strain& settings, std::vector<double> lengths,
-             std::size_t samples, std::size_t threads = 1, const SpanPlace& place = {});
+             std::size_t samples, std::size_t threads = 1, const SpanPlace& place = {}, const Scratch& scratch = {});
 
   std::size_t segments() const { return lengths_.size(); }
   std::size_t sites() const {

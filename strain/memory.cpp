@@ -116,7 +116,7 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
 
   // Every other way in which cables lie is kept beside the job's own, each with four frictions.
   const double laid = 1 + static_cast<double>(placements_at_most(job)), frictions = job.uncertainty.enabled ? 4 : 1;
-  double cable_rows = 0, part_rows = 0, found = 0;
+  double cable_rows = 0, bent_rows = 0, part_rows = 0, found = 0;
   for (const pipeline::MotionSpan& span : spans) {
     if (span.dresspack >= job.dresspacks.size()) continue;
     const double length = std::accumulate(lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment),
@@ -124,9 +124,10 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
                                           0.0);
     const Counts counts = counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, length);
     const double in_span = static_cast<double>(span.segments);
-    // Strain and force of each cable; strain and pressing along one that rubs, curvature along a loose one
-    // (cable_paths.h).
-    cable_rows += laid * (2 * counts.cables + in_span * (1.5 * counts.rubbing + counts.loose));
+    // Strain and force of each cable, strain and pressing along one that rubs (cable_paths.h); curvature along a loose one
+    // (segment_rows.h), and the rows of one segment.
+    cable_rows += laid * (2 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
+    bent_rows += laid * in_span * counts.loose;
     part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
     // A thread's states of a part and of its parent, and what friction holds of every level.
     constexpr double states = 4, in_single = 3, turned = 1 + phases_per_pitch;
@@ -140,6 +141,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   need.add(std::min(rows * static_cast<double>(segments) * sizeof(Deformation),
                     static_cast<double>(default_history_bytes)),
            fmt::format("histories of {} segments", segments), sampling);
+  need.add(std::min(bent_rows * rows * value, static_cast<double>(default_history_bytes) / 2), "where loose cables bend",
+           sampling);
   need.add(cable_rows * rows * value, "what cables do in each segment", "fewer simulation.segments, " + sampling);
   need.add((part_rows + found) * rows * value, "what parts do at each sample", sampling);
   const std::map<std::string, std::size_t> axes{{"sample", samples},

@@ -303,7 +303,7 @@ struct Evaluations {
   int levels = 0;                                    // of the deepest wire
 
   Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads,
-              const pipeline::StrainFactors& factors) {
+              const pipeline::StrainFactors& factors, const Scratch& scratch) {
     for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
       constructions.emplace_back(mounted.dresspack, job.strain.kinematics, factors);
       levels = std::max(levels, constructions.back().levels());
@@ -326,7 +326,7 @@ struct Evaluations {
       place.free_tool_end = reader.ends_freely(job, k);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
       of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings_of(job, d), lengths,
-                                                     reader.samples(), threads, place));
+                                                     reader.samples(), threads, place, scratch));
       place.first_arc += std::accumulate(lengths.begin(), lengths.end(), 0.0);
     }
   }
@@ -444,11 +444,13 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
-  const Evaluations all(job, reader, threads, job.strain.factors);
+  // Half of the room: the hose's deformation wants the other.
+  const Scratch scratch{history_bytes / 2 / (reader.spans().size() * (1 + placements_at_most(job))), strain.final_name()};
+  const Evaluations all(job, reader, threads, job.strain.factors, scratch);
   const auto& evaluations = all.of_span;
   std::list<Evaluations> otherwise_laid;
   const Variations variations(job, evaluations, [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
-    return otherwise_laid.emplace_back(job, reader, threads, factors).of_span;
+    return otherwise_laid.emplace_back(job, reader, threads, factors, scratch).of_span;
   });
   strain.set_axis("segment", segments);
   strain.set_axis("level", all.levels);

@@ -491,6 +491,8 @@ void FileWriter::commit() {
   impl_->whole.commit();
 }
 
+const std::filesystem::path& FileWriter::final_name() const { return impl_->whole.final_name(); }
+
 const std::string& FileWriter::checksum() const { return impl_->checksum; }
 
 // ---- reading ----------------------------------------------------------------------------------------------

@@ -95,6 +95,7 @@ class FileWriter {
   void dataset_attribute(const std::string& dataset, const std::string& name, const std::string& value);
 
   void commit();
+  const std::filesystem::path& final_name() const;
   const std::string& checksum() const;  ///< of the committed file (checksum.h)
 
  private:

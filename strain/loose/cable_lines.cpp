@@ -76,7 +76,7 @@ void CableLines::put(OfNode row, std::size_t node, std::size_t k, const Vector2d
 }
 
 void CableLines::feed_in(double share) {
-  for (CableTension& tension : tensions_) tension.feed_in(share);
+  for (CableTension& pulled : tensions_) pulled.feed_in(share);
 }
 
 void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time, bool goes_on) {
@@ -123,9 +123,9 @@ double CableLines::follow(const HoseLine& hose, std::size_t k) {
     const double rate = hose.elongation[i] - hose.curvature[i].dot(at_[i]);
     if (i > 0) gain_[i - 1] = (behind + rate) / 2 + (at_[i] - at_[i - 1]).squaredNorm() * inverse / 2;
     behind = rate;
-    const Vector2d& from = at_[i > 0 ? i - 1 : 1];  // beyond a clamp lies the mirror image
-    const Vector2d& to = at_[i < last ? i + 1 : last - 1];
-    bent_[i] = hose.curvature[i] - hose.rest[i] + inverse * (from - 2 * at_[i] + to);
+    const Vector2d& one = at_[i > 0 ? i - 1 : 1];  // beyond a clamp lies the mirror image
+    const Vector2d& other = at_[i < last ? i + 1 : last - 1];
+    bent_[i] = hose.curvature[i] - hose.rest[i] + inverse * (one - 2 * at_[i] + other);
   }
   return std::accumulate(gain_.begin(), gain_.end(), 0.0) / static_cast<double>(gain_.size());
 }

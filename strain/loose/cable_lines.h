@@ -27,7 +27,7 @@ namespace dresslife::strain {
 /// Numbers of cables side by side, at the start of a cache line.
 class LaneRows {
  public:
-  void assign(std::size_t rows, std::size_t lanes) { blocks_.assign(rows * lanes / most_lanes, {}); }
+  void assign(std::size_t rows, std::size_t in_row) { blocks_.assign(rows * in_row / most_lanes, {}); }
   double* data() { return blocks_.empty() ? nullptr : blocks_.front().of; }
   const double* data() const { return blocks_.empty() ? nullptr : blocks_.front().of; }
   double& operator[](std::size_t k) { return data()[k]; }
@@ -53,20 +53,21 @@ class CableLines {
   /// (node) the directions in which a cable's place stays, cosine and sine against the untwisted frame: the hose's, or
   /// those of its ring.
   using Frame = std::vector<Eigen::Vector2d>;
-  /// The next sample. frames: (cable). step: since the sample before [s]. goes_on: moves in the frame as it did then, else
-  /// it stays as it was there.
+  /// The next sample. frames: (cable). step: since the sample before [s]. goes_on: moves in the frame as it did then,
+  /// else it stays as it was there.
   void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on);
   /// Moves to the minimum of the energy. Returns the iterations (cable), at most `most`.
   std::span<const std::int32_t> relax(int most);
   /// Cables of a ring (strain/loose/ring.h) to their places in a frame.
   void place(const Frame& frame);
-  /// The sample is over. frames, step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody asks.
+  /// The sample is over. frames, step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody
+  /// asks.
   void end(const HoseLine& hose, std::span<const Frame* const> frames, double step, std::span<CableState> states);
 
   void feed_in(double share);  ///< see CableTension
 
-  /// What the distance h of the nodes leaves out of a path's waves: second differences have their curvature a by h^2 a'' /
-  /// 12 wrong. Both squared and summed over nodes and samples so far, of which a state was asked.
+  /// What the distance h of the nodes leaves out of a path's waves: second differences have their curvature a by
+  /// h^2 a'' / 12 wrong. Both squared and summed over nodes and samples so far, of which a state was asked.
   double bent(std::size_t cable) const { return bent_sum_[cable]; }      ///< its curvature, the hose's with it [1/m2]
   double missed(std::size_t cable) const { return missed_sum_[cable]; }  ///< of h^2 a'' / 12 [1/m2]
 

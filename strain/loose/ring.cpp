@@ -72,7 +72,8 @@ Eigen::VectorXd Ring::newton_turn() {
     return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(of.data(), static_cast<Eigen::Index>(in_all), count,
                                                             Eigen::OuterStride<>(static_cast<Eigen::Index>(lanes)));
   };
-  const auto gained = by_cable(gained_, rows), solved = by_cable(solved_, rows), soft = by_cable(products_, lines_.count());
+  const auto gained = by_cable(gained_, rows), solved = by_cable(solved_, rows);
+  const auto soft = by_cable(products_, lines_.count());
   Eigen::VectorXd root(count);  // of each cable's stiffness against its mean gain
   for (Eigen::Index k = 0; k < count; ++k) root[k] = std::sqrt(lines_.batch().stiffness[k] / lines_.batch().length);
   double largest = 0;

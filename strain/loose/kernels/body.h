@@ -1,7 +1,8 @@
 // The hot loops of loose cables, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of which names
 // it (pipeline/simd.h). Needs every standard header it uses to be included before.
 //
-// The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill that wait.
+// The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill that
+// wait.
 #include "pipeline/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/loose/kernels/loose_kernels.h"
@@ -51,7 +52,9 @@ struct Lines {
     store(pair.x, to);
     store(pair.y, to + of.lanes);
   }
-  static Pair same(const double* values, std::size_t node) { return {Pack(values[2 * node]), Pack(values[2 * node + 1])}; }
+  static Pair same(const double* values, std::size_t node) {
+    return {Pack(values[2 * node]), Pack(values[2 * node + 1])};
+  }
 
   void answer() const;
   template <bool with_contact>
@@ -117,9 +120,10 @@ struct Lines<packs>::Touch {
 
   inline Touch() : press(0.0), xx(0.0), xy(0.0), yy(0.0), slope{Pack(0.0), Pack(0.0)} {}
 
-  /// Along `normal`, which leads out of what is touched, where `mask`. depth > 0. across: stiffness across the normal over
-  /// that along it.
-  inline void add(const DoubleMask& mask, const Pack& stiffness, const Pair& normal, const Pack& depth, const Pack& across) {
+  /// Along `normal`, which leads out of what is touched, where `mask`. depth > 0. across: stiffness across the normal
+  /// over that along it.
+  inline void add(const DoubleMask& mask, const Pack& stiffness, const Pair& normal, const Pack& depth,
+                  const Pack& across) {
     const Pack none(0.0), force = stiffness * depth, rest = 1.0 - across;
     press += simd::select(mask, force, none);
     slope = slope - select(mask, force * normal, {none, none});
@@ -288,7 +292,7 @@ void Lines<packs>::substitute() const {
       }
     }
   for (int p = 0; p < packs; ++p)
-    for (int s = 0; s < sides; ++s) here[p][s] = next[p][s] = {Pack(0.0), Pack(0.0)};  // the next one and the one after it
+    for (int s = 0; s < sides; ++s) here[p][s] = next[p][s] = {Pack(0.0), Pack(0.0)};  // of the two nodes behind
   for (std::size_t i = last - 1; i > 0; --i)
     for (int p = 0; p < packs; ++p) {
       const double* const f = of.factors + 7 * i * lanes + lane(p);
@@ -333,7 +337,8 @@ void Lines<packs>::newton_step(const Pack* active, Pack* down, Pack* largest) co
                                   (equal(negative[p], Pack(1.0)) & at_least(zero, whole));
       const DoubleMask good = positive | equal(active[p], zero);
       failed |= (~bits(good) & ((1u << pack_size) - 1));
-      shift[p] = simd::select(good, shift[p], simd::select(equal(shift[p], zero), Pack(first_shift), 4.0 * shift[p]));
+      const Pack larger_shift = simd::select(equal(shift[p], zero), Pack(first_shift), 4.0 * shift[p]);
+      shift[p] = simd::select(good, shift[p], larger_shift);
       back[p] = spring * along[p] / whole;
     }
     if (!failed) break;
@@ -342,7 +347,8 @@ void Lines<packs>::newton_step(const Pack* active, Pack* down, Pack* largest) co
   for (std::size_t i = 1; i < last; ++i)
     for (int p = 0; p < packs; ++p) {
       const Pair none{Pack(0.0), Pack(0.0)};
-      const Pair step = select(greater(active[p], Pack(0.0)), pair(of.step, i, p) - back[p] * pair(of.soft, i, p), none);
+      const Pair way = pair(of.step, i, p) - back[p] * pair(of.soft, i, p);
+      const Pair step = select(greater(active[p], Pack(0.0)), way, none);
       put(step, of.step, i, p);
       down[p] += dot(pair(of.slope, i, p), step);
       largest[p] = larger(dot(step, step), largest[p]);

@@ -10,7 +10,8 @@ namespace dresslife::strain {
 
 constexpr std::size_t most_lanes = 8;  ///< of any register, in double precision: cables are padded to a multiple of it
 
-/// Cables of one hose. Number i of cable k at [i * lanes + k], component d of a node's vector at [(2 * node + d) * lanes + k].
+/// Cables of one hose. Number i of cable k at [i * lanes + k], component d of a node's vector at
+/// [(2 * node + d) * lanes + k].
 struct LineBatch {
   std::size_t nodes = 0, lanes = 0;
   double length = 0, spacing = 0;  ///< of the hose's axis, of its nodes [m]
@@ -34,11 +35,11 @@ struct LineBatch {
   double* press = nullptr;                                             ///< (node, lane) [N/m]
   double *slope = nullptr, *gained = nullptr;                          ///< (node, 2, lane)
   double *step = nullptr, *soft = nullptr, *from = nullptr, *going = nullptr;  ///< (node, 2, lane), scratch
-  double *blocks = nullptr, *factors = nullptr;                                ///< (node, 3, lane), (node, 7, lane), scratch
+  double *blocks = nullptr, *factors = nullptr;  ///< (node, 3, lane), (node, 7, lane), scratch
 };
 
-/// What turns the cables of a ring, to bands (row, 3), to what each cable gains (row, lane) and to the slope (row); row:
-/// a node inside.
+/// What turns the cables of a ring: bands (row, 3), what each cable gains (row, lane) and the slope (row); row: a node
+/// inside.
 struct RingSystem {
   double *bands = nullptr, *table = nullptr, *slope = nullptr;
 };

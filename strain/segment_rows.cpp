@@ -1,0 +1,61 @@
+#include "strain/segment_rows.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "pipeline/errors.h"
+
+namespace dresslife::strain {
+
+SegmentRows::SegmentRows(std::size_t segments, std::size_t rows, std::size_t samples, const Scratch& scratch)
+    : segments_(segments), rows_(rows) {
+  if (scratch.beside.empty() || segments * rows * samples * sizeof(float) <= scratch.room) return;
+  std::filesystem::path name = scratch.beside;
+  file_ = std::make_unique<pipeline::WholeFile>(name += ".paths");
+}
+
+void SegmentRows::begin(std::size_t samples) {
+  block_samples_ = samples;
+  block_.assign(segments_ * rows_ * samples, 0.0f);
+}
+
+void SegmentRows::end() {
+  Block block{0, block_samples_, 0, {}};
+  if (!blocks_.empty()) {
+    const Block& before = blocks_.back();
+    block.first = before.first + before.samples;
+    block.offset = before.offset + before.samples * segments_ * rows_;
+  }
+  if (file_) {
+    file_->write_at(block_.data(), block_.size() * sizeof(float), block.offset * sizeof(float));
+    file_->check();
+  } else {
+    block.values = std::move(block_);
+  }
+  blocks_.push_back(std::move(block));
+}
+
+void SegmentRows::read(std::size_t segment, std::size_t row, std::size_t first, std::size_t count, double* to) const {
+  std::vector<float> from_file;
+  auto block = std::upper_bound(blocks_.begin(), blocks_.end(), first,
+                                [](std::size_t sample, const Block& of) { return sample < of.first + of.samples; });
+  for (; count > 0; ++block) {
+    assert(block != blocks_.end());
+    const std::size_t skipped = first - block->first, here = std::min(count, block->samples - skipped);
+    const std::size_t at = (segment * rows_ + row) * block->samples + skipped;
+    const float* from = block->values.data() + at;
+    if (file_) {
+      from_file.resize(here);
+      if (!pipeline::read_at(file_->descriptor(), from_file.data(), here * sizeof(float),
+                             (block->offset + at) * sizeof(float)))
+        throw pipeline::InputError({file_->final_name().string()}, "cannot be read again (the disk fails)",
+                                   "run dresslife-strain again, on another disk");
+      from = from_file.data();
+    }
+    to = std::copy(from, from + here, to);
+    first += here;
+    count -= here;
+  }
+}
+
+}  // namespace dresslife::strain
