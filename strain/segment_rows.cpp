@@ -9,9 +9,10 @@ namespace dresslife::strain {
 
 SegmentRows::SegmentRows(std::size_t segments, std::size_t rows, std::size_t samples, const Scratch& scratch)
     : segments_(segments), rows_(rows) {
-  if (scratch.beside.empty() || segments * rows * samples * sizeof(float) <= scratch.room) return;
+  if (scratch.beside.empty()) return;
   std::filesystem::path name = scratch.beside;
-  file_ = std::make_unique<pipeline::WholeFile>(name += ".paths");
+  pipeline::remove_leftovers(name += ".paths");  // of a run that was killed
+  if (segments * rows * samples * sizeof(float) > scratch.room) file_ = std::make_unique<pipeline::WholeFile>(name);
 }
 
 void SegmentRows::begin(std::size_t samples) {
