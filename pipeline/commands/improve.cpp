@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
+#include <optional>
 
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/making.h"
@@ -11,10 +12,12 @@
 #include "pipeline/commands/results.h"
 #include "pipeline/errors.h"
 #include "pipeline/improve/improvement.h"
+#include "pipeline/improve/nudges.h"
 #include "pipeline/installation.h"
 #include "pipeline/job/job_text.h"
 #include "pipeline/progress.h"
 #include "pipeline/readable.h"
+#include "pipeline/report/improvement_page.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/stage_program.h"
 #include "pipeline/whole_file.h"
@@ -24,11 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t finalists = 4;  // whose lives are told over what is not known, too
+constexpr std::size_t finalists = 6;  // whose lives are told over what is not known, too
 
 struct Options : RunOptions {
   ImproveRequest request;
   std::string method = "surrogate", second = "none";
+  double off_mm = 10;
 };
 
 /// What geometry says; nothing where the program refuses the job.
@@ -70,6 +74,10 @@ struct Finals {
   std::vector<RankingRow> rows;
 };
 
+bool is_of(const RankingRow& row, const std::vector<std::string>& jobs) {
+  return std::find(jobs.begin(), jobs.end(), row.job) != jobs.end();
+}
+
 Finals finals_of(const Improvement& found, const Options& options, const StudyPlaces& places) {
   Finals finals{{found.name, {}}, {}, {}};
   std::vector<std::size_t> trials = finalists_of(found);
@@ -86,22 +94,27 @@ Finals finals_of(const Improvement& found, const Options& options, const StudyPl
   finals.rows = made_rows(finals.study, places, options);
   for (Final& of : finals.of)
     for (const RankingRow& row : finals.rows)
-      if (std::find(of.jobs.begin(), of.jobs.end(), row.job) != of.jobs.end())
-        of.hours = std::min(of.hours, row.done() ? row.headline_hours() : 0);
+      if (is_of(row, of.jobs)) of.hours = std::min(of.hours, row.done() ? row.headline_hours() : 0);
   return finals;
+}
+
+const Final* best_of(const Finals& finals) {
+  if (finals.of.size() < 2) return nullptr;
+  return &*std::max_element(finals.of.begin() + 1, finals.of.end(),
+                            [](const Final& a, const Final& b) { return a.hours < b.hours; });
+}
+
+/// Of the worst of its jobs; null: none is done.
+const RankingRow* worst_row(const Finals& finals, const Final& of) {
+  const RankingRow* worst = nullptr;
+  for (const RankingRow& row : finals.rows)
+    if (is_of(row, of.jobs) && row.done() && (!worst || row.headline_hours() < worst->headline_hours())) worst = &row;
+  return worst;
 }
 
 /// Share of draws in which the worst job lives longer than it did; absent where nothing is uncertain.
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places) {
-  const auto worst = [&](const Final& of) {
-    const RankingRow* least = nullptr;
-    for (const RankingRow& row : finals.rows)
-      if (std::find(of.jobs.begin(), of.jobs.end(), row.job) != of.jobs.end() && row.done() &&
-          (!least || row.headline_hours() < least->headline_hours()))
-        least = &row;
-    return least;
-  };
-  const RankingRow *before = worst(finals.of.front()), *after = worst(best);
+  const RankingRow *before = worst_row(finals, finals.of.front()), *after = worst_row(finals, best);
   if (!before || !after) return std::nullopt;
   Study two{finals.study.name, {}};
   for (const StudyJob& job : finals.study.jobs)
@@ -111,13 +124,99 @@ std::optional<double> share_longer(const Finals& finals, const Final& best, cons
   return rows[0].job == after->job ? *rows[0].outlives_next : 1 - *rows[0].outlives_next;
 }
 
+/// The best with one thing off, as trials were run.
+std::vector<ImprovementStory::Nudge> nudged(const Improvement& found, std::size_t trial, const Options& options,
+                                            const StudyPlaces& places) {
+  std::vector<ImprovementStory::Nudge> told;
+  if (options.off_mm == 0) return told;
+  const std::vector<std::string>& sets = found.trials[trial].sets;
+  const std::vector<Nudge> nudges = nudges_of(trial_jobs(options.request, sets, "place"), options.off_mm / 1000);
+  Study study{found.name, {}};
+  std::vector<std::vector<std::string>> jobs;
+  for (std::size_t k = 0; k < nudges.size(); ++k) {
+    std::vector<std::string> all = sets;
+    all.insert(all.end(), nudges[k].sets.begin(), nudges[k].sets.end());
+    jobs.emplace_back();
+    for (StudyJob& job : trial_jobs(options.request, all, fmt::format("off_{:02}", k + 1))) {
+      jobs.back().push_back(job.name);
+      study.jobs.push_back(std::move(job));
+    }
+  }
+  if (study.jobs.empty()) return told;
+  const std::vector<RankingRow> rows = made_rows(study, places, options);
+  for (std::size_t k = 0; k < nudges.size(); ++k) {
+    std::vector<Outcome> outcomes;
+    for (const RankingRow& row : rows)
+      if (is_of(row, jobs[k])) outcomes.push_back(outcome_of(row, places.job(row.job), found.limits));
+    const Outcome worst = worst_of(outcomes);
+    told.push_back({nudges[k].what, worst.failure.empty(), worst.hours / found.trials[trial].worst.hours, worst.words()});
+  }
+  return told;
+}
+
+ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Outcome& outcome, const StudyPlaces& places) {
+  ImprovementStory::Lives lives{"", outcome.feasible() ? "all kept" : outcome.words()};
+  if (const RankingRow* row = worst_row(finals, of)) {
+    std::error_code failure;
+    if (fs::exists(places.job(row->job) / "page.html", failure)) lives.page = row->job + "/page.html";
+    const std::array<double, 3> hours =
+        row->planned() ? row->planned_hours : std::array{row->life_hours, row->life_hours, row->life_hours};
+    lives.p10 = hours[0], lives.p50 = hours[1], lives.p90 = hours[2];
+  }
+  return lives;
+}
+
+ImprovementStory story_of(const Improvement& found, const Finals& finals, const Options& options,
+                          const StudyPlaces& places) {
+  ImprovementStory story;
+  story.name = found.name;
+  for (std::size_t k = 0; k < found.trials.size(); ++k) {
+    const Outcome& worst = found.trials[k].worst;
+    story.looks.push_back({static_cast<int>(k), worst.failure.empty(), worst.feasible(), worst.hours, worst.words()});
+  }
+  const bool by_length = options.request.second == SecondAim::hose_length;
+  story.second_title = by_length ? "free length [m]" : "cycle time [s]";
+  for (std::size_t k = 0; options.request.second != SecondAim::none && k < found.front.size(); ++k) {
+    const Trial& trial = found.trials[found.front[k]];
+    story.front.emplace_back(by_length ? trial.hose_length : trial.cycle_seconds, trial.worst.hours);
+  }
+  if (found.trials.front().worst.failure.empty())
+    story.before = lives_of(finals, finals.of.front(), found.trials.front().worst, places);
+  const Final* best = best_of(finals);
+  if (!best) return story;
+  const Trial& trial = found.trials[best->trial];
+  story.after = lives_of(finals, *best, trial.worst, places);
+  story.longer_in = share_longer(finals, *best, places);
+  for (std::size_t k = 0; k < trial.sets.size(); ++k)
+    story.changes.push_back({found.freed[k], found.own[k], trial.sets[k].substr(trial.sets[k].find('=') + 1)});
+  story.nudges = nudged(found, best->trial, options, places);
+  return story;
+}
+
+/// How much the best forgives, in a line.
+std::string forgives_words(const std::vector<ImprovementStory::Nudge>& nudges, double off_mm) {
+  if (nudges.empty()) return "";
+  double least = HUGE_VAL;
+  int broken = 0;
+  for (const ImprovementStory::Nudge& nudge : nudges) {
+    broken += !nudge.words.empty();
+    if (nudge.ran && std::isfinite(nudge.share)) least = std::min(least, nudge.share);
+  }
+  std::string text = fmt::format("With a clamp or the length off by {:.3g} mm", off_mm);
+  if (std::isfinite(least)) text += fmt::format(" it lives at least {:.2g} times as long", least);
+  return text + (broken ? fmt::format("{} {} of {} such jobs pass a limit\n", std::isfinite(least) ? ", and" : "", broken,
+                                      nudges.size())
+                        : std::string(std::isfinite(least) ? ", and" : "") + " all limits are kept\n");
+}
+
 std::string change_lines(const Trial& trial) {
   std::string text;
   for (const std::string& set : trial.sets) text += fmt::format("    --set '{}'\n", set);
   return text;
 }
 
-std::string words_of(const Improvement& found, const Finals& finals, const Options& options, const StudyPlaces& places) {
+std::string words_of(const Improvement& found, const Finals& finals, const ImprovementStory& story,
+                     const Options& options, const StudyPlaces& places) {
   const Outcome& was = found.trials.front().worst;
   std::string text = fmt::format(
       "As it is: {}{}\n", was.failure.empty() ? hours_words(finals.of.front().hours) : "it does not run",
@@ -134,12 +233,10 @@ std::string words_of(const Improvement& found, const Finals& finals, const Optio
     }
     return text;
   }
-  const Final& best = *std::max_element(finals.of.begin() + 1, finals.of.end(),
-                                        [](const Final& a, const Final& b) { return a.hours < b.hours; });
+  const Final& best = *best_of(finals);
   text += fmt::format("Trial {} of {}: {}, all limits kept", best.trial, found.trials.size(), hours_words(best.hours));
-  if (const std::optional<double> share = share_longer(finals, best, places))
-    text += fmt::format("; it lives longer in {:.0f} % of draws", 100 * *share);
-  text += "\n" + change_lines(found.trials[best.trial]);
+  if (story.longer_in) text += fmt::format("; it lives longer in {:.0f} % of draws", 100 * *story.longer_in);
+  text += "\n" + change_lines(found.trials[best.trial]) + forgives_words(story.nudges, options.off_mm);
   if (best.hours <= finals.of.front().hours && was.feasible())
     text += "Nothing that was tried lives longer over all that is not known.\n";
   for (const std::string& job : best.jobs) text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
@@ -168,9 +265,11 @@ int improve_study(Options options) {
   write_text_if_changed(places.folder / "improve.csv", improvement_csv(found));
   const Finals finals = finals_of(found, options, places);
   write_results(finals.study, places, finals.rows);
-  print(shown(words_of(found, finals, options, places)));
+  const ImprovementStory story = story_of(found, finals, options, places);
+  write_text_if_changed(places.folder / "improve.html", improvement_page(story));
+  print(shown(words_of(found, finals, story, options, places)));
   print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
-                          (places.folder / "report.html").string())));
+                          (places.folder / "improve.html").string())));
   return finals.of.size() > 1 ? 0 : 1;
 }
 
@@ -215,6 +314,11 @@ Command add_improve(CLI::App& program) {
   words->add_option("--second", options->second, "a second aim, to be small: the answer is the front of both")
       ->check(CLI::IsMember({"none", "hose_length", "cycle_time"}))
       ->type_name("none|hose_length|cycle_time")
+      ->capture_default_str();
+  words
+      ->add_option("--off", options->off_mm, "what a clamp or the length may be off by: told of the best job; 0: not asked")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("MM")
       ->capture_default_str();
   add_run_options(*words, *options);
   add_launcher(*words, *options);

@@ -71,7 +71,6 @@ class NumberRange : public FreeKey {
     const std::optional<double> number = number_of(value);
     return number ? if_within(one((*number - low_) / (high_ - low_))) : VectorXd();
   }
-  std::string words() const override { return fmt::format("{} .. {}", shortest_text(low_), shortest_text(high_)); }
 
  private:
   double low_, high_;
@@ -89,7 +88,6 @@ class PositionBox : public FreeKey {
     const std::optional<Vector3d> vector = vector_of(value);
     return vector ? if_within((((*vector - centre_) / spread_).array() + 1) / 2) : VectorXd();
   }
-  std::string words() const override { return fmt::format("{} around", shortest_text(spread_)); }
 
  private:
   Vector3d centre_;
@@ -98,8 +96,8 @@ class PositionBox : public FreeKey {
 
 class PositionLine : public FreeKey {
  public:
-  PositionLine(const Vector3d& origin, const Vector3d& along, double low, double high, std::string words)
-      : origin_(origin), along_(along.normalized()), low_(low), high_(high), words_(std::move(words)) {}
+  PositionLine(const Vector3d& origin, const Vector3d& along, double low, double high)
+      : origin_(origin), along_(along.normalized()), low_(low), high_(high) {}
   Node value_at(const VectorXd& place) const override {
     return vector_node(origin_ + (low_ + place[0] * (high_ - low_)) * along_, step_of(high_ - low_));
   }
@@ -108,12 +106,10 @@ class PositionLine : public FreeKey {
     if (!vector || (*vector - origin_).cross(along_).norm() > step_of(high_ - low_)) return {};
     return if_within(one(((*vector - origin_).dot(along_) - low_) / (high_ - low_)));
   }
-  std::string words() const override { return words_; }
 
  private:
   Vector3d origin_, along_;
   double low_, high_;
-  std::string words_;
 };
 
 /// Directions within an angle of an axis, each as likely by its tangent plane: tan(angle) q, q in the unit disc, to which
@@ -121,7 +117,7 @@ class PositionLine : public FreeKey {
 class DirectionCone : public FreeKey {
  public:
   DirectionCone(const Vector3d& axis, double angle_deg)
-      : axis_(axis.normalized()), reach_(std::tan(angle_deg * std::numbers::pi / 180)), angle_deg_(angle_deg) {
+      : axis_(axis.normalized()), reach_(std::tan(angle_deg * std::numbers::pi / 180)) {
     first_ = axis_.unitOrthogonal();
     second_ = axis_.cross(first_);
   }
@@ -138,7 +134,6 @@ class DirectionCone : public FreeKey {
     const Eigen::Vector2d square = on_square({q.dot(first_) / reach_, q.dot(second_) / reach_});
     return if_within((square.array() + 1) / 2);
   }
-  std::string words() const override { return fmt::format("{} deg around", shortest_text(angle_deg_)); }
 
  private:
   static Eigen::Vector2d on_disc(double a, double b) {
@@ -160,7 +155,7 @@ class DirectionCone : public FreeKey {
   }
 
   Vector3d axis_, first_, second_;
-  double reach_, angle_deg_;
+  double reach_;
 };
 
 class Choice : public FreeKey {
@@ -177,7 +172,6 @@ class Choice : public FreeKey {
         return one((static_cast<double>(k) + 0.5) / static_cast<double>(values_.size()));
     return {};
   }
-  std::string words() const override { return fmt::format("one of {}", values_.size()); }
 
  private:
   std::vector<Node> values_;
@@ -287,12 +281,12 @@ class Reader {
     const std::optional<Vector3d> origin = vector_of(own_value());
     if (!origin) refuse("is no position, but is freed along a line");
     if (along.find('[') != std::string::npos)
-      return std::make_unique<PositionLine>(*origin, given_vector(along), low, high, written_.text);
+      return std::make_unique<PositionLine>(*origin, given_vector(along), low, high);
     const std::optional<Vector3d> link = along_link(*jobs_.front(), along);
     if (!link)
       refuse(fmt::format("lies along '{}', which is no link that carries another away from it", along),
              "name another link, or write along [x, y, z]");
-    return std::make_unique<PositionLine>(*origin, *link, low, high, written_.text);
+    return std::make_unique<PositionLine>(*origin, *link, low, high);
   }
 
   /// Files are named as from the study's folder, whoever reads the choice.
@@ -332,8 +326,9 @@ Freedom Freedom::from(const Node& free, const std::vector<std::shared_ptr<const 
   Freedom freedom;
   std::vector<VectorXd> places;
   for (const Entry& entry : free.entries) {
-    freedom.keys_.push_back({entry.key, Reader(entry.key, entry.value, documents, jobs).key()});
     const Node* own = common_value(documents, entry.key);
+    freedom.keys_.push_back(
+        {entry.key, Reader(entry.key, entry.value, documents, jobs).key(), own ? flow(*own) : ""});
     places.push_back(own ? freedom.keys_.back().key->place_of(*own) : VectorXd());
   }
   if (std::all_of(places.begin(), places.end(), [](const VectorXd& place) { return place.size() > 0; })) {

@@ -31,7 +31,6 @@ class FreeKey {
   virtual Node value_at(const Eigen::VectorXd& place) const = 0;
   /// Where a job's own value lies; empty: it is not among what the key may be.
   virtual Eigen::VectorXd place_of(const Node& value) const = 0;
-  virtual std::string words() const = 0;  ///< as written
 };
 
 class Freedom {
@@ -39,6 +38,7 @@ class Freedom {
   struct Freed {
     std::string path;
     std::unique_ptr<FreeKey> key;
+    std::string own;  ///< the jobs' value; empty: they name none, or not the same
   };
 
   /// free: a map from key paths to what they may be. jobs: that it is for; where they differ in a key that is freed

@@ -69,7 +69,7 @@ class Improver {
   Improver(const ImproveRequest& request, const StudyPlaces& places, const TrialMakers& makers)
       : request_(request), places_(places), makers_(makers) {
     const Node document = read_document(request.file);
-    limits_ = limits_of(document);
+    done_.limits = limits_of(document);
     for (const StudyJob& job : read_study(request.file, request.sets).jobs) {
       if (!job.failure.empty())
         throw InputError({request.file.string()}, fmt::format("job '{}' cannot be run: {}", job.name, job.failure), "mend it");
@@ -81,7 +81,10 @@ class Improver {
     if (freed.kind == Node::Kind::null) freed = Freedom::usual(*jobs_.front());
     freedom_ = Freedom::from(freed, jobs_);
     done_.name = study_name(request.file);
-    for (const Freedom::Freed& key : freedom_.keys()) done_.freed.push_back(key.path + ": " + key.key->words());
+    for (const Freedom::Freed& key : freedom_.keys()) {
+      done_.freed.push_back(key.path);
+      done_.own.push_back(key.own);
+    }
     find_screened();
   }
 
@@ -173,7 +176,7 @@ class Improver {
       Trial& trial = trials[k];
       trial.sets = sets[k];
       const std::vector<StudyJob> jobs =
-          changed_jobs(request_, without_draws(sets[k]), fmt::format("trial_{:04}", done_.trials.size() + k));
+          trial_jobs(request_, sets[k], fmt::format("trial_{:04}", done_.trials.size() + k));
       trial.hose_length = longest_hose(jobs);
       trial.outcomes.resize(jobs.size());
       for (std::size_t j = 0; j < jobs.size(); ++j) {
@@ -184,18 +187,12 @@ class Improver {
     }
     for (const RankingRow& row : makers_.make_rows(study)) {
       const auto [k, j] = trial_of.at(row.job);
-      trials[k].outcomes[j] = outcome_of(row, places_.job(row.job), limits_);
+      trials[k].outcomes[j] = outcome_of(row, places_.job(row.job), done_.limits);
       trials[k].cycle_seconds += row.repeat_seconds;
     }
     for (Trial& trial : trials) trial.worst = worst_of(trial.outcomes);
     add_geometry(trials);
     return trials;
-  }
-
-  /// Draws over what is not known are for the few that are told at length.
-  static std::vector<std::string> without_draws(std::vector<std::string> sets) {
-    sets.push_back("uncertainty.enabled=false");
-    return sets;
   }
 
   /// Of what failed, geometry says how far it was from running.
@@ -233,7 +230,6 @@ class Improver {
   const TrialMakers& makers_;
   const Sources read_once_;
   std::vector<std::shared_ptr<const Job>> jobs_, screened_;
-  AskedLimits limits_;
   Freedom freedom_;
   Improvement done_;
 };
@@ -263,13 +259,18 @@ std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vec
   return jobs;
 }
 
+std::vector<StudyJob> trial_jobs(const ImproveRequest& request, std::vector<std::string> sets, const std::string& prefix) {
+  sets.push_back("uncertainty.enabled=false");
+  return changed_jobs(request, sets, prefix);
+}
+
 Improvement improve(const ImproveRequest& request, const StudyPlaces& places, const TrialMakers& makers) {
   return Improver(request, places, makers).run();
 }
 
 std::string improvement_csv(const Improvement& improvement) {
   std::string text = "trial,feasible,life_hours_p10,beyond,free_length_m,cycle_s";
-  for (const std::string& freed : improvement.freed) text += "," + csv_cell(freed.substr(0, freed.find(": ")));
+  for (const std::string& freed : improvement.freed) text += "," + csv_cell(freed);
   text += "\n";
   for (std::size_t k = 0; k < improvement.trials.size(); ++k) {
     const Trial& trial = improvement.trials[k];

@@ -70,7 +70,9 @@ struct Trial {
 struct Improvement {
   std::string name;                  ///< of the study
   std::vector<std::string> jobs;     ///< of the study, as they are named there
-  std::vector<std::string> freed;    ///< "routing.free_length_m: 1.9 .. 2.6"
+  std::vector<std::string> freed;    ///< key paths
+  std::vector<std::string> own;      ///< (freed) the jobs' value; empty: they name none, or not the same
+  AskedLimits limits;                ///< that the study asks besides the checks
   std::vector<Trial> trials;         ///< in their order, the jobs as they are first
   std::vector<std::size_t> front;    ///< of the feasible, longest life first; with one aim one
   std::optional<std::size_t> best() const;  ///< longest life of the feasible; absent: none is
@@ -89,6 +91,9 @@ Improvement improve(const ImproveRequest& request, const StudyPlaces& places, co
 /// The study's jobs with changes, named PREFIX, or PREFIX_JOB of several.
 std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vector<std::string>& sets,
                                    const std::string& prefix);
+
+/// The same without draws over what is not known, which are for the few that are told at length.
+std::vector<StudyJob> trial_jobs(const ImproveRequest& request, std::vector<std::string> sets, const std::string& prefix);
 
 /// improve.csv: a row per trial: number, feasible, life of the worst job, what is passed, and the value of each free key.
 std::string improvement_csv(const Improvement& improvement);

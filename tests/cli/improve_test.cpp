@@ -43,6 +43,12 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(table.find("\n0,1,") != std::string::npos);
   CHECK(fs::exists(scratch / "runs/better_improve/report.html"));
   CHECK(fs::exists(scratch / "runs/better_improve/before/life.h5"));
+  // Its page has both side by side, and what the length forgives (this job's clamps are moved by a recording).
+  CHECK(told.out.find("With a clamp or the length off by 10 mm it lives at least ") != std::string::npos);
+  const std::string page = content(scratch / "runs/better_improve/improve.html");
+  CHECK(page.find("<iframe src=\"before/page.html\"") != std::string::npos);
+  CHECK(page.find("<td><code>routing.free_length_m</code></td><td>0.9</td><td>0.9") != std::string::npos);
+  CHECK(page.find("<tr><td>length, + 10 mm</td><td class=\"number\">× ") != std::string::npos);
 
   // The same again runs nothing; the study itself does not look at what is free.
   const Outcome again = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");

@@ -1,0 +1,153 @@
+#include "pipeline/report/improvement_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/report/chart_style.h"
+#include "pipeline/report/plot.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr const char* page_style = R"(
+body { margin: 0 auto; max-width: 90rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
+  font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
+h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 2rem 0 .3rem; }
+p { max-width: 46rem; } .soft { color: var(--soft); font-size: .9rem; } .failed { color: var(--hot); }
+table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; padding: .3rem 1.2rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
+th { color: var(--soft); font-weight: 600; } .number { text-align: right; white-space: nowrap; }
+.beside { display: grid; grid-template-columns: 1fr 1fr; gap: 1rem; } .beside iframe { width: 100%; height: 46rem; border: 1px solid var(--rule); }
+.chart { max-width: 60rem; }
+)";
+
+std::string hours_cell(double hours) { return std::isinf(hours) ? "no damage" : printed(hours); }
+
+std::string lives_section(const ImprovementStory& story) {
+  const auto row = [](const char* name, const ImprovementStory::Lives& of) {
+    return fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
+                       "<td>{}</td></tr>\n",
+                       name, hours_cell(of.p10), hours_cell(of.p50), hours_cell(of.p90), escaped(of.words));
+  };
+  std::string text =
+      "<h2>Lives</h2>\n<table><thead><tr><th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th>"
+      "<th class=\"number\">p90 [h]</th><th>limits</th></tr></thead><tbody>\n";
+  if (story.before) text += row("before", *story.before);
+  if (story.after) text += row("after", *story.after);
+  text += "</tbody></table>\n";
+  if (story.longer_in)
+    text += fmt::format("<p>Over all that is not known of the dresspack, in what both have in common alike, it lives longer in "
+                        "{:.0f} % of draws.</p>\n",
+                        100 * *story.longer_in);
+  return text;
+}
+
+std::string changes_section(const ImprovementStory& story) {
+  std::string text =
+      "<h2>What was changed</h2>\n<table><thead><tr><th>key</th><th>before</th><th>after</th></tr></thead><tbody>\n";
+  for (const ImprovementStory::Change& change : story.changes)
+    text += fmt::format("<tr><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n", escaped(change.key),
+                        escaped(change.before), escaped(change.after));
+  return text + "</tbody></table>\n";
+}
+
+std::string beside_section(const ImprovementStory& story) {
+  if (!story.before || !story.after || story.before->page.empty() || story.after->page.empty()) return "";
+  const auto half = [](const char* name, const std::string& page) {
+    return fmt::format("<div><p><a href=\"{0}\">{1}</a></p><iframe src=\"{0}\" title=\"{1}\" loading=\"lazy\"></iframe></div>\n",
+                       escaped(page), name);
+  };
+  return "<h2>Side by side</h2>\n<div class=\"beside\">\n" + half("before", story.before->page) +
+         half("after", story.after->page) + "</div>\n";
+}
+
+std::string nudges_section(const ImprovementStory& story) {
+  if (story.nudges.empty()) return "";
+  std::string text =
+      "<h2>What it forgives</h2>\n<p>No clamp is set to the millimetre: the same jobs with one thing off, without what is not "
+      "known.</p>\n<table><thead><tr><th>off by</th><th class=\"number\">life</th><th>limits</th></tr></thead><tbody>\n";
+  for (const ImprovementStory::Nudge& nudge : story.nudges)
+    text += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td></tr>\n", escaped(nudge.what),
+                        nudge.ran && std::isfinite(nudge.share) ? fmt::format("× {:.2f}", nudge.share) : "–",
+                        nudge.words.empty() ? "" : " class=\"failed\"",
+                        nudge.words.empty() ? "kept" : escaped(nudge.words));
+  return text + "</tbody></table>\n";
+}
+
+/// Lives over trials: what keeps its limits, what does not, and the best so far.
+std::string history_chart(const std::vector<ImprovementStory::Look>& looks) {
+  double low = HUGE_VAL, high = 0;
+  for (const ImprovementStory::Look& look : looks)
+    if (look.ran && look.hours > 0 && std::isfinite(look.hours)) {
+      low = std::min(low, look.hours);
+      high = std::max(high, look.hours);
+    }
+  if (!(high > 0)) return "";
+  const Panel panel{80, 10, 840, 300, linear_axis("trial", 0, static_cast<double>(looks.size())),
+                    decades_axis("life of the worst job, p10 [h]", low, high)};
+  Picture picture(940, 370, "The search", "Life over trials, with those that keep all limits and the best of them so far.");
+  panel.draw_axes(picture);
+  double best = 0;
+  std::vector<std::pair<double, double>> stairs;
+  for (const ImprovementStory::Look& look : looks) {
+    if (!look.ran || !(look.hours > 0)) continue;
+    const double x = panel.across(look.trial);
+    const double y = panel.down(std::min(look.hours, panel.y.high));
+    picture.dot(x, y, look.feasible ? 4 : 2.5, look.feasible ? "dot" : "bar-hot",
+                fmt::format("trial {}: {} h{}", look.trial, hours_cell(look.hours), look.feasible ? "" : "; " + look.words));
+    if (!look.feasible || look.hours <= best) continue;
+    if (best > 0) stairs.emplace_back(x, panel.down(std::min(best, panel.y.high)));
+    best = look.hours;
+    stairs.emplace_back(x, y);
+  }
+  if (!stairs.empty()) stairs.emplace_back(panel.right(), stairs.back().second);
+  picture.curve(stairs, "curve");
+  return "<div class=\"chart\">" + picture.svg() + "</div>\n";
+}
+
+std::string front_chart(const ImprovementStory& story) {
+  if (story.front.size() < 2) return "";
+  double low = HUGE_VAL, high = 0, least = HUGE_VAL, most = -HUGE_VAL;
+  for (const auto& [second, hours] : story.front) {
+    if (std::isfinite(hours)) low = std::min(low, hours), high = std::max(high, hours);
+    least = std::min(least, second), most = std::max(most, second);
+  }
+  if (!(high > 0) || !(least < most)) return "";
+  const Panel panel{80, 10, 840, 300, {story.second_title, least, most},
+                    decades_axis("life of the worst job, p10 [h]", low, high)};
+  Picture picture(940, 370, "The front", "Longest life for each value of the second aim.");
+  panel.draw_axes(picture);
+  for (const auto& [second, hours] : story.front)
+    picture.dot(panel.across(second), panel.down(std::min(hours, panel.y.high)), 4, "dot",
+                fmt::format("{:.4g}: {} h", second, hours_cell(hours)));
+  return "<h2>Between the two aims</h2>\n<div class=\"chart\">" + picture.svg() + "</div>\n";
+}
+
+std::string history_section(const ImprovementStory& story) {
+  const auto failed = std::count_if(story.looks.begin(), story.looks.end(),
+                                    [](const ImprovementStory::Look& look) { return !look.ran; });
+  const auto feasible = std::count_if(story.looks.begin(), story.looks.end(),
+                                      [](const ImprovementStory::Look& look) { return look.feasible; });
+  return fmt::format("<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
+                     "run. Lives are over the scatter of wires alone.</p>\n",
+                     story.looks.size(), feasible, static_cast<std::ptrdiff_t>(story.looks.size()) - feasible - failed,
+                     failed) +
+         history_chart(story.looks);
+}
+
+}  // namespace
+
+std::string improvement_page(const ImprovementStory& story) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>{0}: improved</title>\n<style>{1}{2}</style></head>\n<body>\n<h1>{0}: improved</h1>\n"
+      "<p class=\"soft\">All trials stand in improve.csv, the last jobs in <a href=\"report.html\">their report</a>.</p>\n"
+      "{3}{4}{5}{6}{7}{8}</body></html>\n",
+      escaped(story.name), chart_style(), page_style, lives_section(story),
+      story.after ? changes_section(story) : "", front_chart(story), beside_section(story), nudges_section(story),
+      history_section(story));
+}
+
+}  // namespace dresslife::pipeline

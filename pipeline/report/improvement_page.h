@@ -1,0 +1,46 @@
+// The page of a search for longer lives: before and after side by side, what was changed, what is gained and how sure
+// that is, how much the new place forgives, and the way there.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dresslife::pipeline {
+
+struct ImprovementStory {
+  struct Change {
+    std::string key, before, after;  ///< before: empty where a job does not name it, or jobs differ in it
+  };
+  struct Lives {
+    std::string page;                       ///< of the job, relative to this page; empty: there is none
+    std::string words;                      ///< of its limits: "all kept"
+    double p10 = 0, p50 = 0, p90 = 0;       ///< [h] of the worst job
+  };
+  struct Look {
+    int trial = 0;
+    bool ran = false, feasible = false;
+    double hours = 0;
+    std::string words;  ///< what is passed
+  };
+  struct Nudge {
+    std::string what;   ///< "base clamp, z + 10 mm"
+    bool ran = false;
+    double share = 0;   ///< its life over that of the place itself
+    std::string words;  ///< what is passed; empty: nothing
+  };
+
+  std::string name;
+  std::vector<Change> changes;
+  std::optional<Lives> before, after;
+  std::optional<double> longer_in;  ///< share of draws in which the job lives longer than before
+  std::vector<Nudge> nudges;
+  std::vector<Look> looks;
+  std::vector<std::pair<double, double>> front;  ///< second aim, life [h]; of two aims
+  std::string second_title;                      ///< "free length [m]"
+};
+
+/// A whole page.
+std::string improvement_page(const ImprovementStory& story);
+
+}  // namespace dresslife::pipeline
