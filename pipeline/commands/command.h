@@ -20,6 +20,7 @@ Command add_status(CLI::App& program);
 Command add_report(CLI::App& program);
 Command add_clean(CLI::App& program);
 Command add_improve(CLI::App& program);
+Command add_reprogram(CLI::App& program);
 // Cables and the tests that they are put to
 Command add_rate(CLI::App& program);
 Command add_validate(CLI::App& program);

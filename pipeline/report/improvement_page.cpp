@@ -115,8 +115,11 @@ std::string front_chart(const ImprovementStory& story) {
     least = std::min(least, second), most = std::max(most, second);
   }
   if (!(high > 0) || !(least < most)) return "";
-  const Panel panel{80, 10, 840, 300, {story.second_title, least, most},
-                    decades_axis("life of the worst job, p10 [h]", low, high)};
+  Axis across;
+  across.title = story.second_title;
+  across.low = least;
+  across.high = most;
+  const Panel panel{80, 10, 840, 300, across, decades_axis("life of the worst job, p10 [h]", low, high)};
   Picture picture(940, 370, "The front", "Longest life for each value of the second aim.");
   panel.draw_axes(picture);
   for (const auto& [second, hours] : story.front)

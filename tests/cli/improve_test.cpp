@@ -93,3 +93,33 @@ TEST_CASE("improve refuses what it cannot search") {
   CHECK(none.status == 1);
   CHECK(none.out.find("No feasible job was found in 3 trials") != std::string::npos);
 }
+
+TEST_CASE("reprogram tries the costly lines in other ways, and names them by file and line") {
+  Scratch scratch;
+  scratch.write("short.yaml", R"(name: short
+source: made for the tests
+speed_percent: 100
+steps:
+  - {text: home, joints_deg: [0, -10, 10, 0, 25, 0]}
+  - {text: roll the gun over, joints_deg: [0, -10, 10, 0, 25, 90]}
+  - {text: home, joints_deg: [0, -10, 10, 0, 25, 0]}
+)");
+  scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
+motion: ./short.yaml
+dresspack: sensor_cable
+routing:
+  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
+  tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
+  free_length_m: 2.035
+simulation: {segments: 20, sample_rate_Hz: 25}
+)");
+  const Outcome ways = run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1");
+  INFO(ways.out << ways.err);
+  REQUIRE(ways.status == 0);
+  const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");
+  CHECK(table.find("lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets\n") == 0);
+  CHECK(table.find("\"all lines\",\"wrist over: ") != std::string::npos);
+  CHECK(table.find("\"short.yaml:") != std::string::npos);
+  CHECK(table.find("at 50 % of its speed") != std::string::npos);
+  CHECK(ways.out.find("Ways: runs/job_reprogram/as_it_is.csv\n") != std::string::npos);
+}

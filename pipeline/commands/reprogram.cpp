@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "pipeline/commands/command.h"
+#include "pipeline/commands/making.h"
+#include "pipeline/commands/options.h"
+#include "pipeline/errors.h"
+#include "pipeline/improve/improvement.h"
+#include "pipeline/improve/other_ways.h"
+#include "pipeline/installation.h"
+#include "pipeline/job/units.h"
+#include "pipeline/readable.h"
+#include "pipeline/report/life_charts.h"
+#include "pipeline/study/folder_lock.h"
+#include "pipeline/whole_file.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t listed = 12;  // on the terminal; the table holds all
+
+struct Options : RunOptions {
+  int lines = 4;
+};
+
+/// One way that was tried.
+struct TriedWay {
+  OtherWay way;
+  Outcome outcome;
+  double seconds = 0;  ///< of a repeat
+};
+
+std::vector<double> cost_of_lines(const fs::path& life_file) {
+  const LifeSummary life = read_life(life_file);
+  std::vector<double> cost = life.step_damage;
+  for (std::size_t k = 0; k < cost.size() && k < life.step_opened.size(); ++k) cost[k] += life.step_opened[k];
+  return cost;
+}
+
+/// How many times as long it lives; without damage before and after: 1.
+double times_as_long(const TriedWay& tried, const TriedWay& before) {
+  return std::isinf(before.outcome.hours) && std::isinf(tried.outcome.hours) ? 1 : tried.outcome.hours / before.outcome.hours;
+}
+
+std::string lines_words(const OtherWay& way) {
+  std::string text;
+  for (const std::string& line : way.lines) text += (text.empty() ? "" : "; ") + line;
+  return text.empty() ? "all lines" : text;
+}
+
+std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
+  const auto quoted = [](const std::string& text) {
+    std::string cell = "\"";
+    for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+    return cell + "\"";
+  };
+  std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets\n";
+  for (const TriedWay& tried : ways) {
+    std::string sets;
+    for (const std::string& set : tried.way.sets) sets += (sets.empty() ? "" : "; ") + set;
+    const bool ran = tried.outcome.failure.empty();
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", quoted(lines_words(tried.way)), quoted(tried.way.what),
+                        ran ? shortest_text(tried.outcome.hours) : "",
+                        ran ? shortest_text(times_as_long(tried, before)) : "",
+                        ran ? shortest_text(tried.seconds) : "", ran ? shortest_text(before.seconds - tried.seconds) : "",
+                        quoted(tried.outcome.words()), quoted(sets));
+  }
+  return text;
+}
+
+std::string table_of(const std::string& job, const TriedWay& before, const std::vector<TriedWay>& ways) {
+  std::string text = fmt::format("{}: {} h, {:.1f} s{}{}\n", job, readable(before.outcome.hours), before.seconds,
+                                 before.outcome.feasible() ? "" : "; ", before.outcome.words());
+  text += fmt::format("  {:>10} {:>10}  {}\n", "life", "cycle", "way");
+  for (std::size_t k = 0; k < std::min(listed, ways.size()); ++k) {
+    const TriedWay& tried = ways[k];
+    if (!tried.outcome.failure.empty()) break;
+    text += fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}{}\n", times_as_long(tried, before),
+                        tried.seconds - before.seconds, lines_words(tried.way), tried.way.what,
+                        tried.outcome.feasible() ? "" : "; ", tried.outcome.words());
+  }
+  return text;
+}
+
+TriedWay seen(const RankingRow& row, const StudyPlaces& places, OtherWay way) {
+  return {std::move(way), outcome_of(row, places.job(row.job)), row.done() ? row.repeat_seconds : 0};
+}
+
+/// Of one job of the study: what it could do instead, best first.
+std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job, const StudyJob& base,
+                                 const StudyPlaces& places, const Options& options) {
+  const std::vector<OtherWay> ways =
+      other_ways(*base.job, cost_of_lines(places.life(base.name)), static_cast<std::size_t>(options.lines));
+  Study study{base.name, {}};
+  std::map<std::string, std::size_t> way_of;
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    StudyJob changed = trial_jobs(request, ways[k].sets, "way").at(job);
+    changed.name = fmt::format("{}_way_{:02}", base.name, k + 1);
+    way_of[changed.name] = k;
+    study.jobs.push_back(std::move(changed));
+  }
+  std::vector<TriedWay> tried;
+  if (study.jobs.empty()) return tried;
+  for (const RankingRow& row : made_rows(study, places, options))
+    tried.push_back(seen(row, places, ways[way_of.at(row.job)]));
+  std::stable_sort(tried.begin(), tried.end(), [](const TriedWay& a, const TriedWay& b) {
+    return std::tuple(!a.outcome.failure.empty(), -a.outcome.hours) < std::tuple(!b.outcome.failure.empty(), -b.outcome.hours);
+  });
+  return tried;
+}
+
+int reprogram(const Options& options) {
+  ImproveRequest request;
+  request.file = named_file(options.study, "studies");
+  request.sets = options.sets;
+  const std::string name = study_name(request.file);
+  const StudyPlaces places{fs::path(options.out) / (name + "_reprogram"), program_folder()};
+  const FolderLock lock(places.folder);
+  Study study{name, trial_jobs(request, {}, "as_it_is")};
+  int failed = 0;
+  const std::vector<RankingRow> rows = made_rows(study, places, options);
+  for (std::size_t k = 0; k < study.jobs.size(); ++k) {
+    const StudyJob& job = study.jobs[k];
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& of) { return of.job == job.name; });
+    const TriedWay before = seen(*row, places, {});
+    if (!before.outcome.failure.empty()) {
+      tell(fmt::format("{}: error: it does not run: {}\n", job.name, before.outcome.failure));
+      ++failed;
+      continue;
+    }
+    const std::vector<TriedWay> ways = tried_ways(request, k, job, places, options);
+    const fs::path table = places.folder / (job.name + ".csv");
+    write_text_if_changed(table, csv_of(before, ways));
+    print(shown(table_of(job.name, before, ways) + fmt::format("Ways: {}\n", table.string())));
+  }
+  return failed ? 1 : 0;
+}
+
+}  // namespace
+
+Command add_reprogram(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* words = program.add_subcommand(
+      "reprogram", "tell what the program could do instead: the lines that cost most by other turns of the wrist, or slower");
+  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")->required()->type_name("");
+  words->add_option("--lines", options->lines, "of the program that are tried, those first that cost most")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("COUNT")
+      ->capture_default_str();
+  add_run_options(*words, *options);
+  add_launcher(*words, *options);
+  add_study_options(*words, *options);
+  return {words, [options] { return reprogram(*options); }};
+}
+
+}  // namespace dresslife::pipeline
