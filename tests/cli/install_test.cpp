@@ -144,7 +144,7 @@ TEST_CASE("bash completes commands, options and their words") {
     CHECK(outcome.err == "");
     return outcome.out;
   };
-  CHECK(completed("dresslife", "dresslife r") == "run report rate route\n");
+  CHECK(completed("dresslife", "dresslife r") == "run report reprogram rate route\n");
   CHECK(completed("dresslife", "dresslife run --q") == "--quiet\n");
   CHECK(completed("dresslife", "dresslife manual ''") == "keys files man bash zsh\n");
   CHECK(completed("dresslife", "dresslife run ''") == "\n");  // then bash offers files
