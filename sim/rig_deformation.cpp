@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/cable_pull.h"
+#include "pipeline/job/cable_pull.h"
 #include "sim/deformation_file.h"
 
 namespace dresslife::sim {
@@ -64,10 +64,10 @@ class Expansion {
 
   double pull_elongation(double twist) const {
     if (rig_.weight.value_or(0) == 0 && twist == 0) return 0;
-    if (pull_of_wires(dresspack_, 1e-3, 0) <= 0)
+    if (pipeline::pull_of_wires(dresspack_, dresspack_.components, 1e-3, 0) <= 0)
       throw InputError(rig_.where, "weight_kg hangs on a cable without wires (they carry it)",
                        "give the cable its wires, or leave the weight out");
-    return elongation_under(dresspack_, gravity * *rig_.weight, twist);
+    return pipeline::elongation_under(dresspack_, dresspack_.components, gravity * *rig_.weight, twist);
   }
 
   void line(std::string text) {
@@ -102,7 +102,7 @@ class Expansion {
   }
 
   void swivel() {
-    const double stiffness = bending_stiffness(dresspack_);
+    const double stiffness = pipeline::bending_stiffness(dresspack_);
     if (stiffness <= 0)
       throw InputError(rig_.where, "a swivel bends a cable without bending stiffness (nothing says how tightly)",
                        "give dresspack.bending_stiffness_Nm2, or the cable its wires");

@@ -99,7 +99,9 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     nodes_.resize(loose_->nodes());
     curvature_.emplace(segments, 2 * loosened_.size(), samples, scratch);
   }
-  if (any()) hose_curvature_.assign(4 * samples, 0.0f);
+  if (!any()) return;
+  hose_curvature_.assign(4 * samples, 0.0f);
+  hose_twist_.assign(samples, 0.0);
 }
 
 const std::string& CablePaths::name(std::size_t cable) const {
@@ -116,6 +118,14 @@ void CablePaths::add(const SpanBlock& block) {
       hose_curvature_[(2 * clamp) * all_ + next_ + t] = static_cast<float>(at.curvature1[t]);
       hose_curvature_[(2 * clamp + 1) * all_ + next_ + t] = static_cast<float>(at.curvature2[t]);
     }
+  }
+  for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
+    double turned = 0, length = 0;
+    for (std::size_t i = 0; i < lengths_.size(); ++i) {
+      turned += lengths_[i] * block.deformation.columns(i).twist[t];
+      length += lengths_[i];
+    }
+    hose_twist_[next_ + t] = turned / length;
   }
   if (rates_) add_held(block);
   if (loose_) add_loose(block);
@@ -141,7 +151,7 @@ void CablePaths::add_held(const SpanBlock& block) {
       rest[k] += rates_->rest(segment, k);
       Cable& cable = cables_[held_[k]];
       if (cable.sticks)
-        add_stuck(cable, segment, std::span(in_segment).subspan(k * stride, count), rates_->rest(segment, k));
+        add_stuck(cable, segment, columns.twist, std::span(in_segment).subspan(k * stride, count), rates_->rest(segment, k));
       if (!cable.rubs) continue;
       const Layer& layer = construction_.layers()[construction_.parts()[cable.part].layer];
       const double sine = std::sin(layer.lay_angle);
@@ -162,11 +172,18 @@ void CablePaths::add_held(const SpanBlock& block) {
   }
 }
 
-/// path: length in the segment (sample of the block) [m]. rest: that at rest [m].
-void CablePaths::add_stuck(Cable& cable, std::size_t segment, std::span<const double> path, double rest) {
+double CablePaths::pulled_by_twist(const Cable& cable, double twist) const {
+  if (cable.loose) return 0;
+  const Layer& layer = construction_.layers()[construction_.parts()[cable.part].layer];
+  return layer.shortening.at(twist * layer.lay_cosine * layer.lay_cosine);
+}
+
+/// path: length in the segment (sample of the block) [m]. rest: that at rest [m]. twist: of the hose there [rad/m].
+void CablePaths::add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path,
+                           double rest) {
   auto& [largest, at_base, at_tool] = cable.stuck;
   for (std::size_t t = 0; t < path.size(); ++t) {
-    const double strain = cable.radial_share * (path[t] / rest - 1);
+    const double strain = cable.radial_share * (path[t] / rest - 1) + pulled_by_twist(cable, twist[t]);
     if (std::abs(strain) > std::abs(largest[next_ + t])) largest[next_ + t] = strain;
     if (segment == 0) at_base[next_ + t] = strain;
     if (segment + 1 == lengths_.size()) at_tool[next_ + t] = strain;
@@ -274,15 +291,16 @@ void CablePaths::slide(Cable& cable) {
     }
     last = repeat > 2 && (moved < settled || repeat == most_repeats);
     for (std::size_t t = 0; t < next_; ++t) {
+      const double by_twist = pulled_by_twist(cable, hose_twist_[t]);
       if (!cable.rubs) {
-        unslid[0] = cable.strain[t];
+        unslid[0] = cable.strain[t] + by_twist;
         line.next(unslid, limits);
       } else {
         double mean = 0;
         for (std::size_t i = 0; i < segments; ++i) mean += cable.along[i * all_ + t] * lengths_[i] / length;
         for (std::size_t i = 0; i < segments; ++i) {
           held[i] = cable.elastic * (cable.along[i * all_ + t] - mean);
-          unslid[i] = cable.along[i * all_ + t] - held[i];
+          unslid[i] = cable.along[i * all_ + t] + by_twist - held[i];
         }
         for (int attempt = 0; attempt < most_attempts; ++attempt) {  // limits hang on the tension itself
           double changed = 0;
@@ -301,16 +319,17 @@ void CablePaths::slide(Cable& cable) {
         line.keep();
       }
       if (!last) continue;
-      if (!cable.rubs) cable.strain[t] = line.strain(0);
+      if (!cable.rubs) cable.strain[t] = line.strain(0) - by_twist;
       for (std::size_t i = 0; cable.rubs && i < segments; ++i)
-        cable.along[i * all_ + t] = line.strain(i) + held[i];
+        cable.along[i * all_ + t] = line.strain(i) - by_twist + held[i];
     }
   }
   cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
 }
 
 /// What the strains ask of cables and clamps. A cable's force grows with its strain, so the largest of it has the largest
-/// strain.
+/// strain. Its wires are strained by its twist, too: one that shortens as much as that asks for (a weight hangs on it, not a
+/// second clamp) pulls at nothing.
 void CablePaths::weigh() {
   const std::size_t last = lengths_.size() - 1;
   std::vector<double> moment(4 * next_, 0.0);  // (clamp, 2, sample) about d1 and d2
@@ -318,15 +337,16 @@ void CablePaths::weigh() {
     const CableForce& force = construction_.layers()[construction_.parts()[cable.part].layer].force;
     cable.tension.resize(next_);
     for (std::size_t t = 0; t < next_; ++t) {
-      double largest = cable.sticks ? cable.stuck[0][t] : cable.rubs ? 0 : cable.strain[t];
+      const double by_twist = cable.sticks ? 0 : pulled_by_twist(cable, hose_twist_[t]);
+      double largest = cable.sticks ? cable.stuck[0][t] : cable.rubs ? 0 : cable.strain[t] + by_twist;
       for (std::size_t i = 0; cable.rubs && i <= last; ++i)
-        if (std::abs(cable.along[i * all_ + t]) > std::abs(largest)) largest = cable.along[i * all_ + t];
+        if (const double strain = cable.along[i * all_ + t] + by_twist; std::abs(strain) > std::abs(largest)) largest = strain;
       cable.tension[t] = force.force(largest);
       if (force.strength() > 0)
         largest_force_share_ = std::max(largest_force_share_, std::abs(cable.tension[t]) / force.strength());
       for (int clamp = 0; clamp < 2; ++clamp) {
         const double pull = cable.sticks ? force.force(cable.stuck[clamp + 1][t])
-                            : cable.rubs ? force.force(cable.along[(clamp == 0 ? 0 : last) * all_ + t])
+                            : cable.rubs ? force.force(cable.along[(clamp == 0 ? 0 : last) * all_ + t] + by_twist)
                                          : cable.tension[t];
         const auto& place = clamp == 0 ? cable.place : cable.place_at_tool;
         moment[(2 * clamp) * next_ + t] += pull * place[1];

@@ -110,7 +110,9 @@ class CablePaths {
   void add_held(const SpanBlock& block);
   void add_loose(const SpanBlock& block);
   void put_loose(std::size_t cable, std::size_t state, std::size_t sample, std::size_t of_block);
-  void add_stuck(Cable& cable, std::size_t segment, std::span<const double> path, double rest);
+  void add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path, double rest);
+  /// Of its strain, beside what its axis has, that makes force: what twist would take from its length if it could.
+  double pulled_by_twist(const Cable& cable, double twist) const;
   void slide(Cable& cable);
   void weigh();
 
@@ -125,6 +127,7 @@ class CablePaths {
   std::optional<LooseCables> loose_;
   std::optional<SegmentRows> curvature_;    ///< (segment, loose cable x 2, sample) of their own paths [1/m]
   std::vector<HoseNode> nodes_;
+  std::vector<double> hose_twist_;          ///< (sample) mean along it [rad/m]
   std::vector<float> hose_curvature_;       ///< (clamp, 2, sample) at the base and the tool end [1/m]
   std::vector<double> cable_moment_, hose_moment_, offsets_;
   std::vector<std::size_t> offset_samples_;

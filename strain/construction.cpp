@@ -110,6 +110,7 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
     layer.loose = pipeline::lies_loose(dresspack, component);
     layer.laying = component.laying;
     layer.force = CableForce(dresspack, component);
+    layer.shortening = pipeline::twist_shortening(dresspack, component);
   }
   const int index = static_cast<int>(layers_.size());
   layers_.push_back(layer);

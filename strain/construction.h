@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipeline/helices/helix.h"
+#include "pipeline/job/cable_pull.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/job/strain.h"
 #include "strain/cable_force.h"
@@ -50,6 +51,7 @@ struct Layer {
   bool loose = false;          ///< lies where it rests in the hose, if it may slide
   pipeline::Laying laying;     ///< of a cable: a part of the first level that holds parts
   CableForce force;            ///< of a cable
+  pipeline::TwistShortening shortening;  ///< of a cable
 
   bool is_cable() const { return level == 1 && !is_wire; }
   double pitch() const;  ///< along the parent [m]; infinite when straight

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/job/cable_pull.h"
 #include "pipeline/job/job.h"
-#include "sim/cable_pull.h"
 #include "sim/deformation_file.h"
 #include "sim/rig_deformation.h"
 #include "tests/pipeline/scratch.h"
@@ -145,7 +145,7 @@ TEST_CASE("prescribed: the curvature at a clip is that of the elastica that dies
   const std::string keys = "kind: swivel, angle_deg: 40, weight_kg: 0.1";
   const std::string stiff = "simulation: {segments: 200}\n";
   const auto job = job_of(cable_job("{rig: {" + keys + "}}", stiff));
-  const double bending = bending_stiffness(job.dresspacks.front().dresspack), pull = 0.1 * 9.80665;
+  const double bending = dresslife::pipeline::bending_stiffness(job.dresspacks.front().dresspack), pull = 0.1 * 9.80665;
   const PrescribedDeformation bent = deformation_of(job);
   double theta = 40 * pi / 180, kappa = 0;
   for (const auto& state : bent.states) kappa = std::max(kappa, state.rate.y());

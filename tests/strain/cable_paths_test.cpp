@@ -87,6 +87,17 @@ struct Run {
   }
 };
 
+/// Two cables with that much slack, play [m] and grip at both clamps [N], that rub on the hose.
+void lay_in(Dresspack& dresspack, double slack, double grip, double play) {
+  dresslife::pipeline::Component& cable = dresspack.components[0];
+  cable.count = 2;
+  cable.friction = 0.3;
+  cable.radial_line_load = 5;
+  cable.laying.slack = 100 * slack;
+  cable.laying.play = play;
+  if (grip < without_limit) cable.laying.base_grip = cable.laying.tool_grip = grip;
+}
+
 Dresspack held_hose() {
   Dresspack dresspack = thesis_hose();
   dresspack.components[0].laying.position = Position::held;
@@ -183,6 +194,32 @@ TEST_CASE("strains change smoothly with the lay from straight to ten degrees") {
     CHECK(std::abs(ranges[i] - ranges[i - 1]) < 0.05 * largest);
 }
 
+TEST_CASE("strains of loose cables change no more than slack does, whatever grips, friction and play beside it") {
+  constexpr double step = 0.001;  // of slack
+  for (const double grip : {50.0, 500.0, without_limit})
+    for (const Slip slip : {Slip::free, Slip::friction})
+      for (const double play : {1e-3, 8e-3}) {
+        std::vector<double> before;
+        for (double slack = 0; slack < 6.5 * step; slack += step) {
+          Dresspack dresspack = thesis_hose();
+          lay_in(dresspack, slack, grip, play);
+          Run run(dresspack, slip, 10, 10);
+          std::vector<double> strains;
+          for (std::size_t k = 0; k < run.paths.cables(); ++k)
+            for (const std::size_t segment : {std::size_t{0}, segments / 2})
+              for (std::size_t t = 0; t < 10; ++t) strains.push_back(run.strain(k, segment, t));
+          double moved = 0;
+          for (std::size_t i = 0; i < before.size(); ++i) moved = std::max(moved, std::abs(strains[i] - before[i]));
+          INFO("grip " << grip << " N, play " << play << " m, slack " << slack << ", friction " << (slip == Slip::friction));
+          for (const double strain : strains) REQUIRE(std::isfinite(strain));
+          // Length that is let in shortens a strain by itself at most. What pulls two ways, by a grip at its either bound
+          // and friction toward its either end, has memory of both.
+          CHECK(moved < 2 * step);
+          before = strains;
+        }
+      }
+}
+
 TEST_CASE("a grip bounds the force of a cable, and its slip adds up over a repeat") {
   Dresspack dresspack = held_hose();
   dresspack.components[0].laying.base_grip = 300;
@@ -210,6 +247,43 @@ TEST_CASE("forces of held cables are told beside their moment on the hose") {
   with_slack.components[0].laying.slack = 1;
   Run loose(with_slack, Slip::free, 20, 20);
   CHECK(loose.paths.largest_force_share() < 0.2);
+}
+
+TEST_CASE("a twisted cable that shortens as its wires ask for pulls at nothing, one that is held as they do") {
+  // Wires on one helix keep their length where hypot(tan(alpha) + R t, 1 + e) = 1 / cos(alpha).
+  constexpr double R = 0.003, alpha = 20 * test_dresspacks::degree, twist = 2 * pi;  // [rad/m]: 360 deg/m
+  Dresspack dresspack = thesis_hose();
+  dresspack.inner_diameter.reset();
+  dresspack.components[0].count = 1;
+  dresspack.components[0].helix_radius = 0;
+  dresspack.components[0].measured_bending_stiffness.reset();
+  for (const auto hand : {dresslife::pipeline::Hand::right, dresslife::pipeline::Hand::left}) {
+    dresspack.components[0].components = {test_dresspacks::wires("layer 1", 6, 75e-6, R, 20, hand)};
+    const Construction construction(dresspack, Kinematics::exact);
+    const CableForce& force = construction.layers()[0].force;
+    for (const double way : {twist, -twist}) {
+      const double turning = std::tan(alpha) + sign_of(hand) * R * way;
+      const double shortened = std::sqrt(1 / std::pow(std::cos(alpha), 2) - turning * turning) - 1;
+      for (const double elongation : {shortened, 0.0}) {
+        DeformationHistory history(segments, 1);
+        for (std::size_t i = 0; i < segments; ++i) history.set(i, 0, {0, 0, way, elongation});
+        CablePaths paths(construction, plan_slip(construction, {Slip::free}, length), {},
+                         std::vector<double>(segments, length / segments), Run::centres(), 1);
+        paths.add({history});
+        paths.finish();
+        const double by_length = force.force(elongation);  // what its axis alone would tell
+        if (elongation == 0) {
+          // Of a strain x of the cable a wire has cos^2 x; what a turn a metre does besides is of second order, R t = 0.02.
+          constexpr double second_order = 0.04;
+          const double wire = std::cos(alpha) * std::hypot(turning, 1) - 1;
+          CHECK(paths.tension(0)[0] == Approx(force.force(wire / std::pow(std::cos(alpha), 2))).epsilon(second_order));
+        } else {
+          // of the twist's cube, (R t)^2 of it
+          CHECK(std::abs(paths.tension(0)[0]) < 2e-3 * std::abs(by_length));
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("forces of cables that stick to the hose are told, too") {
