@@ -15,7 +15,7 @@ std::optional<int> read_command_line(const StageInfo& info, int argc, char** arg
                                      StageFlags& flags) {
   call.info = info;
   CLI::App app(info.purpose + example_mark + info.example, info.program);
-  std::string input, output, job_file, receipt;
+  std::string input, output, job_file, receipt, likes;
   CLI::Option* job = nullptr;
   app.add_option("input", input, info.input)->required()->type_name("");
   app.add_option("-o,--output", output, "where to write " + info.output)
@@ -44,6 +44,9 @@ std::optional<int> read_command_line(const StageInfo& info, int argc, char** arg
                        "note there from what the output is made, and make it only when that has changed")
             ->type_name("FILE");
     if (job) noted->needs(job);
+    app.add_option("--likes", likes, "a list of folders that get the same output and note, each under its name")
+        ->type_name("FILE")
+        ->needs(noted);
   }
   app.add_option("--job-time", call.limits.seconds, "give up after so long")->type_name("SECONDS");
   app.add_option("--job-memory", call.limits.megabytes, "take no more memory than this")->type_name("MB");
@@ -68,6 +71,7 @@ std::optional<int> read_command_line(const StageInfo& info, int argc, char** arg
   call.output = output;
   call.job_file = job_file;
   flags.receipt = receipt;
+  flags.likes = likes;
   call.of_a_study = !receipt.empty();
   return {};
 }

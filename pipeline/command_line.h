@@ -12,6 +12,7 @@ namespace dresslife::pipeline {
 struct StageFlags {
   bool force = false;
   std::filesystem::path receipt;
+  std::filesystem::path likes;  ///< names the folders of jobs to which this output belongs, too, line by line
 };
 
 /// Fills `call` and `flags`. Returns the exit status when that is all: the line is wrong, or has asked for

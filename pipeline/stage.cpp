@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <sstream>
 #include <system_error>
 
 #include "pipeline/command_line.h"
@@ -75,13 +76,20 @@ StageInput input_as_it_is(const std::filesystem::path& file) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const std::int64_t age = std::chrono::nanoseconds(now).count() - state.changed_ns;
   const bool young = age < std::chrono::nanoseconds(tick).count();
-  return {file, state, young ? told_checksum(file) : std::nullopt};
+  return {file, state, told_checksum(file), young};
+}
+
+/// A file that only another name of it was given or taken has other times, and the same bytes.
+bool is_unchanged(const StageInput& input) {
+  FileState now = input_state(input.file);
+  if (now == input.state) return !input.young || told_checksum(input.file) == input.checksum;
+  now.changed_ns = input.state.changed_ns;
+  return now == input.state && input.checksum && checksum_of(input.file) == input.checksum;
 }
 
 void check_inputs_unchanged(const StageCall& call) {
   for (const StageInput& input : call.inputs)
-    if (input_state(input.file) != input.state ||
-        (input.checksum && told_checksum(input.file) != input.checksum))
+    if (!is_unchanged(input))
       throw InputError({input.file.string()}, fmt::format("has changed while {} ran", call.info.program),
                        "run it again");
 }
@@ -125,15 +133,32 @@ void say_known_warnings(const StageCall& call) {
     if (std::find(before.begin(), before.end(), warning) == before.end()) say(call, silent, warning);
 }
 
+/// Jobs of a study that are alike up to here get what one of them made, each under its own name. The names come before
+/// the receipts, as each changes what the file system tells of the file.
+void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt& receipt) {
+  if (flags.likes.empty()) return write_receipt(flags.receipt, receipt, call.output);
+  const std::filesystem::path name = call.output.filename(),
+                              note = flags.receipt.lexically_relative(call.output.parent_path());
+  std::vector<std::filesystem::path> folders;
+  std::istringstream lines(read_text(flags.likes));
+  for (std::string line; std::getline(lines, line);) folders.push_back(line);
+  for (const std::filesystem::path& folder : folders) {
+    std::filesystem::remove(folder / note);  // it tells of a file that is about to go
+    give_output(call.output, folder / name);
+  }
+  write_receipt(flags.receipt, receipt, call.output);
+  for (const std::filesystem::path& folder : folders) write_receipt(folder / note, receipt, folder / name);
+}
+
 /// Runs the body unless the receipt says that the output is made already.
-void run_with_receipt(const StageCall& call, const std::filesystem::path& receipt_file,
-                      const Settings& settings, const std::function<void()>& body) {
+void run_with_receipt(const StageCall& call, const StageFlags& flags, const Settings& settings,
+                      const std::function<void()>& body) {
   Digests digests;
   Receipt wanted;
   wanted.recipe =
       recipe_of(settings.text, settings.files, program_file(), digests);
   wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
-  const std::optional<Receipt> known = read_receipt(receipt_file);
+  const std::optional<Receipt> known = read_receipt(flags.receipt);
   const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
                     is_as_noted(*known, call.output);
   if (made) {
@@ -141,13 +166,13 @@ void run_with_receipt(const StageCall& call, const std::filesystem::path& receip
     wanted.output = known->output;
     wanted.told = known->told;
   } else {
-    std::filesystem::remove(receipt_file);  // it tells of a file that is about to go
+    std::filesystem::remove(flags.receipt);  // it tells of a file that is about to go
     body();
     wanted.output = told_checksum(call.output).value_or("damaged");
     if (*call.info.part == Part::fatigue) wanted.told = told_by(call.output, life_format());
   }
   check_inputs_unchanged(call);
-  write_receipt(receipt_file, wanted, call.output);
+  give_to_likes(call, flags, wanted);
 }
 
 /// Until a stage knows what its job takes (pipeline/memory.h): its job and its input are read with this much.
@@ -170,7 +195,7 @@ void run_body(StageCall& call, const StageFlags& flags,
   if (!call.info.input_is_job)  // jobs are short
     call.input_sha256 = beside<std::string>([file = call.input] { return sha256_of_file(file); }).share();
   if (flags.receipt.empty()) return body(call, progress);
-  run_with_receipt(call, flags.receipt, *settings, [&] { body(call, progress); });
+  run_with_receipt(call, flags, *settings, [&] { body(call, progress); });
 }
 
 }  // namespace

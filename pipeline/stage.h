@@ -46,7 +46,8 @@ struct StageInfo {
 struct StageInput {
   std::filesystem::path file;
   FileState state;
-  std::optional<std::string> checksum;  ///< of a file so young that its state could hide a change
+  std::optional<std::string> checksum;
+  bool young = false;  ///< changed so lately that its state could hide a change
 };
 
 struct StageCall {

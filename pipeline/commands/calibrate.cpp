@@ -25,7 +25,7 @@ int calibrate(const RunOptions& options) {
   const StudyPlaces places{fs::path(options.out) / ("calibrate_" + file.stem().string()), program_folder()};
   const FolderLock lock(places.folder);
   const Learned learned = learn(tests, options.sets, places,
-                                [&](const Study& study) { return shared_rows(study, places, options); });
+                                [&](const Study& study) { return made_rows(study, places, options); });
   const std::string table = learned_table(learned);
   write_text_if_changed(places.folder / "calibration.yaml", to_yaml(echo_fields(learned.calibration)));
   write_text_if_changed(places.folder / "calibration.svg", calibration_picture(learned));

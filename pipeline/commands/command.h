@@ -16,6 +16,7 @@ struct Command {
 
 // Studies
 Command add_run(CLI::App& program);
+Command add_submit(CLI::App& program);
 Command add_status(CLI::App& program);
 Command add_report(CLI::App& program);
 Command add_clean(CLI::App& program);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -16,27 +15,63 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A study with fewer jobs than cores lets each stage use several.
-void share_cores(int at_a_time, std::size_t jobs) {
-  const std::size_t each = static_cast<std::size_t>(at_a_time) / std::max<std::size_t>(jobs, 1);
+/// A study with fewer jobs than cores lets each stage use several. Those of a launcher are not this machine's.
+void share_cores(const RunOptions& options, std::size_t jobs) {
+  const std::size_t cores = options.launcher.empty() ? static_cast<std::size_t>(options.jobs) : 1;
+  const std::size_t each = cores / std::max<std::size_t>(jobs, 1);
   constexpr int keep = 0;  // what the user has set
   ::setenv("DRESSLIFE_THREADS", std::to_string(std::max<std::size_t>(each, 1)).c_str(), keep);
 }
 
+/// Removes during a run what is not kept. Jobs that share files go together, when the last of them has ended: before, it
+/// would free nothing, and a name less changes one of the times of a file that others read.
+class Unkept {
+ public:
+  Unkept(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states)
+      : study_(study), places_(places), states_(states) {
+    if (study.keep == Keep::all) return;
+    const std::vector<Makers> makers = makers_of(study, states);
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      if (!study.jobs[k].failure.empty() || states[k].done()) continue;
+      const std::size_t first = makers[k][states[k].next];
+      together_[first].push_back(k);
+      left_.emplace("fatigue " + study.jobs[k].name, first);
+    }
+  }
+  /// A stage, as in a BuildEvent.
+  void ended(const std::string& stage) {
+    const auto found = left_.find(stage);
+    if (found == left_.end()) return;
+    const std::size_t first = found->second;
+    left_.erase(found);
+    if (++ended_[first] < together_[first].size()) return;
+    std::vector<JobState> now;
+    for (const std::size_t k : together_[first]) {
+      now.push_back(states_[k]);
+      look_at(now.back(), folder(k));
+    }
+    for (std::size_t i = 0; i < now.size(); ++i) remove_unkept(now[i], folder(together_[first][i]));
+  }
+
+ private:
+  std::filesystem::path folder(std::size_t k) const { return places_.job(study_.jobs[k].name); }
+
+  const Study& study_;
+  const StudyPlaces& places_;
+  const std::vector<JobState>& states_;
+  std::unordered_map<std::string, std::size_t> left_;                   ///< jobs' last stages
+  std::unordered_map<std::size_t, std::vector<std::size_t>> together_;  ///< by their first
+  std::unordered_map<std::size_t, std::size_t> ended_;
+};
+
 /// Runs the graph that was written. left: jobs in it. Returns how many stages were started.
 int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& options, std::size_t left,
                std::vector<JobState>& states, Progress& progress) {
-  share_cores(options.jobs, left);
-  std::unordered_map<std::string, std::size_t> last_stages;  // after which a job's files are needed no more
-  for (std::size_t k = 0; study.keep != Keep::all && k < states.size(); ++k)
-    last_stages.emplace("fatigue " + study.jobs[k].name, k);
+  share_cores(options, left);
+  Unkept unkept(study, places, states);
   const BuildResult built = run_build_graph(places, options.jobs, [&](const BuildEvent& event) {
     progress.show(fmt::format("{}/{}  {}", event.finished, event.total, event.what));
-    if (const auto job = last_stages.find(event.what); job != last_stages.end()) {
-      JobState state = states[job->second];
-      look_at(state, places.job(study.jobs[job->second].name));
-      remove_unkept(state, places.job(study.jobs[job->second].name));
-    }
+    unkept.ended(event.what);
   });
   progress.clear();
   if (!built.words.empty())
@@ -50,6 +85,7 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
 int make_rest(const StudyRequest& request, Standing& standing, const RunOptions& options) {
   const auto& [study, places, states, remembered, looks, digests] = standing;
   Progress progress(study.name, options.quiet);
+  if (!remembered) share_stages(study, places, standing.states);
   std::size_t left = 0;
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;
@@ -62,33 +98,18 @@ int make_rest(const StudyRequest& request, Standing& standing, const RunOptions&
     renew_receipts(study, places, states);
   else
     write_build_graph(study, places, states, options.limits, options.launcher);
-  if (!remembered) remember(request, standing);
+  if (!remembered && places.shard.empty()) remember(request, standing);
   return left == 0 ? 0 : build_rest(study, places, options, left, standing.states, progress);
 }
 
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options) {
   std::vector<JobState> states = states_of(study, places);
+  share_stages(study, places, states);
   Progress progress(study.name, options.quiet);
   std::size_t left = 0;
   for (std::size_t k = 0; k < states.size(); ++k) left += study.jobs[k].failure.empty() && !states[k].done();
   write_build_graph(study, places, states, options.limits, options.launcher);
   if (left > 0) build_rest(study, places, options, left, states, progress);
-  return ranking_of(study, places, states);
-}
-
-std::vector<RankingRow> shared_rows(const Study& study, const StudyPlaces& places, const RunOptions& options) {
-  std::set<std::string> tried;
-  std::vector<JobState> states;
-  while (true) {
-    states = states_of(study, places);
-    share_stages(study, places, states);
-    Study now{study.name, {}};
-    for (const std::size_t k : without_likes(study, states))
-      if (!tried.contains(study.jobs[k].name)) now.jobs.push_back(study.jobs[k]);
-    if (now.jobs.empty()) break;
-    for (const StudyJob& job : now.jobs) tried.insert(job.name);
-    made_rows(now, places, options);
-  }
   return ranking_of(study, places, states);
 }
 

@@ -14,9 +14,6 @@ int make_rest(const StudyRequest& request, Standing& standing, const RunOptions&
 /// Runs what is not up to date of a study that no file of its own tells. Returns its rows.
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options);
 
-/// The same of jobs many of which differ in their last stages only: what their first stages make is made once.
-std::vector<RankingRow> shared_rows(const Study& study, const StudyPlaces& places, const RunOptions& options);
-
 /// What the ratings of its cables say of each row; to_run: lets their rigs run first, and says with which
 /// options.
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,

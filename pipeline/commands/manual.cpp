@@ -5,6 +5,8 @@
 
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
+#include "pipeline/job/cluster.h"
+#include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
 #include "pipeline/program_manual.h"
 #include "pipeline/study/study.h"
@@ -14,7 +16,7 @@ namespace {
 
 int manual(const CLI::App& program, const std::string& what) {
   if (what == "keys")
-    print(study_manual() + "\n" + job_manual());
+    print(study_manual() + "\n" + job_manual() + field_manual<Cluster>("cluster"));
   else
     print(what == "files" ? file_manual() : program_manual(program, what));
   return 0;

@@ -23,6 +23,7 @@ struct RunOptions : StudyOptions {
   int jobs;  ///< stages at a time
   bool quiet = false;
   std::string launcher;  ///< before each stage's command
+  std::string shard;     ///< "2/8": only the second eighth of the jobs; empty: all
   StageLimits limits{24 * 3600, installed_memory_mb()};  // a day, and what the machine has
   RunOptions();
 };

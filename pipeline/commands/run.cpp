@@ -10,13 +10,30 @@
 #include "pipeline/commands/results.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/shards.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// Makes a shard's jobs beside other shards' runs, and leaves ranking and report to a run of the whole.
+int run_shard(const RunOptions& options) {
+  const Shard shard = shard_from(options.shard, "--shard");
+  const StudyRequest request = request_of(options);
+  Standing standing = expanded(request);
+  const fs::path& folder = standing.places.folder;
+  const FolderLock beside(folder, FolderLock::Held::with_shards);
+  keep_shard(standing, shard);
+  const FolderLock lock(folder / standing.places.notes());
+  look_again(standing);
+  const int executed = make_rest(request, standing, options);
+  if (!options.quiet) tell(fmt::format("{} {}: {} stages ran\n", standing.study.name, options.shard, executed));
+  return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
+}
+
 int run(const RunOptions& options) {
+  if (!options.shard.empty()) return run_shard(options);
   const StudyRequest request = request_of(options);
   const fs::path folder = request.out / study_name(request.file);
   Standing standing;
@@ -69,6 +86,9 @@ Command add_run(CLI::App& program) {
       ->type_name("MB")
       ->default_str("all of the machine's");
   add_launcher(*words, *options);
+  words->add_option("--shard", options->shard,
+                    "make only the Kth of N parts of the study, beside runs of the others, and rank nothing")
+      ->type_name("K/N");
   add_study_options(*words, *options);
   return {words, [options] { return run(*options); }};
 }

@@ -153,6 +153,17 @@ void renew_receipt(const std::filesystem::path& file, const std::filesystem::pat
     write_receipt(file, *receipt, output);
 }
 
+void give_output(const std::filesystem::path& output, const std::filesystem::path& name) {
+  check_replaceable(name);
+  std::error_code failure;
+  std::filesystem::remove(name, failure);
+  std::filesystem::create_hard_link(output, name, failure);
+  if (failure)
+    std::filesystem::copy_file(output, name, std::filesystem::copy_options::overwrite_existing, failure);
+  if (failure)
+    throw InputError({name.string()}, "cannot be written (" + failure.message() + ")", "check the folder and the disk");
+}
+
 bool is_as_noted(const Receipt& receipt, const std::filesystem::path& output) {
   const FileState now = state_of(output);
   if (!now.exists()) return false;

@@ -70,6 +70,10 @@ void write_receipt(const std::filesystem::path& file, Receipt receipt, const std
 /// Notes the state of an output whose bytes are as noted, so that they need no look the next time.
 void renew_receipt(const std::filesystem::path& file, const std::filesystem::path& output);
 
+/// Gives an output a second name; where the file system has none for it, a copy. Replaces what is there. Errors:
+/// InputError when it cannot be written.
+void give_output(const std::filesystem::path& output, const std::filesystem::path& name);
+
 /// Whether `output` is the file that the receipt tells of.
 bool is_as_noted(const Receipt& receipt, const std::filesystem::path& output);
 

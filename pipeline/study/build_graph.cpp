@@ -14,6 +14,7 @@
 #include <cstring>
 #include <sstream>
 #include <system_error>
+#include <unordered_map>
 
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job_text.h"
@@ -39,8 +40,9 @@ fs::path beside(const Stage& stage, const char* ending) {
 }
 fs::path receipt_file(const Stage& stage) { return beside(stage, ".receipt"); }
 fs::path log_file(const Stage& stage) { return beside(stage, ".log"); }
+fs::path launcher_log(const Stage& stage) { return beside(stage, ".launcher"); }
 constexpr const char* failure_file = ".stage/failure";
-constexpr const char* memory_file = ".stage/memory";  // of the study: who may take how much (pipeline/memory.h)
+constexpr const char* memory_file = "memory";  // in a run's notes: who may take how much (pipeline/memory.h)
 std::string program_name(const Stage& stage) { return std::string("dresslife-") + stage.name; }
 
 void check_programs(const StudyPlaces& places) {
@@ -66,26 +68,13 @@ void set_recipes(JobState& state, const Job& job, const StudyPlaces& places, Dig
   state.settings = recipe_of(all, files, {}, digests).substr(0, digits);
 }
 
-/// Whether an output may be absent of a job that is done.
-bool may_lack(Keep keep, std::size_t stage) {
-  switch (keep) {
-    case Keep::all:
-      return false;
-    case Keep::histories:
-      return stages[stage].part == Part::sim;
-    case Keep::lives:
-      return true;
-  }
-  return false;
-}
-
 /// Receipts tell that all stages have made their outputs, one from the other, as far as these are there.
 void follow_receipts(JobState& state, const fs::path& folder) {
-  std::string made_before = "-";
+  state.inputs = {"-"};
   for (state.next = 0; state.next < stage_count; ++state.next) {
     const Stage& stage = stages[state.next];
     std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
-    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != made_before) return;
+    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != state.inputs[state.next]) return;
     // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
     if (!state.failure.empty()) receipt->state = {};
     const FileState now = state_of(folder / stage.output);
@@ -95,7 +84,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
       return;
     }
     if (!removed && (now != receipt->state || !receipt->state_suffices())) state.compared.push_back(state.next);
-    made_before = receipt->output;
+    if (state.next + 1 < stage_count) state.inputs[state.next + 1] = receipt->output;
     state.told = std::move(receipt->told);
   }
 }
@@ -113,16 +102,17 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
   return key == failure_key(state) ? reason : "";
 }
 
-/// The words before a stage's program: as Ninja reads them.
-std::string launching(const std::string& launcher) {
+/// The words before a stage's program: as Ninja reads them. The stage writes its log where it runs; what launchers say
+/// (srun tells of an exit status, too) stands by itself, as nothing tells which of the two would be first in one file.
+std::string launching(const std::string& launcher, const Stage& stage) {
   if (launcher.empty()) return "";
   std::string words = "env -u DRESSLIFE_PARENT -u DRESSLIFE_MEMORY ";
   for (const char letter : launcher) words += letter == '$' ? "$$" : std::string(1, letter);
-  return words + ' ';
+  return words + fmt::format(" sh -c 'exec \"$$0\" \"$$@\" > $job/{} 2>&1' ", log_file(stage).string());
 }
 
-std::string rules(const StageLimits& limits, const std::string& launcher) {
-  std::string text = "ninja_required_version = 1.8\nbuilddir = .stage\n\n";
+std::string rules(const StudyPlaces& places, const StageLimits& limits, const std::string& launcher) {
+  std::string text = fmt::format("ninja_required_version = 1.8\nbuilddir = {}\n\n", places.notes().string());
   for (const Stage& stage : stages) {
     // The stage before is checked against the same job, so the settings come from job.yaml at every stage.
     const std::string job = stage.part == Part::sim ? "" : " --job $job/job.yaml";
@@ -131,20 +121,40 @@ std::string rules(const StageLimits& limits, const std::string& launcher) {
     text += fmt::format(
         "rule {0}\n  command = exec {9}\"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
         "--force "
-        "--quiet --job-time {6} --job-memory {7} 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
+        "--quiet --job-time {6} --job-memory {7}$likes 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
         stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(),
-        limits.seconds, limits.megabytes, log_file(stage).string(), launching(launcher));
+        limits.seconds, limits.megabytes, (launcher.empty() ? log_file(stage) : launcher_log(stage)).string(),
+        launching(launcher, stage));
   }
   return text;
 }
 
-/// The chain of a job from the first stage that is to run.
-std::string chain_of(const std::string& job, std::size_t first) {
-  std::string text, before;
-  for (std::size_t k = first; k < stage_count; ++k) {
-    const std::string target = job + "/" + beside(stages[k], ".ran").string();
-    text += fmt::format("build {}: {}{}\n  job = {}\n", target, stages[k].name, before, job);
-    before = " " + target;
+std::string target_of(const Stage& stage, const std::string& job) { return job + "/" + beside(stage, ".ran").string(); }
+
+/// By job and stage, who else gets what a job makes: lines of folders.
+using Likes = std::vector<std::array<std::string, stage_count>>;
+Likes likes_of(const Study& study, const std::vector<JobState>& states, const std::vector<Makers>& makers) {
+  Likes likes(states.size());
+  for (std::size_t k = 0; k < states.size(); ++k)
+    for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
+      if (makers[k][stage] != k) likes[makers[k][stage]][stage] += study.jobs[k].name + '\n';
+  return likes;
+}
+
+/// What a job makes itself from the first stage that is to run, each stage behind whoever makes what it reads.
+std::string chain_of(const Study& study, const StudyPlaces& places, const JobState& state, std::size_t k,
+                     const std::vector<Makers>& makers, const Likes& likes) {
+  std::string text;
+  const std::string& job = study.jobs[k].name;
+  for (std::size_t stage = state.next; stage < stage_count; ++stage) {
+    if (makers[k][stage] != k) continue;
+    const std::string before =
+        stage == state.next ? "" : ' ' + target_of(stages[stage - 1], study.jobs[makers[k][stage - 1]].name);
+    text += fmt::format("build {}: {}{}\n  job = {}\n", target_of(stages[stage], job), stages[stage].name, before, job);
+    if (likes[k][stage].empty()) continue;
+    const std::string list = job + '/' + beside(stages[stage], ".likes").string();
+    write_text_if_changed(places.folder / list, likes[k][stage], Sync::never);
+    text += fmt::format("  likes = {}--likes {}\n", "$ ", list);
   }
   return text;
 }
@@ -161,10 +171,15 @@ std::string error_line(const fs::path& log) {
 std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result) {
   const Stage& stage = stages[state.next];
   std::error_code ignored;
-  if (!fs::is_regular_file(folder / log_file(stage), ignored))
+  bool begun = false;
+  for (const fs::path& log : {log_file(stage), launcher_log(stage)}) {
+    if (!fs::is_regular_file(folder / log, ignored)) continue;
+    begun = true;
+    if (const std::string line = error_line(folder / log); !line.empty()) return line;
+  }
+  if (!begun)
     return result.words.empty() ? "it was not reached"
                                 : "it was not reached: " + result.words + "; run again";
-  if (const std::string line = error_line(folder / log_file(stage)); !line.empty()) return line;
   // From here on the stage said nothing; a receipt may be older than this run.
   if (!result.words.empty())
     return fmt::format("{} was broken off: {}; run again", program_name(stage), result.words);
@@ -175,12 +190,20 @@ std::string reason_of(const JobState& state, const fs::path& folder, const Build
   return fmt::format("{} ended without a word (killed, or out of memory?)", program_name(stage));
 }
 
+/// What a stage said is said to all for whom it worked.
+void give_log(const fs::path& from, const fs::path& to, const Stage& stage) {
+  std::error_code ignored;
+  for (const fs::path& log : {log_file(stage), launcher_log(stage)})
+    fs::copy_file(from / log, to / log, fs::copy_options::overwrite_existing, ignored);
+}
+
 void join_logs(const fs::path& folder) {
   std::string text;
   for (const Stage& stage : stages) {
     std::error_code ignored;
     if (fs::is_regular_file(folder / log_file(stage), ignored))
       text += fmt::format("== {}\n{}", program_name(stage), read_text(folder / log_file(stage)));
+    if (fs::is_regular_file(folder / launcher_log(stage), ignored)) text += read_text(folder / launcher_log(stage));
   }
   write_text_if_changed(folder / "log", text, Sync::never);
 }
@@ -235,13 +258,13 @@ class Ninja {
     ::setenv("NINJA_STATUS", "@%f/%t ", 1);  // a line "@finished/total description" per stage
     // Through the environment goes whatever a folder may be named.
     ::setenv("DRESSLIFE_PROGRAMS", fs::absolute(places.programs).c_str(), 1);
-    ::setenv("DRESSLIFE_MEMORY", (fs::absolute(places.folder) / memory_file).c_str(), 1);
+    ::setenv("DRESSLIFE_MEMORY", (fs::absolute(places.folder) / places.notes() / memory_file).c_str(), 1);
     ::setenv("DRESSLIFE_PARENT", std::to_string(::getpid()).c_str(), 1);
     ::dup2(said, STDOUT_FILENO);
     ::dup2(said, STDERR_FILENO);
-    const std::string jobs = std::to_string(parallel);
+    const std::string jobs = std::to_string(parallel), graph = places.graph().string();
     if (::chdir(places.folder.c_str()) == 0)
-      ::execlp("ninja", "ninja", "-k", "0", "-j", jobs.c_str(), static_cast<char*>(nullptr));
+      ::execlp("ninja", "ninja", "-f", graph.c_str(), "-k", "0", "-j", jobs.c_str(), static_cast<char*>(nullptr));
     ::_exit(not_installed);
   }
 
@@ -259,7 +282,19 @@ std::string JobState::words() const {
   return has_results ? "stale" : "to do";
 }
 
-StageFiles files_of_stage(std::size_t stage) { return {stages[stage].output, receipt_file(stages[stage])}; }
+StageFiles files_of_stage(std::size_t stage) { return {stages[stage].output, receipt_file(stages[stage]), log_file(stages[stage])}; }
+
+bool may_lack(Keep keep, std::size_t stage) {
+  switch (keep) {
+    case Keep::all:
+      return false;
+    case Keep::histories:
+      return stages[stage].part == Part::sim;
+    case Keep::lives:
+      return true;
+  }
+  return false;
+}
 
 void look_at(JobState& state, const fs::path& folder) {
   state.damaged.clear();
@@ -275,13 +310,29 @@ void look_at(JobState& state, const fs::path& folder) {
   while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists()) --state.next;
 }
 
+std::vector<Makers> makers_of(const Study& study, const std::vector<JobState>& states) {
+  std::vector<Makers> makers(states.size());
+  std::unordered_map<std::string, std::size_t> firsts;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    makers[k].fill(k);
+    if (!study.jobs[k].failure.empty() || states[k].done()) continue;
+    std::string key = fmt::format("{} {}", states[k].next, states[k].inputs[states[k].next]);
+    for (std::size_t stage = states[k].next; stage + 1 < stage_count; ++stage) {
+      key += ' ' + states[k].recipes[stage];
+      makers[k][stage] = firsts.try_emplace(key, k).first->second;
+    }
+  }
+  return makers;
+}
+
 std::uintmax_t remove_unkept(const JobState& state, const fs::path& folder) {
   std::uintmax_t freed = 0;
   for (std::size_t k = 0; state.done() && k < stage_count; ++k) {
     const fs::path output = folder / stages[k].output;
     std::error_code ignored;
     if (!may_lack(state.keep, k) || !fs::is_regular_file(fs::symlink_status(output, ignored))) continue;
-    const std::uintmax_t size = fs::file_size(output, ignored);
+    // Under other jobs' names it stays.
+    const std::uintmax_t size = fs::hard_link_count(output, ignored) > 1 ? 0 : fs::file_size(output, ignored);
     if (fs::remove(output, ignored)) freed += size;
   }
   return freed;
@@ -315,12 +366,15 @@ void renew_receipts(const Study& study, const StudyPlaces& places, const std::ve
 
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
                        const StageLimits& limits, const std::string& launcher) {
-  fs::create_directories(places.folder / ".stage");
+  const fs::path notes = places.folder / places.notes();
+  fs::create_directories(notes);
   for (const char* memory : {".ninja_log", ".ninja_deps"})  // of times, which decide nothing here
-    fs::remove_all(places.folder / ".stage" / memory);
-  fs::remove_all(places.folder / memory_file);  // of stages that have ended
+    fs::remove_all(notes / memory);
+  fs::remove_all(notes / memory_file);  // of stages that have ended
   renew_receipts(study, places, states);
-  std::string graph = rules(limits, launcher);
+  std::string graph = rules(places, limits, launcher);
+  const std::vector<Makers> makers = makers_of(study, states);
+  const Likes likes = likes_of(study, states, makers);
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) continue;
@@ -329,10 +383,10 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     write_text_if_changed(folder / "job.yaml", job_text(*job.job), Sync::never);
     if (states[k].done()) continue;
     for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
-      fs::remove(folder / log_file(stages[stage]));
-    graph += chain_of(job.name, states[k].next);
+      for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])}) fs::remove(folder / log);
+    graph += chain_of(study, places, states[k], k, makers, likes);
   }
-  write_text_if_changed(places.folder / "build.ninja", graph);
+  write_text_if_changed(places.folder / places.graph(), graph);
 }
 
 BuildResult run_build_graph(const StudyPlaces& places, int parallel,
@@ -364,14 +418,22 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel,
 
 void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result,
                std::vector<JobState>& states) {
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    if (!study.jobs[k].failure.empty() || states[k].done()) continue;
+  const std::vector<Makers> makers = makers_of(study, states);
+  std::vector<std::size_t> unfinished;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (study.jobs[k].failure.empty() && !states[k].done()) unfinished.push_back(k);
+  for (const std::size_t k : unfinished) {
     const fs::path folder = places.job(study.jobs[k].name);
+    for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
+      if (makers[k][stage] != k) give_log(places.job(study.jobs[makers[k][stage]].name), folder, stages[stage]);
     fs::remove(folder / failure_file);
     look_at(states[k], folder);
-    remove_unkept(states[k], folder);
     for (const Stage& stage : stages) remove_leftovers(folder / stage.output);
     join_logs(folder);
+  }
+  for (const std::size_t k : unfinished) {  // when all have been looked at: a name less changes what others' times are
+    const fs::path folder = places.job(study.jobs[k].name);
+    remove_unkept(states[k], folder);
     if (states[k].done()) continue;
     states[k].failure = reason_of(states[k], folder, result);
     write_text_if_changed(folder / failure_file, failure_key(states[k]) + "\n" + states[k].failure + "\n",

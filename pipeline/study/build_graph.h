@@ -28,7 +28,11 @@ inline constexpr std::size_t stage_count = 3;
 struct StudyPlaces {
   std::filesystem::path folder;    ///< DIR/<study>
   std::filesystem::path programs;  ///< where dresslife-sim, -strain and -fatigue are
+  std::string shard{};             ///< "2_of_8": a graph beside those of other runs in this folder; empty: the whole
 
+  /// Within the folder: what of a run is not for people, and its graph.
+  std::filesystem::path notes() const { return shard.empty() ? ".stage" : ".stage/shard_" + shard; }
+  std::filesystem::path graph() const { return shard.empty() ? "build.ninja" : notes() / "build.ninja"; }
   std::filesystem::path job(const std::string& name) const { return folder / name; }
   std::filesystem::path life(const std::string& name) const { return folder / name / "life.h5"; }
 };
@@ -38,6 +42,7 @@ struct JobState {
   std::array<std::string, stage_count> recipes;  ///< that its receipts must name
   std::string settings;  ///< digest of the job and the files beside it, twelve digits; programs do not matter
   std::size_t next = 0;  ///< the first stage to run; stage_count: the job is done
+  std::array<std::string, stage_count> inputs;  ///< checksums of what the stages up to the next read
   std::string damaged;   ///< "life.h5": is not what its stage wrote
   std::string failure;   ///< why the last attempt with these recipes failed
   bool has_results = false;           ///< of any settings
@@ -57,12 +62,20 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, D
 
 /// In a job's folder.
 struct StageFiles {
-  std::filesystem::path output, receipt;
+  std::filesystem::path output, receipt, log;
 };
 StageFiles files_of_stage(std::size_t stage);
 
 /// Brings a state up to date whose recipes are known.
 void look_at(JobState& state, const std::filesystem::path& folder);
+
+/// Which job of the study makes the output of each stage that is not up to date: itself, or the first of those that make
+/// the same from the same. The last stage is each job's own.
+using Makers = std::array<std::size_t, stage_count>;
+std::vector<Makers> makers_of(const Study& study, const std::vector<JobState>& states);
+
+/// Whether an output may be absent of a job that is done.
+bool may_lack(Keep keep, std::size_t stage);
 
 /// Removes what the study does not keep of a job that is done. Returns the bytes that it took.
 std::uintmax_t remove_unkept(const JobState& state, const std::filesystem::path& folder);

@@ -34,12 +34,16 @@ bool lives(long process) {
                    "mend its permissions or the disk, or choose another folder with -o");
 }
 
-void take(int descriptor, const fs::path& folder) {
+std::string run_of(long process) {
+  return process > 0 ? fmt::format("another run (process {})", process) : "a run of some of its jobs (--shard)";
+}
+
+void take(int descriptor, const fs::path& folder, int how) {
   constexpr std::chrono::milliseconds most{10'000}, pause{20};  // a killed process ends in milliseconds
-  for (std::chrono::milliseconds waited{0}; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0; waited += pause) {
+  for (std::chrono::milliseconds waited{0}; ::flock(descriptor, how | LOCK_NB) != 0; waited += pause) {
     const long owner = owner_of(descriptor);
     if (lives(owner) || waited >= most)
-      throw InputError({folder.string()}, fmt::format("is in use by another run (process {})", owner),
+      throw InputError({folder.string()}, "is in use by " + run_of(owner),
                        "wait for it, or choose another folder with -o");
     std::this_thread::sleep_for(pause);
   }
@@ -47,13 +51,13 @@ void take(int descriptor, const fs::path& folder) {
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder) {
+FolderLock::FolderLock(const fs::path& folder, Held held) {
   fs::create_directories(folder);
   descriptor_ =
       ::open((folder / ".lock").c_str(), O_CREAT | O_RDWR | O_NOFOLLOW, 0644);  // passes to the stages
   if (descriptor_ < 0) refuse(folder);
-  take(descriptor_, folder);
-  const std::string own = std::to_string(::getpid()) + "\n";
+  take(descriptor_, folder, held == Held::alone ? LOCK_EX : LOCK_SH);
+  const std::string own = held == Held::alone ? std::to_string(::getpid()) + "\n" : "";
   if (::ftruncate(descriptor_, 0) != 0 ||
       ::pwrite(descriptor_, own.data(), own.size(), 0) != static_cast<ssize_t>(own.size()))
     refuse(folder);

@@ -1,4 +1,4 @@
-// One run at a time in a study's folder.
+// One run at a time in a study's folder, or several of which each makes its own shard of it.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,10 @@ class FolderLock {
  public:
   /// Makes the folder. Waits for stages whose run was broken off, which end a moment later. Errors:
   /// InputError when another run holds it or the folder cannot be written.
-  explicit FolderLock(const std::filesystem::path& folder);
+  explicit FolderLock(const std::filesystem::path& folder) : FolderLock(folder, Held::alone) {}
+  /// shards: beside others that hold it so.
+  enum class Held { alone, with_shards };
+  FolderLock(const std::filesystem::path& folder, Held held);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -1,8 +1,10 @@
 #include "pipeline/study/shared_stages.h"
 
+#include <algorithm>
 #include <map>
-#include <set>
 #include <system_error>
+#include <unordered_map>
+#include <utility>
 
 #include "pipeline/errors.h"
 
@@ -11,61 +13,72 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The last stage makes what is a job's own.
+constexpr std::size_t shared_count = stage_count - 1;
+
 /// What a job's stages up to one are made from.
 std::string recipes_up_to(const JobState& state, std::size_t stage) {
   std::string all;
-  for (std::size_t k = 0; k <= stage; ++k) all += state.recipes[k] + '\n';
+  for (std::size_t k = 0; k <= stage; ++k) all += state.recipes[k] + ' ';
   return all;
 }
 
-bool can_run(const StudyJob& job, const JobState& state) { return job.failure.empty() && !state.recipes[0].empty(); }
-
-/// A second name for the file; where the file system has none, a copy.
-void give(const fs::path& from, const fs::path& to) {
-  std::error_code failure;
-  fs::remove(to, failure);
-  fs::create_hard_link(from, to, failure);
-  if (failure) fs::copy_file(from, to, fs::copy_options::overwrite_existing, failure);
-  if (failure) throw InputError({to.string()}, "cannot be written (" + failure.message() + ")", "check the folder");
+/// Whether the job has what its stages up to this one made: the last of it as a file, and before it what is kept.
+bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage) {
+  if (state.next <= stage) return false;
+  for (std::size_t k = 0; k <= stage; ++k)
+    if ((k == stage || !may_lack(state.keep, k)) && !state_of(folder / files_of_stage(k).output).exists()) return false;
+  return true;
 }
 
-void give_stage(const fs::path& from, const fs::path& to, std::size_t stage) {
-  std::error_code failure;
-  fs::create_directories(to / ".stage", failure);
+/// Who gets the outputs of a job, up to and with which stage.
+struct Gift {
+  std::size_t to, last;
+};
+
+void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std::size_t stage) {
   const StageFiles files = files_of_stage(stage);
-  give(from / files.output, to / files.output);
-  fs::copy_file(from / files.receipt, to / files.receipt, fs::copy_options::overwrite_existing, failure);
-  if (failure)
-    throw InputError({(to / files.receipt).string()}, "cannot be written (" + failure.message() + ")", "check the folder");
-  for (const fs::path& folder : {from, to}) renew_receipt(folder / files.receipt, folder / files.output);
+  const bool is_there = state_of(from / files.output).exists();
+  for (const fs::path& to : folders) {
+    fs::create_directories(to / ".stage");
+    fs::remove(to / files.receipt);  // it tells of a file that is about to go
+    if (is_there) give_output(from / files.output, to / files.output);
+    std::error_code none;
+    fs::copy_file(from / files.log, to / files.log, fs::copy_options::overwrite_existing, none);
+  }
+  if (is_there) renew_receipt(from / files.receipt, from / files.output);  // another name changed one of its times
+  const std::optional<Receipt> receipt = read_receipt(from / files.receipt);
+  for (const fs::path& to : folders)
+    if (receipt) write_receipt(to / files.receipt, *receipt, to / files.output);
 }
 
 }  // namespace
 
 void share_stages(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
-  for (std::size_t stage = 0; stage + 1 < stage_count; ++stage) {
-    std::map<std::string, std::size_t> makers;
-    for (std::size_t k = 0; k < states.size(); ++k)
-      if (can_run(study.jobs[k], states[k]) && states[k].next > stage)
-        makers.emplace(recipes_up_to(states[k], stage), k);
-    for (std::size_t k = 0; k < states.size(); ++k) {
-      if (!can_run(study.jobs[k], states[k]) || states[k].next != stage) continue;
-      const auto maker = makers.find(recipes_up_to(states[k], stage));
-      if (maker == makers.end()) continue;
-      give_stage(places.job(study.jobs[maker->second].name), places.job(study.jobs[k].name), stage);
-      look_at(states[k], places.job(study.jobs[k].name));
-    }
-  }
-}
-
-std::vector<std::size_t> without_likes(const Study& study, const std::vector<JobState>& states) {
-  std::vector<std::size_t> now;
-  std::set<std::string> taken;
+  if (std::all_of(states.begin(), states.end(), [](const JobState& state) { return state.done() || state.recipes[0].empty(); }))
+    return;
+  std::unordered_map<std::string, std::size_t> havers;
   for (std::size_t k = 0; k < states.size(); ++k)
-    if (can_run(study.jobs[k], states[k]) && !states[k].done() &&
-        taken.insert(recipes_up_to(states[k], states[k].next)).second)
-      now.push_back(k);
-  return now;
+    for (std::size_t stage = 0; study.jobs[k].failure.empty() && stage < shared_count; ++stage)
+      if (has_up_to(states[k], places.job(study.jobs[k].name), stage)) havers.emplace(recipes_up_to(states[k], stage), k);
+  std::map<std::size_t, std::vector<Gift>> gifts;  // by who gives
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    if (!study.jobs[k].failure.empty()) continue;
+    for (std::size_t stage = shared_count; stage-- > states[k].next;)
+      if (const auto haver = havers.find(recipes_up_to(states[k], stage)); haver != havers.end()) {
+        gifts[haver->second].push_back({k, stage});
+        break;
+      }
+  }
+  for (const auto& [from, all] : gifts) {
+    for (std::size_t stage = 0; stage < shared_count; ++stage) {
+      std::vector<fs::path> folders;
+      for (const Gift& gift : all)
+        if (gift.last >= stage) folders.push_back(places.job(study.jobs[gift.to].name));
+      if (!folders.empty()) give_stage(places.job(study.jobs[from].name), folders, stage);
+    }
+    for (const Gift& gift : all) look_at(states[gift.to], places.job(study.jobs[gift.to].name));
+  }
 }
 
 }  // namespace dresslife::pipeline

@@ -131,7 +131,7 @@ void check_keys(const Node& study) {
 }
 
 void check_name(const std::string& job, const Where& where) {
-  for (const char* own : {"build.ninja", "ranking.csv", "report.html"})
+  for (const char* own : {"build.ninja", "ranking.csv", "report.html", "submit.sh", "submit.log"})
     if (job == own)
       throw InputError(where, fmt::format("a job is named '{}' (a file of the study itself)", own),
                        "give it another name");

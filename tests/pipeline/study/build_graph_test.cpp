@@ -10,6 +10,7 @@
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
 #include "pipeline/study/ranking.h"
+#include "pipeline/study/shared_stages.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -54,6 +55,12 @@ class Bench {
         run_build_graph(places_, 2, [this](const BuildEvent& event) { events_.push_back(event.what); });
     close_run(of, places_, result, states_);
     return result;
+  }
+  /// The same with what lies in other jobs' folders.
+  BuildResult run_sharing(const Study& of) {
+    std::vector<JobState> states = states_of(of, places_);
+    share_stages(of, places_, states);
+    return run(of);
   }
   std::vector<std::string> words(const Study& of) const {
     std::vector<std::string> said;
@@ -173,16 +180,99 @@ TEST_CASE("build graph: a launcher starts every stage, and its exit status is th
   bench.tell_stage("two", "fail-strain");
   std::vector<JobState> states = states_of(study, bench.places());
   write_build_graph(study, bench.places(), states, {},
-                    "sh -c 'echo \"${DRESSLIFE_PARENT-none} $1\" >> launched; exec \"$@\"' --");
+                    "sh -c 'echo \"${DRESSLIFE_PARENT-none} $1\" >> launched; echo launcher: error: exit >&2; exec \"$@\"' --");
   const BuildResult result = run_build_graph(bench.places(), 1, {});
   close_run(study, bench.places(), result, states);
   CHECK(states[0].done());
-  CHECK(states[1].failure.find("strain broke") != std::string::npos);
+  CHECK(states[1].failure.find("strain broke") != std::string::npos);  // not the launcher's word that comes first
+  CHECK(bytes_of(bench.places().job("two") / "log").find("launcher: error: exit") != std::string::npos);
   std::istringstream launched(bytes_of(bench.places().folder / "launched"));
   int lines = 0;
   for (std::string line; std::getline(launched, line);)
-    if (line.starts_with("none /")) ++lines;  // its folder's name has a line feed
+    if (line == "none sh") ++lines;
   CHECK(lines == 5);
+}
+
+TEST_CASE("build graph: jobs that are alike up to a stage make it once, and each is complete by itself") {
+  Bench bench;
+  const std::vector<std::pair<std::string, std::string>> jobs{{"one", "fatigue.stress=elastic"},
+                                                              {"two", "fatigue.scatter_log10=0.3"},
+                                                              {"three", "strain.gate=2e-4"},
+                                                              {"four", "simulation.segments=40"}};
+  const Study study = bench.study(jobs);
+  CHECK(bench.run(study).executed == 2 + 3 + 4);
+  CHECK(bench.calls("one") == "sim strain fatigue ");
+  CHECK(bench.calls("two") == "fatigue ");
+  CHECK(bench.calls("three") == "strain fatigue ");
+  CHECK(bench.calls("four") == "sim strain fatigue ");
+  CHECK(bench.words(study) == Words(4, "done"));
+  CHECK(fs::hard_link_count(bench.places().job("one") / "motion.h5") == 3);
+  CHECK(fs::hard_link_count(bench.places().job("two") / "strain.h5") == 2);
+  CHECK(fs::hard_link_count(bench.places().job("four") / "motion.h5") == 1);
+  CHECK(bytes_of(bench.places().job("two") / "log").find("dresslife-sim") != std::string::npos);
+  CHECK(bench.run(study).executed == 0);
+
+  // Each goes on by itself.
+  auto changed = jobs;
+  changed[0].second = "strain.gate=3e-4";
+  CHECK(bench.run(bench.study(changed)).executed == 2);
+  CHECK(bench.words(bench.study(changed)) == Words(4, "done"));
+  fs::remove_all(bench.places().job("one"));
+  CHECK(bench.words(bench.study({jobs[1], jobs[2], jobs[3]})) == Words(3, "done"));
+  std::ofstream(bench.places().job("two") / "strain.h5", std::ios::app) << "more";
+  CHECK(bench.words(study)[1].starts_with("damaged  strain.h5"));
+  CHECK(bench.words(study)[2] == "done");
+}
+
+TEST_CASE("build graph: jobs that share a stage share its failure, which runs once") {
+  Bench bench;
+  const Study study = bench.study({{"one", "fatigue.stress=elastic"}, {"two", "fatigue.scatter_log10=0.3"}});
+  bench.tell_stage("one", "fail-sim");
+  bench.run(study);
+  for (const std::string& words : bench.words(study)) {
+    INFO(words);
+    CHECK(words.starts_with("failed"));
+    CHECK(words.find("sim broke") != std::string::npos);
+  }
+  CHECK(bench.calls("one") == "sim ");
+  CHECK(bench.calls("two") == "");
+  fs::remove(bench.places().job("one") / "fail-sim");
+  bench.tell_stage("one", "fail-fatigue");
+  bench.run(study);
+  CHECK(bench.words(study)[0].find("fatigue broke") != std::string::npos);
+  CHECK(bench.words(study)[1] == "done");
+}
+
+TEST_CASE("build graph: a job that is added takes what is there, and makes what is not kept") {
+  for (const Keep keep : {Keep::all, Keep::histories, Keep::lives}) {
+    Bench bench;
+    Study first = bench.study({{"one", "fatigue.stress=elastic"}});
+    Study both = bench.study({{"one", "fatigue.stress=elastic"}, {"two", "fatigue.scatter_log10=0.3"}});
+    first.keep = both.keep = keep;
+    bench.run(first);
+    CHECK(bench.run_sharing(both).executed == (keep == Keep::lives ? 3 : 1));
+    CHECK(bench.words(both) == Words{"done", "done"});
+    CHECK(fs::exists(bench.places().job("two") / "motion.h5") == (keep == Keep::all));
+    CHECK(bench.run_sharing(both).executed == 0);
+    CHECK(bench.calls("one") == "sim strain fatigue ");
+    if (keep == Keep::all) CHECK(bytes_of(bench.places().job("two") / "log").find("dresslife-strain") != std::string::npos);
+  }
+}
+
+TEST_CASE("build graph: what was made apart is not mixed") {
+  Bench bench;
+  const auto elastic = std::pair<std::string, std::string>{"one", "fatigue.stress=elastic"};
+  const auto scatter = std::pair<std::string, std::string>{"two", "fatigue.scatter_log10=0.3"};
+  bench.run(bench.study({elastic}));
+  bench.run(bench.study({scatter}));  // its motion holds its own settings: other bytes
+  fs::remove(bench.places().job("one") / "strain.h5");
+  fs::remove(bench.places().job("two") / "strain.h5");
+  const Study both = bench.study({elastic, scatter});
+  CHECK(bench.run(both).executed >= 2);
+  CHECK(bench.words(both) == Words{"done", "done"});
+  fs::remove(bench.places().job("two") / "strain.h5");
+  CHECK(bench.run_sharing(both).executed == 1);  // from the motion of the one that gave the strain
+  CHECK(bench.words(both) == Words{"done", "done"});
 }
 
 TEST_CASE("build graph: an output that comes out the same ends the chain") {
@@ -319,9 +409,9 @@ TEST_CASE("build graph: a stage that claims success and makes nothing is not bel
 TEST_CASE("build graph: a place that one job leaves is taken by the next, however long another works") {
   Bench bench;
   const Study study = bench.study({{"a", "simulation.segments=20"},
-                                   {"b", "simulation.segments=20"},
-                                   {"c", "simulation.segments=20"},
-                                   {"d", "simulation.segments=20"}});
+                                   {"b", "simulation.segments=21"},
+                                   {"c", "simulation.segments=22"},
+                                   {"d", "simulation.segments=23"}});
   bench.tell_stage("b", "wait-sim");
   bool others_ended = false;
   std::thread watcher([&] {
@@ -341,11 +431,13 @@ TEST_CASE("build graph: a place that one job leaves is taken by the next, howeve
 
 TEST_CASE("build graph: when ninja dies, what it did not reach is not done and says so") {
   Bench bench;
-  const auto study = [&](const std::string& set) {
-    return bench.study({{"a", set}, {"b", set}, {"c", set}, {"d", set}});
+  const auto study = [&](int segments) {
+    std::vector<std::pair<std::string, std::string>> jobs;
+    for (const char* job : {"a", "b", "c", "d"}) jobs.push_back({job, fmt::format("simulation.segments={}", segments++)});
+    return bench.study(jobs);
   };
-  bench.run(study("simulation.segments=20"));
-  const Study changed = study("simulation.segments=24");
+  bench.run(study(20));
+  const Study changed = study(24);
   bench.tell_stage("a", "fail-sim");
   for (const char* job : {"b", "c", "d"}) bench.tell_stage(job, "wait-sim");
   std::thread killer([&] {

@@ -1,0 +1,117 @@
+#include "pipeline/commands/command.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "pipeline/commands/options.h"
+#include "pipeline/errors.h"
+#include "pipeline/installation.h"
+#include "pipeline/job/cluster.h"
+#include "pipeline/study/shards.h"
+#include "pipeline/whole_file.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SubmitOptions : StudyOptions {
+  std::string cluster = "slurm";
+  std::optional<int> tasks;
+  bool only_write = false;
+};
+
+/// One word of a shell, whatever it holds.
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char letter : text) word += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return word + "'";
+}
+
+/// The batch script: the same `dresslife run` in an allocation as on a laptop, but for the launcher. In an array of
+/// allocations each makes its shard; whichever is started again goes on where it was.
+std::string script_of(const SubmitOptions& options, const Cluster& cluster, const Standing& standing) {
+  constexpr double megabyte = 1e6;
+  const int tasks = options.tasks.value_or(cluster.tasks);
+  const auto memory = static_cast<long>(cluster.memory / megabyte);
+  const auto whole = [](const fs::path& file) { return shell_word(fs::absolute(file).string()); };
+  const fs::path log = standing.places.folder / "submit.log";
+  std::string text = "#!/bin/sh\n# Written by dresslife submit; submitted again, it goes on where it was.\n";
+  text += fmt::format("#SBATCH --job-name={}\n", standing.study.name);
+  text += fmt::format("#SBATCH --ntasks={} --cpus-per-task=1 --mem-per-cpu={}\n", tasks, memory);
+  text += "#SBATCH --requeue --output=/dev/null\n";
+  if (!cluster.options.empty()) text += fmt::format("#SBATCH {}\n", cluster.options);
+  text += fmt::format("cd {} && exec >>{} 2>&1 || exit 1\n", shell_word(fs::current_path().string()), whole(log));
+  text += fmt::format("exec {} run {} -o {}", whole(program_file()), whole(request_of(options).file), whole(options.out));
+  for (const std::string& set : options.sets) text += " --set " + shell_word(set);
+  text += fmt::format(" \\\n  --quiet --jobs {} --job-memory {} --launcher {} \\\n", tasks, memory, shell_word(cluster.launcher));
+  return text + "  ${SLURM_ARRAY_TASK_ID:+--shard \"$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT\"}\n";
+}
+
+/// Queues the script; returns what the queue calls it. Errors: InputError when the queue does not take it.
+std::string submitted(const Cluster& cluster, const std::string& more, const fs::path& script) {
+  const std::string command = cluster.submit + more + ' ' + shell_word(fs::absolute(script).string());
+  std::fflush(nullptr);
+  std::FILE* const said = ::popen(command.c_str(), "r");
+  std::string name;
+  for (int c = 0; said && (c = std::fgetc(said)) != EOF;)
+    if (name.size() < 100) name += static_cast<char>(c);
+  const int status = said ? ::pclose(said) : -1;
+  name = name.substr(0, name.find_first_of(";\n"));  // "17;cluster"
+  if (status == 0 && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos) return name;
+  throw InputError({script.string()},
+                   fmt::format("'{}' did not take it ({})", cluster.submit,
+                               WIFEXITED(status) && WEXITSTATUS(status) != 0 ? fmt::format("exit status {}", WEXITSTATUS(status))
+                                                                            : "it printed no number"),
+                   "see what it said, and the options of the cluster's file (--cluster)");
+}
+
+int submit(const SubmitOptions& options) {
+  const Cluster cluster = read_cluster(named_file(options.cluster, "clusters"));
+  const Standing standing = standing_of(request_of(options));
+  if (standing.all_done()) {
+    print(shown(fmt::format("{}: nothing to do; dresslife report tells of it\n", standing.study.name)));
+    return 0;
+  }
+  const int shards = shards_needed(standing, cluster.most_stages);
+  const fs::path script = standing.places.folder / "submit.sh";
+  fs::create_directories(standing.places.folder);
+  write_text_if_changed(script, script_of(options, cluster, standing));
+  const std::string array = shards > 1 ? fmt::format(" --array=1-{}", shards) : "";
+  if (options.only_write) {
+    print(shown(fmt::format("{} is written; submit it: {}{} {}\n", script.string(), cluster.submit, array, script.string())));
+    return 0;
+  }
+  std::string last = submitted(cluster, array, script);
+  std::string told = fmt::format("{}: job {}", standing.study.name, last);
+  if (shards > 1) {  // the whole, which finds the rest and ranks
+    last = submitted(cluster, " --dependency=afterany:" + last, script);
+    told += fmt::format(" of {} shards, ranked by job {}", shards, last);
+  }
+  print(shown(fmt::format("{}\nFollow it: dresslife status {}; what it says: {}\n", told, options.study,
+                          (standing.places.folder / "submit.log").string())));
+  return 0;
+}
+
+}  // namespace
+
+Command add_submit(CLI::App& program) {
+  const auto options = std::make_shared<SubmitOptions>();
+  CLI::App* words =
+      program.add_subcommand("submit", "let a cluster's queue run a study: the same graph, each stage behind the cluster's launcher");
+  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")->required()->type_name("");
+  words->add_option("--cluster", options->cluster, "YAML of config/clusters, or a file")->capture_default_str()->type_name("");
+  words->add_option("-n,--tasks", options->tasks, "stages at a time, a core each; default: the cluster's tasks")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  words->add_flag("--only-write", options->only_write, "write the batch script, and submit nothing");
+  add_study_options(*words, *options);
+  return {words, [options] { return submit(*options); }};
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,64 @@
+#include "pipeline/study/shards.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <unordered_map>
+
+#include "pipeline/errors.h"
+
+namespace dresslife::pipeline {
+
+std::string Shard::name() const { return fmt::format("{}_of_{}", index, count); }
+
+Shard shard_from(const std::string& text, const std::string& where) {
+  constexpr int most = 1'000'000;
+  Shard shard;
+  const char *const end = text.data() + text.size(), *at = text.data();
+  const auto index = std::from_chars(at, end, shard.index);
+  const bool parted = index.ec == std::errc{} && index.ptr != end && *index.ptr == '/';
+  const auto count = parted ? std::from_chars(index.ptr + 1, end, shard.count) : index;
+  if (!parted || count.ec != std::errc{} || count.ptr != end || shard.index < 1 || shard.count > most ||
+      shard.index > shard.count)
+    throw InputError({where}, fmt::format("'{}' is no shard", text), "write K/N, from 1/N to N/N");
+  return shard;
+}
+
+int shards_needed(const Standing& standing, int most_stages) {
+  std::size_t left = 0, jobs = 0;
+  for (std::size_t k = 0; k < standing.states.size(); ++k) {
+    if (!standing.study.jobs[k].failure.empty()) continue;
+    left += stage_count - standing.states[k].next;
+    ++jobs;
+  }
+  const std::size_t most = static_cast<std::size_t>(most_stages), jobs_each = std::max<std::size_t>(1, most / stage_count);
+  return left <= most ? 1 : static_cast<int>((jobs + jobs_each - 1) / jobs_each);
+}
+
+void keep_shard(Standing& standing, const Shard& shard) {
+  const std::size_t jobs = standing.states.size();
+  std::unordered_map<std::string, std::size_t> firsts;  // of each simulation
+  std::vector<std::size_t> order(jobs), group(jobs);
+  for (std::size_t k = 0; k < jobs; ++k) group[k] = firsts.emplace(standing.states[k].recipes[0], k).first->second;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return group[a] < group[b]; });
+  const auto begin_of = [&](int index) {
+    return jobs * static_cast<std::size_t>(index - 1) / static_cast<std::size_t>(shard.count);
+  };
+  std::vector<std::size_t> kept(order.begin() + static_cast<std::ptrdiff_t>(begin_of(shard.index)),
+                                order.begin() + static_cast<std::ptrdiff_t>(begin_of(shard.index + 1)));
+  std::sort(kept.begin(), kept.end());
+  Study study{standing.study.name, {}, standing.study.keep};
+  std::vector<JobState> states;
+  for (const std::size_t k : kept) {
+    study.jobs.push_back(std::move(standing.study.jobs[k]));
+    states.push_back(std::move(standing.states[k]));
+  }
+  standing.study = std::move(study);
+  standing.states = std::move(states);
+  standing.places.shard = shard.name();
+}
+
+}  // namespace dresslife::pipeline
