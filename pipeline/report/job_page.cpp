@@ -184,8 +184,9 @@ class Page {
     check_together(life_, strain_.get());
     if (!motion_) return;
     if (const std::string limits = broken_limits(*motion_); !limits.empty()) notes_.push_back(limits);
-    const std::string source = files.motion().string() + " (attribute job)";
-    setup_ = setup_from(parse_yaml(motion_->text_attribute("job"), source));
+    // The motion may be another job's that moves alike, with other cables in the hose; a life is each job's own.
+    const std::string source = files.life().string() + " (attribute job)";
+    setup_ = setup_from(parse_yaml(life_.text_attribute("job"), source));
   }
 
   std::string text(const std::string& made_from) {
