@@ -14,6 +14,7 @@
 #include "pipeline/readable.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/life_charts.h"
+#include "pipeline/report/life_matrix.h"
 #include "pipeline/report/motion_checks.h"
 #include "pipeline/report/page_assets.h"
 #include "pipeline/report/plot.h"
@@ -26,6 +27,8 @@ namespace {
 
 /// A job's charts take about 60 kB: of a larger study only the best and the worst have them.
 constexpr std::size_t most_detailed = 40;
+/// What a browser lays out at once; it asks for the others.
+constexpr std::size_t rows_at_once = 100;
 constexpr std::size_t most_compared = 40;
 constexpr std::size_t listed_lines = 10, listed_layers = 12;
 
@@ -41,6 +44,7 @@ th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { t
 .meter { display: inline-block; width: 8rem; height: .7rem; background: var(--band); margin-right: .5rem; }
 .meter > span { display: block; height: 100%; background: var(--hot); }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: .5rem 0; } dt { color: var(--soft); } dd { margin: 0; }
+[id^=job-] { content-visibility: auto; contain-intrinsic-size: auto 60rem; }
 details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8rem; line-height: 1.35; }
 .tools { display: flex; flex-wrap: wrap; gap: .4rem 1rem; align-items: center; margin: .8rem 0; font-size: .9rem; }
@@ -48,8 +52,10 @@ pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8re
 .sort { font: inherit; color: inherit; text-align: inherit; background: none; border: 0; padding: 0; cursor: pointer; }
 .sort::after { content: ""; } [aria-sort=ascending] .sort::after { content: " \25B2"; } [aria-sort=descending] .sort::after { content: " \25BC"; }
 .pick { margin-right: .3rem; } caption { text-align: left; color: var(--soft); padding: .6rem 0 .2rem; } tbody th { font-weight: 400; vertical-align: top; }
-#compared td { overflow-wrap: anywhere; } #ranking details { margin: 0; } #ranking summary { color: var(--hot); } #ranking ul { margin: .2rem 0; padding-left: 1rem; }
-@media print { .tools, .pick, .sort::after { display: none; } details { display: none; } h2 { break-before: page; } }
+#compared td { overflow-wrap: anywhere; } #ranking details { margin: 0; } #ranking summary { color: var(--hot); } #matrix { width: auto; } #matrix td, #matrix th { padding: .25rem .6rem; } #matrix td { text-align: right; border: 1px solid var(--page); } #matrix thead th { overflow-wrap: anywhere; }
+#matrix .coloured, #matrix .coloured a { color: #111; } #ranking ul { margin: .2rem 0; padding-left: 1rem; }
+@media print { [id^=job-] { content-visibility: visible; } .tools, .pick, .sort::after { display: none; } details, template { display: none; } h2 { break-before: page; } svg, tr { break-inside: avoid; } h3 { break-after: avoid; }
+  body { max-width: none; padding: 0; font-size: 12px; } thead { display: table-header-group; } .wide { overflow: visible; } #matrix .coloured { print-color-adjust: exact; -webkit-print-color-adjust: exact; }  }
 )";
 
 std::string life_cell(double life) { return std::isinf(life) ? "no damage" : printed(life); }
@@ -73,8 +79,8 @@ std::string place_words(const RankingRow& row) {
 
 bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
 
-/// To a page beside the job's results, where there is one.
-std::string page_link(const RankingRow& row, const std::string& page, const std::string& words) {
+/// Of a page beside the job's results, as seen from the study's; empty where there is none.
+std::string page_address(const RankingRow& row, const std::string& page) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(row.life_file.parent_path() / page, ignored)) return "";
   std::string address;
@@ -82,7 +88,12 @@ std::string page_link(const RankingRow& row, const std::string& page, const std:
     address += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.'
                    ? std::string(1, c)
                    : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return fmt::format("<p><a href=\"{}/{}\">{}</a></p>\n", address, page, words);
+  return address + "/" + page;
+}
+
+std::string page_link(const RankingRow& row, const std::string& page, const std::string& words) {
+  const std::string address = page_address(row, page);
+  return address.empty() ? "" : fmt::format("<p><a href=\"{}\">{}</a></p>\n", address, words);
 }
 
 // ---- ranking ----------------------------------------------------------------------------------------------
@@ -120,9 +131,11 @@ std::string certainty_cell(const RankingRow& row) {
   return text + "</span>";
 }
 
-std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
+/// Of rows [first, end).
+std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed, std::size_t first,
+                         std::size_t end) {
   std::string text;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (std::size_t i = first; i < std::min(end, rows.size()); ++i) {
     const RankingRow& row = rows[i];
     const std::string name =
         detailed[i] ? fmt::format("<a href=\"#job-{}\">{}</a>", i + 1, escaped(row.job)) : escaped(row.job);
@@ -210,14 +223,25 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
   return picture.svg();
 }
 
+/// Read when somebody asks for them: a browser neither lays out nor draws what a template holds.
+std::string more_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
+  if (rows.size() <= rows_at_once) return "";
+  return fmt::format(
+      "<noscript><p>The first {} of {} jobs; ranking.csv holds all.</p></noscript>\n<template id=\"more-jobs\">\n{}</template>\n",
+      rows_at_once, rows.size(), ranking_rows(rows, detailed, rows_at_once, rows.size()));
+}
+
 std::string ranking_section(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   const std::string chart = comparison_chart(rows);
+  const std::string matrix = life_matrix(rows, [&](std::size_t k) {
+    return detailed[k] ? fmt::format("#job-{}", k + 1) : page_address(rows[k], rows[k].done() ? "page.html" : "preview.html");
+  });
   return fmt::format(
       "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">p10 life [h]</th>"
       "<th class=\"number\">inside stuck .. free [h]</th><th class=\"number\">first break in 10 .. 90 % "
       "[h]</th><th "
       "class=\"number\">calendar</th>"
-      "<th>breaks first</th><th>what moved then</th><th>warnings</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}"
+      "<th>breaks first</th><th>what moved then</th><th>warnings</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}{}{}"
       "<p class=\"soft\">The p10 life is the planner's, in hours of motion: by then 10 % of such dresspacks have a "
       "conductor that has lost its share of wires (fatigue.failed_wires_percent) at one place; the calendar counts the "
       "job's operating hours per week. "
@@ -225,7 +249,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "freely longer, and the truth lies between; these bounds are told by the ratio of the worst wires' lives. "
       "Wires scatter, and a dresspack has thousands: its first break comes earlier, in 10 to 90 % of such dresspacks "
       "between the hours given. Material constants are medians.</p>\n",
-      ranking_rows(rows, detailed),
+      ranking_rows(rows, detailed, 0, rows_at_once), more_rows(rows, detailed), matrix,
       chart.empty() ? ""
                     : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the life that 10 % of such dresspacks do not "
                       "reach. Blue bar: the same stuck to free inside. Orange: what 10 to 90 % reach.</p>\n" +

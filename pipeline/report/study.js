@@ -1,7 +1,11 @@
 // The page of a study: its ranking sorted by any column and filtered by words, two jobs side by side. Without scripts
 // the table stands as it was written, best life first.
-const table = document.getElementById('ranking');
-const rows = [...table.tBodies[0].rows], heads = [...table.tHead.rows[0].cells];
+const table = document.getElementById('ranking'), body = table.tBodies[0];
+const more = document.getElementById('more-jobs');
+// In the order in which they are looked at. Of thousands a browser lays out what it is asked for.
+const rowsAtOnce = 100;
+let rows = [...body.rows, ...(more ? more.content.children : [])], most = rowsAtOnce;
+const heads = [...table.tHead.rows[0].cells];
 
 function made(name, attributes = {}, ...children) {
   const element = document.createElement(name);
@@ -22,13 +26,15 @@ function valueOf(row, column) {
 
 function sortBy(column, direction) {
   const sign = direction === 'ascending' ? 1 : -1;
-  const keyed = rows.map((row, written) => ({row, written, value: valueOf(row, column)}));
+  const keyed = rows.map(row => ({row, written: Number(row.dataset.rank), value: valueOf(row, column)}));
   keyed.sort((a, b) => {
     if (a.value === null || b.value === null) return (a.value === null) - (b.value === null) || a.written - b.written;
     const order = typeof a.value === 'string' ? a.value.localeCompare(b.value) : a.value < b.value ? -1 : +(a.value > b.value);
     return sign * order || a.written - b.written;
   });
-  table.tBodies[0].append(...keyed.map(entry => entry.row));
+  rows = keyed.map(entry => entry.row);
+  most = rowsAtOnce;
+  show();
   heads.forEach((head, k) => head.setAttribute('aria-sort', k === column ? direction : 'none'));
 }
 
@@ -49,21 +55,47 @@ heads[0].setAttribute('aria-sort', 'ascending');
 const words = made('input', {type: 'search', 'aria-label': 'show only jobs with these words', placeholder: 'filter jobs'});
 const warned = made('input', {type: 'checkbox'});
 const count = made('span', {role: 'status'});
-const texts = rows.map(row => row.textContent.toLowerCase());
-function filter() {
+const rest = made('p', {class: 'tools'}), texts = new Map();
+
+function textOf(row) {
+  if (!texts.has(row)) texts.set(row, row.textContent.toLowerCase());
+  return texts.get(row);
+}
+function button(words, action) {
+  const element = made('button', {type: 'button'}, words);
+  element.addEventListener('click', action);
+  return element;
+}
+const counted = number => number.toLocaleString('en-US');
+
+// The first of the rows that are asked for.
+function show() {
   const wanted = words.value.toLowerCase().split(/\s+/).filter(Boolean);
-  let shown = 0;
-  rows.forEach((row, k) => {
-    row.hidden = !wanted.every(word => texts[k].includes(word)) || (warned.checked && !(Number(row.dataset.warnings) > 0));
-    shown += !row.hidden;
-  });
-  count.textContent = shown === rows.length ? '' : `${shown} of ${rows.length} jobs`;
+  const found = rows.filter(
+      row => (!warned.checked || Number(row.dataset.warnings) > 0) && (!wanted.length || wanted.every(word => textOf(row).includes(word))));
+  const shown = found.slice(0, most);
+  shown.forEach(offerComparison);
+  body.replaceChildren(...shown);
+  count.textContent = found.length === rows.length ? '' : `${counted(found.length)} of ${counted(rows.length)} jobs`;
+  rest.hidden = shown.length === found.length;
+  if (rest.hidden) return;
+  const further = number => () => {
+    most = shown.length + number;
+    show();
+  };
+  rest.replaceChildren(
+      `The first ${counted(shown.length)} of ${counted(found.length)} jobs. `,
+      button(`${Math.min(rowsAtOnce, found.length - shown.length)} more`, further(rowsAtOnce)), button('all', further(Infinity)));
+}
+function filter() {
+  most = rowsAtOnce;
+  show();
 }
 words.addEventListener('input', filter);
 warned.addEventListener('change', filter);
 const compared = made('section', {id: 'compared', 'aria-live': 'polite'});
 table.parentElement.before(made('div', {class: 'tools'}, words, made('label', {}, warned, ' with warnings only'), count));
-table.parentElement.after(compared);
+table.parentElement.after(rest, compared);
 
 // ---- two jobs side by side --------------------------------------------------------------------------------------------
 
@@ -94,10 +126,18 @@ function settingsOf(text) {
 
 const settingsText = row => document.querySelector(`#job-${row.dataset.rank} pre.settings`)?.textContent;
 
+// Of a row that is not laid out, too.
+function wordsOf(cell) {
+  if (!cell) return '';
+  const copy = cell.cloneNode(true);
+  for (const end of copy.querySelectorAll('br')) end.replaceWith('\n');
+  return copy.textContent.trim();
+}
+
 function differences([one, other]) {
   const lines = [];
   for (let column = 2; column < heads.length; ++column) {
-    const [a, b] = [one, other].map(row => row.cells[column]?.innerText.trim() || '-');
+    const [a, b] = [one, other].map(row => wordsOf(row.cells[column]) || '-');
     if (a !== b) lines.push([heads[column].innerText, a, b]);
   }
   const texts = [one, other].map(settingsText);
@@ -133,7 +173,8 @@ function compare() {
     compared.append(comparison('What differs in the settings', settings, names));
 }
 
-for (const row of rows) {
+function offerComparison(row) {
+  if (row.querySelector('.pick')) return;
   const box = made('input', {type: 'checkbox', 'aria-label': `compare ${row.dataset.job}`});
   box.addEventListener('change', () => {
     picked = picked.filter(other => other !== row);
@@ -143,4 +184,5 @@ for (const row of rows) {
   });
   row.cells[1].prepend(made('label', {class: 'pick', title: 'compare with another job'}, box));
 }
+show();
 document.body.dataset.ready = 'yes';

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <string_view>
 
 #include "pipeline/files/files.h"
@@ -292,7 +293,16 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
       result.failure = states[k].failure.empty() ? states[k].words() : states[k].failure;
     results.push_back(std::move(result));
   }
-  return read_ranking(results);
+  std::vector<RankingRow> rows = read_ranking(results);
+  std::map<std::string_view, const StudyJob*> jobs;
+  for (const StudyJob& job : study.jobs) jobs.emplace(job.name, &job);
+  for (RankingRow& row : rows) {
+    const auto job = jobs.find(row.job);
+    if (job == jobs.end() || job->second->values.size() != study.varied.size()) continue;
+    for (std::size_t k = 0; k < study.varied.size(); ++k)
+      row.varied.emplace_back(study.varied[k], job->second->values[k]);
+  }
+  return rows;
 }
 
 std::string certainty_words(const RankingRow& row) {

@@ -47,6 +47,8 @@ struct RankingRow {
   std::filesystem::path life_file;
   std::string failure;                  ///< empty: done, and the rest holds
   std::string settings;                 ///< of which the row tells; empty: not known
+  /// What its study varies, and in words of the job's name which value it has; empty: not of a study.
+  std::vector<std::pair<std::string, std::string>> varied;
   double life_repeats = 0;              ///< repeats of the motion until the worst wire breaks
   double life_hours = 0;                ///< hours of motion
   double life_months = 0;               ///< at the job's operating hours per week

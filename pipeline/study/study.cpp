@@ -47,7 +47,7 @@ std::vector<Variant> named_changes(const Node* jobs) {
                      "write 'jobs: {NAME: {KEY.PATH: VALUE}}'");
   std::vector<Variant> variants;
   for (const Entry& job : jobs->entries) {
-    Variant variant{job.key, {}};
+    Variant variant{job.key, {}, {job.key}};
     if (job.value.kind != Node::Kind::map && job.value.kind != Node::Kind::null)
       throw InputError(job.value.where, fmt::format("job '{}' must be a map of keys to values", job.key),
                        "write {KEY.PATH: VALUE}");
@@ -69,6 +69,7 @@ std::vector<Variant> combined(const std::vector<Variant>& variants, const std::v
       Variant& next = longer.emplace_back(variant);
       next.name += (next.name.empty() ? "" : "-") + other.name;
       next.changes.insert(next.changes.end(), other.changes.begin(), other.changes.end());
+      next.values.push_back(other.name);
     }
   return longer;
 }
@@ -84,7 +85,7 @@ std::vector<Variant> all_combinations(std::vector<Variant> variants, const Node*
                        "write [A, B, ...]");
     std::vector<Variant> values;
     for (std::size_t i = 0; i < key.value.items.size(); ++i)
-      values.push_back({value_name(key.key, key.value.items[i], i), {{key.key, key.value.items[i], key.where}}});
+      values.push_back({value_name(key.key, key.value.items[i], i), {{key.key, key.value.items[i], key.where}}, {}});
     variants = combined(variants, values, key.where);
   }
   return variants;
@@ -101,10 +102,22 @@ std::vector<Variant> variants_of(const Node& study) {
   return variants;
 }
 
+/// What variants_of() combines, in its order.
+std::vector<std::string> varied_of(const Node& study) {
+  std::vector<std::string> varied;
+  for (const char* part : {"jobs", "table"})
+    if (study.find(part)) varied.push_back(part);
+  if (const Node* vary = study.find("vary"))
+    for (const Entry& key : vary->entries) varied.push_back(key.key);
+  if (study.find("sample")) varied.push_back("sample");
+  return varied;
+}
+
 StudyJob make_job(const Node& base, const Variant& variant, const std::string& fallback_name,
                   const std::vector<std::string>& sets) {
   StudyJob made;
   made.name = folder_name(variant.name.empty() ? fallback_name : variant.name);
+  made.values = variant.values;
   try {
     Node document = base;
     for (const Change& change : variant.changes) set_value(document, change.path, change.value, change.where);
@@ -194,6 +207,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
   check_keys(document);
   study.name = name_of(document, file);
   study.keep = disk_of(document).keep;
+  study.varied = varied_of(document);
 
   const Node base = base_of(document);
   std::set<std::string> names;

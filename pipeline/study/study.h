@@ -26,6 +26,7 @@ struct StudyJob {
   std::string name;                ///< unique in the study, fit for a folder
   std::shared_ptr<const Job> job;  ///< when it can be run, in a study that was expanded
   std::string failure;             ///< else: the one line that says why not
+  std::vector<std::string> values{};  ///< (varied) of what the study varies, in words of the name
 };
 
 /// What of a job stays on the disk when it is done.
@@ -50,6 +51,7 @@ struct Study {
   std::string name;
   std::vector<StudyJob> jobs;  ///< in the order of the file
   Keep keep = Keep::all;
+  std::vector<std::string> varied{};  ///< "jobs", "table", the keys of vary, "sample"; in the order of names
 };
 
 /// The name of a study, without expanding it. Errors: InputError.

@@ -17,6 +17,7 @@ struct Change {
 struct Variant {
   std::string name;
   std::vector<Change> changes;
+  std::vector<std::string> values;  ///< of each thing that the study varies, as its name has them
 };
 
 inline constexpr std::size_t most_jobs = 100'000;  ///< of a study

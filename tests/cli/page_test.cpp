@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "pipeline/files/files.h"
+#include "pipeline/report/report.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
 
@@ -133,6 +134,7 @@ TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by 
     seen.push(await jobs(), await order());
     await evaluate(`{ const words = document.querySelector('.tools input'); words.value = '0.9'; words.dispatchEvent(new Event('input')); }`);
     seen.push(await evaluate(`document.querySelector('[role=status]').textContent.replace(/ /g, '_')`));
+    await evaluate(`{ const words = document.querySelector('.tools input'); words.value = ''; words.dispatchEvent(new Event('input')); }`);
     await click('.pick input', 0);
     await click('.pick input', 2);
     seen.push(await evaluate(`[...document.querySelectorAll('#compared table')][1].innerText.split(/\\s+/).join('_')`));
@@ -149,4 +151,40 @@ TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by 
   CHECK(down == "descending");
   CHECK(count == "2_of_3_jobs");
   CHECK(settings.find("routing.free_length_m_0.92_0.88") != std::string::npos);
+}
+
+TEST_CASE("the page of a study of 2,000 jobs in a browser: a hundred rows at once, sorted and filtered over all") {
+  Scratch scratch;
+  dresslife::pipeline::RankingRow row;
+  row.damage_per_repeat = 1e-4;
+  row.life_repeats = row.life_repeats_all_stick = row.life_repeats_all_free = 1e4;
+  row.repeat_seconds = 60;
+  row.worst_component = "signal cable/layer 1/wire 2";
+  row.worst_segment_from_tool = 1;
+  std::vector<dresslife::pipeline::RankingRow> rows(2000, row);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].job = fmt::format("job-{:04}", k);
+    rows[k].life_hours = 1e5 - static_cast<double>(k);
+  }
+  dresslife::pipeline::write_report(scratch / "report.html", "many", rows);
+  const std::string seen = in_browser(scratch, "report.html", R"(
+    const rows = () => evaluate(`document.querySelectorAll('#ranking tbody tr').length`);
+    const first = () => evaluate(`document.querySelector('#ranking tbody tr').dataset.job`);
+    const ask = text => evaluate(`{ const words = document.querySelector('.tools input'); words.value = '${text}'; words.dispatchEvent(new Event('input')); }`);
+    const seen = [await rows()];
+    await evaluate(`document.querySelectorAll('#ranking th button')[2].click()`);
+    await evaluate(`document.querySelectorAll('#ranking th button')[2].click()`);
+    seen.push(await first());
+    await ask('job-19');
+    seen.push(await rows(), await first());
+    await ask('job-0777');
+    seen.push(await rows());
+    await ask('');
+    await evaluate(`[...document.querySelectorAll('.tools button')].find(b => b.textContent === 'all').click()`);
+    seen.push(await rows());
+    return seen.join(' ');)");
+  if (seen.empty()) return;
+  INFO(seen);
+  CHECK(seen.find("\"problems\":[]") != std::string::npos);
+  CHECK(result_of(seen) == "100 job-1999 100 job-1999 1 2000");
 }

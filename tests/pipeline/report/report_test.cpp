@@ -227,6 +227,49 @@ TEST_CASE("report: the page stays small for long motions and large studies") {
   CHECK(large.find("job 100") != std::string::npos);  // still ranked
 }
 
+TEST_CASE("report: of thousands of rows the first hundred are laid out, the others wait in a template") {
+  const Scratch scratch;
+  const RankingRow row = read_ranking({job_with(scratch, "one", {})}).front();
+  std::vector<RankingRow> rows(2000, row);
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].job = fmt::format("job {:04}", k);
+  const std::string page = report_page("many", rows);
+  check_page(page);
+  const std::size_t waiting = page.find("<template");
+  CHECK(count_of(page.substr(0, waiting), "<tr data-rank") == 100);
+  CHECK(count_of(page.substr(waiting, page.find("</template>") - waiting), "<tr data-rank") == 1900);
+  CHECK(report_page("few", {rows.begin(), rows.begin() + 100}).find("<template") == std::string::npos);
+}
+
+TEST_CASE("report: a study over two keys is a matrix of lives, numbers in their order, failures and warnings marked") {
+  const Scratch scratch;
+  const RankingRow row = read_ranking({job_with(scratch, "one", {})}).front();
+  std::vector<RankingRow> rows;
+  for (const char* length : {"length_m=1.2", "length_m=0.95", "length_m=10"})
+    for (const char* motion : {"easy", "hard"}) {
+      rows.push_back(row);
+      rows.back().job = fmt::format("{}-{}", length, motion);
+      rows.back().life_hours = 1000.0 * static_cast<double>(rows.size());
+      rows.back().varied = {{"routing.length_m", length}, {"motion", motion}, {"fatigue.stress", "cyclic"}};
+    }
+  rows[1].failure = "too short";
+  rows.erase(rows.begin() + 4);  // not all combinations
+  const std::string page = report_page("two keys", rows);
+  check_page(page);
+  const std::size_t begin = page.find("<table id=\"matrix\">");
+  REQUIRE(begin != std::string::npos);
+  const std::string matrix = page.substr(begin, page.find("</table>", begin) - begin);
+  CHECK(matrix.find("length_m=0.95") < matrix.find("length_m=1.2"));
+  CHECK(matrix.find("length_m=1.2") < matrix.find("length_m=10"));
+  CHECK(matrix.find("<th scope=\"col\">easy</th><th scope=\"col\">hard</th>") != std::string::npos);
+  CHECK(matrix.find("<a href=\"#job-1\">1,000</a>") != std::string::npos);
+  CHECK(matrix.find("#eb9146") != std::string::npos);  // the shortest
+  CHECK(matrix.find("#78b4dc") != std::string::npos);  // the longest
+  CHECK(count_of(matrix, "class=\"failed\"") == 1);
+  CHECK(count_of(matrix, "<td>-</td>") == 1);
+  CHECK(count_of(matrix, "</td>") == 6);
+  CHECK(report_page("one key", {rows.begin(), rows.begin() + 1}).find("id=\"matrix\"") == std::string::npos);
+}
+
 TEST_CASE("report: the file is left untouched when nothing changed") {
   const Scratch scratch;
   const auto rows = read_ranking({job_with(scratch, "one", {})});
