@@ -87,6 +87,29 @@ std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
                      });
 }
 
+std::vector<double> stress_along(std::span<const double> strain, const pipeline::Material& material,
+                                 const pipeline::Fatigue& settings, double share) {
+  if (strain.empty()) return {};
+  const bool table = !material.strain_life_table.empty(), repeating = is_repeated(settings.counting);
+  std::optional<CyclicCurve> cyclic;
+  if (yields(settings.stress) && !table) cyclic.emplace(material);
+  MemoryPath memory([&](double at) { return cyclic ? cyclic->stress(at) : material.youngs_modulus * at; });
+  const auto smaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
+  const std::size_t samples = strain.size();
+  const std::size_t first =
+      repeating ? static_cast<std::size_t>(std::max_element(strain.begin(), strain.end(), smaller) - strain.begin()) : 0;
+  std::vector<double> stress(samples);
+  std::vector<Reversal> path(samples);
+  for (std::size_t i = 0; i < samples; ++i) {
+    const std::size_t k = (first + i) % samples;
+    stress[k] = memory.go_to(strain[k]);
+    path[k].strain = strain[k];
+  }
+  if (repeating && share != 1 && !table)
+    for (const double gone = relaxed_by(path, stress, share); double& s : stress) s -= gone;
+  return stress;
+}
+
 double sum_of_damage(std::span<const DamagingCycle> cycles) {
   double sum = 0;
   for (const DamagingCycle& c : cycles) sum += c.damage;

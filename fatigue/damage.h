@@ -34,6 +34,11 @@ std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
                                            const pipeline::Material& material,
                                            const pipeline::Fatigue& settings, double share = 1);
 
+/// Stress [Pa] along a history (sample) as evaluate_cycles() has it at the reversals: of a repeat that began at its largest
+/// |strain|, where it is counted as repeated. Same arguments.
+std::vector<double> stress_along(std::span<const double> strain, const pipeline::Material& material,
+                                 const pipeline::Fatigue& settings, double share = 1);
+
 /// (10) over listed cycles.
 double sum_of_damage(std::span<const DamagingCycle> cycles);
 

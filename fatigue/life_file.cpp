@@ -322,21 +322,28 @@ std::vector<double> worst_history(const Context& c) {
   return strain;
 }
 
+/// With the stress that belongs to it, where a wire was evaluated.
+void put_worst(const Context& c, const std::vector<double>& strain) {
+  put(c.life, "/worst/strain", strain);
+  if (c.worst != no_site)
+    put(c.life, "/worst/stress",
+        stress_along(strain, pipeline::material_of(c.job, c.sites.material()[c.worst]), c.job.fatigue, c.offset_share(c.worst)));
+}
+
 /// Writes it; straight between the turning points where there is none. Returns what is known of it.
 std::vector<Reversal> write_worst_strain(const Context& c) {
-  const char* const dataset = "/worst/strain";
   const std::vector<double> history = worst_history(c);
   if (history.empty()) {
     std::vector<Reversal> turns;
     if (c.worst != no_site) turns = c.reversals_of(c.worst);
     if (turns.empty()) {
-      put(c.life, dataset, std::vector<double>(c.time.size(), 0.0));
+      put_worst(c, std::vector<double>(c.time.size(), 0.0));
       return {};
     }
-    put(c.life, dataset, strain_between_reversals(turns, c.time.size()));
+    put_worst(c, strain_between_reversals(turns, c.time.size()));
     return turns;
   }
-  put(c.life, dataset, history);
+  put_worst(c, history);
   std::vector<Reversal> known;
   for (const double strain : history) known.push_back({strain, static_cast<std::int64_t>(known.size())});
   return known;

@@ -10,6 +10,8 @@
 #include <optional>
 
 #include "pipeline/files/motion_layout.h"
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/job/document.h"
 #include "pipeline/report/json.h"
 
 namespace dresslife::pipeline {
@@ -20,6 +22,7 @@ constexpr std::size_t most_strains = 450'000;  // of two bytes each
 constexpr std::size_t most_samples = 20'000;
 constexpr std::size_t most_closings = 300;  // of each segment
 constexpr double least_closing = 1e-4;      // of a segment's damage: 0.01 %
+constexpr int cycle_cells = 24;             // along range and mean, as wide as a thumb on a phone can be told apart
 
 /// A history as it is, or by the two extremes of each of equal stretches, in the order in which they occur.
 class Thinning {
@@ -30,17 +33,28 @@ class Thinning {
   bool thins() const { return stretch_ > 1; }
   std::size_t length() const { return thins() ? 2 * ((samples_ + stretch_ - 1) / stretch_) : samples_; }
 
-  std::vector<double> of(const std::vector<double>& history) const {
-    if (!thins()) return history;
-    std::vector<double> thin;
+  std::vector<double> of(const std::vector<double>& history) const { return at(history, kept(history)); }
+  /// Samples of a history that are kept.
+  std::vector<std::size_t> kept(const std::vector<double>& history) const {
+    std::vector<std::size_t> samples;
+    if (!thins()) {
+      samples.resize(samples_);
+      std::iota(samples.begin(), samples.end(), 0);
+      return samples;
+    }
     for (std::size_t from = 0; from < samples_; from += stretch_) {
       const auto begin = history.begin() + static_cast<std::ptrdiff_t>(from),
                  end = history.begin() + static_cast<std::ptrdiff_t>(std::min(from + stretch_, samples_));
       const auto [low, high] = std::minmax_element(begin, end);
-      thin.push_back(low < high ? *low : *high);
-      thin.push_back(low < high ? *high : *low);
+      samples.push_back(static_cast<std::size_t>(std::min(low, high) - history.begin()));
+      samples.push_back(static_cast<std::size_t>(std::max(low, high) - history.begin()));
     }
-    return thin;
+    return samples;
+  }
+  static std::vector<double> at(const std::vector<double>& history, const std::vector<std::size_t>& samples) {
+    std::vector<double> values;
+    for (const std::size_t sample : samples) values.push_back(history[sample]);
+    return values;
   }
   std::vector<float> times(const std::vector<double>& time) const {
     std::vector<float> thin;
@@ -78,8 +92,8 @@ class Data {
 
   std::string text() const {
     return fmt::format(
-        "{{{},\"segments\":{},\"strains\":{},\"closings\":{},\"program\":{},\"joints\":{}}}", attributes(),
-        segments(), strains(), closings(), program(),
+        "{{{},\"segments\":{},\"strains\":{},\"closings\":{},{}{}\"program\":{},\"joints\":{}}}", attributes(),
+        segments(), strains(), closings(), cycles(), loops(), program(),
         json(life_.has("/joint/name") ? life_.read<std::string>("/joint/name") : std::vector<std::string>{}));
   }
 
@@ -242,6 +256,76 @@ class Data {
                           base64_of(pairs));
     }
     return '[' + rows + ']';
+  }
+
+  /// The worst site's cycles by range and mean: of each cell that holds any its place, their number, their damage, and when the
+  /// most damaging one closes.
+  std::string cycles() const {
+    if (!worst_) return "";
+    struct Cell {
+      double count = 0, damage = 0, most = -1, time = 0;
+    };
+    const auto site = life_.read<std::uint32_t>("/cycles/site"), end = life_.read<std::uint32_t>("/cycles/end");
+    const auto range = life_.read<double>("/cycles/range"), mean = life_.read<double>("/cycles/mean"),
+               count = life_.read<double>("/cycles/count"), damage = life_.read<double>("/cycles/damage");
+    double high = 0, low_mean = INFINITY, high_mean = -INFINITY;
+    for (std::size_t k = 0; k < site.size(); ++k) {
+      if (site[k] != *worst_) continue;
+      high = std::max(high, range[k]);
+      low_mean = std::min(low_mean, mean[k]);
+      high_mean = std::max(high_mean, mean[k]);
+    }
+    if (!(high > 0)) return "";
+    const auto place = [](double value, double low, double width) {
+      return width > 0 ? std::min(cycle_cells - 1, static_cast<int>((value - low) / width * cycle_cells)) : 0;
+    };
+    std::map<std::pair<int, int>, Cell> cells;
+    for (std::size_t k = 0; k < site.size(); ++k) {
+      if (site[k] != *worst_) continue;
+      Cell& cell = cells[{place(mean[k], low_mean, high_mean - low_mean), place(range[k], 0, high)}];
+      cell.count += count[k];
+      cell.damage += damage[k];
+      if (damage[k] <= cell.most) continue;
+      cell.most = damage[k];
+      cell.time = time_.at(std::min<std::size_t>(end[k], time_.size() - 1));
+    }
+    std::string rows;
+    for (const auto& [at, cell] : cells)
+      rows += fmt::format("{}[{},{},{},{},{}]", rows.empty() ? "" : ",", at.first, at.second, json(cell.count),
+                          json(cell.damage), json(cell.time));
+    return fmt::format("\"cycles\":{{\"cells\":{},\"range\":{},\"low_mean\":{},\"high_mean\":{},\"rows\":[{}]}},", cycle_cells,
+                       json(high), json(low_mean), json(high_mean), rows);
+  }
+
+  /// Stress over strain of the worst site.
+  std::string loops() const {
+    if (!worst_ || !life_.has("/worst/stress")) return "";
+    const auto strain = life_.read<double>("/worst/strain"), stress = life_.read<double>("/worst/stress");
+    const std::vector<std::size_t> kept = thinning_.kept(strain);
+    std::vector<float> times;
+    for (const std::size_t sample : kept) times.push_back(static_cast<float>(time_[sample] - time_[0]));
+    return fmt::format("\"loops\":{{\"rule\":{},\"time\":{},\"strain\":{},\"stress\":{}}},", json(stress_rule()), base64_of(times),
+                       packed(Thinning::at(strain, kept)), packed(Thinning::at(stress, kept)));
+  }
+
+  /// What stress follows, in words.
+  std::string stress_rule() const {
+    const Node job = parse_yaml(life_.text_attribute("job"), life_.where().file + " (attribute job)");
+    const Node* fatigue = job.find("fatigue");
+    const Node* stress = fatigue ? fatigue->find("stress") : nullptr;
+    return !stress ? "stress as fatigue.stress has it"
+           : stress->text == "elastic"
+               ? "E times strain (fatigue.stress: elastic), shifted by what of its mean stress relaxes"
+               : "by the cyclic curve of its metal and Masing's rule (fatigue.stress: cyclic; E times strain where a strain-life "
+                 "table is given), shifted by what of its mean stress relaxes. Where it is one line, the metal hardly yields";
+  }
+
+  static std::string packed(const std::vector<double>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const Steps steps(*low, *high);
+    std::vector<std::uint16_t> numbers;
+    for (const double value : values) numbers.push_back(steps.of(value));
+    return fmt::format("{{\"low\":{},\"step\":{},\"numbers\":{}}}", json(steps.low), json(steps.step), base64_of(numbers));
   }
 
   std::string program() const {

@@ -19,6 +19,7 @@ constexpr std::size_t most_samples = 20'000;      // looked at; of longer motion
 constexpr double first_miss = 0.5e-3;             // allowed of a place [m]
 constexpr double shape_miss = 0.01 / first_miss;  // of largest curvature and twist, per metre of that
 constexpr std::size_t rows_at_once = 512;
+constexpr std::string_view contact = "contact";  // a group
 
 /// Every second of 64 centres, with a spline through them, misses those between by hundredths of a
 /// millimetre.
@@ -26,9 +27,9 @@ constexpr std::size_t most_points = 34;  // of a dresspack, and the two ends
 
 /// Consecutive quantities of a row that share their steps and their unit.
 struct Group {
-  const char* name;
+  std::string_view name;
   std::size_t begin, size;
-  double weight;  ///< [m per its unit] turns a miss into one of a place
+  double weight;  ///< [m per its unit] turns a miss into one of a place; 0: it may miss anything
   bool narrow;    ///< one byte each: what is only coloured
 };
 
@@ -78,6 +79,7 @@ class Player {
     if (motion.has("/robot/joint_position"))
       add("joints", read_strided(motion, "/robot/joint_position", stride_), first_miss / 2e-3, false);
     if (strain) read_shape(*strain);
+    if (motion.has("/contact/force")) add(contact, read_strided(motion, "/contact/force", stride_), 0, true);
     join();
   }
 
@@ -86,12 +88,13 @@ class Player {
     std::vector<std::size_t> keys = key_samples(histories_, tolerance(miss));
     while (keys.size() * row_bytes() > most_bytes && keys.size() > 2)
       keys = key_samples(histories_, tolerance(miss *= 2));
+    gather_contacts(keys);
     return written(keys);
   }
 
  private:
   /// values: (sample, quantity)
-  void add(const char* name, std::vector<double> values, double weight, bool narrow) {
+  void add(std::string_view name, std::vector<double> values, double weight, bool narrow) {
     const std::size_t samples = histories_.time.size(), size = values.size() / samples;
     groups_.push_back({name, histories_.width, size, weight, narrow});
     parts_.push_back(std::move(values));
@@ -172,6 +175,19 @@ class Player {
         std::copy_n(&parts_[g][k * groups_[g].size], groups_[g].size,
                     &histories_.rows[k * histories_.width + groups_[g].begin]);
     parts_.clear();
+  }
+
+  /// Contacts come and go from sample to sample and choose none: a key sample tells the largest since the one before it.
+  void gather_contacts(const std::vector<std::size_t>& keys) {
+    for (const Group& group : groups_) {
+      if (group.name != contact) continue;
+      for (std::size_t k = keys.size(); k-- > 1;)
+        for (std::size_t sample = keys[k - 1] + 1; sample < keys[k]; ++sample)
+          for (std::size_t q = group.begin; q < group.begin + group.size; ++q) {
+            double& largest = histories_.rows[keys[k] * histories_.width + q];
+            largest = std::max(largest, histories_.row(sample)[q]);
+          }
+    }
   }
 
   std::vector<double> tolerance(double miss) const {

@@ -24,6 +24,32 @@ const make = (tag, attributes = {}, ...children) => {
   return element;
 };
 
+// Where cycles close: damage of a segment's worst wire about a moment.
+class Closings {
+  constructor(rows, segments) {
+    this.window = Math.max(.5, duration / 200);  // [s] to either side: a cycle closes at one sample, too short to be seen
+    this.of = [];
+    for (const row of rows) {
+      const pairs = floats(row.pairs), time = [], sum = [0];
+      for (let k = 0; k < pairs.length; k += 2) {
+        time.push(pairs[k]);
+        sum.push(sum[sum.length - 1] + pairs[k + 1] * segments.damage[row.segment]);
+      }
+      this.of[row.segment] = {time, sum};
+    }
+  }
+  around(segment, now) {
+    const of = this.of[segment];
+    if (!of || !of.time.length) return 0;
+    const until = at => of.time[0] > at ? 0 : lastNotAbove(of.time, at) + 1;
+    return of.sum[until(now + this.window)] - of.sum[until(now - this.window)];
+  }
+  most() {
+    return Math.max(0, ...this.of.map((of, segment) => Math.max(0, ...of.time.map(time => this.around(segment, time)))));
+  }
+}
+const closings = life ? new Closings(life.closings, life.segments) : null;
+
 // ---- colours ------------------------------------------------------------------------------------------------------
 const scales = {};
 function findScales() {
@@ -33,16 +59,23 @@ function findScales() {
     if (most > 0)
       scales.damage =
           new Scale('damage per repeat (worst wire of the segment)', sequentialStops, Math.max(least, most / 1e4), most, true);
+    const fastest = closings ? closings.most() : 0;
+    if (fastest > 0)
+      scales.rate = new Scale(`damage within ${readable(closings.window)} s of now`, sequentialStops, fastest / 1e4, fastest, true);
   }
   if (motion && motion.group('curvature')) {
     scales.curvature = new Scale('curvature now [1/m]', sequentialStops, 0, motion.range('curvature')[1], false);
     const most = Math.max(...motion.range('twist').map(Math.abs)) * 180 / Math.PI;
     scales.twist = new Scale('twist now [deg/m]', divergingStops, -most, most, false);
   }
+  if (motion && motion.group('contact') && motion.range('contact')[1] > 0)
+    scales.contact = new Scale('contact force now [N]', sequentialStops, 0, motion.range('contact')[1], false);
   scales.plain = new Scale('', [[0, 114, 178], [0, 114, 178]], 0, 1, false);
 }
 function amountOf(segment, row) {
   if (state.colour === 'damage') return life.segments.damage[segment];
+  if (state.colour === 'rate') return closings.around(segment, state.time);
+  if (state.colour === 'contact') return row[motion.group('contact').begin + segment];
   if (state.colour === 'curvature') return row[motion.group('curvature').begin + segment];
   if (state.colour === 'twist') return row[motion.group('twist').begin + segment] * 180 / Math.PI;
   return 0;
@@ -83,7 +116,7 @@ function buildView() {
     return;
   }
   const stage = make('div', {id: 'stage'});
-  const words = {damage: 'damage', curvature: 'curvature', twist: 'twist', plain: 'nothing'};
+  const words = {damage: 'damage', rate: 'damage now', contact: 'contact', curvature: 'curvature', twist: 'twist', plain: 'nothing'};
   place.append(
       stage,
       make(
@@ -167,6 +200,7 @@ function setTime(time) {
   }
   if (timeline) timeline.moveTo(state.time);
   document.body.dataset.time = (begin + state.time).toFixed(3);
+  if (loopPoint) loopPoint(state.time);
   showNow();
 }
 function play(on) {
@@ -266,6 +300,7 @@ findScales();
 state.colour = scales.damage ? 'damage' : Object.keys(scales)[0];
 buildView();
 buildTimeline();
+buildWire();
 if (viewer) showLegend();
 setTime(life && life.worst_segment >= 0 && life.damage_per_repeat > 0 ? life.worst_time - begin : 0);
 if (life && state.segment >= 0) choose(state.segment);

@@ -134,6 +134,37 @@ TEST_CASE("published strain blocks: loops, stresses, lives and damage") {
   }
 }
 
+TEST_CASE("stress along a history is that of its cycles where it turns, whatever lies between") {
+  constexpr int between = 7;           // samples from turn to turn
+  constexpr double left = 0.4;         // of the offset
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> strain(-0.01, 0.015);
+  std::vector<double> history{strain(random)};
+  for (int turn = 0; turn < 60; ++turn) {
+    const double from = history.back(), to = (turn % 2 ? 1 : -1) * std::fabs(strain(random));
+    for (int k = 1; k <= between; ++k) history.push_back(from + (to - from) * k / between);
+  }
+  std::vector<Reversal> turns;
+  for (std::size_t k = 0; k < history.size(); k += between) turns.push_back({history[k], static_cast<std::int64_t>(k)});
+  for (const auto counting : {pipeline::Counting::repeating, pipeline::Counting::half_cycles})
+    for (const auto rule : {pipeline::Stress::cyclic, pipeline::Stress::elastic}) {
+      pipeline::Fatigue settings;
+      settings.counting = counting;
+      settings.stress = rule;
+      const std::vector<double> stress = stress_along(history, copper(), settings, left);
+      REQUIRE(stress.size() == history.size());
+      const auto cycles = evaluate_cycles(turns, copper(), settings, left);
+      REQUIRE(!cycles.empty());
+      for (const DamagingCycle& cycle : cycles) {
+        const double begin = stress[static_cast<std::size_t>(cycle.cycle.begin.sample)],
+                     end = stress[static_cast<std::size_t>(cycle.cycle.end.sample)];
+        CHECK(std::max(begin, end) == Approx(cycle.stress_max).epsilon(1e-12));
+        CHECK(begin / 2 + end / 2 == Approx(cycle.stress_mean).epsilon(1e-12).margin(1e-3));
+      }
+    }
+  CHECK(stress_along({}, copper(), {}).empty());
+}
+
 TEST_CASE("a constant amplitude's life is the curve's life") {
   pipeline::Fatigue settings;
   settings.mean_stress = MeanStress::none;
