@@ -108,8 +108,18 @@ std::string construction_words(const Setup& setup) {
   return words;
 }
 
-/// The settings that decide most, as they were in the end.
-std::string assumptions(const RankingRow& row, const FileReader* motion, const FileReader* strain, const Setup* setup) {
+/// "stress cyclic, counting repeating" of what a part of the resolved job says in single words; empty: nothing.
+std::string settings_words(const Node& job, const std::string& part) {
+  std::vector<std::string> words;
+  if (const Node* settings = job.find(part); settings && settings->is_map())
+    for (const Entry& entry : settings->entries)
+      if (entry.value.is_scalar()) words.push_back(entry.key + " " + entry.value.text);
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// The settings that decide most, as they were in the end. job: resolved.
+std::string assumptions(const RankingRow& row, const Node& job, const FileReader* motion, const FileReader* strain,
+                        const Setup* setup) {
   std::string list;
   const auto fact = [&](const std::string& name, const std::string& value) {
     list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
@@ -133,6 +143,8 @@ std::string assumptions(const RankingRow& row, const FileReader* motion, const F
                                       ? fmt::format(", which leaves an error of {:.2g} % in the curvature",
                                                     100 * motion->number_attribute("curvature_error"))
                                       : ""));
+  for (const char* part : {"simulation", "strain", "fatigue"})
+    if (const std::string words = settings_words(job, part); !words.empty()) fact(part, escaped(words));
   return list.empty() ? "" : "<dl>\n" + list + "</dl>\n";
 }
 
@@ -206,6 +218,11 @@ class Page {
     return text + '}';
   }
 
+  /// As it was resolved.
+  Node job() const {
+    return parse_yaml(life_.text_attribute("job"), files_.life().string() + " (attribute job)");
+  }
+
   std::string body() const {
     std::string text = headline(row_);
     for (const std::string& note : notes_) text += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
@@ -213,7 +230,7 @@ class Page {
         "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div>\n<div "
         "id=\"place\"></div>\n";
     if (setup_) text += cross_section(row_, *setup_);
-    text += "</div></div>\n<div id=\"wire\"></div>\n<h2>What the numbers rest on</h2>\n" + assumptions(row_, motion_.get(), strain_.get(), setup_ ? &*setup_ : nullptr);
+    text += "</div></div>\n<div id=\"wire\"></div>\n<h2>What the numbers rest on</h2>\n" + assumptions(row_, job(), motion_.get(), strain_.get(), setup_ ? &*setup_ : nullptr);
     if (motion_) text += check_table(files_.motion());
     text += "<p class=\"soft\" id=\"shown\"></p>\n";
     return text + folded("Settings", life_.text_attribute("job")) +

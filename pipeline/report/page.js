@@ -109,6 +109,13 @@ function checkbox(id, words, action) {
   return make('label', {}, make('input', {type: 'checkbox', id, onchange: event => action(event.target.checked)}), ' ' + words);
 }
 
+function keyList() {
+  const keys = [
+    ['space', 'play, pause'], ['left, right', 'step; with shift by 5 s'], ['arrows in the view', 'turn it'], ['1 .. 5', 'views'],
+    ['+ -', 'closer, farther'], ['[ ]', 'next segment to the base, to the tool'], ['n f', 'names, frames']
+  ];
+  return make('dl', {}, ...keys.flatMap(([key, words]) => [make('dt', {}, make('kbd', {}, key)), make('dd', {}, words)]));
+}
 function buildView() {
   const place = document.getElementById('view');
   if (!motion) {
@@ -146,7 +153,7 @@ function buildView() {
           checkbox('names', 'names', on => viewer && viewer.show('names', on)),
           checkbox('frames', 'frames', on => viewer && viewer.show('frames', on)),
           make('span', {class: 'soft'}, 'drag: turn, right drag: move, wheel: zoom, click the hose: its numbers')),
-      make('p', {id: 'step', 'aria-live': 'off'}));
+      make('p', {id: 'step', 'aria-live': 'off'}), make('details', {id: 'keys'}, make('summary', {}, 'Keys'), keyList()));
   const fail = message => stage.replaceChildren(make('p', {class: 'failed', id: 'no-view'}, message));
   if (!window.THREE || !THREE.OrbitControls) {
     fail(
