@@ -39,10 +39,18 @@ const char* what_a_reader_does = R"(
   for (let k = 0; k < 100 && !moved; ++k) { await sleep(50); moved = Number(await evaluate('document.body.dataset.time')) > clicked + .02; }
   await key(' ');
   const stopped = await evaluate('document.body.dataset.playing');
+  // A draw of the whole scene by hand: play may have had too few frames for its own mean.
+  const frame = await evaluate(`(() => { const start = performance.now(); for (let k = 0; k < 3; ++k) { dresslife.setTime(.1 * k); dresslife.viewer().draw(); }
+    return ((performance.now() - start) / 3).toFixed(1); })()`);
+  // Damage now and the two drawings of the worst wire.
+  await evaluate(`dresslife.setColour('rate')`);
+  const coloured = await evaluate('dresslife.state.colour');
+  const shapes = await evaluate(`document.querySelectorAll('#cycles rect').length > 0 && document.querySelectorAll('#loops path').length === 1`);
+  const cycles = await evaluate('dresslife.life.cycles.rows.reduce((sum, row) => sum + row[3], 0)');
   await evaluate('dresslife.setTime(0)');
   const life = await evaluate('dresslife.life.life_hours');
   const rows = await evaluate('dresslife.life.strains.rows.length');
-  return [colours > 50, segment, Math.abs(clicked - .25) < .01, playing, moved, stopped, rows > 0, damage, life].join(' ');
+  return [colours > 50, segment, Math.abs(clicked - .25) < .01, playing, moved, stopped, rows > 0, damage, life, frame, coloured, shapes, cycles].join(' ');
 )";
 
 }  // namespace
@@ -102,8 +110,10 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
         std::string::npos);
   std::istringstream words(result_of(seen));
   std::string colours, segment, jumped, playing, moved, stopped, histories;
-  double damage = 0, hours = 0;
-  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours;
+  std::string frame, coloured, shapes;
+  double damage = 0, hours = 0, of_cycles = 0;
+  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours >> frame >> coloured >> shapes >> of_cycles;
+  WARN("a frame took " << frame << " ms");
   CHECK(colours == "true");
   CHECK(segment == "3");
   CHECK(jumped == "true");
@@ -115,6 +125,9 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
                                              dresslife::pipeline::life_format());
   CHECK(damage == life.read<double>("/segment/damage").at(3));
   CHECK(hours == life.number_attribute("life_hours"));
+  CHECK(coloured == "rate");
+  CHECK(shapes == "true");
+  CHECK(of_cycles == Approx(life.number_attribute("damage_per_repeat")));
 }
 
 TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by side with what differs") {
