@@ -1,6 +1,7 @@
 // The wire that breaks first: its cycles by range and mean, and its stress over strain.
+const svgNames = new DOMParser().parseFromString('<svg></svg>', 'text/html').querySelector('svg').namespaceURI;
 function drawing(tag, attributes = {}, ...children) {
-  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  const element = document.createElementNS(svgNames, tag);
   for (const [name, value] of Object.entries(attributes))
     if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
     else element.setAttribute(name, value);

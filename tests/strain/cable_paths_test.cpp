@@ -79,6 +79,13 @@ struct Run {
     CablePaths::Keeper keeper;
     return keeper.of(paths, segment, history.columns(segment), 0, history.samples()).strain[cable][sample];
   }
+  /// Strain that pulls: a cable that kept its length would be stretched by its wires' turning with the hose, too.
+  double pulling_strain(std::size_t cable, std::size_t segment, std::size_t sample) {
+    double twist = 0;
+    for (std::size_t i = 0; i < segments; ++i) twist += history.columns(i).twist[sample] / segments;
+    const dresslife::strain::Layer& layer = construction.layers()[0];
+    return strain(cable, segment, sample) + layer.shortening.at(twist * layer.lay_cosine * layer.lay_cosine);
+  }
   double largest_tension() {
     double most = 0;
     for (std::size_t k = 0; k < paths.cables(); ++k)
@@ -353,12 +360,12 @@ TEST_CASE("with friction along it a cable's largest force counts, wherever it is
   for (std::size_t k = 0; k < 10; ++k)
     for (std::size_t i = 0; i < segments; ++i)
       for (std::size_t t = 0; t < 20; ++t)
-        largest = std::max(largest, std::abs(force.force(run.strain(k, i, t))));
+        largest = std::max(largest, std::abs(force.force(run.pulling_strain(k, i, t))));
   CHECK(run.paths.largest_force_share() == Approx(largest / force.strength()));
   double ends = 0;
   for (std::size_t k = 0; k < 10; ++k)
     for (const std::size_t i : {std::size_t{0}, segments - 1})
-      for (std::size_t t = 0; t < 20; ++t) ends = std::max(ends, std::abs(force.force(run.strain(k, i, t))));
+      for (std::size_t t = 0; t < 20; ++t) ends = std::max(ends, std::abs(force.force(run.pulling_strain(k, i, t))));
   CHECK(ends < 0.99 * largest);  // else this would not tell the two apart
 }
 
