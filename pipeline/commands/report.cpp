@@ -10,6 +10,7 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -29,7 +30,7 @@ int report(const StudyOptions& options) {
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
   print(shown(ranking_table(rows)));
-  tell(warning_lines(rows));
+  tell(shown(problem_words(study)) + warning_lines(rows));
   const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
     return !state.done() && state.failure.empty() && !state.recipes[0].empty();
   });

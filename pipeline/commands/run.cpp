@@ -11,6 +11,7 @@
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/shards.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -57,6 +58,7 @@ int run(const RunOptions& options) {
   if (!options.quiet) tell(warning_lines(rows));
   const int failed = count_failed(rows);
   if (failed == 0) return 0;
+  tell(shown(problem_words(study)));
   tell(fmt::format(
       "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",
       options.study, failed, study.jobs.size()));

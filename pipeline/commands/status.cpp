@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "pipeline/commands/options.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -15,10 +16,11 @@ int status(const StudyOptions& options) {
   std::size_t done = 0;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
-    const std::string word = job.failure.empty() ? standing.states[k].words() : "failed   " + job.failure;
+    const std::string word = job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
     done += word == "done";
     print(shown(fmt::format("{:<40} {}\n", job.name, word)));
   }
+  print(shown(problem_words(standing.study)));
   print(fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));
   return 0;
 }

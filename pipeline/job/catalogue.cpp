@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "pipeline/installation.h"
 #include "pipeline/job/cable.h"
@@ -186,7 +187,18 @@ void collect_materials(const Node& components, std::vector<const Node*>& names) 
   }
 }
 
-void add_materials(Node& dresspack, const Node& job) {
+/// The catalogue's material of this name, which may stand for several.
+Node material_entry(const Node& name, const Node& job) {
+  Node material = catalogue_entry("materials", name.text, name.where, job.where);
+  resolve(material, "materials", job.where);
+  const Node* own_name = material.find("name");
+  if (!own_name || own_name->text != name.text)
+    throw InputError(material.where, fmt::format("the material is not named '{}' as its file is", name.text),
+                     fmt::format("write 'name: {}'", name.text));
+  return material;
+}
+
+void add_materials(Node& dresspack, const Node& job, const std::string& path, Problems& problems) {
   std::vector<const Node*> names;
   if (const Node* components = dresspack.find("components")) collect_materials(*components, names);
   if (const Node* hose = dresspack.find("hose_material")) names.push_back(hose);
@@ -197,30 +209,28 @@ void add_materials(Node& dresspack, const Node& job) {
 
   Node& materials = dresspack["materials"];
   if (materials.kind == Node::Kind::null) materials.kind = Node::Kind::list;
+  std::set<std::string> unknown;  // each is told where it is named first
   for (const Node& name : wanted) {
     const bool there = std::any_of(materials.items.begin(), materials.items.end(), [&](const Node& material) {
       const Node* known = material.find("name");
       return known && known->text == name.text;
     });
-    if (there || !name.is_scalar()) continue;
-    Node material = catalogue_entry("materials", name.text, name.where, job.where);
-    resolve(material, "materials", job.where);
-    const Node* own_name = material.find("name");
-    if (!own_name || own_name->text != name.text)
-      throw InputError(material.where,
-                       fmt::format("the material is not named '{}' as its file is", name.text),
-                       fmt::format("write 'name: {}'", name.text));
-    materials.items.push_back(std::move(material));
+    if (there || !name.is_scalar() || unknown.contains(name.text)) continue;
+    const bool found = problems.attempt(path + ".materials", name.where,
+                                        [&] { materials.items.push_back(material_entry(name, job)); });
+    if (!found) unknown.insert(name.text);
   }
   if (materials.items.empty())
     std::erase_if(dresspack.entries, [](const Entry& e) { return e.key == "materials"; });
 }
 
-/// Cables by their data sheets as layers, and the materials that all wires name.
-void complete_dresspack(Node* dresspack, const Node& job) {
-  if (!dresspack || !dresspack->is_map()) return;
-  expand_data_sheets(*dresspack);
-  add_materials(*dresspack, job);
+/// A catalogue entry where a job has one: written out, of a dresspack with the layers of cables that are given by data
+/// sheets and the materials that its wires name.
+void resolve_entry(Node* entry, const std::string& path, const std::string& folder, const Node& job, Problems& problems) {
+  if (!entry || !problems.attempt(path, entry->where, [&] { resolve(*entry, folder, job.where); })) return;
+  if (folder != "dresspacks" || !entry->is_map()) return;
+  expand_data_sheets(*entry, path, problems);
+  add_materials(*entry, job, path, problems);
 }
 
 Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
@@ -298,18 +308,18 @@ void apply_set(Node& job, const std::string& set) {
   set_value(job, set.substr(0, equals), std::move(value), where);
 }
 
-/// Looks up all that the job names; afterwards the tree stands for itself.
-void resolve_job(Node& job) {
-  for (const Shelf& shelf : shelves)
-    if (Node* entry = job.find(shelf.key)) resolve(*entry, shelf.folder, job.where);
-  complete_dresspack(job.find("dresspack"), job);
+void resolve_job(Node& job, Problems& problems) {
+  for (const Shelf& shelf : shelves) resolve_entry(job.find(shelf.key), shelf.key, shelf.folder, job, problems);
   Node* list = job.find("dresspacks");
-  if (!list) return;
-  for (Node& mounted : list->items) {
-    Node* entry = mounted.find("dresspack");
-    if (entry) resolve(*entry, shelf_of("dresspack"), job.where);
-    complete_dresspack(entry, job);
-  }
+  for (std::size_t i = 0; list && i < list->items.size(); ++i)
+    resolve_entry(list->items[i].find("dresspack"), fmt::format("dresspacks[{}].dresspack", i + 1),
+                  shelf_of("dresspack"), job, problems);
+}
+
+void resolve_job(Node& job) {
+  Problems problems;
+  resolve_job(job, problems);
+  problems.finish(job.where.file);
 }
 
 }  // namespace dresslife::pipeline

@@ -307,12 +307,20 @@ double width_of(const std::vector<Ring>& rings, double diameter) {
 }
 
 void expand_data_sheets(Node& dresspack) {
+  Problems problems;
+  expand_data_sheets(dresspack, "", problems);
+  problems.finish(dresspack.where.file);
+}
+
+void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems) {
   Node* components = dresspack.is_map() ? dresspack.find("components") : nullptr;
   if (!components || !components->is_list()) return;
-  for (Node& component : components->items) {
+  for (std::size_t i = 0; i < components->items.size(); ++i) {
+    Node& component = components->items[i];
     if (!component.is_map()) continue;
-    expand(component);
-    expand_data_sheets(component);
+    const std::string item = fmt::format("{}{}components[{}]", path, path.empty() ? "" : ".", i + 1);
+    if (problems.attempt(item, component.where, [&] { expand(component); }))
+      expand_data_sheets(component, item, problems);
   }
 }
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "pipeline/job/document.h"
+#include "pipeline/job/problems.h"
 
 namespace dresslife::pipeline {
 
@@ -62,5 +63,7 @@ double width_of(const std::vector<Ring>& rings, double diameter);
 /// Replaces `data_sheet` in every component of a dresspack's tree by what it stands for: radius_mm and
 /// components. Errors: InputError at the sheet, which says what does not fit into what.
 void expand_data_sheets(Node& dresspack);
+/// The same. Components that cannot be are added to the problems, under `path` and their number.
+void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems);
 
 }  // namespace dresslife::pipeline

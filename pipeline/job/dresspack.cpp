@@ -170,31 +170,32 @@ bool is_hose_wall(const Dresspack& dresspack, std::string_view component) {
 
 namespace {
 
-int check_component(const Component& component, const Component* parent) {
+/// Returns how many levels of parts it has, itself the first.
+int check_component(const Component& component, const Component* parent, Problems& problems) {
   const Where& where = component.where;
   if (component.components.empty() == component.material.empty())
-    throw InputError(where,
+    problems.add(where,
                      fmt::format("'{}' must have either a material (a wire) or components", component.name),
                      "give one of the two");
   if (component.count > 1 && component.helix_radius == 0)
-    throw InputError(
+    problems.add(
         where,
         fmt::format("{} parts '{}' lie on the axis (helix_radius_mm is 0)", component.count, component.name),
         "give their distance from the axis");
   if (component.helix_radius == 0 && component.lay_angle != 0)
-    throw InputError(where, fmt::format("'{}' on the axis has a lay angle", component.name),
+    problems.add(where, fmt::format("'{}' on the axis has a lay angle", component.name),
                      "set lay_angle_deg to 0");
   if (component.name.find('/') != std::string::npos || component.layer.find('/') != std::string::npos)
-    throw InputError(where, fmt::format("name '{}' holds a '/'", component.name), "choose another name");
+    problems.add(where, fmt::format("name '{}' holds a '/'", component.name), "choose another name");
   if (parent && component.helix_radius + component.radius > parent->radius * 1.02)
-    throw InputError(
+    problems.add(
         where,
         fmt::format("'{}' reaches {:.4g} mm from the axis of '{}', whose radius is {:.4g} mm", component.name,
                     1e3 * (component.helix_radius + component.radius), parent->name, 1e3 * parent->radius),
         "check helix_radius_mm and radius_mm");
   int depth = 0;
   for (const Component& inner : component.components)
-    depth = std::max(depth, check_component(inner, &component));
+    depth = std::max(depth, check_component(inner, &component, problems));
   return depth + 1;
 }
 
@@ -292,28 +293,31 @@ void drop_ratings(Dresspack& dresspack) {
 }
 
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
+  Problems problems;
+  const auto attempt = [&](const Where& where, const auto& check) { problems.attempt("", where, check); };
   Component hose;
   hose.name = "hose";
   hose.radius = dresspack.diameter / 2;
   int depth = 0;
   for (const Component& component : dresspack.components)
-    depth = std::max(depth, check_component(component, &hose));
-  check_hose(dresspack);
-  check_room(dresspack);
+    depth = std::max(depth, check_component(component, &hose, problems));
+  attempt(dresspack.where, [&] { check_hose(dresspack); });
+  attempt(dresspack.where, [&] { check_room(dresspack); });
   if (!dresspack.ratings.empty() && inner_radius(dresspack))
-    throw InputError(dresspack.ratings.front().where, "ratings stand beside a hose (they are of a cable)",
-                     "give them to the cable in dresspack.components");
-  check_ratings(dresspack.ratings);
-  for (const Component& component : dresspack.components) check_ratings(component, true);
+    problems.add(dresspack.ratings.front().where, "ratings stand beside a hose (they are of a cable)",
+                 "give them to the cable in dresspack.components");
+  attempt(dresspack.where, [&] { check_ratings(dresspack.ratings); });
   for (const Component& component : dresspack.components) {
-    check_laying(dresspack, component, true);
+    attempt(component.where, [&] { check_ratings(component, true); });
+    attempt(component.where, [&] { check_laying(dresspack, component, true); });
     if (component.laying.position == Position::loose && !slides(slip.front()))
-      throw InputError(component.where,
-                       fmt::format("'{}' is loose, and sticks to the hose (strain.slip of its level is {})",
-                                   component.name, word(slip.front())),
-                       "set strain.slip of the first level to free or friction, or position: held");
+      problems.add(component.where,
+                   fmt::format("'{}' is loose, and sticks to the hose (strain.slip of its level is {})",
+                               component.name, word(slip.front())),
+                   "set strain.slip of the first level to free or friction, or position: held");
+    attempt(component.where, [&] { check_friction(component, slip, 1); });
   }
-  for (const Component& component : dresspack.components) check_friction(component, slip, 1);
+  problems.finish(dresspack.where.file);
   return depth;
 }
 

@@ -73,83 +73,77 @@ namespace {
 
 class FieldReader final : public Fields {
  public:
-  explicit FieldReader(const Node& root) {
+  FieldReader(const Node& root, Problems& problems) : problems_(problems), passed_over_(problems.keys()) {
     if (!root.is_map())
       throw InputError(root.where, "holds no settings (a map of 'key: value' lines is expected)",
                        "write some");
     levels_.emplace_back().map = &root;
   }
 
-  /// Errors: unknown or missing keys of the root.
+  /// Unknown or missing keys of the root.
   void finish() { close(levels_.back()); }
 
   void text(Key key, std::string& value, Need need, std::string_view meaning) override {
-    const Node* node = take(key, need, meaning);
-    if (!node) return;
-    if (!node->is_scalar() || node->text.empty())
-      throw InputError(node->where, fmt::format("{} must be text", name_of(key)),
-                       fmt::format("give {}", meaning));
-    value = node->text;
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_scalar() || node.text.empty()) refuse(node, fmt::format("{} must be text", name_of(key)), meaning);
+      value = node.text;
+    });
   }
 
   void number(Key key, double& value, Need need, Range range, std::string_view meaning) override {
-    if (const Node* node = take(key, need, meaning))
-      value = number_of(*node, key, range, meaning) * unit_of_key(key).to_si;
+    read(key, need, meaning, [&](const Node& node) {
+      value = number_of(node, key, range, meaning) * unit_of_key(key).to_si;
+    });
   }
 
   void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) override {
-    if (const Node* node = take(key, Need::optional, meaning))
-      value = number_of(*node, key, range, meaning) * unit_of_key(key).to_si;
+    read(key, Need::optional, meaning, [&](const Node& node) {
+      value = number_of(node, key, range, meaning) * unit_of_key(key).to_si;
+    });
   }
 
   void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
                       std::string_view meaning) override {
-    const Node* node = take(key, need, meaning);
-    if (!node) return;
-    by_word = node->is_scalar() && node->text == word;
-    if (!by_word) value = number_of(*node, key, range, meaning, word) * unit_of_key(key).to_si;
+    read(key, need, meaning, [&](const Node& node) {
+      by_word = node.is_scalar() && node.text == word;
+      if (!by_word) value = number_of(node, key, range, meaning, word) * unit_of_key(key).to_si;
+    });
   }
 
   void integer(Key key, int& value, Need need, Range range, std::string_view meaning) override {
-    const Node* node = take(key, need, meaning);
-    if (!node) return;
-    const double number = number_of(*node, key, range, meaning);
-    if (number != std::floor(number) || std::abs(number) > 1e9)
-      throw InputError(node->where,
-                       fmt::format("{} is {} (must be a whole number)", name_of(key), node->text),
-                       fmt::format("give {}", meaning));
-    value = static_cast<int>(number);
+    read(key, need, meaning, [&](const Node& node) {
+      const double number = number_of(node, key, range, meaning);
+      if (number != std::floor(number) || std::abs(number) > 1e9)
+        refuse(node, fmt::format("{} is {} (must be a whole number)", name_of(key), node.text), meaning);
+      value = static_cast<int>(number);
+    });
   }
 
   void boolean(Key key, bool& value, Need need, std::string_view meaning) override {
-    const Node* node = take(key, need, meaning);
-    if (!node) return;
-    if (!node->is_scalar() || (node->text != "true" && node->text != "false"))
-      throw InputError(node->where,
-                       fmt::format("{} is '{}' (must be true or false)", name_of(key), node->text),
-                       fmt::format("give {}", meaning));
-    value = node->text == "true";
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_scalar() || (node.text != "true" && node.text != "false"))
+        refuse(node, fmt::format("{} is '{}' (must be true or false)", name_of(key), node.text), meaning);
+      value = node.text == "true";
+    });
   }
 
   void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) override {
-    const Node* node = take(key, need, meaning);
-    if (!node) return;
-    if (!node->is_list() || node->items.size() != 3)
-      throw InputError(node->where, fmt::format("{} must be three numbers [x, y, z]", name_of(key)),
-                       fmt::format("give {}", meaning));
-    for (int axis = 0; axis < 3; ++axis)
-      value[axis] = number_of(node->items[axis], key, any_number(), meaning) * unit_of_key(key).to_si;
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_list() || node.items.size() != 3)
+        refuse(node, fmt::format("{} must be three numbers [x, y, z]", name_of(key)), meaning);
+      for (int axis = 0; axis < 3; ++axis)
+        value[axis] = number_of(node.items[axis], key, any_number(), meaning) * unit_of_key(key).to_si;
+    });
   }
 
   void numbers(Key key, std::vector<double>& values, Need need, std::string_view meaning) override {
-    const Node* node = take(key, need, meaning);
-    if (!node) return;
-    if (!node->is_list() || node->items.empty())
-      throw InputError(node->where, fmt::format("{} must be a list of numbers", name_of(key)),
-                       fmt::format("give {}", meaning));
-    values.clear();
-    for (const Node& item : node->items)
-      values.push_back(number_of(item, key, any_number(), meaning) * unit_of_key(key).to_si);
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_list() || node.items.empty())
+        refuse(node, fmt::format("{} must be a list of numbers", name_of(key)), meaning);
+      values.clear();
+      for (const Node& item : node.items)
+        values.push_back(number_of(item, key, any_number(), meaning) * unit_of_key(key).to_si);
+    });
   }
 
   void path(Key key, std::filesystem::path& value, Need need, std::string_view meaning) override {
@@ -165,35 +159,31 @@ class FieldReader final : public Fields {
 
  protected:
   void choose(Key key, int& index, const Words& words, std::string_view meaning) override {
-    if (const Node* node = take(key, Need::optional, meaning)) index = word_of(*node, key, words, meaning);
+    read(key, Need::optional, meaning, [&](const Node& node) { index = word_of(node, key, words, meaning); });
   }
 
   void choose_some(Key key, std::vector<int>& indices, const Words& words,
                    std::string_view meaning) override {
-    const Node* node = take(key, Need::optional, meaning);
-    if (!node) return;
-    indices.clear();
-    if (!node->is_list()) {
-      indices.push_back(word_of(*node, key, words, meaning));
-      return;
-    }
-    if (node->items.empty())
-      throw InputError(node->where, fmt::format("{} is an empty list", name_of(key)),
-                       fmt::format("give {}", meaning));
-    for (const Node& item : node->items) indices.push_back(word_of(item, key, words, meaning));
+    read(key, Need::optional, meaning, [&](const Node& node) {
+      if (node.is_list() && node.items.empty()) refuse(node, fmt::format("{} is an empty list", name_of(key)), meaning);
+      std::vector<int> read;
+      if (!node.is_list()) read.push_back(word_of(node, key, words, meaning));
+      for (const Node& item : node.items) read.push_back(word_of(item, key, words, meaning));
+      indices = std::move(read);
+    });
   }
 
   bool enter(Key key, Need need, bool, std::string_view meaning, const char*) override {
-    const Node* node = take(key, need, meaning);
-    if (!node) return false;
-    if (!node->is_map())
-      throw InputError(node->where, fmt::format("{} must be a map of settings", name_of(key)),
-                       fmt::format("give {}", meaning));
-    Level level;
-    level.path = name_of(key);
-    level.map = node;
-    levels_.push_back(std::move(level));
-    return true;
+    bool entered = false;
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_map()) refuse(node, fmt::format("{} must be a map of settings", name_of(key)), meaning);
+      Level level;
+      level.path = name_of(key);
+      level.map = &node;
+      levels_.push_back(std::move(level));
+      entered = true;
+    });
+    return entered;
   }
 
   void leave() override {
@@ -203,26 +193,29 @@ class FieldReader final : public Fields {
   }
 
   std::size_t enter_list(Key key, std::size_t, Need need, std::string_view meaning, const char*) override {
-    const Node* node = take(key, need, meaning);
-    if (node && !node->is_list())
-      throw InputError(node->where, fmt::format("{} must be a list", name_of(key)),
-                       fmt::format("give {}", meaning));
     Level level;
     level.path = name_of(key);
-    level.list = node;
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_list()) refuse(node, fmt::format("{} must be a list", name_of(key)), meaning);
+      level.list = &node;
+    });
     levels_.push_back(std::move(level));
-    return node ? node->items.size() : 0;
+    return levels_.back().list ? levels_.back().list->items.size() : 0;
   }
 
   void enter_item(std::size_t index) override {
-    const Level& list = levels_.back();
-    const Node& node = list.list->items[index];
+    static const Node nothing;
+    const Node& node = levels_.back().list->items[index];
     Level level;
-    level.path = fmt::format("{}[{}]", list.path, index + 1);
+    level.path = fmt::format("{}[{}]", levels_.back().path, index + 1);
     level.map = &node;
-    if (!node.is_map())
-      throw InputError(node.where, fmt::format("{} must be a map of settings", level.path),
-                       "write {key: value, ...}");
+    level.passed_over = passed_over_.contains(level.path);
+    if (!level.passed_over && !node.is_map()) {
+      problems_.add(node.where, fmt::format("{} must be a map of settings", level.path), "write {key: value, ...}",
+                    level.path);
+      level.passed_over = true;
+    }
+    if (level.passed_over) level.map = &nothing;
     levels_.push_back(std::move(level));
   }
 
@@ -232,23 +225,34 @@ class FieldReader final : public Fields {
   struct Level {
     const Node* map = nullptr;
     const Node* list = nullptr;
+    bool passed_over = false;        ///< it was refused as a whole
     std::string path;                ///< of the map, for messages: "dresspack.components[2]"
     std::vector<std::string> known;  ///< keys described so far
-    std::string missing;             ///< message of the first missing key
-    std::string missing_remedy;
+    struct Missing {
+      std::string key, meaning;
+    };
+    std::vector<Missing> missing;
   };
-  const Node* take(Key key, Need need, std::string_view meaning) {
+
+  [[noreturn]] static void refuse(const Node& node, const std::string& what, std::string_view meaning) {
+    throw InputError(node.where, what, fmt::format("give {}", meaning));
+  }
+
+  /// Hands the key's value to `take`, where the map has one that nobody has refused; what take throws is a problem of
+  /// this key.
+  template <class Take>
+  void read(Key key, Need need, std::string_view meaning, const Take& take) {
     Level& level = levels_.back();
     level.known.emplace_back(key);
+    if (level.passed_over || (!passed_over_.empty() && passed_over_.contains(name_of(key)))) return;
     const Node* node = level.map->find(key);
-    if (node && node->kind == Node::Kind::null)
-      throw InputError(node->where, fmt::format("{} has no value", name_of(key)),
-                       fmt::format("give {}", meaning));
-    if (!node && need == Need::required && level.missing.empty()) {
-      level.missing = fmt::format("{} is missing", name_of(key));
-      level.missing_remedy = fmt::format("add '{}: ...': {}", key, meaning);
-    }
-    return node;
+    if (!node && need == Need::required) level.missing.push_back({std::string(key), std::string(meaning)});
+    if (!node) return;
+    const std::string path = name_of(key);
+    problems_.attempt(path, node->where, [&] {
+      if (node->kind == Node::Kind::null) refuse(*node, fmt::format("{} has no value", path), meaning);
+      take(*node);
+    });
   }
 
   std::string name_of(Key key) const {
@@ -295,26 +299,41 @@ class FieldReader final : public Fields {
                      fmt::format("give {}", meaning));
   }
 
-  void close(const Level& level) const {
+  std::string likely_key(const Level& level, const std::string& unknown, std::string& remedy) const {
+    for (const std::string& known : level.known) {
+      if (stem_of_key(known) != stem_of_key(unknown)) continue;
+      const std::string_view unit = unit_of_key(known).name;
+      remedy = unit.empty() ? fmt::format("this key carries no unit, write '{}'", known)
+                            : fmt::format("its unit is {}, write '{}'", unit, known);
+      return known;
+    }
+    const std::string nearest = nearest_word(unknown, level.known);
+    remedy = nearest.empty() ? fmt::format("keys here: {}", fmt::join(level.known, ", "))
+                             : fmt::format("did you mean '{}'?", nearest);
+    return nearest;
+  }
+
+  /// A key that is there under a wrong name is not missing.
+  void close(const Level& level) {
+    if (level.passed_over) return;
+    const auto path_of = [&](const std::string& key) { return level.path.empty() ? key : level.path + "." + key; };
+    std::vector<std::string> misnamed;
     for (const Entry& entry : level.map->entries) {
       if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end()) continue;
       std::string remedy;
-      for (const std::string& known : level.known)
-        if (stem_of_key(known) == stem_of_key(entry.key))
-          remedy = unit_of_key(known).name.empty()
-                       ? fmt::format("this key carries no unit, write '{}'", known)
-                       : fmt::format("its unit is {}, write '{}'", unit_of_key(known).name, known);
-      if (remedy.empty()) {
-        const std::string nearest = nearest_word(entry.key, level.known);
-        remedy = nearest.empty() ? fmt::format("keys here: {}", fmt::join(level.known, ", "))
-                                 : fmt::format("did you mean '{}'?", nearest);
-      }
-      const std::string prefix = level.path.empty() ? "" : level.path + ".";
-      throw InputError(entry.where, fmt::format("unknown key '{}{}'", prefix, entry.key), remedy);
+      const std::string likely = likely_key(level, entry.key, remedy);
+      misnamed.push_back(likely);
+      problems_.add(entry.where, fmt::format("unknown key '{}'", path_of(entry.key)), remedy,
+                    likely.empty() ? "" : path_of(likely));
     }
-    if (!level.missing.empty()) throw InputError(level.map->where, level.missing, level.missing_remedy);
+    for (const auto& [key, meaning] : level.missing)
+      if (std::find(misnamed.begin(), misnamed.end(), key) == misnamed.end())
+        problems_.add(level.map->where, fmt::format("{} is missing", path_of(key)),
+                      fmt::format("add '{}: ...': {}", key, meaning), path_of(key));
   }
 
+  Problems& problems_;
+  const std::set<std::string> passed_over_;  ///< keys that were refused before
   std::vector<Level> levels_;
 };
 // ---- echo -------------------------------------------------------------------------------------------------
@@ -569,7 +588,13 @@ class FieldManual final : public Fields {
 // ---- the three walks --------------------------------------------------------------------------------------
 
 void read_fields(const Node& node, const Describe& described) {
-  FieldReader reader(node);
+  Problems problems;
+  read_fields(node, described, problems);
+  problems.finish(node.where.file);
+}
+
+void read_fields(const Node& node, const Describe& described, Problems& problems) {
+  FieldReader reader(node, problems);
   described(reader);
   reader.finish();
 }

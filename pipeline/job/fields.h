@@ -7,7 +7,7 @@
 // The unit is the end of the key (units.h). What a struct holds before it is described is its default. Three
 // visitors walk the same describe(): read_fields() from a document, echo_fields() to one, field_manual() to
 // Markdown. A key that nobody describes, a missing or non-finite value and a value outside its range are
-// InputErrors that name the place, the reason and the remedy.
+// problems that name the place, the reason and the remedy; a reader goes on behind each and tells of all.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "pipeline/job/document.h"
+#include "pipeline/job/problems.h"
 
 namespace dresslife::pipeline {
 
@@ -125,8 +126,11 @@ class Fields {
 /// Something that describes a struct to whoever walks it.
 using Describe = std::function<void(Fields&)>;
 
-/// From a document's map. Errors: see above.
+/// From a document's map. Errors: see above; all at once.
 void read_fields(const Node& node, const Describe& described);
+/// The same among other problems: keys that they refused are passed over, and its own are added to them. A value that
+/// is refused leaves what it was before.
+void read_fields(const Node& node, const Describe& described, Problems& problems);
 /// To a map, with defaults filled in.
 Node echo_fields(const Describe& described);
 /// One Markdown table per map, each under a heading; `title` heads the root.

@@ -7,6 +7,7 @@
 #include "pipeline/job/data_sheet.h"
 #include "pipeline/job/fields.h"
 #include "pipeline/job/overlap.h"
+#include "pipeline/job/problems.h"
 #include "pipeline/job/sources.h"
 #include "pipeline/job/stiffness.h"
 #include "pipeline/job/urdf.h"
@@ -70,12 +71,13 @@ void check_names(const std::vector<MountedDresspack>& dresspacks) {
 
 /// What all dresspacks of a robot share: one pose in which they are clamped, one material of each name.
 void check_shared(const std::vector<MountedDresspack>& dresspacks) {
+  Problems problems;
   const MountedDresspack* posed = nullptr;
   std::vector<const Material*> known;
   for (const MountedDresspack& mounted : dresspacks) {
     if (!mounted.routing.mounting_pose.empty()) {
       if (posed && posed->routing.mounting_pose != mounted.routing.mounting_pose)
-        throw InputError(mounted.routing.where,
+        problems.add(mounted.routing.where,
                          fmt::format("mounting_pose_deg differs from that of dresspack '{}' (all are clamped "
                                      "in one pose)",
                                      posed->name),
@@ -88,26 +90,28 @@ void check_shared(const std::vector<MountedDresspack>& dresspacks) {
       if (same == known.end())
         known.push_back(&material);
       else if (to_yaml(echo_fields(**same)) != to_yaml(echo_fields(material)))
-        throw InputError(
+        problems.add(
             material.where,
             fmt::format("material '{}' is another than that of the dresspack before", material.name),
             "give one of the two another name");
     }
   }
+  problems.finish();
 }
 
 /// A prescribed deformation is that of one dresspack of known length; nobody reads what would carry, touch or
 /// hold it.
 void check_prescribed(const Job& job, const Node& document) {
   const char* key = job.motion.rig ? "motion.rig" : "motion.deformation";
+  Problems problems;
   const auto refuse = [&](const Where& where, const std::string& what) {
-    throw InputError(where, fmt::format("{} beside {} (which says how the dresspack deforms)", what, key),
+    problems.add(where, fmt::format("{} beside {} (which says how the dresspack deforms)", what, key),
                      "leave it out");
   };
   for (const char* other : {"robot", "cell"})
     if (const Node* given = document.find(other)) refuse(given->where, fmt::format("{} is given", other));
   if (job.dresspacks.size() > 1)
-    throw InputError(job.motion.where,
+    problems.add(job.motion.where,
                      fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),
                      "keep one dresspack");
   const Node* routing = document.find("routing");
@@ -119,47 +123,73 @@ void check_prescribed(const Job& job, const Node& document) {
   const Routing& only = job.dresspacks.front().routing;
   if (only.pre_twist != 0 || only.tool_mass != 0 || !is_clamped(only.tool_end))
     refuse(only.where, "an end that is free or twisted is given");
+  problems.finish(document.where.file);
 }
 
 /// A simulated cable has the mass and the stiffness that a rig does without.
 void check_simulated(const Dresspack& dresspack) {
+  Problems problems;
   const std::pair<const char*, double> needed[] = {{"mass_kg_per_m", dresspack.mass_per_length},
                                                    {"bending_stiffness_Nm2", dresspack.bending_stiffness},
                                                    {"torsional_stiffness_Nm2", dresspack.torsional_stiffness},
                                                    {"axial_stiffness_N", dresspack.axial_stiffness}};
   for (const auto& [key, value] : needed)
     if (value <= 0)
-      throw InputError(dresspack.where,
+      problems.add(dresspack.where,
                        fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
                        "give it, or let motion.rig or motion.deformation move the cable");
   if (dresspack.damping_source.empty())
-    throw InputError(dresspack.where, "dresspack.damping_source is missing (a cable that is simulated needs it)",
+    problems.add(dresspack.where, "dresspack.damping_source is missing (a cable that is simulated needs it)",
                      "give damping_time_ms and where it comes from");
+  problems.finish();
 }
 
-void check_dresspacks(const Job& job, const Where& strain) {
-  if (!forms_of(job).one) check_names(job.dresspacks);
-  if (job.dresspacks.size() > 1 && !job.motion.clamp_poses.empty())
-    throw InputError(job.motion.where,
-                     fmt::format("motion.clamp_poses brings the clamps of one dresspack (there are {})",
-                                 job.dresspacks.size()),
-                     "describe the motion by a robot, or keep one dresspack");
-  int depth = 0;
-  for (const MountedDresspack& mounted : job.dresspacks) {
-    if (!job.motion.is_prescribed()) {
-      check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
-      check_simulated(mounted.dresspack);
-    }
-    depth = std::max(depth, check_dresspack(mounted.dresspack, job.strain.slip));
-    check_materials(mounted.dresspack.materials);
-    refuse_gross_overlap(mounted.dresspack);  // dresslife-strain warns of less
+/// Of one dresspack. path: of what holds its keys, "" or "dresspacks[2].". Returns how many levels of parts it has, where
+/// that can be told.
+std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted, const std::string& path,
+                                 Problems& problems) {
+  const std::string dresspack = path + "dresspack", routing = path + "routing";
+  const auto judge = [&](const std::string& key, const Where& where, const auto& check) {
+    return !problems.touch(key) && problems.attempt(key, where, check);
+  };
+  if (!job.motion.is_prescribed() && !problems.touch("motion")) {
+    if (!problems.touch("robot") && !problems.touch(dresspack + ".diameter_mm"))
+      judge(routing, mounted.routing.where, [&] {
+        check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
+      });
+    judge(dresspack, mounted.dresspack.where, [&] { check_simulated(mounted.dresspack); });
   }
-  check_shared(job.dresspacks);
-  if (job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
-    throw InputError(
-        strain,
-        fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
-        "give one word, or one per level, outermost first");
+  std::optional<int> depth;
+  if (!problems.touch("strain"))
+    judge(dresspack + ".components", mounted.dresspack.where,
+          [&] { depth = check_dresspack(mounted.dresspack, job.strain.slip); });
+  judge(dresspack + ".materials", mounted.dresspack.where, [&] { check_materials(mounted.dresspack.materials); });
+  judge(dresspack + ".components", mounted.dresspack.where,
+        [&] { refuse_gross_overlap(mounted.dresspack); });  // dresslife-strain warns of less
+  return depth;
+}
+
+void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
+  const Forms forms = forms_of(job);
+  if (!forms.one) problems.attempt("dresspacks", job.dresspacks.front().where, [&] { check_names(job.dresspacks); });
+  if (job.dresspacks.size() > 1 && !job.motion.clamp_poses.empty())
+    problems.add(job.motion.where,
+                 fmt::format("motion.clamp_poses brings the clamps of one dresspack (there are {})",
+                             job.dresspacks.size()),
+                 "describe the motion by a robot, or keep one dresspack", "motion");
+  int depth = 0;
+  bool told = true;  // how deep each is
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    const std::string path = forms.one ? "" : fmt::format("dresspacks[{}].", d + 1);
+    const std::optional<int> levels = check_mounted(job, job.dresspacks[d], path, problems);
+    told = told && levels;
+    depth = std::max(depth, levels.value_or(0));
+  }
+  if (told) problems.attempt("", job.motion.where, [&] { check_shared(job.dresspacks); });
+  if (told && job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
+    problems.add(strain,
+                 fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
+                 "give one word, or one per level, outermost first");
 }
 
 /// A curve whose lives do not rise with falling strain is none.
@@ -174,51 +204,75 @@ void check_slopes(const Job& job, const Where& where) {
                          "give a smaller one");
 }
 
-void check(const Job& job, const Node& document) {
-  auto where = [&](const char* key) {
+/// Whether what was read fits together. What was not read is not judged.
+void check(const Job& job, const Node& document, Problems& problems) {
+  const auto where = [&](const char* key) {
     return document.find(key) ? document.find(key)->where : document.where;
   };
-  if (job.motion.is_prescribed()) check_prescribed(job, document);
-  if (job.motion.needs_robot()) check_robot(job.robot, where("robot"));
-  for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
-  check_boxes(job.cell.boxes, where("cell"));
-  check_motion(job.motion, job.robot);
-  check_dresspacks(job, where("strain"));
-  check_simulation(job.simulation, where("simulation"));
-  check_slopes(job, where("fatigue"));
+  const auto judge = [&](std::initializer_list<const char*> keys, const auto& check) {
+    if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return problems.touch(key); }))
+      problems.attempt(*keys.begin(), where(*keys.begin()), check);
+  };
+  if (job.motion.is_prescribed() && !job.dresspacks.empty())
+    judge({"motion", "routing"}, [&] { check_prescribed(job, document); });
+  if (job.motion.needs_robot()) judge({"robot"}, [&] { check_robot(job.robot, where("robot")); });
+  judge({"robot"}, [&] {
+    for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
+  });
+  judge({"cell"}, [&] { check_boxes(job.cell.boxes, where("cell")); });
+  judge({"motion", "robot"}, [&] { check_motion(job.motion, job.robot); });
+  if (!job.dresspacks.empty()) check_dresspacks(job, where("strain"), problems);
+  judge({"simulation"}, [&] { check_simulation(job.simulation, where("simulation")); });
+  judge({"fatigue", "dresspack", "dresspacks"}, [&] { check_slopes(job, where("fatigue")); });
 }
 
 /// Once what they are taken from is known to be sound.
-void take_stiffnesses(Job& job) {
-  for (MountedDresspack& mounted : job.dresspacks) {
-    if (!is_from_construction(mounted.dresspack)) continue;
-    check_dresspack(mounted.dresspack, job.strain.slip);
-    take_from_construction(mounted.dresspack);
-  }
+void take_stiffnesses(Dresspack& dresspack, const std::vector<Slip>& slip) {
+  if (!is_from_construction(dresspack)) return;
+  check_dresspack(dresspack, slip);
+  take_from_construction(dresspack);
 }
 
 /// strain.gate of a job with a rig that names none: above the rounding of strains in single precision (W26).
 constexpr double gate_of_rigs = 1e-6;
 
-/// Exactly one of the two forms in which a job gives its dresspacks.
-void check_forms(const Node& document) {
+/// Exactly one of the two forms in which a job gives its dresspacks; of both, the list is kept.
+void check_forms(Node& document, Problems& problems) {
   const Node* list = document.find("dresspacks");
   for (const char* key : {"dresspack", "routing"}) {
     const Node* alone = document.find(key);
     if (list && alone)
-      throw InputError(
-          alone->where,
-          fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
-          "keep one of the two");
+      problems.add(alone->where, fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
+                   "keep one of the two");
     const Node* motion = document.find("motion");
     const bool of_rig = key == std::string_view("routing") && motion && motion->find("rig");
     if (!list && !alone && !of_rig)
-      throw InputError(document.where, fmt::format("{} is missing (and there is no list dresspacks)", key),
-                       "give dresspack and routing, or a list dresspacks of name, dresspack, routing");
+      problems.add(document.where, fmt::format("{} is missing (and there is no list dresspacks)", key),
+                   "give dresspack and routing, or a list dresspacks of name, dresspack, routing", key);
   }
-  if (list && (!list->is_list() || list->items.empty()))
-    throw InputError(list->where, "dresspacks holds no dresspack",
-                     "write a list of name, dresspack and routing");
+  if (!list) return;
+  if (!list->is_list() || list->items.empty())
+    problems.add(list->where, "dresspacks holds no dresspack", "write a list of name, dresspack and routing",
+                 "dresspacks");
+  std::erase_if(document.entries, [](const Entry& e) { return e.key == "dresspack" || e.key == "routing"; });
+}
+
+/// Clamps at mounting points, stiffnesses from construction, and what a rig brings by itself.
+void complete(Job& job, const Node& document, Problems& problems) {
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    MountedDresspack& mounted = job.dresspacks[d];
+    const std::string path = forms_of(job).one ? "" : fmt::format("dresspacks[{}].", d + 1);
+    if (!problems.touch("robot") && !problems.touch(path + "routing"))
+      problems.attempt(path + "routing", mounted.routing.where, [&] { place_clamps(mounted.routing, job.robot); });
+    if (!problems.touch(path + "dresspack"))
+      problems.attempt(path + "dresspack", mounted.dresspack.where,
+                       [&] { take_stiffnesses(mounted.dresspack, job.strain.slip); });
+  }
+  if (!job.motion.rig || problems.touch("motion")) return;
+  problems.attempt("motion", job.motion.where, [&] { check_rig(*job.motion.rig); });
+  const Node* strain = document.find("strain");
+  // Millions of cycles below the usual gate are what a rig is for, and its few samples cost nothing.
+  if (!strain || !strain->find("gate")) job.strain.gate = gate_of_rigs;
 }
 
 }  // namespace
@@ -228,22 +282,18 @@ void check_forms(const Node& document) {
 Job job_from(Node document, const std::vector<std::string>& sets) {
   if (!document.is_map())
     throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
-  for (const std::string& set : sets) apply_set(document, set);
-  check_forms(document);
-  resolve_job(document);
-  apply_calibration(document);
+  Problems problems;
+  for (const std::string& set : sets) problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });
+  check_forms(document, problems);
+  resolve_job(document, problems);
+  if (const Node* calibration = document.find("calibration"))
+    problems.attempt("calibration", calibration->where, [&] { apply_calibration(document); });
   Job job;
   if (document.find("dresspacks")) job.dresspacks.clear();
-  read_fields(document, job);
-  for (MountedDresspack& mounted : job.dresspacks) place_clamps(mounted.routing, job.robot);
-  take_stiffnesses(job);
-  if (job.motion.rig) {
-    check_rig(*job.motion.rig);
-    const Node* strain = document.find("strain");
-    // Millions of cycles below the usual gate are what a rig is for, and its few samples cost nothing.
-    if (!strain || !strain->find("gate")) job.strain.gate = gate_of_rigs;
-  }
-  check(job, document);
+  read_fields(document, Describe([&](Fields& f) { describe(f, job); }), problems);
+  complete(job, document, problems);
+  check(job, document, problems);
+  problems.finish(document.where.file);
   if (job.motion.rig)
     job.dresspacks.front().routing.free_length = rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
   return job;

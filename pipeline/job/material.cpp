@@ -43,20 +43,22 @@ void describe(Fields& f, Material& material) {
 }
 
 void check_materials(const std::vector<Material>& materials) {
+  Problems problems;
   for (const Material& material : materials) {
     const auto& table = material.strain_life_table;
     if (table.size() == 1)
-      throw InputError(material.where, fmt::format("strain_life_table of '{}' has one point", material.name),
+      problems.add(material.where, fmt::format("strain_life_table of '{}' has one point", material.name),
                        "give at least two");
     for (std::size_t i = 1; i < table.size(); ++i)
       if (!(table[i].strain_amplitude < table[i - 1].strain_amplitude &&
             table[i].cycles > table[i - 1].cycles))
-        throw InputError(
+        problems.add(
             material.where,
             fmt::format("point {} of strain_life_table of '{}' is no smaller strain with a longer life",
                         i + 1, material.name),
             "order the points by falling strain amplitude and rising cycles");
   }
+  problems.finish();
 }
 
 }  // namespace dresslife::pipeline

@@ -152,7 +152,8 @@ void check_move(const MotionStep& step, const Robot& robot) {
     throw InputError(where, "more than one of zone_deg, zone_mm, zone_percent is given", "keep one of them");
 }
 
-void check_step(const MotionStep& step, const Robot& robot) {
+/// Without the steps of a block.
+void check_lone_step(const MotionStep& step, const Robot& robot) {
   const bool move = step.is_move(), dwell = step.dwell > 0, block = step.repeat > 0 || !step.steps.empty();
   if (move + dwell + block != 1)
     throw InputError(step.where,
@@ -164,7 +165,13 @@ void check_step(const MotionStep& step, const Robot& robot) {
   if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone ||
                 step.stop_zone || step.duration))
     throw InputError(step.where, "speed and zone belong to a move", "take them out of this step");
-  for (const MotionStep& inner : step.steps) check_step(inner, robot);
+}
+
+void check_steps(const std::vector<MotionStep>& steps, const Robot& robot, Problems& problems) {
+  for (const MotionStep& step : steps) {
+    problems.attempt("", step.where, [&] { check_lone_step(step, robot); });
+    check_steps(step.steps, robot, problems);
+  }
 }
 
 void check_frames(const Motion& motion) {
@@ -180,11 +187,13 @@ void check_motion(const Motion& motion, const Robot& robot) {
       1)
     throw InputError(motion.where, "motion must have one of steps, program, clamp_poses, deformation or rig",
                      "give one of the five");
-  check_frames(motion);
-  for (const MotionStep& step : motion.steps) check_step(step, robot);
+  Problems problems;
+  problems.attempt("", motion.where, [&] { check_frames(motion); });
+  check_steps(motion.steps, robot, problems);
   if (!motion.steps.empty() && !motion.steps.front().is_move())
-    throw InputError(motion.steps.front().where,
-                     "the program must begin with a move (where the robot starts)", "begin with joints_deg");
+    problems.add(motion.steps.front().where, "the program must begin with a move (where the robot starts)",
+                 "begin with joints_deg");
+  problems.finish();
 }
 
 namespace {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/job/problems.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -42,9 +44,9 @@ std::string what_fits(const Component& of) {
                      std::floor(10 * largest_lay_angle(of) * 180 / pi) / 10, of.lay_angle * 180 / pi, fewer);
 }
 
-/// warnings: null, when only gross overlap is to be refused.
-void add_warnings(const Component& of, std::vector<Warning>* warnings) {
-  for (const Component& inner : of.components) add_warnings(inner, warnings);
+/// Gross overlap is a problem, less of it a warning where these are asked for.
+void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>* warnings) {
+  for (const Component& inner : of.components) add_overlaps(inner, problems, warnings);
   if (!overlaps(of)) return;
   const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
   const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
@@ -52,10 +54,9 @@ void add_warnings(const Component& of, std::vector<Warning>* warnings) {
       "the {} parts '{}' are {:.4g} mm apart between their axes, {:.3f} mm less than their diameter",
       of.count, name, 1e3 * apart, 1e3 * (needed - apart));
   if (apart < hopeless * needed)
-    throw InputError(
-        of.where, fmt::format("{} (nearer than half of it)", what),
-        fmt::format("check count, radius_mm, helix_radius_mm and lay_angle_deg; {}", what_fits(of)));
-  if (warnings)
+    problems.add(of.where, fmt::format("{} (nearer than half of it)", what),
+                 fmt::format("check count, radius_mm, helix_radius_mm and lay_angle_deg; {}", what_fits(of)));
+  else if (warnings)
     warnings->push_back({WarningKind::overlap, of.where.text(), fmt::format("{}; {}", what, what_fits(of))});
 }
 
@@ -85,13 +86,17 @@ bool overlaps(const Component& component) {
 }
 
 std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
+  Problems problems;
   std::vector<Warning> warnings;
-  for (const Component& component : dresspack.components) add_warnings(component, &warnings);
+  for (const Component& component : dresspack.components) add_overlaps(component, problems, &warnings);
+  problems.finish();
   return warnings;
 }
 
 void refuse_gross_overlap(const Dresspack& dresspack) {
-  for (const Component& component : dresspack.components) add_warnings(component, nullptr);
+  Problems problems;
+  for (const Component& component : dresspack.components) add_overlaps(component, problems, nullptr);
+  problems.finish();
 }
 
 }  // namespace dresslife::pipeline

@@ -119,17 +119,20 @@ void check_joint(const Joint& joint, const Robot& robot) {
 }  // namespace
 
 void check_robot(const Robot& robot, const Where& where) {
+  Problems problems;
   if (robot.links.size() != robot.joints.size() + 1)
-    throw InputError(where,
-                     fmt::format("robot has {} joints and {} links (must be one link more)",
-                                 robot.joints.size(), robot.links.size()),
-                     "list the base link and one link per joint");
-  for (const Joint& joint : robot.joints) check_joint(joint, robot);
-  for (const ExternalAxis& axis : robot.external_axes) {
-    if (axis.name.empty()) throw InputError(axis.where, "an external axis has no name", "name it");
-    check_direction(axis.axis, axis.name, axis.where);
-    check_range(axis.lower, axis.upper, axis.name, axis.where);
-  }
+    problems.add(where,
+                 fmt::format("robot has {} joints and {} links (must be one link more)", robot.joints.size(),
+                             robot.links.size()),
+                 "list the base link and one link per joint");
+  for (const Joint& joint : robot.joints) problems.attempt("", joint.where, [&] { check_joint(joint, robot); });
+  for (const ExternalAxis& axis : robot.external_axes)
+    problems.attempt("", axis.where, [&] {
+      if (axis.name.empty()) throw InputError(axis.where, "an external axis has no name", "name it");
+      check_direction(axis.axis, axis.name, axis.where);
+      check_range(axis.lower, axis.upper, axis.name, axis.where);
+    });
+  problems.finish();
 }
 
 }  // namespace dresslife::pipeline

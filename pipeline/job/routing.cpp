@@ -136,20 +136,20 @@ void check_robot_only(const Routing& routing) {
   refuse(routing.pre_twist != 0, "pre_twist_deg", routing.where);
 }
 
-void check_rings(const Routing& routing, double diameter, const Robot& robot) {
+void check_rings(const Routing& routing, double diameter, const Robot& robot, Problems& problems) {
   double before = 0;
   for (std::size_t k = 0; k < routing.rings.size(); ++k) {
     const GuideRing& ring = routing.rings[k];
     const std::string name = fmt::format("rings[{}]", k + 1);
-    check_place(ring.link, ring.direction, name, ring.where, robot);
+    problems.attempt("", ring.where, [&] { check_place(ring.link, ring.direction, name, ring.where, robot); });
     if (2 * ring.radius <= diameter)
-      throw InputError(ring.where,
+      problems.add(ring.where,
                        fmt::format("routing.{}.radius_mm is {} (the dresspack's own radius is {} mm)", name,
                                    1e3 * ring.radius, 1e3 * diameter / 2),
                        "give a ring that lets it through");
     if (!ring.at_length) continue;
     if (!(*ring.at_length > before && *ring.at_length < routing.free_length))
-      throw InputError(
+      problems.add(
           ring.where,
           fmt::format("routing.{}.at_length_m is {} (must lie between {} and {}, the ring or clamp before "
                       "it and the dresspack's end)",
@@ -160,18 +160,18 @@ void check_rings(const Routing& routing, double diameter, const Robot& robot) {
   if (!routing.rings.empty() && !routing.clamps.empty())
     for (const GuideRing& ring : routing.rings)
       if (!ring.at_length)
-        throw InputError(ring.where,
+        problems.add(ring.where,
                          "a ring beside routing.clamps has no at_length_m (it tells between which clamps)",
                          "give the length of dresspack from the base clamp to the ring");
 }
 
-void check_intermediate_clamps(const Routing& routing, const Robot& robot) {
+void check_intermediate_clamps(const Routing& routing, const Robot& robot, Problems& problems) {
   double before = 0;
   for (std::size_t k = 0; k < routing.clamps.size(); ++k) {
     const auto& [clamp, at_length] = routing.clamps[k];
-    check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot);
+    problems.attempt("", clamp.where, [&] { check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot); });
     if (!(at_length > before && at_length < routing.free_length))
-      throw InputError(
+      problems.add(
           clamp.where,
           fmt::format("routing.clamps[{}].at_length_m is {} (must lie between {} and {}, the clamps "
                       "before and after it)",
@@ -184,36 +184,42 @@ void check_intermediate_clamps(const Routing& routing, const Robot& robot) {
 }  // namespace
 
 void place_clamps(Routing& routing, const Robot& robot) {
+  Problems problems;
+  const auto place = [&](Clamp& clamp) { problems.attempt("", clamp.where, [&] { place_clamp(clamp, robot); }); };
   for (std::optional<Clamp>* clamp : {&routing.base_clamp, &routing.tool_clamp})
-    if (*clamp) place_clamp(**clamp, robot);
-  for (IntermediateClamp& between : routing.clamps) place_clamp(between.clamp, robot);
+    if (*clamp) place(**clamp);
+  for (IntermediateClamp& between : routing.clamps) place(between.clamp);
+  problems.finish();
 }
 
 void check_routing(const Routing& routing, double diameter, const Robot& robot, bool recorded) {
+  Problems problems;
+  const auto attempt = [&](const auto& check) { problems.attempt("", routing.where, check); };
   if (!recorded) {
-    check_clamp(routing.base_clamp, "base_clamp", routing, robot);
-    if (is_clamped(routing.tool_end)) check_clamp(routing.tool_clamp, "tool_clamp", routing, robot);
+    attempt([&] { check_clamp(routing.base_clamp, "base_clamp", routing, robot); });
+    if (is_clamped(routing.tool_end)) attempt([&] { check_clamp(routing.tool_clamp, "tool_clamp", routing, robot); });
   } else if (routing.base_clamp || routing.tool_clamp) {
-    throw InputError(routing.where, "clamps are given although motion.clamp_poses brings their poses",
-                     "keep one of the two");
+    problems.add(routing.where, "clamps are given although motion.clamp_poses brings their poses",
+                 "keep one of the two");
   }
-  if (recorded) check_robot_only(routing);
-  check_intermediate_clamps(routing, robot);
-  check_rings(routing, diameter, robot);
+  if (recorded) attempt([&] { check_robot_only(routing); });
+  check_intermediate_clamps(routing, robot, problems);
+  check_rings(routing, diameter, robot, problems);
   if (!is_clamped(routing.tool_end) && routing.tool_clamp)
-    throw InputError(routing.tool_clamp->where,
-                     "routing.tool_clamp is given although routing.tool_end is free", "keep one of the two");
+    problems.add(routing.tool_clamp->where, "routing.tool_clamp is given although routing.tool_end is free",
+                 "keep one of the two");
   if (!is_clamped(routing.tool_end) && routing.pre_twist != 0)
-    throw InputError(routing.where, "routing.pre_twist_deg is given although routing.tool_end is free",
-                     "keep one of the two");
+    problems.add(routing.where, "routing.pre_twist_deg is given although routing.tool_end is free",
+                 "keep one of the two");
   if (routing.tool_mass > 0 && is_clamped(routing.tool_end))
-    throw InputError(routing.where, "routing.tool_mass_kg is given although the tool end is clamped",
-                     "add tool_end: free, or leave the mass out");
+    problems.add(routing.where, "routing.tool_mass_kg is given although the tool end is clamped",
+                 "add tool_end: free, or leave the mass out");
   if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != robot.axes())
-    throw InputError(routing.where,
-                     fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)",
-                                 routing.mounting_pose.size(), robot.axes()),
-                     "give one angle per axis");
+    problems.add(routing.where,
+                 fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)", routing.mounting_pose.size(),
+                             robot.axes()),
+                 "give one angle per axis");
+  problems.finish();
 }
 
 }  // namespace dresslife::pipeline

@@ -17,6 +17,7 @@
 #include "pipeline/readable.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/shown_rows.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -287,7 +288,7 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
   std::vector<JobResult> results;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
-    JobResult result{job.name, places.life(job.name), job.failure, states[k].settings, states[k].told};
+    JobResult result{job.name, places.life(job.name), first_problem(job), states[k].settings, states[k].told};
     if (states[k].done() && states[k].keep == Keep::lives && !state_of(result.life_file).exists()) result.life_file.clear();
     if (job.failure.empty() && !states[k].done())
       result.failure = states[k].failure.empty() ? states[k].words() : states[k].failure;

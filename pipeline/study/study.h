@@ -25,7 +25,7 @@ struct Job;
 struct StudyJob {
   std::string name;                ///< unique in the study, fit for a folder
   std::shared_ptr<const Job> job;  ///< when it can be run, in a study that was expanded
-  std::string failure;             ///< else: the one line that says why not
+  std::string failure;             ///< else why not, a line for each problem
   std::vector<std::string> values{};  ///< (varied) of what the study varies, in words of the name
 };
 

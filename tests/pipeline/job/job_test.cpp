@@ -193,7 +193,9 @@ TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are to
   check_case({"name: test hose", "name: [a, b]", "[a, b]",
               "dresspack.name must be text; give name of the dresspack"});
   check_case({"routing:\n", "routing: 3\nunused:\n", "3\nunused",
-              "routing must be a map of settings; give clamps and free length"});
+              "routing must be a map of settings; give clamps and free length\n"
+              "job.yaml:45:1: error: unknown key 'unused'; keys here: motion, robot, dresspack, routing, cell, "
+              "simulation, strain, fatigue, uncertainty, calibration"});
   check_case({"probes: [{segment_from_tool: 2, component: cable 1/wire 1}]", "probes: all", "all}",
               "strain.probes must be a list; give wires whose whole strain history is kept"});
   check_case({"probes: [{segment_from_tool: 2, component: cable 1/wire 1}]", "probes: [cable 1]", "cable 1]",

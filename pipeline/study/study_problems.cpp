@@ -1,0 +1,48 @@
+#include "pipeline/study/study_problems.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "pipeline/job/problems.h"
+#include "pipeline/study/study.h"
+
+namespace dresslife::pipeline {
+
+std::string first_problem(const StudyJob& job) {
+  const std::vector<std::string> lines = problem_lines(job.failure);
+  return lines.size() == 1 ? job.failure
+                           : fmt::format("{} (and {} more problems, told below the jobs)", lines.front(), lines.size() - 1);
+}
+
+std::string problem_words(const Study& study) {
+  constexpr std::size_t named = 3;
+  std::vector<std::string> lines;
+  std::map<std::string, std::vector<std::string>> jobs_of;
+  for (const StudyJob& job : study.jobs)
+    for (const std::string& line : job.failure.empty() ? std::vector<std::string>{} : problem_lines(job.failure)) {
+      std::vector<std::string>& jobs = jobs_of[line];
+      if (jobs.empty()) lines.push_back(line);
+      jobs.push_back(job.name);
+    }
+  const bool told = std::all_of(study.jobs.begin(), study.jobs.end(), [&](const StudyJob& job) {
+    return job.failure.empty() || (problem_lines(job.failure).size() == 1 && jobs_of[job.failure].size() == 1);
+  });
+  if (told) return "";
+  std::string text;
+  for (const std::string& line : lines) {
+    const std::vector<std::string>& jobs = jobs_of[line];
+    const std::vector<std::string> first(jobs.begin(), jobs.begin() + std::min(jobs.size(), named));
+    text += line;
+    if (study.jobs.size() > 1)
+      text += fmt::format(" ({}{}{})", jobs.size() > 1 ? fmt::format("{} jobs: ", jobs.size()) : "job ",
+                          fmt::join(first, ", "), jobs.size() > named ? ", ..." : "");
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace dresslife::pipeline
