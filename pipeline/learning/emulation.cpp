@@ -90,26 +90,41 @@ class RoundEmulation {
                      "mend it, or leave the row out");
   }
 
+  /// How a cable bends: sums of its moments, or how fast its swing dies away.
   EmulatedTest bending_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
     const Observation& observation = test.observation;
+    const double noise = observation.noise_percent / 100;
+    EmulatedTest made;
+    if (observation.decrement) {
+      const MeasuredNumber number{*observation.decrement - observation.decrement_without_slip, noise * *observation.decrement, {{0, 1.0}}};
+      const auto said = [&](const std::vector<double>& curvature, const std::vector<double>& moment) {
+        return VectorXd::Constant(1, log_decrement_by_slip(curvature, moment, observation.at_curvature)).eval();
+      };
+      for (const RoundOfJobs::Runs& runs : variants) made.bending.push_back({bending_over(test, runs, said), {number}});
+      return made;
+    }
     const std::vector<BendingPoint> points =
         observation.stiffness ? std::vector<BendingPoint>{{observation.at_curvature,
                                                            *observation.stiffness * observation.at_curvature}}
                               : read_bending(observation.bending);
-    const BendingNumbers bent = bending_numbers(points, observation.noise_percent / 100);
-    EmulatedTest made;
+    const BendingNumbers bent = bending_numbers(points, noise);
     if (observation.stiffness) made.per_shown = observation.at_curvature;
     for (std::size_t k = 0; k < bent.numbers.size(); ++k)
       if (std::abs(bent.numbers[k].value) > std::abs(bent.numbers[made.shown].value)) made.shown = k;
-    for (const RoundOfJobs::Runs& runs : variants)
-      made.bending.push_back({moments_over(test, runs, bent.curvatures), bent.numbers});
+    const auto said = [&](const std::vector<double>& curvature, const std::vector<double>& moment) {
+      VectorXd values(static_cast<Index>(bent.curvatures.size()));
+      for (std::size_t c = 0; c < bent.curvatures.size(); ++c)
+        values[static_cast<Index>(c)] = log_moment(curvature, moment, bent.curvatures[c]);
+      return values;
+    };
+    for (const RoundOfJobs::Runs& runs : variants) made.bending.push_back({bending_over(test, runs, said), bent.numbers});
     return made;
   }
 
-  /// ln of the first-bend moment at each curvature over z.
-  std::vector<Emulator> moments_over(const ObservedTest& test, const RoundOfJobs::Runs& runs,
-                                     const std::vector<double>& curvatures) const {
-    const auto said = [&](std::size_t job) {
+  /// Logarithms over z of what is said of a first bend, from its table of curvatures and moments.
+  template <typename Said>
+  std::vector<Emulator> bending_over(const ObservedTest& test, const RoundOfJobs::Runs& runs, const Said& said) const {
+    const auto of_job = [&](std::size_t job) {
       row_of(test, job);
       const FileReader strain(places_.job(round_.study().jobs[job].name) / "strain.h5", strain_format());
       if (!strain.has("/bending/moment"))
@@ -119,19 +134,14 @@ class RoundEmulation {
                         "strain.slip lets something rub and no part lies straight beside the axis)",
                         test.observation.name),
             "give dresspack.cable, and strain.slip such as [free, friction, friction]");
-      const auto curvature = strain.read<double>("/bending/curvature"),
-                 moment = strain.read<double>("/bending/moment");
-      VectorXd values(static_cast<Index>(curvatures.size()));
-      for (std::size_t c = 0; c < curvatures.size(); ++c)
-        values[static_cast<Index>(c)] = log_moment(curvature, moment, curvatures[c]);
-      return values;
+      return said(strain.read<double>("/bending/curvature"), strain.read<double>("/bending/moment"));
     };
-    const VectorXd middle = said(runs.centre);
+    const VectorXd middle = of_job(runs.centre);
     Eigen::MatrixXd low = middle.replicate(1, uncertain_count), high = low;
     for (std::size_t p = 0; p < uncertain_count; ++p) {
       if (!runs.arms[p]) continue;
-      low.col(static_cast<Index>(p)) = said(runs.arms[p]->low);
-      high.col(static_cast<Index>(p)) = said(runs.arms[p]->high);
+      low.col(static_cast<Index>(p)) = of_job(runs.arms[p]->low);
+      high.col(static_cast<Index>(p)) = of_job(runs.arms[p]->high);
     }
     std::vector<Emulator> made;
     for (Index c = 0; c < middle.size(); ++c)

@@ -76,6 +76,28 @@ double number_of(const std::string& cell, const Where& where) {
   return value;
 }
 
+/// Integral of M1 from 0 to a curvature [N m x 1/m]: between two values of the table M1 is a power, before the first one
+/// that of the first two.
+double work(const std::vector<double>& curvatures, const std::vector<double>& moments, double curvature) {
+  double sum = 0;
+  for (std::size_t k = 1; k < curvatures.size(); ++k) {
+    const double power = std::log(moments[k] / moments[k - 1]) / std::log(curvatures[k] / curvatures[k - 1]);
+    const bool last = curvature <= curvatures[k] || k + 1 == curvatures.size();
+    const double end = last ? curvature : curvatures[k];
+    const double moment = last ? std::exp(log_moment(curvatures, moments, curvature)) : moments[k];
+    const double before = k == 1 ? 0 : curvatures[k - 1] * moments[k - 1];
+    sum += (end * moment - before) / (power + 1);
+    if (last) break;
+  }
+  return sum;
+}
+
+/// Curvature of a clamped bar's first natural form, 1 at the clamp. x: share of the length from there.
+double first_form(double x) {
+  constexpr double beta = 1.875104, ratio = 0.734096;
+  return (std::cosh(beta * x) + std::cos(beta * x) - ratio * (std::sinh(beta * x) + std::sin(beta * x))) / 2;
+}
+
 }  // namespace
 
 std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
@@ -122,6 +144,19 @@ double log_moment(const std::vector<double>& curvatures, const std::vector<doubl
   const auto k = static_cast<std::size_t>(above - curvatures.begin());
   const double part = std::log(curvature / curvatures[k - 1]) / std::log(curvatures[k] / curvatures[k - 1]);
   return std::log(moments[k - 1]) + part * std::log(moments[k] / moments[k - 1]);
+}
+
+double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments, double largest) {
+  constexpr int places = 40;
+  constexpr double least = 1e-4;
+  double lost = 0, stored = 0;
+  for (int i = 0; i < places; ++i) {
+    const double curvature = largest * first_form((i + 0.5) / places);
+    const double moment = std::exp(log_moment(curvatures, moments, curvature));
+    lost += 8 * work(curvatures, moments, curvature) - 4 * curvature * moment;
+    stored += curvature * moment;
+  }
+  return std::log(std::max(least, lost / stored));
 }
 
 }  // namespace dresslife::pipeline

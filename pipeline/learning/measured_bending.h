@@ -4,6 +4,10 @@
 // where bending turned (Masing): from a turning point (k0, M0) on
 //     M = M0 + 2 M1((k - k0)/2),                                                              (P4)
 // a branch that closes a loop goes on as the one before it. So each measured moment is a sum of values of M1.
+//
+// A piece held at one end that swings freely bends to and fro between -k phi and k phi, phi(x) the curvature of a clamped
+// bar's first natural form, 1 at the clamp. Each swing to and fro takes the loop that (P4) closes from what is stored:
+//     decrement = sum over x of [8 int_0^(k phi) M1 - 4 k phi M1(k phi)] / sum over x of k phi M1(k phi)       (P5)
 #pragma once
 
 #include <filesystem>
@@ -33,5 +37,9 @@ BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double n
 
 /// ln M1 at a curvature, between the values of a rising table, straight in logarithms.
 double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments, double curvature);
+
+/// ln of what slip has of the logarithmic decrement (P5). curvatures, moments: the table of M1, both > 0 and rising.
+/// largest: curvature beside the clamp at the end of a swing [1/m]. Not below ln 1e-4: what loses less is lost in air's.
+double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments, double largest);
 
 }  // namespace dresslife::pipeline

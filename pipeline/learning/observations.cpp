@@ -23,11 +23,16 @@ void describe(Fields& f, Observation& observation) {
   f.maybe_number("hours", observation.hours, above(0), "of motion that it lived, instead of cycles");
   f.maybe_number("stiffness_Nm2", observation.stiffness, above(0),
                  "instead of a life: moment over curvature of the cable, bent from straight to at_curvature_1_per_m");
-  f.number("at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100), "of stiffness_Nm2");
+  f.number("at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100),
+           "of stiffness_Nm2; of decrement the curvature beside the clamp at the end of a swing, 3.5 x deflection / length^2");
+  f.maybe_number("decrement", observation.decrement, between(1e-3, 5),
+                 "instead of a life: ln of the ratio of two swings to one side that follow each other, of a piece that stands out from a clamp");
+  f.number("decrement_without_slip", observation.decrement_without_slip, Need::optional, between(0, 5),
+           "what of decrement the jacket's polymer and the air have, as the smallest swings show it");
   f.path("bending", observation.bending, Need::optional,
          "instead of a life: a CSV of a bending test, columns curvature_1_per_m and moment_Nm, from straight, loops as they were bent");
   f.number("noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
-           "standard deviation of a measured moment or stiffness");
+           "standard deviation of a measured moment, stiffness or decrement");
   f.number("cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
            "that the observer counts in one repeat of the job's motion: 2 where single strokes are counted");
   f.choice("outcome", observation.outcome,
@@ -91,11 +96,14 @@ Observation read_one(const Node& item) {
     throw InputError(item.where, fmt::format("name '{}' is not made of letters, digits and _", observation.name),
                      "choose another name");
   const int observed = observation.cycles.has_value() + observation.hours.has_value() + observation.stiffness.has_value() +
-                       !observation.bending.empty();
+                       observation.decrement.has_value() + !observation.bending.empty();
   if (observed != 1)
     throw InputError(item.where,
-                     fmt::format("'{}' must have either cycles or hours (or stiffness_Nm2, or bending)", observation.name),
+                     fmt::format("'{}' must have either cycles or hours (or stiffness_Nm2, decrement or bending)", observation.name),
                      "give one of them");
+  if (observation.decrement && observation.decrement_without_slip >= *observation.decrement)
+    throw InputError(item.where, fmt::format("'{}': nothing of decrement is left for slip", observation.name),
+                     "give a decrement_without_slip below decrement");
   if (!item.find("job"))
     throw InputError(item.where, fmt::format("'{}' has no job (what was done to it)", observation.name),
                      "give a job, or the file of one");
@@ -247,6 +255,8 @@ std::string life_text(double life) { return std::isinf(life) ? "no damage" : rea
 std::string observed_text(const Observation& observation) {
   if (observation.stiffness)
     return fmt::format("{} N m2 at {} 1/m", readable(*observation.stiffness, 3), readable(observation.at_curvature, 2));
+  if (observation.decrement)
+    return fmt::format("decrement {} at {} 1/m", readable(*observation.decrement, 2), readable(observation.at_curvature, 2));
   if (!observation.bending.empty()) return observation.bending.filename().string();
   const char* sign = observation.outcome == ObservedEnd::broken      ? ""
                      : observation.outcome == ObservedEnd::broken_by ? "at most "

@@ -82,10 +82,12 @@ struct Observation {
   // What was observed, one of:
   std::optional<double> cycles, hours;  ///< that it lived [cycles, h]
   std::optional<double> stiffness;      ///< moment over curvature of the cable, bent from straight [N m2]
+  std::optional<double> decrement;      ///< of the cable's free swing, held at one end [1]
   std::filesystem::path bending;        ///< a bending test as a table (measured_bending.h); empty: none
 
-  double at_curvature = 1;   ///< of stiffness [1/m]
-  double noise_percent = 5;  ///< of a measured moment
+  double at_curvature = 1;            ///< of stiffness; of decrement beside the clamp, at the end of a swing [1/m]
+  double decrement_without_slip = 0;  ///< share of decrement that polymer and air have [1]
+  double noise_percent = 5;           ///< of a measured moment or decrement
   double cycles_per_repeat = 1;         ///< that the observer counts in one repeat of the job's motion
   ObservedEnd outcome = ObservedEnd::broken;
   FailureCriterion criterion = FailureCriterion::conductor;

@@ -78,6 +78,9 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     if (plain.strain.factors != StrainFactors{} || is_changed(plain.fatigue) ||
         plain.fatigue.scatter_factor != 1)
       refuse("its job gives a key that is to be learned", "leave the factors of strain and fatigue out");
+    if (plain.uncertainty.spread != Uncertainty::default_spread())
+      refuse("its job gives spreads of its own, but what is learned has one prior for all rows",
+             "leave section uncertainty out of its job");
     runs.centre = add(variant, centre_);
     for (std::size_t p = 0; p < uncertain_count; ++p) {
       if (!acts(plain, static_cast<Uncertain>(p))) continue;

@@ -11,6 +11,7 @@
 
 using namespace dresslife::tests;
 using dresslife::pipeline::FileReader;
+using dresslife::pipeline::log_decrement_by_slip;
 using dresslife::pipeline::log_moment;
 using dresslife::pipeline::strain_format;
 
@@ -129,6 +130,17 @@ TEST_CASE("calibrate: a bending test with 5 % of noise tells the friction, at te
   CHECK(learned(file, "friction_inside", "value_p90") > 1.6);
   CHECK(file.find("name: strength") == std::string::npos);
 
+  // A swing that dies away as such a cable's does tells it, too, if less: how much it loses hangs less on friction.
+  const double decrement = std::exp(log_decrement_by_slip(curvature, moment, 1)) + 0.03;
+  scratch.write("o.yaml", "observations:\n" + row("swing", fmt::format("    decrement: {}\n    decrement_without_slip: 0.03\n", decrement),
+                                                  "{dresspack: {cable: {from: spot_welding, part: signal cable}}, strain: {slip: [free, friction, friction]}}"));
+  const Outcome swing = run(scratch, "dresslife", "calibrate o.yaml --quiet");
+  INFO(swing.err + swing.out);
+  REQUIRE(swing.status == 0);
+  const std::string swung = content(scratch / "runs/calibrate_o/calibration.yaml");
+  CHECK(learned(swung, "friction_inside", "value_p10") < 1.6);
+  CHECK(learned(swung, "friction_inside", "value_p90") > 1.6);
+
   scratch.write("o.yaml", "observations:\n" + row("bend", "    stiffness_Nm2: 0.2\n", wire_job));
   const Outcome wire = run(scratch, "dresslife", "calibrate o.yaml --quiet");
   CHECK(wire.status == 1);
@@ -145,12 +157,18 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
     return bad.err;
   };
   const auto has = [](const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; };
-  CHECK(has(refused("observations:\n" + row("x", "    outcome: broken\n")), "o.yaml:2:5: error: 'x' must have either cycles or hours (or stiffness_Nm2, or bending)"));
+  CHECK(has(refused("observations:\n" + row("x", "    outcome: broken\n")), "o.yaml:2:5: error: 'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending)"));
+  CHECK(has(refused("observations:\n" + row("d", "    decrement: 0.1\n    decrement_without_slip: 0.1\n")),
+            "o.yaml:2:5: error: 'd': nothing of decrement is left for slip; give"));
   std::string job = wire_job;
   job.insert(job.size() - 1, ", fatigue: {strength_factor: 2}");
   CHECK(has(refused("observations:\n" + row("ok", "    cycles: 5\n") + row("y", "    cycles: 5\n", job)),
             "o.yaml:8:5: error: 'y': its job gives a key that is to be learned; leave"));
   CHECK(has(refused("observations:\n" + row("z", "    cycles: 5\n", "nowhere.yaml")), "nowhere.yaml"));
+  job = wire_job;
+  job.insert(job.size() - 1, ", uncertainty: {friction_inside: 2}");
+  CHECK(has(refused("observations:\n" + row("u", "    cycles: 5\n", job)),
+            "o.yaml:2:5: error: 'u': its job gives spreads of its own, but what is learned has one prior for all rows; leave"));
   job = wire_job;
   job.replace(job.find("copper_halved"), 13, "unobtainium");
   CHECK(has(refused("observations:\n" + row("m", "    cycles: 5\n", job)), "'m': its job cannot be made"));
