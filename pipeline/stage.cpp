@@ -157,6 +157,8 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
   Receipt wanted;
   wanted.recipe =
       recipe_of(settings.text, settings.files, program_file(), digests);
+  wanted.made_with.emplace_back(call.info.program, digests.of(program_file()));
+  for (const std::filesystem::path& file : settings.files) wanted.made_with.emplace_back(file.string(), digests.of(file));
   wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
   const std::optional<Receipt> known = read_receipt(flags.receipt);
   const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&

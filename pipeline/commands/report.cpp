@@ -9,6 +9,7 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
+#include "pipeline/study/changes.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/study_problems.h"
 
@@ -17,26 +18,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Prints the ranking of what is done. The files of the study's folder are brought up to date where they
-/// would hold what a run would write; with results of other settings among the jobs they stay those of the
-/// last run.
+/// Prints the ranking of what is done. The files of the study's folder are brought up to date: of a stale job they keep
+/// the last result, marked. Where one is lost that they may still tell of, they stay as the last run left them.
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   if (const fs::path folder = request.out / study_name(request.file); !fs::is_directory(folder))
     throw InputError({folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
-  const Standing standing = standing_of(request);
+  Standing standing = standing_of(request);
+  tell_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, looks, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
   print(shown(ranking_table(rows)));
   tell(shown(problem_words(study)) + warning_lines(rows));
   const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
-    return !state.done() && state.failure.empty() && !state.recipes[0].empty();
+    return !state.done() && !state.has_last && state.has_results && state.failure.empty();
   });
   std::string kept;
   if (open > 0)
-    kept = fmt::format("{} jobs are not done with these settings", open);
+    kept = fmt::format("of {} jobs the results are broken off or damaged", open);
   else if (::access(places.folder.c_str(), W_OK) != 0)
     kept = "the folder cannot be written";
   if (kept.empty()) {

@@ -89,7 +89,7 @@ namespace {
 void refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& rows) {
   const std::vector<bool> detailed = detailed_jobs(rows);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (!detailed[k]) continue;
+    if (!detailed[k] || rows[k].stale) continue;  // a stale one keeps the page of its last result
     try {
       refresh_job_page({rows[k].job, places.job(rows[k].job)});
     } catch (const InputError& problem) {

@@ -8,6 +8,7 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
+#include "pipeline/study/changes.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/shards.h"
@@ -45,6 +46,7 @@ int run(const RunOptions& options) {
   if (standing.remembered && !standing.all_done()) standing = expanded(request);
   if (!begun) look_again(standing);
   const int executed = make_rest(request, standing, options);
+  tell_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, looks, digests] = standing;
   if (!options.quiet)
     tell(executed ? fmt::format("{}: {} stages ran\n", study.name, executed)

@@ -6,13 +6,15 @@
 #include <memory>
 
 #include "pipeline/commands/options.h"
+#include "pipeline/study/changes.h"
 #include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 int status(const StudyOptions& options) {
-  const Standing standing = standing_of(request_of(options));
+  Standing standing = standing_of(request_of(options));
+  tell_changes(standing.study, standing.places, standing.states);
   std::size_t done = 0;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];

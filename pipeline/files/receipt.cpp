@@ -100,6 +100,7 @@ std::string text_of(const Receipt& receipt) {
   for (const Told& told : receipt.told)
     text += told.text.empty() ? fmt::format("number {} {}\n", told.name, told.number)
                               : fmt::format("text {} {}\n", told.name, in_line(told.text));
+  for (const auto& [what, digest] : receipt.made_with) text += fmt::format("with {} {}\n", digest, in_line(what));
   return text;
 }
 
@@ -125,6 +126,9 @@ std::optional<Receipt> read_receipt(const std::filesystem::path& file) {
       receipt.state.modified_ns = lines.number<std::int64_t>(' ');
       receipt.state.changed_ns = lines.number<std::int64_t>(' ');
       receipt.state.inode = lines.number<std::uint64_t>('\n');
+    } else if (what == "with") {
+      std::string digest(lines.until(' '));
+      receipt.made_with.emplace_back(out_of_line(lines.until('\n')), std::move(digest));
     } else {
       Told& told = receipt.told.emplace_back();
       told.name = lines.until(' ');

@@ -11,7 +11,8 @@
 //   (FileState), if the file system's clock had moved on between the output and its receipt. Both times are
 //   the file system's own, which nobody can set. Where the receipt is not the younger one, the bytes are
 //   compared;
-//   told:   what the output's root says of the result, so that ten thousand are gathered without opening them.
+//   told:   what the output's root says of the result, so that ten thousand are gathered without opening them;
+//   with:   digests of the program and of each file, one by one: which of them changed.
 //
 // The receipt ends with a digest of all that stands before.
 #pragma once
@@ -43,6 +44,8 @@ struct Receipt {
   std::string recipe, input, output;
   FileState state;
   std::vector<Told> told{};
+  /// What else the recipe is of, with digests: the program by its name, and files by their paths.
+  std::vector<std::pair<std::string, std::string>> made_with{};
   std::int64_t written_ns = 0;  ///< when the receipt itself was changed last
   bool state_suffices() const { return state.exists() && written_ns > state.changed_ns; }
 };

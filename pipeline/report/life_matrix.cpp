@@ -97,10 +97,13 @@ std::string cell_text(const RankingRow& row, const Cell& cell, const std::option
     return address.empty() ? words : fmt::format("<a href=\"{}\">{}</a>", address, words);
   };
   const std::string many = cell.jobs > 1 ? fmt::format("<br><small>shortest of {}</small>", cell.jobs) : "";
-  if (!row.done())
-    return fmt::format("<td title=\"{}: {}\"><span class=\"failed\">{}</span>{}</td>", escaped(row.job), escaped(row.failure),
-                       linked("failed"), many);
   const double hours = row.headline_hours();
+  if (!row.done())
+    return fmt::format("<td title=\"{}: {}\"><span class=\"failed\">{}</span>{}</td>", escaped(row.job),
+                       escaped(row.stale ? stale_words(row) : row.failure),
+                       linked(row.stale ? fmt::format("stale {}", std::isinf(hours) ? "no damage" : printed(hours))
+                                        : row.waits() ? row.failure : "failed"),
+                       many);
   const bool spread = span && span->second > span->first;
   const double part = !(hours > 0) ? 0 : std::isinf(hours) ? 1 : spread ? (std::log(hours) - span->first) / (span->second - span->first) : 0.5;
   const std::string kinds = warning_kinds(row);

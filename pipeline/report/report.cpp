@@ -131,6 +131,14 @@ std::string certainty_cell(const RankingRow& row) {
   return text + "</span>";
 }
 
+/// That a result is of other settings, and what changed.
+std::string stale_note(const RankingRow& row) {
+  if (!row.stale) return "";
+  return fmt::format("<br><span class=\"failed\">stale</span> <span class=\"soft\">{}</span>{}",
+                     escaped(stale_words(row).substr(std::string_view("stale: ").size())),
+                     page_link(row, "preview.html", "See where"));
+}
+
 /// Of rows [first, end).
 std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed, std::size_t first,
                          std::size_t end) {
@@ -139,11 +147,12 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
     const RankingRow& row = rows[i];
     const std::string name =
         detailed[i] ? fmt::format("<a href=\"#job-{}\">{}</a>", i + 1, escaped(row.job)) : escaped(row.job);
-    if (!row.done()) {
+    if (!row.has_result()) {
       text += fmt::format(
-          "{}<td class=\"number\">-</td><td>{}</td><td colspan=\"7\"><span class=\"failed\">failed</span> "
+          "{}<td class=\"number\">-</td><td>{}</td><td colspan=\"7\"><span class=\"failed\">{}</span> "
           "{}</td></tr>\n",
-          row_begin(row, i + 1), name, escaped(row.failure) + page_link(row, "preview.html", "See where"));
+          row_begin(row, i + 1), name, row.waits() ? escaped(row.failure) : "failed",
+          (row.waits() ? "" : escaped(row.failure)) + page_link(row, "preview.html", "See where"));
       continue;
     }
     const std::string where = !damaged(row)
@@ -161,7 +170,8 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
                                   row.headline_hours_of(row.life_repeats_all_free));
     const auto count = static_cast<double>(warnings_of(row).size());
     text += fmt::format("{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
-                        number_cell(static_cast<double>(i + 1), std::to_string(i + 1)), name,
+                        number_cell(static_cast<double>(i + 1), row.stale ? "-" : std::to_string(i + 1)),
+                        name + stale_note(row),
                         number_cell(row.headline_hours(), "<b>" + life_cell(row.headline_hours()) + "</b>" + certainty_cell(row)),
                         number_cell(bounds.first, life_cell(bounds.first) + " .. " + life_cell(bounds.second)),
                         number_cell(row.first_wire_hours[0], first_break_cell(row)),
@@ -234,7 +244,7 @@ std::string more_rows(const std::vector<RankingRow>& rows, const std::vector<boo
 std::string ranking_section(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   const std::string chart = comparison_chart(rows);
   const std::string matrix = life_matrix(rows, [&](std::size_t k) {
-    return detailed[k] ? fmt::format("#job-{}", k + 1) : page_address(rows[k], rows[k].done() ? "page.html" : "preview.html");
+    return detailed[k] ? fmt::format("#job-{}", k + 1) : page_address(rows[k], rows[k].has_result() ? "page.html" : "preview.html");
   });
   return fmt::format(
       "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">p10 life [h]</th>"
@@ -576,21 +586,29 @@ std::string checks(const RankingRow& row) {
 std::string job_section(const RankingRow& row, std::size_t rank) {
   std::string body;
   try {
-    body = page_link(row, "page.html", "See it move, and where and when the damage comes about") + facts(row) + scene(row) + checks(row) + charts(row);
+    body = page_link(row, "page.html", "See it move, and where and when the damage comes about") + facts(row);
+    // A stage that ran again since may have left another motion beside the last result.
+    if (!row.stale) body += scene(row) + checks(row);
+    body += charts(row);
   } catch (const InputError& problem) {
     body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
   }
-  return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}</section>\n", rank, rank, escaped(row.job),
+  const std::string stale = row.stale ? fmt::format("<p class=\"failed\">{}</p>\n", escaped(stale_words(row))) : "";
+  return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}{}</section>\n", rank, rank, escaped(row.job), stale,
                      body);
 }
 
 std::string summary(const std::vector<RankingRow>& rows) {
-  const auto done = static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
+  const auto count = [&](const auto& counts) { return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), counts)); };
+  const std::size_t done = count([](const RankingRow& row) { return row.done(); });
+  const std::size_t stale = count([](const RankingRow& row) { return row.stale; });
+  const std::size_t waiting = count([](const RankingRow& row) { return !row.stale && row.waits(); });
   std::string text = fmt::format("{} of {} jobs done", done, rows.size());
-  if (done < rows.size())
-    text += fmt::format(", <span class=\"failed\">{} failed</span>", rows.size() - done);
-  if (done > most_detailed)
+  if (stale > 0) text += fmt::format(", <span class=\"failed\">{} stale</span>: their last results stand below", stale);
+  if (waiting > 0) text += fmt::format(", {} to do", waiting);
+  if (const std::size_t failed = rows.size() - done - stale - waiting; failed > 0)
+    text += fmt::format(", <span class=\"failed\">{} failed</span>", failed);
+  if (done + stale > most_detailed)
     text += fmt::format("; charts for the {} best and the {} worst of them", most_detailed / 2,
                         most_detailed / 2);
   return "<p>" + text + ".</p>\n";
@@ -600,7 +618,7 @@ std::string summary(const std::vector<RankingRow>& rows) {
 
 std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
   const auto done = static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.done(); }));
+      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.has_result(); }));
   std::vector<bool> detailed(rows.size(), false);
   for (std::size_t i = 0; i < done; ++i)
     detailed[i] = (done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2) &&

@@ -19,8 +19,8 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
 void write_report(const std::filesystem::path& file, const std::string& study,
                   const std::vector<RankingRow>& rows);
 
-/// Which jobs have a section in the report and a page of their own: all that are done, or of more than 40 the 20 best
-/// and the 20 worst of them.
+/// Which jobs have a section in the report and a page of their own: all that have a result, or of more than 40 the 20
+/// best and the 20 worst of them.
 std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

@@ -16,6 +16,7 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "pipeline/files/checksum.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job_text.h"
 
@@ -87,6 +88,23 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     if (state.next + 1 < stage_count) state.inputs[state.next + 1] = receipt->output;
     state.told = std::move(receipt->told);
   }
+}
+
+/// The result of other settings that is still there: as its receipt notes it, or, where a stage began to make another
+/// and failed, by its own checksum.
+void find_last(JobState& state, const fs::path& folder) {
+  state.has_last = false;
+  state.changed.clear();
+  if (state.done() || !state.damaged.empty()) return;
+  const Stage& last = stages.back();
+  const bool there = state_of(folder / last.output).exists();
+  const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(last));
+  if (!receipt) {
+    state.has_last = there && checksum_of(folder / last.output).has_value();
+    return;
+  }
+  state.has_last = there ? is_as_noted(*receipt, folder / last.output) : state.keep == Keep::lives && !receipt->told.empty();
+  if (state.has_last) state.told = receipt->told;
 }
 
 std::string failure_key(const JobState& state) { return fmt::format("{}", fmt::join(state.recipes, " ")); }
@@ -279,7 +297,8 @@ std::string JobState::words() const {
   if (!failure.empty()) return "failed   " + failure;
   if (!damaged.empty())
     return fmt::format("damaged  {} is not what its stage wrote; run makes it anew", damaged);
-  return has_results ? "stale" : "to do";
+  if (!has_results) return "to do";
+  return changed.empty() ? "stale" : "stale    " + changed;
 }
 
 StageFiles files_of_stage(std::size_t stage) { return {stages[stage].output, receipt_file(stages[stage]), log_file(stages[stage])}; }
@@ -306,6 +325,7 @@ void look_at(JobState& state, const fs::path& folder) {
            (state.keep == Keep::lives && state_of(folder / receipt_file(stage)).exists());
   });
   follow_receipts(state, folder);
+  find_last(state, folder);
   // What is to run reads the output before it, which may have been removed.
   while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists()) --state.next;
 }
@@ -348,9 +368,12 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, D
   std::vector<JobState> states(study.jobs.size());
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
-    if (!job.failure.empty()) continue;
-    set_recipes(states[k], *job.job, places, digests);
     states[k].keep = study.keep;
+    if (!job.failure.empty()) {
+      find_last(states[k], places.job(job.name));
+      continue;
+    }
+    set_recipes(states[k], *job.job, places, digests);
     look_at(states[k], places.job(job.name));
   }
   return states;

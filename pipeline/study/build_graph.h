@@ -46,16 +46,19 @@ struct JobState {
   std::string damaged;   ///< "life.h5": is not what its stage wrote
   std::string failure;   ///< why the last attempt with these recipes failed
   bool has_results = false;           ///< of any settings
-  std::vector<Told> told;             ///< of a job that is done, what its life.h5 says
+  std::vector<Told> told;             ///< what its life.h5 says, where its receipt tells
+  /// Of a job that is not done: whether there is a result of other settings, files or programs, whole as it was made.
+  bool has_last = false;
+  std::string changed;                ///< since that result, in words (changes.h); empty: not looked at
   Keep keep = Keep::all;
   std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared, as no times vouch for them
   bool done() const { return next == stage_count; }
-  /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings, "to do" without
-  /// any.
+  /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings and what changed, "to do"
+  /// without any.
   std::string words() const;
 };
 
-/// The state of every job that can run (others: an empty state), from what lies in the folder; nothing is
+/// The state of every job that can run (of others only their last results), from what lies in the folder; nothing is
 /// written. Errors: InputError when a program is missing.
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places);
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, Digests& digests);

@@ -106,7 +106,9 @@ RankingRow read_row(const JobResult& result) {
   row.life_file = result.life_file;
   row.failure = result.failure;
   row.settings = result.settings;
-  if (!row.done()) return row;
+  row.stale = result.stale;
+  row.changed = result.changed;
+  if (!row.has_result()) return row;
   try {
     const LifeRoot file(result);
     row.life_repeats = file.number_attribute("life_repeats");
@@ -141,6 +143,7 @@ RankingRow read_row(const JobResult& result) {
     if (!row.worst_joint.empty()) row.worst_joint_share = file.number_attribute("worst_joint_share");
   } catch (const InputError& problem) {
     row.failure = problem.what();
+    row.stale = false;
   }
   return row;
 }
@@ -170,9 +173,10 @@ void tell_orders(std::vector<RankingRow>& rows) {
 
 bool better(const RankingRow& one, const RankingRow& other) {
   if (one.done() != other.done()) return one.done();
-  if (one.done() && one.headline_hours() != other.headline_hours())
+  if (one.stale != other.stale) return one.stale;
+  if (one.has_result() && one.headline_hours() != other.headline_hours())
     return one.headline_hours() > other.headline_hours();
-  if (one.done() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
+  if (one.has_result() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
   return one.job < other.job;
 }
 
@@ -289,9 +293,12 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
     JobResult result{job.name, places.life(job.name), first_problem(job), states[k].settings, states[k].told};
-    if (states[k].done() && states[k].keep == Keep::lives && !state_of(result.life_file).exists()) result.life_file.clear();
+    result.stale = states[k].has_last;
+    result.changed = states[k].changed;
+    const bool found = states[k].done() || states[k].has_last;
+    if (found && states[k].keep == Keep::lives && !state_of(result.life_file).exists()) result.life_file.clear();
     if (job.failure.empty() && !states[k].done())
-      result.failure = states[k].failure.empty() ? states[k].words() : states[k].failure;
+      result.failure = !states[k].failure.empty() ? states[k].failure : states[k].has_last ? "stale" : states[k].words();
     results.push_back(std::move(result));
   }
   std::vector<RankingRow> rows = read_ranking(results);
@@ -304,6 +311,13 @@ std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places
       row.varied.emplace_back(study.varied[k], job->second->values[k]);
   }
   return rows;
+}
+
+std::string stale_words(const RankingRow& row) {
+  if (row.waits())
+    return "stale: since this result " + (row.changed.empty() ? "its settings, a file or a program changed" : row.changed);
+  return fmt::format("stale: with the settings of now it failed: {}{}", row.failure,
+                     row.changed.empty() ? "" : "; since this result " + row.changed);
 }
 
 std::string certainty_words(const RankingRow& row) {
@@ -347,10 +361,9 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "scatter_life_hours_p90,outlives_next,life_shares,measure_next,measure_next_share" +
       fmt::format(",{}\n", fmt::join(warning_columns(), ","));
   for (const RankingRow& row : rows) {
-    if (!row.done()) {
-      const bool waits = row.failure == "stale" || row.failure == "to do";
+    if (!row.has_result()) {
       text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,,,,,,,,,,,,,,,,,,,,,{}\n", csv_cell(row.job),
-                          waits ? row.failure : "failed", csv_cell(row.failure), row.settings,
+                          row.waits() ? row.failure : "failed", csv_cell(row.failure), row.settings,
                           std::string(warning_columns().size(), ','));
       continue;
     }
@@ -367,8 +380,8 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
                                    evaluated ? shortest_text(row.worst_position_from_tool) : "",
                                    evaluated ? shortest_text(row.worst_time) : "",
                                    row.worst_step,
-                                   "done",
-                                   ""};
+                                   row.stale ? "stale" : "done",
+                                   row.stale ? stale_words(row) : ""};
     const auto& first = row.planned() ? row.planned_hours : row.first_wire_hours;
     for (const auto* lives : {&first, &row.conductor_hours})
       for (const double life : *lives) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
@@ -418,14 +431,14 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   for (const std::size_t k : selected.indices) {
     const RankingRow& row = rows[k];
     const std::array<std::string, 7> cells =
-        row.done() ? std::array<std::string, 7>{std::to_string(k + 1),
-                                                "",
-                                                life_text(row.headline_hours()),
-                                                bounds_text(row),
-                                                calendar_text(row.headline_months()),
-                                                life_text(row.headline_repeats()),
-                                                segment_text(row)}
-                   : std::array<std::string, 7>{"-", "", "failed", "", "", "", ""};
+        row.has_result() ? std::array<std::string, 7>{row.stale ? "-" : std::to_string(k + 1),
+                                                      "",
+                                                      (row.stale ? "stale " : "") + life_text(row.headline_hours()),
+                                                      bounds_text(row),
+                                                      calendar_text(row.headline_months()),
+                                                      life_text(row.headline_repeats()),
+                                                      segment_text(row)}
+                         : std::array<std::string, 7>{"-", "", row.waits() ? row.failure : "failed", "", "", "", ""};
     for (std::size_t i = 0; i < columns.size(); ++i)
       columns[i].cells.push_back(i == 1 ? shortened(one_line(row.job), longest_name) : cells[i]);
   }
@@ -440,12 +453,12 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const RankingRow& row = rows[selected.indices[i]];
     if (i > 0 && selected.indices[i] != selected.indices[i - 1] + 1) text += indent + "...\n";
     text += line([i](const Column& column) { return column.cells[i]; });
-    const std::string second = one_line(row.done() ? story(row) : row.failure);
     // A reason for failure is kept whole: its end is the remedy.
-    text += indent + (row.done() ? shortened(second, width - indent.size()) : second) + '\n';
+    if (row.stale || !(row.done() || row.waits())) text += indent + one_line(row.stale ? stale_words(row) : row.failure) + '\n';
+    if (row.has_result()) text += indent + shortened(one_line(story(row)), width - indent.size()) + '\n';
     if (const std::string kinds = row.done() ? warning_kinds(row) : ""; !kinds.empty())
       text += indent + shortened("WARNING: " + kinds, width - indent.size()) + '\n';
-    const std::string third = row.done() ? one_line(more_story(row)) : "";
+    const std::string third = row.has_result() ? one_line(more_story(row)) : "";
     if (!third.empty()) text += indent + shortened(third, width - indent.size()) + '\n';
     if (row.done() && row.relative)
       text += indent + shortened(one_line(relative_words(*row.relative)), width - indent.size()) + '\n';

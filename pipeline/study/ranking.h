@@ -23,6 +23,8 @@ struct JobResult {
   std::string failure;     ///< why there is no life file, one line; empty: the job is done
   std::string settings{};  ///< of which it is the result (JobState)
   std::vector<Told> told{};  ///< by its receipt; empty: to be read from the file
+  bool stale = false;        ///< the file is its last result, of other settings; `failure` says how the job stands
+  std::string changed{};     ///< since then
 };
 
 /// The hose's wall of a job, whose life is told beside that of the wires.
@@ -46,6 +48,8 @@ struct RankingRow {
   std::string job;
   std::filesystem::path life_file;
   std::string failure;                  ///< empty: done, and the rest holds
+  bool stale = false;                   ///< not done, and the rest tells the job's last result
+  std::string changed;                  ///< since that result, in words; empty: not known
   std::string settings;                 ///< of which the row tells; empty: not known
   /// What its study varies, and in words of the job's name which value it has; empty: not of a study.
   std::vector<std::pair<std::string, std::string>> varied;
@@ -93,6 +97,8 @@ struct RankingRow {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
   bool done() const { return failure.empty(); }
+  bool has_result() const { return done() || stale; }
+  bool waits() const { return failure == "stale" || failure == "to do"; }  ///< has not failed with the settings of now
   bool force_ok() const {
     return largest_force_share.value_or(0) <= believable_share &&
            clamp_moment_share.value_or(0) <= believable_share;
@@ -117,15 +123,19 @@ struct RankingRow {
 /// cannot be read makes a failed row with the reason; nothing is thrown.
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
 
-/// Of a study: only what is done is gathered; of the others the rows say how they stand.
+/// Of a study: what is done, behind it the last results of jobs that are stale; of the others the rows say how they
+/// stand.
 std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
                                    const std::vector<JobState>& states);
 
 /// ranking.csv: a header and one row per job, quoted after RFC 4180 with line feeds; numbers read back
-/// exactly, "inf" where there is no damage; empty cells for a job that is not done: its `status` is failed,
-/// stale (its results are of other settings) or "to do", its `message` the reason. Text that a spreadsheet
-/// would take for a formula begins with an apostrophe.
+/// exactly, "inf" where there is no damage. `status` is done; stale: the cells tell the job's last result, where there
+/// is one, and `message` what changed since; failed, with the reason, or "to do", both with empty cells. Text that a
+/// spreadsheet would take for a formula begins with an apostrophe.
 std::string ranking_csv(const std::vector<RankingRow>& rows);
+
+/// "stale: since this result routing.free_length_m 2.035 -> 2.1", and why a job failed with the settings of now.
+std::string stale_words(const RankingRow& row);
 
 /// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".
 std::string hose_life_words(double hours);

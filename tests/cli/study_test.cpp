@@ -141,6 +141,57 @@ TEST_CASE("status tells to do, done and stale") {
   CHECK(stale.out.find("0 of 2 jobs done") != std::string::npos);
 }
 
+TEST_CASE("a stale job keeps its last result, and status says which key, file or program changed") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  const std::string job = content(scratch / "job.yaml"), poses = content(scratch / "poses.csv");
+  const std::string ranking = content(scratch / "runs/study/ranking.csv");
+  const auto lives_of = [](const std::string& csv) {  // per row: job and lives, best first
+    std::vector<std::string> rows;
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) rows.push_back(line.substr(0, std::min(line.find(",done,"), line.find(",stale,"))));
+    return rows;
+  };
+  const auto status = [&] { return run(scratch, "dresslife", "status study.yaml").out; };
+  const auto report = [&] {
+    CHECK(run(scratch, "dresslife", "report study.yaml").status == 1);
+    return content(scratch / "runs/study/ranking.csv");
+  };
+
+  scratch.write("job.yaml", job + "fatigue: {stress: elastic}\n");
+  CHECK(status().find("stale    fatigue.stress cyclic -> elastic\n") != std::string::npos);
+  const std::string marked = report();
+  CHECK(lives_of(marked) == lives_of(ranking));
+  CHECK(marked.find(",done,") == std::string::npos);
+  CHECK(marked.find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") != std::string::npos);
+  const std::string page = content(scratch / "runs/study/report.html");
+  CHECK(page.find("2 stale") != std::string::npos);
+  CHECK(page.find("Damage along the dresspack") != std::string::npos);
+
+  scratch.write("job.yaml", job);
+  scratch.write("poses.csv", replaced(poses, "0.8,", "0.801,"));
+  CHECK(status().find("poses.csv has changed\n") != std::string::npos);
+  CHECK(lives_of(report()) == lives_of(ranking));
+  scratch.write("poses.csv", poses);
+
+  // A run that fails with the settings of now takes nothing of the last result.
+  scratch.write("job.yaml", replaced(job, "free_length_m: ", "free_length_m: 0.1 # "));
+  CHECK(run(scratch, "dresslife", "run study.yaml").status == 1);
+  const std::string failed = content(scratch / "runs/study/ranking.csv");
+  CHECK(lives_of(failed) == lives_of(ranking));
+  CHECK(failed.find("with the settings of now it failed: ") != std::string::npos);
+  CHECK(failed.find("; since this result routing.free_length_m 0.9 -> 0.1") != std::string::npos);
+  // Nor does a job that cannot be read.
+  scratch.write("job.yaml", job + "fatige: {}\n");
+  CHECK(lives_of(report()) == lives_of(ranking));
+
+  scratch.write("job.yaml", job);
+  REQUIRE(run(scratch, "dresslife", "run study.yaml").status == 0);
+  CHECK(content(scratch / "runs/study/ranking.csv") == ranking);
+}
+
 TEST_CASE("a study that cannot be read is refused with its place") {
   Scratch scratch;
   write_small_job(scratch);

@@ -137,6 +137,30 @@ TEST_CASE("ranking: the CSV has the contract's columns first and reads back exac
   CHECK(ranking_csv({}) == ranking_csv(rows).substr(0, ranking_csv(rows).find('\n') + 1));
 }
 
+TEST_CASE("ranking: last results of stale jobs stand behind those of now, marked, before jobs without any") {
+  const Scratch scratch;
+  const auto stale = [&](const std::string& name, double repeats, const std::string& standing) {
+    JobResult result = job_with(scratch, name, living(repeats));
+    result.failure = standing;
+    result.stale = true;
+    result.changed = "routing.free_length_m 2 -> 2.1";
+    return result;
+  };
+  const auto rows = read_ranking({stale("old", 900, "stale"), {"aborted", "", "why"}, job_with(scratch, "now", living(10)),
+                                  stale("older", 1000, "too short")});
+  CHECK(names(rows) == std::vector<std::string>{"now", "older", "old", "aborted"});
+  CHECK_FALSE(rows[1].done());
+  CHECK(rows[1].life_repeats == 1000);
+  const auto table = read_csv(ranking_csv(rows));
+  for (const auto& cells : table) CHECK(cells.size() == table[0].size());
+  CHECK(table[1][12] == "done");
+  CHECK(table[2][12] == "stale");
+  CHECK(table[2][13] == "stale: with the settings of now it failed: too short; since this result routing.free_length_m 2 -> 2.1");
+  CHECK(table[3][1] == "900");
+  CHECK(table[3][13] == "stale: since this result routing.free_length_m 2 -> 2.1");
+  CHECK(table[4][12] == "failed");
+}
+
 TEST_CASE(
     "ranking: no text of the CSV is a formula or acts on a terminal, and a job that waits has not failed") {
   const Scratch scratch;

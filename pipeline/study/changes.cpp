@@ -1,0 +1,122 @@
+#include "pipeline/study/changes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "pipeline/files/files.h"
+#include "pipeline/job/document.h"
+#include "pipeline/job/job_text.h"
+#include "pipeline/readable.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_plain(const Node& node) {
+  return node.is_list() && std::all_of(node.items.begin(), node.items.end(), [](const Node& item) { return item.is_scalar(); });
+}
+
+std::string value_words(const Node* value) {
+  constexpr std::size_t longest = 40;
+  if (!value || value->kind == Node::Kind::null) return "nothing";
+  if (value->is_scalar()) return shortened(value->text, longest);
+  if (value->is_map()) return fmt::format("{} keys", value->entries.size());
+  if (!is_plain(*value)) return fmt::format("{} entries", value->items.size());
+  std::vector<std::string> items;
+  for (const Node& item : value->items) items.push_back(item.text);
+  return shortened(fmt::format("[{}]", fmt::join(items, ", ")), longest);
+}
+
+class Comparison {
+ public:
+  void compare(const Node* was, const Node* now, const std::string& path) {
+    const bool maps = was && now && was->is_map() && now->is_map();
+    const bool lists = was && now && was->is_list() && now->is_list() && was->items.size() == now->items.size();
+    if (maps)
+      compare_maps(*was, *now, path);
+    else if (lists && !(is_plain(*was) && is_plain(*now)))
+      for (std::size_t i = 0; i < was->items.size(); ++i)
+        compare(&was->items[i], &now->items[i], fmt::format("{}[{}]", path, i + 1));
+    else if (!same(was, now))
+      found.push_back(fmt::format("{} {} -> {}", path, value_words(was), value_words(now)));
+  }
+  std::vector<std::string> found;
+
+ private:
+  static bool same(const Node* was, const Node* now) { return was && now && to_yaml(*was) == to_yaml(*now); }
+  void compare_maps(const Node& was, const Node& now, const std::string& path) {
+    const auto key = [&](const Entry& entry) { return path.empty() ? entry.key : path + '.' + entry.key; };
+    for (const Entry& entry : was.entries) compare(&entry.value, now.find(entry.key), key(entry));
+    for (const Entry& entry : now.entries)
+      if (!was.find(entry.key)) compare(nullptr, &entry.value, key(entry));
+  }
+};
+
+/// Keys of the last result's settings that have other values now. Nothing where its file is not kept.
+std::vector<std::string> changed_settings(const StudyJob& job, const StudyPlaces& places) {
+  const fs::path life = places.life(job.name);
+  if (!state_of(life).exists()) return {};
+  const std::string was = FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("job");
+  const fs::path settings = places.job(job.name) / "job.yaml";  // of a study that was not expanded, as it is now
+  const std::string now = job.job ? job_text(*job.job) : read_text(settings);
+  return changed_keys(parse_yaml(was, life.string()), parse_yaml(now, settings.string()));
+}
+
+/// Programs and files that are not those of which the last result was made. A stage that ran again since has a receipt
+/// of another result.
+std::vector<std::string> changed_files(const fs::path& folder, const StudyPlaces& places, Digests& digests) {
+  std::vector<std::string> changed;
+  std::optional<Receipt> later;
+  for (std::size_t stage = stage_count; stage-- > 0;) {
+    const std::optional<Receipt> receipt = read_receipt(folder / files_of_stage(stage).receipt);
+    if (!receipt || (later && receipt->output != later->input)) break;
+    for (const auto& [what, digest] : receipt->made_with) {
+      const bool program = what.starts_with("dresslife-");
+      const std::string& now = digests.of(program ? places.programs / what : fs::path(what));
+      if (now != digest) changed.push_back(fmt::format("{} {}", what, program ? "is another program" : now == "absent" ? "is gone" : "has changed"));
+    }
+    later = receipt;
+  }
+  std::reverse(changed.begin(), changed.end());
+  return changed;
+}
+
+std::string words_of(std::vector<std::string> changed) {
+  constexpr std::size_t named = 3;
+  if (changed.empty()) return "what it was made of is not noted any more";
+  const std::size_t more = changed.size() - std::min(changed.size(), named);
+  changed.resize(changed.size() - more);
+  return fmt::format("{}{}", fmt::join(changed, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
+}  // namespace
+
+std::vector<std::string> changed_keys(const Node& was, const Node& now) {
+  Comparison comparison;
+  comparison.compare(&was, &now, "");
+  return std::move(comparison.found);
+}
+
+void tell_changes(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
+  constexpr std::size_t most = 50;  // 10 ms each where programs are long
+  std::size_t told = 0;
+  Digests digests;
+  for (std::size_t k = 0; k < states.size() && told < most; ++k) {
+    const StudyJob& job = study.jobs[k];
+    if (!states[k].has_last || !job.failure.empty()) continue;
+    ++told;
+    try {
+      std::vector<std::string> changed = changed_settings(job, places);
+      for (std::string& file : changed_files(places.job(job.name), places, digests)) changed.push_back(std::move(file));
+      states[k].changed = words_of(std::move(changed));
+    } catch (const InputError& problem) {
+      states[k].changed = problem.what();
+    }
+  }
+}
+
+}  // namespace dresslife::pipeline
