@@ -433,9 +433,9 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   return worst;
 }
 
-/// What the strains ask of the cables and their clamps, handed on to the ranking.
+/// What the strains ask of the cables and their clamps, and what their mesh leaves out, handed on to the ranking.
 void copy_forces(const Context& c) {
-  for (const char* name : {"largest_force_share", "clamp_moment_share"})
+  for (const char* name : {"largest_force_share", "clamp_moment_share", "loose_mesh_error"})
     if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
 }
 

@@ -94,7 +94,7 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
   if (!loose.empty()) {
     fit_in_hose(loose, construction.section());
     const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
-    loose_.emplace(loose, LooseSettings{length, std::max<std::size_t>(segments, 8),
+    loose_.emplace(loose, LooseSettings{length, std::max<std::size_t>(segments, 8) * job.elements_per_segment,
                                         construction.rest_curvature()});
     nodes_.resize(loose_->nodes());
     curvature_.emplace(segments, 2 * loosened_.size(), samples, scratch);

@@ -35,6 +35,7 @@ struct CablesInJob {
   bool stick = false;  ///< to the hose, each segment with its own strain: they slide in a bound only
   /// The hose ends freely at its tool end: nothing holds its cables there but a tool_grip_N that is given.
   bool free_tool_end = false;
+  std::size_t elements_per_segment = 1;  ///< of loose cables
 };
 
 class CablePaths {
@@ -85,7 +86,7 @@ class CablePaths {
   /// Where loose cables lie at some samples: offset from their places (cable, segment, 2) [m].
   const std::vector<std::size_t>& offset_samples() const { return offset_samples_; }
   const std::vector<double>& offsets() const { return offsets_; }  ///< (sample, cable, segment, 2)
-  /// Share of the curvature of loose cables that a path of as many nodes as segments misses; 0: none lies loose.
+  /// Share of the curvature of loose cables that the distance of their nodes leaves out; 0: none lies loose.
   double mesh_error() const { return loose_ ? loose_->mesh_error() : 0; }
   /// Samples at which a loose cable had not come to rest.
   std::size_t restless() const { return loose_ ? loose_->restless() : 0; }

@@ -34,16 +34,16 @@ Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinem
       hose_bending_stiffness_(dresspack.bending_stiffness) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   if (!dresspack.hose_material.empty()) {
-    const pipeline::WallFactors factors = pipeline::wall_factors(dresspack);
+    const pipeline::WallFactors profile = pipeline::wall_factors(dresspack);
     pipeline::Component wall;
     wall.name = pipeline::hose_wall_name;
     wall.count = hose_places;
-    wall.radius = wall.helix_radius = factors.radius;
+    wall.radius = wall.helix_radius = profile.radius;
     wall.material = dresspack.hose_material;
     add(dresspack, wall, dresspack_itself, 1);
     layers_.back().is_hose = true;
-    layers_.back().strain_factor = factors.strain;
-    layers_.back().shear_factor = factors.shear;
+    layers_.back().strain_factor = profile.strain;
+    layers_.back().shear_factor = profile.shear;
   }
   for (Layer& layer : layers_) {
     layer.lay_tangent = std::tan(lay_angle(layer));

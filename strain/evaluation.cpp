@@ -95,8 +95,9 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       free_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::free, total(lengths_)),
              lengths_, arcs_, samples}},
       cables_(construction, free_.means.plan(),
-              {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end}, lengths_, arcs_, samples,
-              scratch) {
+              {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end,
+               static_cast<std::size_t>(settings.cable_elements)},
+              lengths_, arcs_, samples, scratch) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";

@@ -349,8 +349,8 @@ std::vector<Warning> force_warnings(double force_share, double moment_share) {
 std::vector<Warning> mesh_warnings(double error) {
   if (error <= believable_mesh_error) return {};
   return {{WarningKind::mesh, "",
-           fmt::format("the segments are too long for how loose cables bend: they miss {:.2g} of it (more than {:g}); "
-                       "give more simulation.segments",
+           fmt::format("pieces as long as a segment are too long for how loose cables bend: they miss {:.2g} of it (more "
+                       "than {:g}); give twice the strain.cable_elements_per_segment, or more simulation.segments",
                        error, believable_mesh_error)}};
 }
 
@@ -394,7 +394,8 @@ std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::uniqu
   file.append("/clamp/hose_moment", hose_moment);
   file.attribute("largest_force_share", force_share);
   file.attribute("clamp_moment_share", moment_share);
-  if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
+  if (std::any_of(evaluations.begin(), evaluations.end(), [](const auto& evaluation) { return evaluation->any_loose(); }))
+    file.attribute("loose_mesh_error", mesh_error);
   const std::vector<Warning> warnings =
       pipeline::joined(force_warnings(force_share, moment_share), mesh_warnings(mesh_error));
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;

@@ -287,8 +287,8 @@ Format make_strain_format() {
        false, true});
   format.attributes.push_back(
       {"loose_mesh_error",
-       "share of loose cables' curvature that as many places along the hose as it has segments miss: an estimate, root of "
-       "mean squares over the motion, of the worst cable",
+       "share of loose cables' curvature that the length of their pieces (strain.cable_elements_per_segment) leaves out: an "
+       "estimate, root of mean squares over the motion, of the worst cable; absent: none lies loose",
        false, true});
   format.attributes.push_back({"warnings", "as in the motion file, this stage's behind them", true, true});
   format.datasets.push_back({"/probe/site", Type::u32, {"probe"}, "1", "site of each probe"});
@@ -516,6 +516,7 @@ Format make_life_format() {
       {"life_hours_all_free", "the bound in hours of motion"},
       {"largest_force_share", "as in the strain file", false, true},
       {"clamp_moment_share", "as in the strain file", false, true},
+      {"loose_mesh_error", "as in the strain file", false, true},
       {"worst_site", "index of the worst site"},
       {"worst_segment_from_tool", "its segment, counted from the tool, 1 first"},
       {"worst_position_from_tool", "its distance from the tool clamp along the dresspack, m"},

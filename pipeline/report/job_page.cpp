@@ -131,8 +131,8 @@ std::string assumptions(const RankingRow& row, const Node& job, const FileReader
          fmt::format("cables pull with at most {:.2g} of what tears them", *row.largest_force_share));
   if (strain && strain->has_attribute("loose_mesh_error"))
     fact("mesh of loose cables",
-         fmt::format("{:.2g} % of their curvature is missed by {} places along the hose (above 2 % is warned of)",
-                     100 * strain->number_attribute("loose_mesh_error"), strain->rows("/segment/length")));
+         fmt::format("{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
+                     100 * strain->number_attribute("loose_mesh_error")));
   const std::string stiffness = motion ? stiffness_words(*motion) : "";
   if (!stiffness.empty()) fact("hose as simulated", escaped(stiffness));
   if (const std::string words = setup ? construction_words(*setup) : ""; !words.empty())

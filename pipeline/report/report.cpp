@@ -484,6 +484,9 @@ std::string facts(const RankingRow& row) {
                                     : ". <b>Above a fifth of either, strains rest on forces that nobody sees in "
                                       "a dresspack: check slack, play and grips</b>"));
   }
+  if (row.loose_mesh_error)
+    fact("mesh of loose cables", fmt::format("{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
+                                             100 * *row.loose_mesh_error));
   const double stuck = row.life_repeats_all_stick / row.life_repeats;
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;

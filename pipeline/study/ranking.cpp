@@ -125,6 +125,7 @@ RankingRow read_row(const JobResult& result) {
         row.largest_force_share = share;
       row.clamp_moment_share = file.number_attribute("clamp_moment_share");
     }
+    if (file.has_attribute("loose_mesh_error")) row.loose_mesh_error = file.number_attribute("loose_mesh_error");
     if (file.has_attribute("life_hours_mean_stress_kept")) {
       row.hours_mean_stress_kept = file.number_attribute("life_hours_mean_stress_kept");
       row.hours_without_mean_stress = file.number_attribute("life_hours_without_mean_stress");
@@ -359,12 +360,12 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "first_wire_life_hours_p50,first_wire_life_hours_p90,failing_conductor,failing_position_from_tool_m,"
       "rated_cycles_per_hour,relative_life_hours,rated_cable,scatter_life_hours_p10,scatter_life_hours_p50,"
       "scatter_life_hours_p90,outlives_next,life_shares,measure_next,measure_next_share" +
-      fmt::format(",{}\n", fmt::join(warning_columns(), ","));
+      fmt::format(",{},loose_mesh_error\n", fmt::join(warning_columns(), ","));
   for (const RankingRow& row : rows) {
     if (!row.has_result()) {
       text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,,,,,,,,,,,,,,,,,,,,,{}\n", csv_cell(row.job),
                           row.waits() ? row.failure : "failed", csv_cell(row.failure), row.settings,
-                          std::string(warning_columns().size(), ','));
+                          std::string(warning_columns().size() + 1, ','));
       continue;
     }
     const bool evaluated = row.worst_segment_from_tool > 0;
@@ -412,6 +413,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     cells.push_back(row.measure_next);
     cells.push_back(row.measure_next.empty() ? "" : shortest_text(row.measure_next_share));
     for (const std::string& cell : warning_cells(row)) cells.push_back(cell);
+    cells.push_back(row.loose_mesh_error ? shortest_text(*row.loose_mesh_error) : "");
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }

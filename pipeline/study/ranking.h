@@ -89,6 +89,7 @@ struct RankingRow {
   /// What the strains ask of the cables: largest force over that at which one tears, and moment of all of them
   /// on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not known.
   std::optional<double> largest_force_share, clamp_moment_share;
+  std::optional<double> loose_mesh_error;  ///< share of loose cables' curvature that their mesh misses; absent: none lies loose
   /// The worst wire's life if its mean stress never relaxed, and if mean stress did nothing; absent: not known.
   std::optional<double> hours_mean_stress_kept, hours_without_mean_stress;
   /// Of all its stages; absent: the files do not tell.

@@ -80,7 +80,7 @@ TEST_CASE("job: unknown keys are refused with the likeliest key") {
   check_case({"fatigue: {", "fatige: {", "fatige: {", "unknown key 'fatige'; did you mean 'fatigue'?"});
   check_case({"gate: 1e-4", "xyzzy: 1", "xyzzy",
               "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, "
-              "surface_fibres, gate, friction_factor, hose_friction_factor, slack_factor, "
+              "surface_fibres, gate, cable_elements_per_segment, friction_factor, hose_friction_factor, slack_factor, "
               "play_factor, grip_factor, probes"});
 }
 

@@ -224,6 +224,18 @@ TEST_CASE("ranking: the relative life of a rated cable has columns and words, em
   CHECK(relative_words(*rows[0].relative).ends_with("rated: no damage (torsion: twist_deg_per_m 180)"));
 }
 
+TEST_CASE("ranking: what the mesh of loose cables leaves out has a column, empty where none lies loose") {
+  const Scratch scratch;
+  auto rows = read_ranking({job_with(scratch, "loose", living(12000)), job_with(scratch, "held", living(10000)),
+                            {"broken", "", "why"}});
+  rows[0].loose_mesh_error = 0.0125;
+  const auto table = read_csv(ranking_csv(rows));
+  CHECK(table[0].back() == "loose_mesh_error");
+  CHECK(table[1].back() == "0.0125");
+  CHECK(table[2].back().empty());
+  CHECK(table[3].size() == table[0].size());
+}
+
 TEST_CASE("ranking: the terminal's table is aligned, within its width, and says what breaks") {
   const Scratch scratch;
   SampleLife wordy = living(4.2e9);
