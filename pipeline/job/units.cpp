@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 
 namespace dresslife::pipeline {
@@ -60,10 +61,12 @@ std::string_view stem_of_key(std::string_view key) {
 std::string shortest_text(double value) { return fmt::format("{}", value); }
 
 std::string text_in_unit(double si, const Unit& unit) {
-  // A value that came from text is x * to_si for some short x; si / to_si is within an ulp of that x, so one
-  // of the roundings of its neighbours reads back exactly.
+  // A value that came from text is x * to_si for some short x, of which si / to_si is within two roundings, 2.3e-16.
+  // Decimals of up to 15 digits lie 1e-15 and more apart: such an x is the nearest of them. Of more digits it is one of
+  // the roundings of the quotient's neighbours.
+  using Limits = std::numeric_limits<double>;
   const double near = si / unit.to_si;
-  for (int digits = 1; digits <= 17; ++digits)
+  for (int digits = Limits::digits10; digits <= Limits::max_digits10; ++digits)
     for (const double x : {near, std::nextafter(near, INFINITY), std::nextafter(near, -INFINITY)}) {
       const double rounded = std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr);
       if (rounded * unit.to_si == si) return shortest_text(rounded);

@@ -46,23 +46,28 @@ constexpr const char* failure_file = ".stage/failure";
 constexpr const char* memory_file = "memory";  // in a run's notes: who may take how much (pipeline/memory.h)
 std::string program_name(const Stage& stage) { return std::string("dresslife-") + stage.name; }
 
-void check_programs(const StudyPlaces& places) {
-  for (const Stage& stage : stages) {
-    const fs::path program = places.programs / program_name(stage);
+/// Of all stages, behind links. Errors: InputError when one is missing.
+using Programs = std::array<fs::path, stage_count>;
+Programs found_programs(const StudyPlaces& places) {
+  Programs programs;
+  for (std::size_t k = 0; k < stage_count; ++k) {
+    const fs::path program = places.programs / program_name(stages[k]);
     if (::access(program.c_str(), X_OK) != 0)
       throw InputError({program.string()}, "is not there (the stages stand beside dresslife)",
                        "build it: scripts/build");
+    programs[k] = fs::canonical(program);
   }
+  return programs;
 }
 
 /// What a job's stages are to be made from.
-void set_recipes(JobState& state, const Job& job, const StudyPlaces& places, Digests& digests) {
+void set_recipes(JobState& state, const Job& job, const Programs& programs, Digests& digests) {
   const std::vector<fs::path> files = files_beside(job);
   std::string all;
   for (std::size_t k = 0; k < stage_count; ++k) {
     const std::string text = part_text(job, stages[k].part);
-    state.recipes[k] = recipe_of(text, stages[k].part == Part::sim ? files : std::vector<fs::path>{},
-                                 fs::canonical(places.programs / program_name(stages[k])), digests);
+    state.recipes[k] =
+        recipe_of(text, stages[k].part == Part::sim ? files : std::vector<fs::path>{}, programs[k], digests);
     all += text;
   }
   constexpr std::size_t digits = 12;
@@ -364,7 +369,7 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places) {
 }
 
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, Digests& digests) {
-  check_programs(places);
+  const Programs programs = found_programs(places);
   std::vector<JobState> states(study.jobs.size());
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
@@ -373,7 +378,7 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, D
       find_last(states[k], places.job(job.name));
       continue;
     }
-    set_recipes(states[k], *job.job, places, digests);
+    set_recipes(states[k], *job.job, programs, digests);
     look_at(states[k], places.job(job.name));
   }
   return states;
@@ -402,10 +407,11 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) continue;
     const fs::path folder = places.job(job.name);
-    fs::create_directories(folder / ".stage");
+    const bool is_new = fs::create_directory(folder);
+    fs::create_directory(folder / ".stage");
     write_text_if_changed(folder / "job.yaml", job_text(*job.job), Sync::never);
     if (states[k].done()) continue;
-    for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
+    for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
       for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])}) fs::remove(folder / log);
     graph += chain_of(study, places, states[k], k, makers, likes);
   }

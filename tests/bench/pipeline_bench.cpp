@@ -9,6 +9,9 @@
 // gather_10k_s: to rank what all jobs' receipts and life files tell.
 // study_10k_mb: the runner's largest memory in all this.
 //
+// ..._processor_...: of the same the processor time, which other work on the machine changes little: the runner's own,
+// and of running that of all stages and Ninja.
+//
 // bench_pipeline SIDE: of SIDE x SIDE jobs instead, with figures scaled to ten thousand.
 #include <sys/resource.h>
 #include <unistd.h>
@@ -49,6 +52,21 @@ double seconds(const Action& action) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// Of whose resources: RUSAGE_SELF, or of its children that have ended RUSAGE_CHILDREN.
+double processor_seconds_of(int who) {
+  struct rusage used {};
+  ::getrusage(who, &used);
+  const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+template <class Action>
+double processor_seconds(int who, const Action& action) {
+  const double before = processor_seconds_of(who);
+  action();
+  return processor_seconds_of(who) - before;
+}
+
 std::string values(int side, double first, double step) {
   std::string text;
   for (int k = 0; k < side; ++k) text += fmt::format("{}{}", k ? ", " : "", first + step * k);
@@ -79,17 +97,22 @@ int main(int argc, char** argv) {
     write_build_graph(standing.study, standing.places, standing.states);
     remember(request, standing);
   };
-  std::printf("graph_10k_s %.3f\n", scale * seconds(graph));
+  double wall = 0;
+  double processor = processor_seconds(RUSAGE_SELF, [&] { wall = seconds(graph); });
+  std::printf("graph_10k_s %.3f\ngraph_10k_processor_s %.3f\n", scale * wall, scale * processor);
   BuildResult built;
-  const double running = seconds([&] {
-    built = run_build_graph(standing.places, 2, {});
-    close_run(standing.study, standing.places, built, standing.states);
+  processor = processor_seconds(RUSAGE_CHILDREN, [&] {
+    wall = seconds([&] {
+      built = run_build_graph(standing.places, 2, {});
+      close_run(standing.study, standing.places, built, standing.states);
+    });
   });
   if (built.executed != 3 * jobs) return 1;
-  std::printf("overhead_ms_per_job %.3f\n", 1e3 * running / jobs);
-  const double nothing = seconds([&] { standing = standing_of(request); });
+  std::printf("overhead_ms_per_job %.3f\n", 1e3 * wall / jobs);
+  std::printf("overhead_processor_ms_per_job %.3f\n", 1e3 * processor / jobs);
+  processor = processor_seconds(RUSAGE_SELF, [&] { wall = seconds([&] { standing = standing_of(request); }); });
   if (!standing.remembered || !standing.all_done()) return 1;
-  std::printf("noop_10k_s %.3f\n", scale * nothing);
+  std::printf("noop_10k_s %.3f\nnoop_10k_processor_s %.3f\n", scale * wall, scale * processor);
   folder.write("many.yaml", "# changed\n" + text);
   const double again = seconds([&] {
     standing = standing_of(request);

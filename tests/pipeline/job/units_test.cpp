@@ -1,5 +1,7 @@
 #include "pipeline/job/units.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -46,6 +48,32 @@ TEST_CASE("units: what was read in any unit is written so that it reads back exa
       const std::string text = text_in_unit(si, unit);
       if (std::stod(text) * unit.to_si != si)
         FAIL_CHECK(key << " " << shortest_text(written) << " came back as " << text);
+    }
+  }
+}
+
+/// The fewest digits of any text that reads back, by trying all.
+std::string shortest_by_trying(double si, const Unit& unit) {
+  const double near = si / unit.to_si;
+  for (int digits = 1; digits <= 17; ++digits)
+    for (const double x : {near, std::nextafter(near, INFINITY), std::nextafter(near, -INFINITY)}) {
+      const double rounded = std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr);
+      if (rounded * unit.to_si == si) return shortest_text(rounded);
+    }
+  return shortest_text(near);
+}
+
+TEST_CASE("units: no shorter text of a number reads back, whatever its digits") {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> mantissa(-1, 1), exponent(-6, 9);
+  std::uniform_int_distribution<int> digits(1, 17);
+  for (const char* key : {"x_m", "x_mm", "x_deg", "x_ms", "x_MPa", "x_GPa", "x_percent"}) {
+    const Unit& unit = unit_of_key(key);
+    for (int trial = 0; trial < 4000; ++trial) {
+      const double drawn = mantissa(random) * std::pow(10, exponent(random));
+      const double si = std::stod(fmt::format("{:.{}g}", drawn, digits(random))) * unit.to_si;
+      if (text_in_unit(si, unit) != shortest_by_trying(si, unit))
+        FAIL_CHECK(key << " " << text_in_unit(si, unit) << " where " << shortest_by_trying(si, unit) << " reads back");
     }
   }
 }
