@@ -18,7 +18,7 @@ using namespace dresslife;
 
 namespace {
 
-enum Option { preview, screen, propose, ring, tried, seed, exercise };
+enum Option { preview, screen, propose, ring, tried, rehearsals, seed, exercise };
 
 /// A count on the command line. Errors: InputError at the option.
 std::uint64_t whole(const std::string& option, const std::string& text, std::uint64_t least, std::uint64_t most) {
@@ -35,6 +35,8 @@ void write_proposals(const pipeline::StageCall& call, const pipeline::Job& job, 
   sim::ProposalSettings settings;
   settings.count = static_cast<int>(whole("--propose", last(propose), 1, 24));
   if (!last(tried).empty()) settings.tried = static_cast<int>(whole("--tried", last(tried), 1, 1'000'000));
+  if (!last(rehearsals).empty())
+    settings.rehearsals = static_cast<int>(whole("--rehearsals", last(rehearsals), 0, 100'000));
   if (!last(seed).empty()) settings.seed = whole("--seed", last(seed), 0, 1'000'000'000);
   settings.ring_link = last(ring);
   sim::write_proposals(job, settings, file);
@@ -108,6 +110,7 @@ int main(int argc, char** argv) {
                    "against (screening.h5)"},
                   {"--ring", "LINK", "with --propose: also a guide ring on this link"},
                   {"--tried", "COUNT", "with --propose: routings that are looked at; 1200"},
+                  {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by; 0"},
                   {"--seed", "NUMBER", "with --propose: of the search's chances; 1"},
                   {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about"}},
       .part = pipeline::Part::sim};

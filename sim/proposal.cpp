@@ -7,7 +7,9 @@
 #include <memory>
 #include <random>
 
+#include "pipeline/threads.h"
 #include "sim/clamp_path.h"
+#include "sim/rehearsal.h"
 #include "sim/robot/robot.h"
 
 namespace dresslife::sim {
@@ -20,13 +22,23 @@ enum Place { base, tool, ring };
 /// top of what geometry says.
 constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.25};
 
+/// Likewise of a run with few segments, which sees less of a bend.
+constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0};
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr int rehearsed_segments = 24, rehearsed_repeats = 2;
+constexpr int side_by_side = 4;  // rehearsals, however many threads there are
+
 struct Candidate {
   std::array<Vector3, places> position;   // in their links [m]
   std::array<Vector3, places> direction;  // in their links
   double slack = 0;                       // share of the length
   pipeline::Routing routing{};
   Screening screening{};
-  double missing = 0;
+  double missing = 0;             // by geometry
+  Rehearsal rehearsal{};          // if it was rehearsed
+  double missing_in_run = never;  // likewise
+  bool whole = false;             // in the job's own segments and repeats
 };
 
 class Chance {
@@ -67,18 +79,116 @@ class Search {
 
   /// As many searches as proposals, each from its own beginnings, so that they end at different places.
   std::vector<Proposal> run() {
+    if (settings_.rehearsals > 0) return proposals_of(rehearsed_search());
     std::vector<Candidate> found;
     for (int k = 0; k < settings_.count; ++k)
       found.push_back(best_of(std::max(10, settings_.tried / settings_.count)));
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
-    std::vector<Proposal> proposals;
-    for (const Candidate& candidate : found)
-      proposals.push_back({candidate.routing, candidate.screening, candidate.missing});
-    return proposals;
+    return proposals_of(found);
   }
 
  private:
+  static std::vector<Proposal> proposals_of(const std::vector<Candidate>& found) {
+    std::vector<Proposal> proposals;
+    for (const Candidate& candidate : found)
+      proposals.push_back({candidate.routing, candidate.screening, candidate.missing, candidate.rehearsal});
+    return proposals;
+  }
+
+  /// Geometry's best are rehearsed; then what did best is changed a little, again and again, by as much as pays.
+  /// Of a few changes the one is rehearsed that geometry likes most, which is asked for as much more of a radius
+  /// as its parent lacked in its run.
+  std::vector<Candidate> rehearsed_search() {
+    constexpr int begun = 12;           // searches by geometry alone
+    constexpr double hopeless = 0.5;    // missed by the best of the first third
+    constexpr std::size_t parents = 5;  // kept
+    std::vector<Candidate> beginnings, kept;
+    for (int k = 0; k < begun; ++k) beginnings.push_back(best_of(std::max(10, settings_.tried / begun)));
+    double size = 1;
+    int left = settings_.rehearsals;
+    const auto whole_ones = [&] { return std::count_if(kept.begin(), kept.end(), is_found); };
+    while (left > 0 && whole_ones() < settings_.count) {
+      std::vector<Candidate> next;
+      const bool begins = !beginnings.empty();
+      while (static_cast<int>(next.size()) < std::min(side_by_side, left)) {
+        if (begins && beginnings.empty()) break;
+        next.push_back(begins ? beginnings.back() : child(kept, size));
+        if (begins) beginnings.pop_back();
+      }
+      left -= static_cast<int>(next.size());
+      rehearse(next, rehearsed_segments, rehearsed_repeats, wished_in_run);
+      const double before = kept.empty() ? never : kept.front().missing_in_run;
+      for (Candidate& candidate : next) keep(kept, std::move(candidate), parents);
+      const bool better = kept.front().missing_in_run < before;
+      if (!begins) size = std::clamp(size * (better ? 1.3 : 0.9), 0.05, 2.0);
+      while (look_at_first_whole(kept)) --left;
+      if (3 * left < 2 * settings_.rehearsals && kept.front().missing_in_run > hopeless) break;
+    }
+    if (kept.size() > static_cast<std::size_t>(settings_.count)) kept.resize(settings_.count);
+    return kept;
+  }
+
+  static bool is_found(const Candidate& candidate) { return candidate.whole && candidate.missing_in_run == 0; }
+
+  static void keep(std::vector<Candidate>& kept, Candidate&& next, std::size_t most) {
+    const auto place = std::upper_bound(
+        kept.begin(), kept.end(), next,
+        [](const Candidate& a, const Candidate& b) { return a.missing_in_run < b.missing_in_run; });
+    kept.insert(place, std::move(next));
+    if (kept.size() > most) kept.pop_back();
+  }
+
+  /// Whether there was one that keeps all wishes and had not been looked at whole.
+  bool look_at_first_whole(std::vector<Candidate>& kept) const {
+    const auto first = std::find_if(kept.begin(), kept.end(),
+                                    [](const Candidate& of) { return !of.whole && of.missing_in_run == 0; });
+    if (first == kept.end()) return false;
+    std::vector<Candidate> one{*first};
+    kept.erase(first);
+    constexpr int as_the_job = std::numeric_limits<int>::max();
+    rehearse(one, as_the_job, as_the_job, {});
+    one.front().whole = true;
+    keep(kept, std::move(one.front()), kept.size() + 1);
+    return true;
+  }
+
+  void rehearse(std::vector<Candidate>& candidates, int segments, int repeats,
+                const std::array<double, screened_limits>& wishes) const {
+    const std::size_t threads = std::min(pipeline::thread_count(), candidates.size());
+    pipeline::in_parallel(threads, [&](std::size_t part) {
+      for (std::size_t k = part; k < candidates.size(); k += threads) {
+        pipeline::Setup setup = setup_;
+        setup.dresspacks.front().routing = candidates[k].routing;
+        candidates[k].rehearsal = rehearsed(std::move(setup), segments, repeats);
+      }
+    });
+    for (Candidate& candidate : candidates) {
+      constexpr double refused = 3;  // worse than what runs
+      candidate.missing_in_run = candidate.rehearsal.refusal.empty()
+                                     ? missing(candidate.rehearsal.seen, wishes)
+                                     : refused + candidate.missing;
+    }
+  }
+
+  Candidate child(const std::vector<Candidate>& kept, double size) {
+    constexpr int changes = 3;
+    const Candidate& parent = kept[chance_.below(std::min<std::size_t>(3, kept.size()))];
+    const auto bend = static_cast<std::size_t>(ScreenedLimit::bend);
+    const double lacked = parent.rehearsal.refusal.empty() ? std::max(0.0, parent.rehearsal.seen.beyond[bend]) : 0;
+    Candidate best;
+    best.missing = never;
+    for (int k = 0; k < changes || !std::isfinite(best.missing); ++k) {
+      Candidate next = changed(parent, size);
+      std::array<double, screened_limits> wishes = wished;
+      wishes[bend] += lacked;
+      look_at(next, best.missing, wishes);
+      if (next.missing < best.missing) best = std::move(next);
+    }
+    best.whole = false;
+    return best;
+  }
+
   Candidate best_of(int tried) {
     constexpr std::size_t parents = 6;
     std::vector<Candidate> kept;
@@ -147,7 +257,7 @@ class Search {
   }
 
   /// to_beat: what is worse need not be known exactly.
-  void look_at(Candidate& candidate, double to_beat) {
+  void look_at(Candidate& candidate, double to_beat, const std::array<double, screened_limits>& wishes = wished) {
     pipeline::Routing& routing = candidate.routing;
     routing.where = setup_.dresspacks.front().routing.where;
     routing.base_clamp = clamp(candidate, base);
@@ -169,17 +279,17 @@ class Search {
     routing.free_length = std::max(0.1, std::ceil(200 * way / (1 - candidate.slack)) / 200);  // [5 mm]
     setup_.dresspacks.front().routing.free_length = routing.free_length;
     candidate.screening = screener_.screen(setup_);
-    candidate.missing = missing(candidate.screening);
+    candidate.missing = missing(candidate.screening, wishes);
     if (candidate.missing >= to_beat) return;  // its weight would only add to that
     Screening at_rest = candidate.screening;
     double& bend = at_rest.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
     bend = std::max(bend, screener_.bend_at_rest(setup_));
-    candidate.missing = missing(at_rest);
+    candidate.missing = missing(at_rest, wishes);
   }
 
-  static double missing(const Screening& screening) {
+  static double missing(const Screening& screening, const std::array<double, screened_limits>& wishes) {
     double sum = 0;
-    for (int k = 0; k < screened_limits; ++k) sum += std::max(0.0, screening.beyond[k] + wished[k]);
+    for (int k = 0; k < screened_limits; ++k) sum += std::max(0.0, screening.beyond[k] + wishes[k]);
     return sum;
   }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/job/setup.h"
+#include "sim/rehearsal.h"
 #include "sim/screening.h"
 
 namespace dresslife::sim {
@@ -20,6 +21,7 @@ namespace dresslife::sim {
 struct ProposalSettings {
   int count = 1;     ///< proposals, best first, each of a search of its own
   int tried = 1200;  ///< routings that are screened, by all searches: some milliseconds each
+  int rehearsals = 0;  ///< runs with few segments that the best of them are tried in and changed by; a tenth of a second each
   std::uint64_t seed = 1;
   std::string ring_link;  ///< a guide ring on it; empty: none
 };
@@ -28,6 +30,7 @@ struct Proposal {
   pipeline::Routing routing;
   Screening screening;
   double missing = 0;  ///< sum of what misses the wished margins; 0: all are kept
+  Rehearsal rehearsal;  ///< of the last run, if there were some
 };
 
 /// setup: its first dresspack's clamps name the links; all else of its routing is not read. Errors:

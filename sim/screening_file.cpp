@@ -148,8 +148,11 @@ void write_screening(const pipeline::Job& job, const std::filesystem::path& cand
 
 void write_proposals(const pipeline::Job& job, const ProposalSettings& settings, pipeline::FileWriter& file) {
   std::vector<Verdict> verdicts;
-  for (const Proposal& proposal : propose(job, settings))
-    verdicts.push_back({routing_text(proposal.routing), "", proposal.screening});
+  for (const Proposal& proposal : propose(job, settings)) {
+    const bool rehearsed = settings.rehearsals > 0 && proposal.rehearsal.refusal.empty();
+    verdicts.push_back({routing_text(proposal.routing), proposal.rehearsal.refusal,
+                        rehearsed ? proposal.rehearsal.seen : proposal.screening});
+  }
   Writer(file).write(verdicts);
   file.attribute("motion", pipeline::motion_text(job.motion));
 }

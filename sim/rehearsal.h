@@ -1,0 +1,25 @@
+// How a routing does in a run, as a number for a search: how far each limit is kept or passed.
+//
+// A whole run of the motion with few segments, of which nothing is written: a tenth of a second. It knows what
+// geometry (screening.h) does not: weight, speed, contact, and the twist that bends a clamped hose out of its
+// plane. Grades as in screening.h: g <= 0 keeps the limit with so much to spare, g > 0 passes it by so much.
+#pragma once
+
+#include <string>
+
+#include "pipeline/job/setup.h"
+#include "sim/screening.h"
+
+namespace dresslife::sim {
+
+struct Rehearsal {
+  /// (V1) to (V4) of what the run's checks saw; (V5) is -infinity: the run itself looks after obstacles. A pull
+  /// beyond the maker's counts as too short, g = ln(pull/limit).
+  Screening seen;
+  std::string refusal;  ///< why it does not run; empty: it does
+};
+
+/// segments: of each dresspack, at most as many as the job asks for. repeats: of the motion, at most likewise.
+Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats);
+
+}  // namespace dresslife::sim
