@@ -26,7 +26,8 @@ constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.2
 constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0};
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr int rehearsed_segments = 24, rehearsed_repeats = 2;
+constexpr double farthest = 4;  // of a clamp from the link that carries it [diameters]
+constexpr int rehearsed_segments = 24, rehearsed_repeats = 1;
 constexpr int side_by_side = 4;  // rehearsals, however many threads there are
 
 struct Candidate {
@@ -222,33 +223,44 @@ class Search {
     return candidate;
   }
 
-  /// A place beside a shape of the link; of the last link beside the flange, where tools have their brackets.
-  Vector3 beside(int link) {
+  /// What of the link a clamp is beside: its capsules; of the last link the flange, where tools have their
+  /// brackets, as a line as long as those reach.
+  std::vector<pipeline::Capsule> shapes_of(int link) const {
     const pipeline::Link& of = setup_.robot.links[link];
-    const bool flange = link + 1 == static_cast<int>(setup_.robot.links.size());
-    Vector3 from = Vector3::Zero(), axis = Vector3::UnitZ();
-    double radius = 0, along = 0;
-    if (flange || of.capsules.empty()) {
-      from = setup_.robot.flange_position;
-      axis = from_roll_pitch_yaw(setup_.robot.flange_orientation) * Vector3::UnitZ();
-      if (!flange) from.setZero();
-      along = chance_.between(0.5, 4) * diameter_;
-    } else {
-      const pipeline::Capsule& capsule = of.capsules[chance_.below(of.capsules.size())];
-      from = capsule.from + chance_.between(0, 1) * (capsule.to - capsule.from);
-      if ((capsule.to - capsule.from).norm() > 1e-6) axis = (capsule.to - capsule.from).normalized();
-      radius = capsule.radius;
-    }
+    const bool flange = is_flange(link);
+    if (!flange && !of.capsules.empty()) return of.capsules;
+    const Vector3 from = flange ? setup_.robot.flange_position : Vector3::Zero();
+    const Vector3 axis = from_roll_pitch_yaw(setup_.robot.flange_orientation) * Vector3::UnitZ();
+    return {{from + 0.5 * diameter_ * axis, from + farthest * diameter_ * axis, 0}};
+  }
+
+  bool is_flange(int link) const { return link + 1 == static_cast<int>(setup_.robot.links.size()); }
+
+  Vector3 beside(int link) {
+    const std::vector<pipeline::Capsule> shapes = shapes_of(link);
+    const pipeline::Capsule& capsule = shapes[chance_.below(shapes.size())];
+    const Vector3 along = capsule.to - capsule.from;
+    const Vector3 axis = along.norm() > 1e-6 ? Vector3(along.normalized()) : Vector3(Vector3::UnitZ());
     Vector3 out = chance_.normal_vector();
     out -= out.dot(axis) * axis;
-    const double off = radius + chance_.between(flange ? 1.5 : 0.8, 4) * diameter_;
-    return from + along * axis + off * out.normalized();
+    const double off = capsule.radius + chance_.between(is_flange(link) ? 1.5 : 0.8, farthest) * diameter_;
+    return capsule.from + chance_.between(0, 1) * along + off * out.normalized();
+  }
+
+  /// Whether a bracket can hold it there.
+  bool in_reach(int link, const Vector3& place) const {
+    for (const pipeline::Capsule& shape : shapes_of(link))
+      if (distance_to_axis(place, shape.from, shape.to) <= shape.radius + farthest * diameter_) return true;
+    return false;
   }
 
   Candidate changed(const Candidate& from, double size) {
     Candidate candidate = from;
     for (int k = 0; k < used(); ++k) {
-      if (chance_.below(2)) candidate.position[k] += size * diameter_ * chance_.normal_vector();
+      if (chance_.below(2)) {
+        const Vector3 place = candidate.position[k] + size * diameter_ * chance_.normal_vector();
+        if (in_reach(link_[k], place)) candidate.position[k] = place;
+      }
       if (chance_.below(2))
         candidate.direction[k] = (candidate.direction[k] + 0.4 * size * chance_.normal_vector()).normalized();
     }

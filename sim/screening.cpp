@@ -161,13 +161,6 @@ double curvature_at_rest(const Thread& thread, const Frames& frames) {
   return most;
 }
 
-double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3& to) {
-  const Vector3 axis = to - from;
-  const double length = axis.squaredNorm();
-  const double share = length > 0 ? std::clamp((point - from).dot(axis) / length, 0.0, 1.0) : 0;
-  return (point - from - share * axis).norm();
-}
-
 /// How deep a ball lies in a box about its frame [m]; negative: how far outside.
 double depth_in_box(const Vector3& point, double radius, const Frame& frame, const Vector3& sides) {
   const Vector3 beyond = (frame.orientation.conjugate() * (point - frame.position)).cwiseAbs() - sides / 2;
@@ -186,6 +179,13 @@ double depth_in(const Shapes& shapes, const Vector3& point, double radius) {
 }
 
 }  // namespace
+
+double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3& to) {
+  const Vector3 axis = to - from;
+  const double length = axis.squaredNorm();
+  const double share = length > 0 ? std::clamp((point - from).dot(axis) / length, 0.0, 1.0) : 0;
+  return (point - from - share * axis).norm();
+}
 
 double Screening::violation() const {
   double sum = 0;

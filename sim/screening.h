@@ -22,6 +22,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/rod/rotation.h"
+
 namespace dresslife::pipeline {
 struct Setup;
 }
@@ -51,6 +53,9 @@ constexpr std::string_view word(ScreenedLimit value) {
 /// robot: the hose is pushed aside, so nothing is sure.
 inline constexpr std::array<double, screened_limits> surely_beyond{0, 0, 1, 0.5,
                                                                    std::numeric_limits<double>::infinity()};
+
+/// Of a point to the nearest one of the line between two others [m].
+double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3& to);
 
 /// Of the worst span or dresspack each.
 struct Screening {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -29,12 +30,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int trials = 5;  // routings of one search that are run
+constexpr int trials = 3;  // routings of one search that are run through the whole chain
 
 struct Options : RunOptions {
   RouteRequest request;
   std::string ring, job, scale = "auto";
-  int tried = 1200, seed = 1;
+  int tried = 400, rehearsals = 160, seed = 1;
 };
 
 /// One search and what became of its routings.
@@ -76,6 +77,8 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
                                      std::to_string(trials),
                                      "--tried",
                                      std::to_string(options.tried),
+                                     "--rehearsals",
+                                     std::to_string(options.rehearsals),
                                      "--seed",
                                      std::to_string(options.seed),
                                      "-o",
@@ -88,24 +91,26 @@ ScreenedList proposed(const Draft& draft, const Options& options, double factor,
   return read_screening(told.path());
 }
 
+/// Runs a routing through the whole chain.
+void run(Trial& trial, std::size_t k, const Draft& draft, const Options& options, const StudyPlaces& places) {
+  const ScreenedCandidate& candidate = trial.proposals.candidates[k];
+  const Node document = routed(draft, candidate.changes, trial.proposals.motion, trial.factor);
+  Study study{fmt::format("{} at {:.0f} %", draft.name, 100 * trial.factor), {}};
+  study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
+                        std::make_shared<const Job>(job_from(document)), ""});
+  const RankingRow row = made_rows(study, places, options).front();
+  trial.outcomes[k] = outcome_of(row, places.job(row.job));
+  if (!trial.outcomes[k].failure.empty()) return;
+  if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
+}
+
+/// Those that kept all limits in their rehearsal, until one does in the whole chain.
 Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}};
-  Study study{fmt::format("{} at {:.0f} %", draft.name, 100 * factor), {}};
-  for (std::size_t k = 0; k < trial.proposals.candidates.size(); ++k) {
-    const ScreenedCandidate& candidate = trial.proposals.candidates[k];
-    if (candidate.rejected) continue;
-    const Node document = routed(draft, candidate.changes, trial.proposals.motion, factor);
-    study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * factor, k + 1),
-                          std::make_shared<const Job>(job_from(document)), ""});
-  }
   trial.outcomes.resize(trial.proposals.candidates.size());
-  if (study.jobs.empty()) return trial;
-  for (const RankingRow& row : made_rows(study, places, options)) {
-    const std::size_t k = std::stoul(row.job.substr(row.job.rfind('_') + 1)) - 1;
-    trial.outcomes[k] = outcome_of(row, places.job(row.job));
-    if (!trial.outcomes[k].failure.empty()) continue;
-    if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
-  }
+  for (std::size_t k = 0; k < trial.outcomes.size() && !trial.feasible(); ++k)
+    if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
+      run(trial, k, draft, options, places);
   return trial;
 }
 
@@ -113,7 +118,13 @@ Trial tried(const Draft& draft, const Options& options, double factor, const Stu
 std::string obstacle(const Trial& trial) {
   if (trial.best) return trial.outcomes[*trial.best].words();
   const ScreenedCandidate& first = trial.proposals.candidates.front();
-  return first.rejected ? trial.proposals.words(first) : trial.outcomes.front().words();
+  return first.refusal.empty() ? trial.proposals.words(first) : first.refusal;
+}
+
+/// Of its best, by its rehearsal; infinite: it does not run.
+double violation(const Trial& trial) {
+  const ScreenedCandidate& first = trial.proposals.candidates.front();
+  return first.refusal.empty() ? first.violation() : std::numeric_limits<double>::infinity();
 }
 
 std::vector<double> factors_of(const Options& options) {
@@ -158,15 +169,22 @@ int route(const Options& options) {
   check_replaceable(page);
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
-  std::optional<Trial> chosen;
+  std::optional<Trial> chosen, nearest;
   for (const double factor : factors_of(options)) {
     Trial trial = tried(draft, options, factor, places);
     const bool feasible = trial.feasible();
     if (!feasible)
       tell(fmt::format("note: at {:.0f} % of the dresspack's size: {}\n", 100 * factor, obstacle(trial)));
+    const bool nearer = !nearest || violation(trial) < violation(*nearest);
     if (trial.best && (!chosen || better(trial.outcomes[*trial.best], chosen->outcomes[*chosen->best])))
       chosen = std::move(trial);
+    else if (nearer)
+      nearest = std::move(trial);
     if (feasible) break;
+  }
+  if (!chosen && std::isfinite(violation(*nearest))) {
+    run(*nearest, 0, draft, options, places);
+    if (nearest->best) chosen = std::move(nearest);
   }
   if (!chosen)
     throw InputError({options.request.of},
@@ -210,6 +228,12 @@ Command add_route(CLI::App& program) {
       ->capture_default_str();
   words->add_option("--tried", options->tried, "routings that geometry looks at, of each size")
       ->check(CLI::Range(1, 1'000'000))
+      ->type_name("COUNT")
+      ->capture_default_str();
+  words
+      ->add_option("--rehearsals", options->rehearsals,
+                   "short runs that the best of them are tried in and changed by, of each size")
+      ->check(CLI::Range(1, 100'000))
       ->type_name("COUNT")
       ->capture_default_str();
   words->add_option("--seed", options->seed, "of the search's chances")

@@ -26,6 +26,7 @@ components:
     count: 2
     radius_mm: 2
     helix_radius_mm: 3
+    slack_percent: 1
     components:
       - {name: wire, count: 6, radius_mm: 0.1, helix_radius_mm: 1, lay_angle_deg: 15, material: copper}
 )";
@@ -36,13 +37,14 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   Scratch scratch;
   scratch.write("hose.yaml", small_dresspack);
   const std::string line =
-      "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 150 --quiet "
+      "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 150 --rehearsals 40 --quiet "
       "--set simulation.segments=16 --job found.yaml";
   const Outcome told = run(scratch, "dresslife", line);
   INFO(told.err);
   REQUIRE(told.status == 0);
   CHECK(told.out.find("base_clamp: {link: link_3, ") == 0);
   CHECK(told.out.find("tool_clamp: {link: link_6, ") != std::string::npos);
+  CHECK(told.out.find("It keeps all limits in a run") != std::string::npos);
   CHECK(told.out.find("No program was given") != std::string::npos);
   CHECK(told.out.find("Job: found.yaml\nPreview: found_preview.html\n") != std::string::npos);
   CHECK(content(scratch / "found_preview.html").find("The simulation takes this job.") != std::string::npos);
