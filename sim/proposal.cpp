@@ -25,6 +25,9 @@ constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.2
 /// Likewise of a run with few segments, which sees less of a bend.
 constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0};
 
+/// Likewise of the job's own run: its numbers are rounded when it is written.
+constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0};
+
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double farthest = 4;  // of a clamp from the link that carries it [diameters]
 constexpr int rehearsed_segments = 24, rehearsed_repeats = 1;
@@ -148,7 +151,7 @@ class Search {
     std::vector<Candidate> one{*first};
     kept.erase(first);
     constexpr int as_the_job = std::numeric_limits<int>::max();
-    rehearse(one, as_the_job, as_the_job, {});
+    rehearse(one, as_the_job, as_the_job, wished_of_whole);
     one.front().whole = true;
     keep(kept, std::move(one.front()), kept.size() + 1);
     return true;
