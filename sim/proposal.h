@@ -21,7 +21,7 @@ namespace dresslife::sim {
 struct ProposalSettings {
   int count = 1;     ///< proposals, best first, each of a search of its own
   int tried = 1200;  ///< routings that are screened, by all searches: some milliseconds each
-  int rehearsals = 0;  ///< runs with few segments that the best of them are tried in and changed by; a tenth of a second each
+  int rehearsals = 0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
   std::uint64_t seed = 1;
   std::string ring_link;  ///< a guide ring on it; empty: none
 };
