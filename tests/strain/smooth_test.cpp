@@ -1,0 +1,132 @@
+// What a user tells of cables moves strains of their wires smoothly: no jump between neighbouring values of any key,
+// whatever another one is at. Wires of two cables of two conductors, through the whole evaluation.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "strain/evaluation.h"
+#include "tests/strain/dresspacks.h"
+
+using namespace dresslife::strain;
+using namespace test_dresspacks;
+using dresslife::pipeline::Kinematics;
+using dresslife::pipeline::Position;
+using dresslife::pipeline::Slip;
+
+namespace {
+
+constexpr double pi = std::numbers::pi, length = 2;
+constexpr std::size_t segments = 16, samples = 24;
+
+Dresspack two_cables(Position position) {
+  Component conductor = part("conductor", 2, 0.001175, 0.002825, 20, Hand::left);
+  conductor.components = {wires("layer 1", 6, 75e-6, 0.00075, 5, Hand::right)};
+  conductor.components[0].friction = conductor.friction = 0.3;
+  conductor.components[0].radial_line_load = 20, conductor.radial_line_load = 100;
+  conductor.radial_stiffness = 1e9, conductor.jacket_stiffness = 1e7;
+  Component cable = part("cable", 2, 0.0053, 0.01845, 0);
+  cable.components = {conductor};
+  cable.friction = 0.3, cable.radial_line_load = 5;
+  cable.measured_bending_stiffness = 0.06, cable.polymer_bending_stiffness = 0.03;
+  cable.laying.position = position;
+  cable.laying.slack = 0.5;
+  cable.laying.base_grip = cable.laying.tool_grip = 200;
+  if (position == Position::loose) cable.laying.play = 4e-3;
+  Dresspack dresspack;
+  dresspack.components = {cable};
+  dresspack.bending_stiffness = 25;
+  dresspack.inner_diameter = 0.051;
+  dresspack.materials = {copper()};
+  return dresspack;
+}
+
+/// A hose on a wrist that swings from one side to the other, and twists.
+DeformationHistory swinging() {
+  DeformationHistory history(segments, samples);
+  for (std::size_t i = 0; i < segments; ++i)
+    for (std::size_t t = 0; t < samples; ++t) {
+      const double z = (i + 0.5) / segments, w = 2 * pi * t / (samples - 1);
+      history.set(i, t, {(1.2 + 0.8 * std::sin(w)) * std::sin(pi * z), 0.8 * std::cos(w) * std::cos(pi * z / 2),
+                         0.8 * std::sin(w), 1e-4 * std::cos(w)});
+    }
+  return history;
+}
+
+double largest_range(const Dresspack& dresspack) {
+  static const DeformationHistory history = swinging();
+  const Construction construction(dresspack, Kinematics::exact);
+  dresslife::pipeline::Strain settings;
+  settings.slip = {Slip::friction};
+  settings.gate = 0;
+  Evaluation evaluation(construction, settings, std::vector<double>(segments, length / segments), samples);
+  evaluation.add({history});
+  if (evaluation.wants_again()) evaluation.end_first_pass(), evaluation.add_again(history);
+  double largest = 0;
+  Sink sink;
+  sink.sites = [&](const SiteRows& rows) {
+    std::size_t first = 0;
+    for (std::size_t site = 0; site < rows.segment.size(); first += rows.turning[site++]) {
+      const auto own = std::span(rows.strain).subspan(first, rows.turning[site]);
+      const auto [low, high] = std::minmax_element(own.begin(), own.end());
+      largest = std::max<double>(largest, *high - *low);
+    }
+  };
+  sink.bound_stick = sink.bound_free = [](const SiteRows&) {};
+  sink.probe = [](const Probe&) {};
+  for (std::size_t i = 0; i < segments; ++i) evaluation.evaluate(i, history, i, sink);
+  return largest;
+}
+
+struct Key {
+  const char* name;
+  double low, high;
+  std::function<void(Component& cable, double value)> set;
+};
+
+std::vector<Key> keys(Position position) {
+  std::vector<Key> all{
+      {"slack_percent", 0.2, 2, [](Component& c, double v) { c.laying.slack = v; }},
+      {"grip_N", 30, 1000, [](Component& c, double v) { c.laying.base_grip = c.laying.tool_grip = v; }},
+      {"friction_coefficient", 0.05, 0.6, [](Component& c, double v) { c.friction = v; }},
+      {"radial_line_load_N_per_m", 1, 100, [](Component& c, double v) { c.radial_line_load = v; }},
+      {"measured_bending_stiffness_Nm2", 0.05, 0.08, [](Component& c, double v) { c.measured_bending_stiffness = v; }},
+      {"radial_stiffness_N_per_m2", 1e9, 1e11, [](Component& c, double v) { c.components[0].radial_stiffness = v; }},
+      {"jacket_stiffness_N_per_m2", 1e5, 3e7, [](Component& c, double v) { c.components[0].jacket_stiffness = v; }}};
+  if (position == Position::loose)
+    all.push_back({"play_m", 1e-3, 8e-3, [](Component& c, double v) { c.laying.play = v; }});
+  else
+    all.push_back({"lay_angle_rad", 0.5 * degree, 8 * degree, [](Component& c, double v) { c.lay_angle = v; }});
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("strains of wires move smoothly with every key of loose and held cables, whatever another is at") {
+  constexpr double step = 0.01;
+  // Strains go with no more than the cube of a key: what presses a cable into waves with the square of its play
+  // (4 E I delta / c^2), what a lay twists with that of its angle, what friction holds with a measured stiffness less
+  // that of polymer (0.05 / 0.02), and friction answers to each of them. A law that switches moves them several times.
+  constexpr double steepest = 3;
+  for (const Position position : {Position::loose, Position::held}) {
+    const std::vector<Key> all = keys(position);
+    for (std::size_t a = 0; a < all.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        for (const bool high_a : {false, true})
+          for (const bool high_b : {false, true}) {
+            const double at_a = high_a ? all[a].high : all[a].low, at_b = high_b ? all[b].high : all[b].low;
+            const auto range = [&](double by_a, double by_b) {
+              Dresspack dresspack = two_cables(position);
+              all[a].set(dresspack.components[0], by_a * at_a);
+              all[b].set(dresspack.components[0], by_b * at_b);
+              return largest_range(dresspack);
+            };
+            const double here = range(1, 1);
+            INFO(all[a].name << " " << at_a << ", " << all[b].name << " " << at_b);
+            INFO((position == Position::held ? "held" : "loose"));
+            CHECK(range(1 + step, 1) == Approx(here).epsilon(steepest * step));
+            CHECK(range(1, 1 + step) == Approx(here).epsilon(steepest * step));
+          }
+  }
+}
