@@ -89,10 +89,12 @@ struct Routine {
   std::vector<Parameter> parameters;
   std::vector<Statement> body;
   Place place;
-  int last_line = 0;              ///< of the lines that belong to it
-  int module = -1;                ///< index into Code::modules; -1: none
-  bool local = false;             ///< known in its module alone
-  std::vector<Problem> problems;  ///< of its lines; they count when it is run
+  int last_line = 0;                       ///< of the lines that belong to it
+  int module = -1;                         ///< index into Code::modules; -1: none
+  bool local = false;                      ///< known in its module alone
+  std::vector<Problem> problems;           ///< of its lines; they count when it is run
+  Place handler;                           ///< of errors (RAPID's ERROR, UNDO, BACKWARD)
+  std::vector<std::string> handler_words;  ///< in it, in lower case; it is not run
 };
 
 /// What has names of its own: a RAPID module; a KRL program with the data list of its name.

@@ -401,6 +401,12 @@ Interpreter::Scope& Interpreter::scope_of(const std::string& path) {
   return module_data_[module_];
 }
 
+const std::string& Interpreter::base_name(const Expression& expression) {
+  const Expression* base = &expression;
+  while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
+  return base->text;
+}
+
 Interpreter::Variable* Interpreter::base_of(const Expression& expression) {
   const Expression* base = &expression;
   while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
@@ -417,27 +423,51 @@ void Interpreter::assign_somewhere(const Expression& target) {
   }
 }
 
-void Interpreter::make_unknown(const Expression& target, const std::string& why) {
+void Interpreter::make_unknown(const Expression& target, Cause cause) {
   if (target.kind != Kind::name && target.kind != Kind::field && target.kind != Kind::element) return;
-  const std::string path = path_of(target);
-  if (std::optional<Value> value = given(path)) return assign(target, *value);
-  if (locate(target)) assign(target, unknown_value(path, why));
+  cause.name = path_of(target);
+  if (std::optional<Value> value = given(cause.name)) return assign(target, *value);
+  if (!locate(target)) return;
+  Value unknown;
+  unknown.cause = std::make_shared<const Cause>(std::move(cause));
+  assign(target, std::move(unknown));
 }
 
 std::string Interpreter::because(const Value& unknown) const {
   const Cause* cause = unknown.first_cause();
   if (!cause) return "";
-  return cause->name.empty() ? ": " + cause->why : fmt::format(": '{}' {}", cause->name, cause->why);
+  const std::string why =
+      cause->name.empty() ? ": " + cause->why : fmt::format(": '{}' {}", cause->name, cause->why);
+  return cause->behind
+             ? fmt::format("{}, that on '{}', which {}", why, cause->behind->name, cause->behind->why)
+             : why;
 }
 
 std::string Interpreter::remedy_for(const Value& unknown) const {
   const Cause* cause = unknown.first_cause();
   if (!cause || cause->name.empty()) return "";
-  const std::string value = fmt::format("--value '{}=...'", cause->name);
-  const std::string_view why = cause->why, branch = "hangs on the branch in ";
-  return why.starts_with(branch)
-             ? fmt::format("--assume {}=then or =else, or {}", why.substr(branch.size()), value)
-             : value;
+  const Cause& asked = cause->behind ? *cause->behind : *cause;
+  return cause->line.empty()
+             ? fmt::format("--value '{}=...'", asked.name)
+             : fmt::format("--value '{}=...', or --assume {}=then or =else", asked.name, cause->line);
+}
+
+std::string Interpreter::question_of(const Value& unknown) const {
+  const Cause* cause = unknown.first_cause();
+  return !cause ? "" : cause->behind ? cause->behind->name : cause->name;
+}
+
+/// The names that an undecided condition hangs on, each once.
+void Interpreter::unknown_names(const Expression& expression, std::vector<std::string>& names) {
+  constexpr std::size_t listed = 6;
+  if (expression.kind == Kind::name || expression.kind == Kind::field || expression.kind == Kind::element) {
+    const std::string name = question_of(evaluate(expression));
+    if (!name.empty() && names.size() < listed && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+    return;
+  }
+  if (expression.kind == Kind::call && code_.find(expression.text, module_)) return;  // it may move the robot
+  for (const Expression& item : expression.items) unknown_names(item, names);
 }
 
 Value Interpreter::aggregate(const Expression& expression) {

@@ -1,6 +1,7 @@
 #include "sim/program/fanuc_run.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "sim/program/tokens.h"
@@ -59,12 +60,19 @@ pipeline::Where FanucRun::where() const {
 
 std::string FanucRun::line_name() const { return fmt::format("{}:{}", file_of(where().file), where().line); }
 
+/// The program that runs, as its listing writes it.
+std::string FanucRun::program_name() const {
+  std::string name = routines_.empty() ? "" : routines_.back().listing->name;
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
 void FanucRun::complain(const std::string& what, const std::string& remedy) {
-  problems_.add(where(), what, remedy);
+  problems_.add(where(), what, remedy, program_name());
 }
 
 void FanucRun::missing(const std::string& name, const std::string& what, const std::string& remedy) {
-  problems_.add_missing(name, where(), what, remedy);
+  problems_.add_missing(name, where(), what, remedy, program_name());
 }
 
 void FanucRun::missing_value(const std::string& what) {
@@ -450,10 +458,14 @@ void FanucRun::set_frame(bool tool, int number, const std::optional<FanucPositio
 // ---- branches and loops ----------------------------------------------------------------------------------
 
 void FanucRun::ask(const std::string& what) {
-  const std::string name = values_.missing().empty() ? "what" : values_.missing() + ", which";
-  complain(fmt::format("{} {} is known only while the robot runs", what, name),
-           fmt::format("choose with --assume {}=then or =else (motion.assume in a job){}", line_name(),
-                       name == "what" ? "" : fmt::format(", or give --value '{}=...'", values_.missing())));
+  const std::string missing = values_.missing();
+  problems_.add_decision(
+      missing.empty() ? line_name() : missing, where(),
+      fmt::format("{} {} is known only while the robot runs", what,
+                  missing.empty() ? "what" : missing + ", which"),
+      fmt::format("choose with --assume {}=then or =else (motion.assume in a job){}", line_name(),
+                  missing.empty() ? "" : fmt::format(", or give --value '{}=...'", missing)),
+      program_name());
 }
 
 /// Whether leaving statements out changes nothing but values, which are unknown from here on.

@@ -121,6 +121,7 @@ class FanucRun {
   pipeline::Where where() const;
   std::string line_name() const;  // "cell.ls:12"
   std::optional<bool> assumed(int line) const;
+  std::string program_name() const;
   void complain(const std::string& what, const std::string& remedy);
   void missing(const std::string& name, const std::string& what, const std::string& remedy);
   void missing_value(const std::string& what);  // the value that values_ misses

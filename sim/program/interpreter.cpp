@@ -54,6 +54,17 @@ struct Interpreter::Round {
   std::size_t at_;
 };
 
+/// A body that runs again and again, as long as this lives.
+struct Interpreter::Again {
+  Again(Interpreter& run, const std::vector<Statement>& body) : run_(run), at_(run.endless_.size()) {
+    run.endless_.push_back(&body);
+  }
+  Again(const Again&) = delete;
+  ~Again() { run_.endless_.resize(at_); }
+  Interpreter& run_;
+  std::size_t at_;
+};
+
 Interpreter::Interpreter(const Code& code, Dialect& dialect, const ImportOptions& options, Program& program,
                          Problems& problems)
     : code_(code), dialect_(dialect), options_(options), program_(program), problems_(problems) {}
@@ -110,13 +121,22 @@ pipeline::Where Interpreter::where(const Place& place) const {
   return {code_.files[place.file].name(), place.line, place.column};
 }
 
+/// The routine that holds the line; empty: none.
+std::string Interpreter::routine_at(const Place& place) const {
+  for (const Routine& routine : code_.routines)
+    if (routine.place.file == place.file && routine.place.line <= place.line &&
+        place.line <= routine.last_line)
+      return routine.written;
+  return "";
+}
+
 void Interpreter::complain(const Place& place, const std::string& what, const std::string& remedy) {
-  problems_.add(where(place), what, remedy);
+  problems_.add(where(place), what, remedy, routine_at(place));
 }
 
 void Interpreter::miss(const std::string& name, const Place& place, const std::string& what,
                        const std::string& remedy) {
-  problems_.add_missing(name, where(place), what, remedy);
+  problems_.add_missing(name, where(place), what, remedy, routine_at(place));
 }
 
 void Interpreter::note(const Place& place, const std::string& what, bool may_move) {
@@ -290,11 +310,21 @@ std::optional<bool> Interpreter::assumed(const Place& place) {
 }
 
 void Interpreter::ask(const Place& place, const std::string& what, const Value& unknown,
-                      const std::string& answers) {
-  const std::string value = remedy_for(unknown);
-  miss("decision in " + where(place).text(), place, what + because(unknown),
-       fmt::format("choose with --assume {}={} (motion.assume in a job){}", short_place(place), answers,
-                   value.empty() ? "" : fmt::format(", or give {} (motion.values)", value)));
+                      const std::string& answers, const std::vector<Expression>& asked) {
+  std::string values;
+  std::vector<std::string> names;
+  for (const Expression& expression : asked) unknown_names(expression, names);
+  if (names.empty()) names.push_back(question_of(unknown));
+  for (const std::string& name : names)
+    if (!name.empty()) values += fmt::format("{}--value '{}=...'", values.empty() ? "" : " ", name);
+  const std::string about = values.empty() ? where(place).text() : answers + values;
+  if (const Cause* cause = unknown.first_cause(); cause && cause->behind)
+    values += fmt::format(", or --assume {}=then or =else", cause->line);
+  problems_.add_decision(
+      about, where(place), what + because(unknown),
+      fmt::format("choose with --assume {}={} (motion.assume in a job){}", short_place(place), answers,
+                  values.empty() ? "" : fmt::format(", or give {} (motion.values)", values)),
+      routine_at(place));
 }
 
 Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
@@ -310,7 +340,9 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
     if (!decision) {
       if (!matters(statement)) return leave_out(statement, condition);
       if (problems_.count() != problems) return run_both(statement);  // what makes it unknown is told
-      ask(branch.place, "branches on what is known only while the robot runs", condition, "then or =else");
+      if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
+      ask(branch.place, "branches on what is known only while the robot runs", condition, "then or =else",
+          branch.conditions);
       return run_both(statement);
     }
     if (*decision) return execute(branch.body);
@@ -331,8 +363,9 @@ Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
       if (!subject.known() || !value.known()) {
         const Value& unknown = subject.known() ? value : subject;
         if (!matters(statement)) return leave_out(statement, unknown);
+        if (const Branch* way = waited_for(statement)) return go_on(*way, unknown);
         ask(statement.place, "chooses by what is known only while the robot runs", unknown,
-            "VALUE, the value that it then has");
+            "VALUE, the value that it then has", statement.arguments);
         return run_both(statement);
       }
       if (value == subject) return execute(branch.body);
@@ -343,10 +376,15 @@ Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
 
 /// An undecided branch that does not move the robot: nothing but its variables becomes unknown.
 Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value& unknown) {
-  const Cause* cause = unknown.first_cause();
-  note(statement.place, fmt::format("branch without moves{}: known only while the robot runs",
-                                    cause ? fmt::format(" on '{}'", cause->name) : ""));
-  const std::string why = fmt::format("hangs on the branch in {}", short_place(statement.place));
+  const std::string line = short_place(statement.place);
+  const std::shared_ptr<const Cause> cause = unknown_value(unknown).cause;
+  const bool waits = std::any_of(statement.branches.begin(), statement.branches.end(),
+                                 [&](const Branch& branch) { return only_waits(branch.body); });
+  note(statement.place,
+       fmt::format("branch {}{}: known only while the robot runs", waits ? "that waits" : "without moves",
+                   cause ? fmt::format(" on '{}'", cause->name) : ""));
+  Cause why{"", "hangs on the branch in " + line, line, cause && cause->behind ? cause->behind : cause};
+  if (!why.behind || why.behind->name.empty()) why.behind = nullptr;
   std::set<const Routine*> done;
   for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
   if (!leaves(statement, false)) return Flow::next;
@@ -354,6 +392,34 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
   forget_assigned(routines_.back()->body, why, done);
   result_ = unknown_value(unknown);
   return Flow::give_back;
+}
+
+/// The one arm of an undecided statement that moves the robot, in an endless loop that does nothing else: the
+/// loop waits for it, as WaitUntil would. Null: how it goes makes another motion.
+const Branch* Interpreter::waited_for(const Statement& statement) {
+  if (endless_.empty()) return nullptr;
+  const std::vector<Statement>& round = *endless_.back();
+  if (&statement < round.data() || &statement >= round.data() + round.size()) return nullptr;
+  for (const Statement& other : round)
+    if (&other != &statement && !changes_nothing(other, module_)) return nullptr;
+  const Branch* way = nullptr;
+  for (const Branch& branch : statement.branches) {
+    for (const Expression& condition : branch.conditions)
+      if (moves(condition, module_)) return nullptr;
+    if (changes_nothing(branch.body, module_)) continue;
+    if (way || branch.conditions.empty()) return nullptr;
+    way = &branch;
+  }
+  if (!way || statement.kind != Kind::branch) return way;
+  const Value condition = evaluate(way->conditions[0]);
+  return condition.kind == Value::Kind::truth && condition.number == 0 ? nullptr : way;  // it never comes
+}
+
+Interpreter::Flow Interpreter::go_on(const Branch& way, const Value& unknown) {
+  const Cause* cause = unknown.first_cause();
+  note(way.place, fmt::format("the robot waits{} (its loop makes no other move), and the way on is taken",
+                              cause && !cause->name.empty() ? fmt::format(" for '{}'", cause->name) : ""));
+  return execute(way.body);
 }
 
 /// The reading has failed; what else there is to ask or to mend in the arms is told as well.
@@ -383,7 +449,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
       if (unknown.cause == nullptr) unknown = unknown_value(evaluate(bound));
     if (!matters(statement)) return leave_out(statement, unknown);
     ask(statement.place, "counts to what is known only while the robot runs (then: one pass, else: none)",
-        unknown, "then or =else");
+        unknown, "then or =else", statement.arguments);
     return Flow::next;
   }
   const double first = from.value_or(1), last = decision ? first : *to, by = decision ? 1 : *step;
@@ -412,7 +478,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     const Value counter = evaluate(counter_of(statement));  // the body may have changed it
     if (!counter.is_number()) {
       ask(statement.place, "counts with a variable that is known only while the robot runs", counter,
-          "then or =else");
+          "then or =else", {});
       break;
     }
     value = counter.number + by;
@@ -443,7 +509,7 @@ Interpreter::Flow Interpreter::run_while(const Statement& statement) {
         ask(statement.place,
             "repeats while something holds that is known only while the robot runs (then: one pass, else: "
             "none)",
-            go_on, "then or =else");
+            go_on, "then or =else", {condition});
         return run_both(statement);
       }
       if (go_on.number == 0) break;
@@ -510,6 +576,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   const std::size_t before = program_.instructions.size();
   const long work_before = executed_;
   Round round(*this, statement.place);
+  const Again again(*this, statement.branches[0].body);
   Passes passes(program_.instructions);
   while (true) {
     const std::size_t problems = problems_.count();
@@ -588,6 +655,7 @@ void Interpreter::run_cycles(const Routine& routine) {
   const std::size_t wanted = options_.passes;
   const std::uint64_t state_before = state();
   const long work_before = executed_;
+  const Again again(*this, routine.body);
   Passes passes(program_.instructions);
   while (true) {
     const Problems told = problems_;
@@ -686,7 +754,7 @@ void Interpreter::forget_arguments(const std::string& name, const std::vector<Ex
   for (const Expression& argument : arguments) {
     const int at = argument.option.empty() ? position++ : -1;
     if (dialect_.writes(name, at, argument))
-      make_unknown(argument, fmt::format("may be written by {} ({})", name, short_place(place)));
+      make_unknown(argument, {"", fmt::format("may be written by {} ({})", name, short_place(place))});
   }
 }
 
@@ -787,7 +855,9 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
              "mend the recursion");
     throw Stop{};
   }
-  for (const Problem& problem : routine.problems) problems_.add(problem.where, problem.what, problem.remedy);
+  for (const Problem& problem : routine.problems)
+    problems_.add(problem.where, problem.what, problem.remedy, routine.written);
+  tell_handler(routine);
   Scope variables;
   std::vector<std::pair<const Parameter*, const Expression*>> given;
   std::size_t position = 0;
@@ -887,8 +957,59 @@ bool Interpreter::matters(const Statement& statement) {
   return moves(statement, module_) || (leaves(statement, false) && moves(*routines_.back()));
 }
 
+/// Somewhere in it time passes, and nothing moves.
+bool Interpreter::only_waits(const std::vector<Statement>& body) const {
+  return std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
+    return (statement.kind == Kind::instruction && dialect_.only_waits(statement.name)) ||
+           std::any_of(statement.branches.begin(), statement.branches.end(),
+                       [&](const Branch& branch) { return only_waits(branch.body); });
+  });
+}
+
+/// However often it runs, the robot stands and the program's data are as before, but for what an instruction
+/// of input writes.
+bool Interpreter::changes_nothing(const Statement& statement, int module, int depth) {
+  constexpr int deepest = 4;  // calls
+  if (depth > deepest || moves(statement, module) || leaves(statement, false)) return false;
+  switch (statement.kind) {
+    case Kind::assign:
+      return dialect_.harmless(base_name(statement.arguments[0]));
+    case Kind::count:
+    case Kind::finish:
+    case Kind::end_cycle:
+    case Kind::label:
+      return false;
+    case Kind::instruction: {
+      const Routine* routine = code_.find(statement.name, module);
+      return routine ? changes_nothing(routine->body, routine->module, depth + 1)
+                     : dialect_.only_waits(statement.name) || dialect_.harmless(statement.name);
+    }
+    default:
+      return std::all_of(statement.branches.begin(), statement.branches.end(),
+                         [&](const Branch& branch) { return changes_nothing(branch.body, module, depth); });
+  }
+}
+
+bool Interpreter::changes_nothing(const std::vector<Statement>& body, int module, int depth) {
+  return std::all_of(body.begin(), body.end(),
+                     [&](const Statement& statement) { return changes_nothing(statement, module, depth); });
+}
+
+/// A handler runs on an error alone. What it may move is told once.
+void Interpreter::tell_handler(const Routine& routine) {
+  if (routine.handler_words.empty() || !told_handlers_.insert(&routine).second) return;
+  const bool may_move =
+      std::any_of(routine.handler_words.begin(), routine.handler_words.end(), [&](const std::string& word) {
+        const Routine* called = code_.find(word, routine.module);
+        return called ? moves(*called) : dialect_.matters(word);
+      });
+  if (may_move)
+    note(routine.handler,
+         routine.written + ": its handler of errors moves the robot; errors are taken not to happen");
+}
+
 /// All that the statements may write to is unknown from here on.
-void Interpreter::forget_assigned(const std::vector<Statement>& body, const std::string& why,
+void Interpreter::forget_assigned(const std::vector<Statement>& body, const Cause& why,
                                   std::set<const Routine*>& done) {
   for (const Statement& statement : body) {
     charge(1);
@@ -902,12 +1023,12 @@ void Interpreter::forget_assigned(const std::vector<Statement>& body, const std:
 void Interpreter::forget_writes_of(const Statement& call, int module, const std::string& why) {
   std::set<const Routine*> done;
   const int here = std::exchange(module_, module);
-  forget_written(call, why, done);
+  forget_written(call, {"", why}, done);
   module_ = here;
 }
 
 /// Of a call: what the routine assigns to data outside of it, and the arguments that it gives back.
-void Interpreter::forget_written(const Statement& statement, const std::string& why,
+void Interpreter::forget_written(const Statement& statement, const Cause& why,
                                  std::set<const Routine*>& done) {
   const Routine* routine = code_.find(statement.name, module_);
   std::size_t position = 0;

@@ -29,8 +29,10 @@ namespace dresslife::sim {
 
 /// Why a value is unknown.
 struct Cause {
-  std::string name;  ///< under which ImportOptions::values can give it; empty: there is none
-  std::string why;   ///< "is read by TPReadNum (m.mod:9)", "is no name that a file declares"
+  std::string name;    ///< under which ImportOptions::values can give it; empty: there is none
+  std::string why;     ///< "is read by TPReadNum (m.mod:9)", "is no name that a file declares"
+  std::string line{};  ///< "m.mod:9" of an undecided branch that it hangs on
+  std::shared_ptr<const Cause> behind = nullptr;  ///< why that branch is undecided; has itself none behind it
 };
 
 struct Value {
@@ -78,6 +80,8 @@ class Dialect {
   virtual bool instruction(const Statement& statement, Interpreter& run) = 0;
   /// Whether an instruction moves the robot or changes how it will move.
   virtual bool matters(const std::string& instruction) const = 0;
+  /// Whether an instruction lets time pass and does nothing else.
+  virtual bool only_waits(const std::string& instruction) const = 0;
   /// Whether an unknown instruction is known to be input, output or logic.
   virtual bool harmless(const std::string& instruction) const = 0;
   /// Whether an instruction that is left out, or a function that is not read, may write to this argument.
@@ -127,7 +131,7 @@ class Interpreter {
   /// Whether the argument that \name?value names was given to the routine that runs.
   bool present(const Expression& argument);
   /// The variable becomes unknown, or what the user gives for it, because of `who`.
-  void make_unknown(const Expression& target, const std::string& why);
+  void make_unknown(const Expression& target, Cause cause);
   /// The same for all that a call of a routine may write to, as it stands in a module.
   void forget_writes_of(const Statement& call, int module, const std::string& why);
   /// Of all modules, as it was written there.
@@ -145,9 +149,12 @@ class Interpreter {
   std::string because(const Value& unknown) const;
   /// "--value k=... ", or nothing: what would make it known.
   std::string remedy_for(const Value& unknown) const;
+  /// The one question that decides it, for uses that are told once; empty: there is none.
+  std::string question_of(const Value& unknown) const;
   std::size_t problem_count() const { return problems_.count(); }
   pipeline::Where where(const Place& place) const;
   std::string short_place(const Place& place) const;  ///< "main.mod:12"
+  std::string routine_at(const Place& place) const;
   const ImportOptions& options() const { return options_; }
   int module() const { return module_; }  ///< whose names are seen; -1: none's
   Program& program() { return program_; }
@@ -172,6 +179,7 @@ class Interpreter {
   using Scope = std::map<std::string, Variable, std::less<>>;
   struct Deeper;
   struct Round;
+  struct Again;
 
   void start(const Routine& routine);
   void run_cycles(const Routine& routine);
@@ -190,6 +198,7 @@ class Interpreter {
   Flow run_until(const Statement& statement);
   Flow run_endless(const Statement& statement);
   Flow run_both(const Statement& statement);
+  Flow go_on(const Branch& way, const Value& unknown);
   Flow leave_out(const Statement& statement, const Value& unknown);
   void run_instruction(const Statement& statement);
   void run_late(const Statement& statement);
@@ -201,7 +210,9 @@ class Interpreter {
   std::uint64_t state(bool with_locals = true) const;
   void call_within_itself(const Routine& routine);
   [[noreturn]] void end_within_itself(const Routine& routine);
-  void ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers);
+  void ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers,
+           const std::vector<Expression>& asked);
+  void unknown_names(const Expression& expression, std::vector<std::string>& names);
   template <class Answers>
   const typename Answers::mapped_type* answer(const Answers& answers, const Place& place);
   std::optional<bool> assumed(const Place& place);
@@ -210,10 +221,14 @@ class Interpreter {
   bool moves(const Statement& statement, int module);
   bool moves(const Routine& routine);
   bool matters(const Statement& statement);
+  bool only_waits(const std::vector<Statement>& body) const;
+  bool changes_nothing(const Statement& statement, int module, int depth = 0);
+  bool changes_nothing(const std::vector<Statement>& body, int module, int depth = 0);
+  const Branch* waited_for(const Statement& statement);
+  void tell_handler(const Routine& routine);
   bool leaves(const Statement& statement, bool in_loop) const;
-  void forget_assigned(const std::vector<Statement>& body, const std::string& why,
-                       std::set<const Routine*>& done);
-  void forget_written(const Statement& statement, const std::string& why, std::set<const Routine*>& done);
+  void forget_assigned(const std::vector<Statement>& body, const Cause& why, std::set<const Routine*>& done);
+  void forget_written(const Statement& statement, const Cause& why, std::set<const Routine*>& done);
   void forget_arguments(const std::string& name, const std::vector<Expression>& arguments,
                         const Place& place);
   bool holds_loop_exit(const std::vector<Statement>& body) const;
@@ -233,6 +248,7 @@ class Interpreter {
   Value* locate(const Expression& expression);
   Variable* find(const std::string& name);
   Scope& scope_of(const std::string& path);
+  static const std::string& base_name(const Expression& expression);
   Variable* base_of(const Expression& expression);
   Value* ready(Variable& variable);
   void assign_somewhere(const Expression& target);
@@ -261,6 +277,8 @@ class Interpreter {
   const Routine* started_ = nullptr;
   std::optional<Passes> within_itself_;  // of the routine that was started, by its calls of itself
   std::vector<Loop> loops_;              // that are running, outermost first
+  std::vector<const std::vector<Statement>*> endless_;  // bodies that run again and again, outermost first
+  std::set<const Routine*> told_handlers_;
   std::vector<const Routine*> routines_;
   Value result_;
   const Statement* jump_ = nullptr;  // on its way to its label

@@ -76,8 +76,11 @@ void Krl::ask_for_target(const Expression& written, const Value& value, Interpre
   const std::string name = path.empty() ? std::string("a position") : fmt::format("'{}'", path);
   const Cause* cause = value.first_cause();
   if (is_unset(value)) {
-    run.miss(name, written.place, fmt::format("moves to {}, which has no value yet", name),
-             "assign it before the move, or give the file that holds its value (.dat)");
+    run.miss(
+        name, written.place, fmt::format("moves to {}, which has no value yet", name),
+        fmt::format(
+            "assign it before the move, give the file that holds its value (.dat), or --value '{}={{X ...}}'",
+            path.empty() ? "NAME" : path));
   } else if (!path.empty() && cause && cause->name == path) {
     run.miss(name, written.place, fmt::format("moves to {}, which no file read declares", name),
              fmt::format("give the .dat file that declares it, write the target as a constant, or {}",
@@ -92,16 +95,17 @@ void Krl::ask_for_target(const Expression& written, const Value& value, Interpre
 /// All that the target lacks in one line: it is answered in one round.
 void Krl::ask_for_part(const Expression& written, const Coordinates& read, Interpreter& run) {
   std::string remedy = run.remedy_for(read.unknown);
-  const Cause* first = read.unknown.first_cause();
-  const char* before = ", likewise ";
+  const std::string question = run.question_of(read.unknown);
+  std::set<std::string> named{question};
   for (const std::string& name : read.more)
-    if (!remedy.empty() && first && name != first->name) {
-      remedy += fmt::format("{}'{}=...'", before, name);
-      before = ", ";
-    }
-  run.complain(written.place,
-               "moves to a place that is known only while the robot runs" + run.because(read.unknown),
-               remedy.empty() ? "write the target as a constant" : "give it with " + remedy);
+    if (!remedy.empty() && named.insert(name).second)
+      remedy += fmt::format("{}'{}=...'", named.size() == 2 ? ", likewise " : ", ", name);
+  const std::string what =
+      "moves to a place that is known only while the robot runs" + run.because(read.unknown);
+  if (remedy.empty())
+    run.complain(written.place, what, "write the target as a constant");
+  else
+    run.miss(fmt::format("{}", fmt::join(named, " ")), written.place, what, "give it with " + remedy);
 }
 
 /// The numbers of the last target, in other frames where they have changed since.
@@ -153,7 +157,7 @@ bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instr
   const Value value = run.evaluate(via);
   const Coordinates read = coordinates(value, frame_names);
   if (coordinates(value, axis_names).any()) {
-    run.complain(via.place, "CIRC goes by axis angles", "write a frame");
+    run.complain(via.place, "has a CIRC by axis angles", "write a frame");
     return false;
   }
   if (!read.unknown.known() || !read.any()) {
@@ -483,7 +487,7 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
     target = &argument;
   }
   if (!target || (kind == Instruction::Kind::circular && !via)) {
-    run.complain(statement.place, "CIRC needs a point on the way and a target", "write both");
+    run.complain(statement.place, "has a CIRC without a point on the way and a target", "write both");
     return;
   }
   if (stands_still(*target, run)) {
@@ -634,7 +638,7 @@ bool Krl::instruction(const Statement& statement, Interpreter& run) {
     const Statement& inner = statement.branches[0].body[0];
     const std::string why = fmt::format("is written by the TRIGGER in {}", run.short_place(statement.place));
     if (inner.kind == Statement::Kind::assign)
-      run.make_unknown(inner.arguments[0], why);
+      run.make_unknown(inner.arguments[0], {"", why});
     else
       run.forget_writes_of(inner, run.module(), why);
     run.note(statement.place, "TRIGGER: input, output or logic");
@@ -642,7 +646,7 @@ bool Krl::instruction(const Statement& statement, Interpreter& run) {
   }
   if (statement.name == "p00") {  // talks to the line's controller, which answers with a program's number
     run.make_unknown(name_at("pgno", statement.place),
-                     "is the program's number that the line's controller sends");
+                     {"", "is the program's number that the line's controller sends"});
     run.note(statement.place, "P00: input, output or logic");
     return true;
   }

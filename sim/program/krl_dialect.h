@@ -25,6 +25,7 @@ class Krl final : public Dialect {
   std::optional<Value> function(const Expression& call, Interpreter& run) override;
   bool instruction(const Statement& statement, Interpreter& run) override;
   bool matters(const std::string& name) const override;
+  bool only_waits(const std::string& name) const override { return name == "wait_sec"; }
   bool harmless(const std::string& name) const override;
   bool writes(const std::string& name, int position, const Expression& argument) const override;
   const RecordType* type_of(const std::string& name) const override;

@@ -31,7 +31,7 @@ Coordinates coordinates(const Value& record, const char* const (&names)[6]) {
     } else if (read.unknown.known()) {
       read.unknown = part->known() ? unknown_value("", "is no number") : *part;
     } else if (const Cause* cause = part->first_cause()) {
-      read.more.push_back(cause->name);
+      read.more.push_back(cause->behind ? cause->behind->name : cause->name);
     }
   }
   return read;

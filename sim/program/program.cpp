@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <sstream>
 
 namespace dresslife::sim {
@@ -57,27 +58,44 @@ std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
   return whole ? std::optional(read) : std::nullopt;
 }
 
-void Problems::add(const pipeline::Where& where, const std::string& what, const std::string& remedy) {
+void Problems::add(const pipeline::Where& where, const std::string& what, const std::string& remedy,
+                   const std::string& routine) {
   const auto same = [&](const Problem& p) {
     return p.where.line == where.line && p.where.column == where.column && p.where.file == where.file &&
            p.what == what;
   };
   if (full() || std::any_of(problems_.begin(), problems_.end(), same))
     return;  // a line in a loop is told once
-  problems_.push_back({.where = where, .what = what, .remedy = remedy});
+  problems_.push_back({.where = where, .what = what, .remedy = remedy, .routine = routine});
+}
+
+/// Whether it is told already; then its line is counted.
+bool Problems::counted(const std::string& about, bool decision, const pipeline::Where& where) {
+  for (Problem& problem : problems_) {
+    const bool same_line = problem.where.line == where.line && problem.where.file == where.file;
+    if (problem.decision != decision || (problem.about != about && !(decision && same_line))) continue;
+    if (!same_line) problem.more_uses.emplace(where.file, where.line);
+    return true;
+  }
+  return false;
 }
 
 void Problems::add_missing(const std::string& name, const pipeline::Where& where, const std::string& what,
-                           const std::string& remedy) {
-  for (Problem& problem : problems_)
-    if (problem.about == name) {
-      if (problem.where.line != where.line || problem.where.file != where.file)
-        problem.more_uses.emplace(where.file, where.line);
-      return;
-    }
+                           const std::string& remedy, const std::string& routine) {
+  if (counted(name, false, where)) return;
   const std::size_t before = problems_.size();
-  add(where, what, remedy);
+  add(where, what, remedy, routine);
   if (problems_.size() > before) problems_.back().about = name;
+}
+
+void Problems::add_decision(const std::string& about, const pipeline::Where& where, const std::string& what,
+                            const std::string& remedy, const std::string& routine) {
+  if (counted(about, true, where)) return;
+  const std::size_t before = problems_.size();
+  add(where, what, remedy, routine);
+  if (problems_.size() == before) return;
+  problems_.back().about = about;
+  problems_.back().decision = true;
 }
 
 void Problems::hint(std::size_t from, const std::string& more) {
@@ -85,6 +103,26 @@ void Problems::hint(std::size_t from, const std::string& more) {
 }
 
 bool Problems::full() const { return problems_.size() >= listed_problems; }
+
+namespace {
+
+/// " (here and 74 times more)"; of a decision its lines, since each has an answer of its own.
+std::string further_uses(const Problem& problem) {
+  constexpr int listed = 8;
+  const std::size_t count = problem.more_uses.size();
+  if (count == 0) return "";
+  if (!problem.decision)
+    return count == 1 ? " (here and once more)" : fmt::format(" (here and {} times more)", count);
+  std::string lines;
+  int told = 0;
+  for (const auto& [file, line] : problem.more_uses)
+    if (++told <= listed)
+      lines += fmt::format("{}{}:{}", told == 1 ? "" : ", ", std::filesystem::path(file).filename().string(),
+                           line);
+  return fmt::format(" (here and in {}{})", lines, told > listed ? ", ..." : "");
+}
+
+}  // namespace
 
 void Problems::throw_if_any() const {
   if (problems_.empty()) return;
@@ -94,8 +132,8 @@ void Problems::throw_if_any() const {
            std::tie(b.where.file, b.where.line, b.where.column);
   });
   for (Problem& problem : sorted)
-    if (!problem.more_uses.empty())
-      problem.what += fmt::format(" (here and {} times more)", problem.more_uses.size());
+    problem.what =
+        (problem.routine.empty() ? "" : problem.routine + " ") + problem.what + further_uses(problem);
   std::string rest;
   for (std::size_t i = 1; i < sorted.size(); ++i)
     rest +=

@@ -110,14 +110,22 @@ struct Problem {
   std::string what, remedy;
   std::string about = {};  ///< the name that is missing, of a problem that is told once for all of its uses
   std::set<std::pair<std::string, int>> more_uses = {};  ///< files and lines
+  bool decision = false;                                 ///< how a branch goes that hangs on `about`
+  std::string routine = {};                              ///< that holds the line
 };
 
 class Problems {
  public:
-  void add(const pipeline::Where& where, const std::string& what, const std::string& remedy);
+  /// `what` says what the routine, or the file, does wrong: "moves to 'p9', which no file read declares".
+  void add(const pipeline::Where& where, const std::string& what, const std::string& remedy,
+           const std::string& routine = "");
   /// The same, but for further uses of a name that is missing: these are counted behind the first.
   void add_missing(const std::string& name, const pipeline::Where& where, const std::string& what,
-                   const std::string& remedy);
+                   const std::string& remedy, const std::string& routine = "");
+  /// A branch that hangs on what is not known: those on the same values and with the same answers are one
+  /// question.
+  void add_decision(const std::string& about, const pipeline::Where& where, const std::string& what,
+                    const std::string& remedy, const std::string& routine = "");
   bool empty() const { return problems_.empty(); }
   bool full() const;  ///< more would not help anybody
   const std::vector<Problem>& list() const { return problems_; }
@@ -128,6 +136,8 @@ class Problems {
   void throw_if_any() const;
 
  private:
+  bool counted(const std::string& about, bool decision, const pipeline::Where& where);
+
   std::vector<Problem> problems_;
 };
 

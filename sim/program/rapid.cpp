@@ -41,9 +41,8 @@ std::optional<Value> Rapid::constant(const std::string& name) {
 }
 
 bool Rapid::matters(const std::string& name) const {
-  static const std::set<std::string> others{"waittime", "accset",   "velset",   "speedrefresh",
-                                            "pdispset", "pdispon",  "pdispoff", "eoffson",
-                                            "eoffsset", "eoffsoff", "callbyvar"};
+  static const std::set<std::string> others{"accset",   "velset",  "speedrefresh", "pdispset", "pdispon",
+                                            "pdispoff", "eoffson", "eoffsset",     "eoffsoff", "callbyvar"};
   return rapid_move(name) || others.contains(name) || name.starts_with("move");
 }
 
@@ -101,7 +100,7 @@ void Rapid::settings(const Statement& statement, Interpreter& run) {
     const Value& value = i < values.size() ? values[i] : none;
     const std::string remedy = run.remedy_for(value);
     run.complain(statement.place,
-                 fmt::format("{} has no number in {} .. {} as argument {}{}", statement.text, low, high,
+                 fmt::format("gives {} no number in {} .. {} as argument {}{}", statement.text, low, high,
                              i + 1, run.because(value)),
                  remedy.empty() ? "write it as a constant" : "give " + remedy);
     return high;
@@ -143,7 +142,7 @@ bool Rapid::arithmetic(const Statement& statement, Interpreter& run) {
   const bool one = name == "incr" || name == "decr" || name == "clear";
   if (!one && name != "add") return false;
   if (statement.arguments.size() != (one ? 1 : 2)) {
-    run.complain(statement.place, fmt::format("{} has another number of arguments", statement.text),
+    run.complain(statement.place, fmt::format("gives {} another number of arguments", statement.text),
                  "mend the line");
     return true;
   }
@@ -171,7 +170,7 @@ bool Rapid::named_data(const Statement& statement, Interpreter& run) {
   data.place = statement.place;
   if (name.kind != Value::Kind::text || !run.variable(data.text)) {
     if (get)
-      run.make_unknown(value, "is read by GetDataVal under a name that no file read declares");
+      run.make_unknown(value, {"", "is read by GetDataVal under a name that no file read declares"});
     else
       run.note(statement.place, "SetDataVal: it writes data whose name is not known offline", true);
     return true;
@@ -203,9 +202,12 @@ void Rapid::connect(const Statement& statement, Interpreter& run) {
       call, run.module(),
       fmt::format("may be written by the trap {} ({})", call.text, run.short_place(call.place)));
   if (steers({call}, run.module(), 0))
-    run.note(statement.place,
-             fmt::format("a trap that may move or stop the robot ({}): it is taken not to happen", call.text),
-             true);
+    run.note(
+        statement.place,
+        fmt::format("{0}: a trap that moves or stops the robot on its interrupt, which is taken not to come; "
+                    "--routine {0} reads it alone",
+                    call.text),
+        true);
 }
 
 bool Rapid::instruction(const Statement& statement, Interpreter& run) {
@@ -246,7 +248,8 @@ bool Rapid::instruction(const Statement& statement, Interpreter& run) {
 /// Offs(target, x, y, z) in the work object; RelTool(target, x, y, z \Rx \Ry \Rz) in the tool [mm, deg].
 Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   if (call.items.size() < 4) {
-    run.complain(call.place, fmt::format("{} has too few arguments", call.text), "give a target and x, y, z");
+    run.complain(call.place, fmt::format("gives {} too few arguments", call.text),
+                 "give a target and x, y, z");
     return {};
   }
   Value target = run.evaluate(call.items[0]);
@@ -267,7 +270,10 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   }
   if (k < 3) return {};
   const auto q = rapid_orientation(target.items[1]);
-  if (!q) return {};
+  if (!q)
+    return unknown_value(run.path_of(call.items[0]), target == rapid_initial(code_, "robtarget")
+                                                         ? "was never given a value (all of it is 0)"
+                                                         : "has a quaternion whose length is not 1");
   Vector3 shift(by[0], by[1], by[2]);
   Quaternion turned = *q;
   if (in_tool) {  // turned about x, then y, then z of the tool (RelTool)
@@ -294,7 +300,7 @@ Value Rapid::text_to_value(const Expression& call, Interpreter& run) {
     if (word == "true" || word == "false")
       return run.assign(call.items[1], truth_value(word == "true")), truth_value(true);
   }
-  run.make_unknown(call.items[1], "is read from a text by StrToVal");
+  run.make_unknown(call.items[1], {"", "is read from a text by StrToVal"});
   return text.known() ? Value{} : unknown_value(text);
 }
 

@@ -64,6 +64,8 @@ std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& 
                                  "add the module, or give those that there are with --module");
     modules.push_back(*found);
   }
+  if (modules.empty() && lower.find("endmodule") != std::string::npos)
+    return {list};  // a module by a list's name
   if (modules.empty())
     throw pipeline::InputError({list.string()}, "lists no module", "give the module that holds main");
   return modules;

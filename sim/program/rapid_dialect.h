@@ -29,6 +29,7 @@ class Rapid final : public Dialect {
   std::optional<Value> function(const Expression& call, Interpreter& run) override;
   bool instruction(const Statement& statement, Interpreter& run) override;
   bool matters(const std::string& name) const override;
+  bool only_waits(const std::string& name) const override { return name == "waittime"; }
   /// In production: main, until somebody stops it.
   bool begins_again(const Routine& routine) const override { return routine.name == "main"; }
   bool harmless(const std::string& name) const override;

@@ -93,7 +93,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
                    fmt::format("has {} that is known only while the robot runs", what) + run.because(value),
                    fmt::format("write {} as a constant", what));
     else
-      run.miss(remedy, written.place,
+      run.miss(run.question_of(value), written.place,
                fmt::format("has {} that is known only while the robot runs", what) + run.because(value),
                fmt::format("give {} (motion.values)", remedy));
     return {};
@@ -274,7 +274,7 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   };
   const int zone = index(signature.zone), tool = index(signature.tool);
   if (std::max({signature.target, signature.speed, zone, tool}) >= count || tool <= signature.speed) {
-    run.complain(statement.place, fmt::format("{} has {} arguments, too few", statement.text, count),
+    run.complain(statement.place, fmt::format("gives {} {} arguments, too few", statement.text, count),
                  "give target, speed, zone and tool");
     return true;
   }
@@ -380,7 +380,8 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
   }
   displacement_ = Frame{};
   if (!programmed || !tool) {
-    run.complain(statement.place, "PDispOn lacks the programmed point or the tool", "mend the instruction");
+    run.complain(statement.place, "has a PDispOn without the programmed point or the tool",
+                 "mend the instruction");
     return;
   }
   Expression world;  // without \WObj
@@ -392,7 +393,7 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
                                      : position_with(tool, work_object ? work_object : &world, run);
   if (!executed && !to)
     run.complain(statement.place,
-                 "PDispOn displaces by where the robot stands, which is known only with the robot "
+                 "displaces by where the robot stands, which is known only with the robot "
                  "(axis angles, or the start)",
                  "give the point as \\ExeP, or write the displacement with PDispSet");
   const auto q = from ? rapid_orientation(from->items[1]) : std::nullopt;
@@ -430,7 +431,8 @@ void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
                        : reached_ ? std::optional(reached_->target)
                                   : std::nullopt;
   if (programmed && !reached)
-    run.complain(statement.place, "EOffsOn shifts by where the external axes stand at the start",
+    run.complain(statement.place,
+                 "shifts external axes (EOffsOn) by where the external axes stand at the start",
                  "give the point as \\ExeP, or write the offset with EOffsSet");
   if (!programmed || !reached) return;
   const Value from = axes(*programmed), to = axes(*reached);

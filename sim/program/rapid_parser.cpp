@@ -148,8 +148,10 @@ class RapidParser : StatementParser {
     routine.name = at_.word("the routine's name");
     if (at_.take_sign("(")) parameters(routine);
     routine.body = body({end.c_str(), "error", "undo", "backward"});
+    routine.handler = at_.place();
     while (!at_.at_end() && !at_.at_word(end)) {  // handlers of errors: not of the normal cycle
       if (at_.at_word("endmodule") || at_.at_word("proc") || at_.at_word("func")) break;
+      if (at_.peek().kind == Token::Kind::word) routine.handler_words.push_back(lower_case(at_.peek().text));
       at_.next();
     }
     routine.last_line = at_.place().line;

@@ -313,9 +313,9 @@ TEST_CASE("krl: bases and tools that only the user has") {
 
 TEST_CASE("krl: a target without a value is told apart from one that nobody declares") {
   CHECK(run("DECL E6POS pa\nPTP pa").problem() ==
-        "p.src:3:5: error: moves to 'pa', which has no value yet; assign it before the move, or give the "
-        "file that "
-        "holds its value (.dat)");
+        "p.src:3:5: error: moves to 'pa', which has no value yet; assign it before the move, give the file "
+        "that "
+        "holds its value (.dat), or --value 'pa={X ...}'");
   // One line for all uses of a missing name.
   const Reading missing = run("PTP xa\nPTP xa\nPTP xb\nPTP xa");
   CHECK(missing.problems.size() == 2);

@@ -47,6 +47,12 @@ bool warns(const Reading& reading, const std::string& words) {
                      [&](const Skipped& s) { return s.may_move && s.what.find(words) != std::string::npos; });
 }
 
+/// Warned of or only noted.
+bool told(const Reading& reading, const std::string& words) {
+  return std::any_of(reading.program.skipped.begin(), reading.program.skipped.end(),
+                     [&](const Skipped& s) { return s.what.find(words) != std::string::npos; });
+}
+
 }  // namespace
 
 TEST_CASE("rapid controller: LOCAL data and routines are their module's own") {
@@ -195,6 +201,83 @@ TEST_CASE("rapid controller: a weave is told, the line is followed") {
   CHECK(r.move(0).speed.tool.value() == Approx(0.008).epsilon(rounding));  // welddata begins with 8 mm/s
 }
 
+TEST_CASE("rapid controller: a loop that moves in one arm alone waits for it, as WaitUntil would") {
+  const auto loop = [&](const std::string& body) { return run("WHILE TRUE DO\n" + body + "ENDWHILE\n"); };
+  const std::string then = "IF di1=1 THEN\nSet do1;\n" + go(1) + go(2);
+  const Reading waits = loop("Reset do1;\n" + then + "ELSE\nTPWrite \"waiting\";\nWaitTime 1;\nENDIF\n");
+  CHECK(first_axes(waits) == Angles{1, 2});
+  CHECK_FALSE(waits.program.skipped.empty());
+  CHECK(told(waits, "the robot waits for 'di1'"));
+  // Main begins again at its end: a loop, too. So is one that is left.
+  CHECK(first_axes(run(then + "ENDIF\n")) == Angles{1, 2});
+  CHECK(first_axes(run("WHILE TRUE DO\nIF di1=1 GOTO on;\nENDWHILE\non:\n" + go(3))) == Angles{3});
+  // Another motion where another arm, the rest of the loop or data of an idle pass decide.
+  const std::string asks = "branches on what is known only while the robot runs";
+  CHECK_THAT(loop(then + "ELSE\n" + go(3) + "ENDIF\n").problem(), Catch::Contains(asks));
+  CHECK_THAT(loop(then + "ELSEIF di2=1 THEN\n" + go(3) + "ENDIF\n").problem(), Catch::Contains(asks));
+  CHECK_THAT(loop(then + "ENDIF\n" + go(3)).problem(), Catch::Contains(asks));
+  CHECK_THAT(run("VAR num n:=0;\nWHILE TRUE DO\nn:=n+1;\n" + then + "ENDIF\nENDWHILE\n").problem(),
+             Catch::Contains(asks));
+  CHECK_THAT(loop("IF di1=1 THEN\nSet do1;\nELSEIF FALSE THEN\n" + go(1) + "ENDIF\n").problem(),
+             Catch::Contains(asks));
+  CHECK_THAT(run("FOR i FROM 1 TO 3 DO\n" + then + "ENDIF\nENDFOR\n").problem(), Catch::Contains(asks));
+}
+
+TEST_CASE("rapid controller: a branch that only waits is no question") {
+  const Reading r = run(go(1) + "IF di1=1 WaitTime 2;\nWHILE di2=0 DO\nWaitTime 0.1;\nENDWHILE\n" + go(2));
+  CHECK(first_axes(r) == Angles{1, 2});
+  CHECK(told(r, "branch that waits on 'di1'"));
+}
+
+TEST_CASE("rapid controller: a handler of errors is not run, and told where it moves the robot") {
+  const std::string away = "PROC away()\n" + go(9) + "ENDPROC\n";
+  const Reading r = run(go(1) + "ERROR\naway;\nTRYNEXT;\n", away);
+  CHECK(first_axes(r) == Angles{1});
+  CHECK(told(r, "main: its handler of errors moves the robot"));
+  CHECK_FALSE(told(run(go(1) + "ERROR\nTPWrite \"away\";\nTRYNEXT;\n", away), "handler of errors"));
+}
+
+TEST_CASE("rapid controller: what a trap moves is read by its name") {
+  ImportOptions trap;
+  trap.routine = "flee";
+  CHECK(first_axes(run(go(1), "TRAP flee\n" + go(9) + "ENDTRAP\n", trap)) == Angles{9});
+}
+
+TEST_CASE("rapid controller: values behind one branch are one question, the one that decides the branch") {
+  const Reading r =
+      run("VAR num x:=0;\nVAR num y:=0;\nIF gi1=2 THEN\nx:=1;\ny:=1;\nENDIF\n"
+          "MoveL Offs(p,x,0,0),v100,fine,tool0;\nMoveL Offs(p,0,y,0),v100,fine,tool0;\n",
+          pose);
+  REQUIRE(r.problems.size() == 1);
+  CHECK_THAT(r.problem(),
+             Catch::Contains("'x' hangs on the branch in m.mod:5, that on 'gi1', which is a name") &&
+                 Catch::Contains("give --value 'gi1=...', or --assume m.mod:5=then or =else"));
+  const Reading given =
+      run("VAR num x:=0;\nIF gi1=2 THEN\nx:=1;\nENDIF\nMoveL Offs(p,x,0,0),v100,fine,tool0;\n", pose,
+          giving("gi1", "2"));
+  REQUIRE(given.problem() == "no such problem");
+}
+
+TEST_CASE("rapid controller: a refusal names the routine and all that its condition lacks") {
+  const Reading r = run("step;\n", "PROC step()\nIF di1=1 AND di2=0 THEN\n" + go(1) +
+                                       "ENDIF\nIF di1=1 AND di2=0 THEN\n" + go(2) + "ENDIF\nENDPROC\n");
+  REQUIRE(r.problems.size() == 1);
+  CHECK_THAT(r.problem(), Catch::Contains("--value 'di1=...' --value 'di2=...'"));
+  Problems problems;
+  for (const Problem& p : r.problems) problems.add_decision(p.about, p.where, p.what, p.remedy, p.routine);
+  problems.add_decision(r.problems[0].about, {"m.mod", 9, 1}, "", "", "step");
+  CHECK_THROWS_WITH(problems.throw_if_any(),
+                    Catch::Contains("error: step branches on") && Catch::Contains("(here and in m.mod:9)"));
+}
+
+TEST_CASE("rapid controller: an offset of a target without a value asks for the target") {
+  CHECK_THAT(
+      run("VAR robtarget t;\nMoveL Offs(t,0,0,50),v100,fine,tool0;\n").problem(),
+      Catch::Contains("'t' was never given a value (all of it is 0)") && Catch::Contains("--value 't=...'"));
+  CHECK_THAT(run("VAR iodev io;\nMoveL Offs(p,0,0,ReadNum(io)),v100,fine,tool0;\n", pose).problem(),
+             Catch::Contains("'readnum' is a function of what the robot meets"));
+}
+
 TEST_CASE("rapid controller: a mistake counts where it runs") {
   CHECK(first_axes(run(go(1), "PROC unused()\n<SMT>\nENDPROC\n")) == Angles{1});
   CHECK_THAT(run(go(1) + "unused;\n", "PROC unused()\n<SMT>\nENDPROC\n").problem(),
@@ -310,8 +393,10 @@ TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the r
   CHECK_THAT(run("CONNECT number WITH halt;\nISignalDI di1,1,number;\n" + branch, traps).problem(),
              Catch::Contains("'stopped' may be written by the trap halt (m.mod:3)"));
   CHECK(first_axes(run("CONNECT number WITH halt;\nstopped:=FALSE;\n" + branch, traps)) == Angles{2});
-  CHECK(warns(run("CONNECT number WITH flee;\n" + go(1), traps),
-              "a trap that may move or stop the robot (flee)"));
+  CHECK(warns(
+      run("CONNECT number WITH flee;\n" + go(1), traps),
+      "flee: a trap that moves or stops the robot on its interrupt, which is taken not to come; --routine "
+      "flee reads it alone"));
   CHECK_FALSE(warns(run("CONNECT number WITH halt;\n" + go(1), traps), "a trap"));
 }
 
@@ -405,8 +490,8 @@ TEST_CASE("rapid controller: what a branch without moves decides can be had by a
   const std::string body =
       "VAR num k:=0;\nIF di1=1 THEN\nk:=1;\nENDIF\nIF k=1 THEN\n" + go(1) + "ENDIF\n" + go(2);
   CHECK_THAT(run(body).problem(),
-             Catch::Contains("'k' hangs on the branch in m.mod:4") &&
-                 Catch::Contains("or give --assume m.mod:4=then or =else, or --value 'k=...'"));
+             Catch::Contains("'k' hangs on the branch in m.mod:4, that on 'di1', which is a name") &&
+                 Catch::Contains("or give --value 'di1=...', or --assume m.mod:4=then or =else"));
   ImportOptions answered;
   answered.assume["m.mod:4"] = Assumption::then_branch;
   CHECK(first_axes(run(body, "", answered)) == Angles{1, 2});
