@@ -5,7 +5,8 @@
 // the way from clamp to clamp, the length by the slack that it leaves where the way is longest (V1). The best
 // of what was tried are then changed a little, again and again (an evolution strategy without recombination;
 // it needs no derivatives, of which the screening has none). Goodness is the sum of what misses a wished
-// margin to each limit, the hose at rest under its weight. Equal seeds, equal proposals.
+// margin to each limit, the hose at rest under its weight. Then, if wanted, the best are changed likewise by how
+// they do in short runs (rehearsal.h). Equal seeds, equal proposals.
 #pragma once
 
 #include <cstdint>
