@@ -294,6 +294,17 @@ std::optional<Value> Interpreter::value_written_beside(const Expression& express
                        fmt::format("may be written by {}, which runs beside", written->second));
 }
 
+namespace {
+
+/// Nobody has written to it, and nothing told why it is not known: an input, a variable without a value.
+bool unset(const Value& value) {
+  if (value.kind == Value::Kind::unknown) return value.cause && value.cause->name.empty();
+  return value.kind == Value::Kind::list && !value.items.empty() &&
+         std::all_of(value.items.begin(), value.items.end(), unset);
+}
+
+}  // namespace
+
 Value Interpreter::name_value(const Expression& expression) {
   if (!code_.written_beside.empty())
     if (std::optional<Value> value = value_written_beside(expression)) return *value;
@@ -310,6 +321,8 @@ Value Interpreter::name_value(const Expression& expression) {
   }
   if (const Value* value = locate(expression)) {
     charge(value->weight());
+    if (!code_.values.empty() && unset(*value))
+      if (std::optional<Value> known = given(path_of(expression))) return *known;
     const bool unnamed = value->kind == Value::Kind::unknown && value->cause && value->cause->name.empty();
     return unnamed ? unknown_value(path_of(expression), value->cause->why) : *value;
   }

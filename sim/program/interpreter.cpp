@@ -972,8 +972,12 @@ bool Interpreter::changes_nothing(const Statement& statement, int module, int de
   constexpr int deepest = 4;  // calls
   if (depth > deepest || moves(statement, module) || leaves(statement, false)) return false;
   switch (statement.kind) {
-    case Kind::assign:
-      return dialect_.harmless(base_name(statement.arguments[0]));
+    case Kind::assign: {  // KRL's outputs
+      const std::string& name = base_name(statement.arguments[0]);
+      const Expression::Kind value = statement.arguments[1].kind;
+      return (name == "$out" || name == "$anout") &&
+             (value == Expression::Kind::truth || value == Expression::Kind::number);
+    }
     case Kind::count:
     case Kind::finish:
     case Kind::end_cycle:

@@ -422,9 +422,10 @@ void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interp
                  "with the name '{}'",
                  tool ? "tools" : "work_objects", cause->name));
   } else {
+    const std::string remedy = run.remedy_for(unknown);
     run.miss(cause ? cause->name : "frame", statement.place,
              "moves with a $TOOL or $BASE that is known only while the robot runs" + run.because(unknown),
-             "assign a constant frame");
+             remedy.empty() ? "assign a constant frame" : "assign a constant frame, or give " + remedy);
   }
 }
 

@@ -316,9 +316,33 @@ TEST_CASE("krl: a target without a value is told apart from one that nobody decl
         "p.src:3:5: error: moves to 'pa', which has no value yet; assign it before the move, give the file "
         "that "
         "holds its value (.dat), or --value 'pa={X ...}'");
+  // What the user gives for it counts until the program writes to it, as for an input by its name.
+  Reader given{Language::krl};
+  given.options.values = {{"pa", axes(7)}, {"gi", "3"}};
+  CHECK(first_axes(run("DECL E6AXIS pa\nPTP pa\npa=" + axes(8) + "\nPTP pa", "", {}, given)) ==
+        std::vector<double>{7, 8});
+  CHECK(
+      first_axes(run("SIGNAL gi $IN[1] TO $IN[8]\nDECL REAL r\nr=gi\nPTP {A1 r,A2 -90,A3 90,A4 0,A5 30,A6 0}",
+                     "", {}, given)) == std::vector<double>{3});
   // One line for all uses of a missing name.
   const Reading missing = run("PTP xa\nPTP xa\nPTP xb\nPTP xa");
   CHECK(missing.problems.size() == 2);
+}
+
+TEST_CASE("krl: a loop that only waits for an input goes on, outputs or not") {
+  const std::string loop =
+      "LOOP\n$OUT[1]=FALSE\nIF $IN[1]==TRUE THEN\n$OUT[1]=TRUE\nPTP " + axes(1) + "\nENDIF\n";
+  const Reading r = run(loop + "ENDLOOP");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(first_axes(r) == std::vector<double>{1});
+  CHECK_THAT(run("DECL INT n\nn=0\n" + loop + "n=n+1\nENDLOOP").problem(),
+             Catch::Contains("branches on what is known"));
+}
+
+TEST_CASE("krl: frames of an undeclared FDAT are asked for by its name") {
+  CHECK_THAT(run("$VEL.CP=1\nFDAT_ACT=FHOME\nBAS(#FRAMES)\nLIN " + pose).problem(),
+             Catch::Contains("'fhome' is a name that no file read declares") &&
+                 Catch::Contains("or give --value 'fhome=...'"));
 }
 
 TEST_CASE("krl: a coordinate that input decides asks, also beside known ones") {
