@@ -8,6 +8,7 @@
 #include <set>
 
 #include "fatigue/attribution.h"
+#include "fatigue/cable_forces.h"
 #include "fatigue/conductors.h"
 #include "fatigue/planes.h"
 #include "fatigue/response.h"
@@ -433,10 +434,10 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   return worst;
 }
 
-/// What the strains ask of the cables and their clamps, and what their mesh leaves out, handed on to the ranking.
-void copy_forces(const Context& c) {
-  for (const char* name : {"largest_force_share", "clamp_moment_share", "loose_mesh_error"})
-    if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
+/// What the mesh of loose cables leaves out, handed on to the ranking.
+void copy_mesh_error(const Context& c) {
+  constexpr const char* name = "loose_mesh_error";
+  if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
 }
 
 /// What mean stress makes of the worst wire's life: the same history with all of it for ever, and with none.
@@ -470,7 +471,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
   c.life.attribute("worst_component", worst.component);
   c.life.attribute("worst_step", worst.step);
   write_mean_stress(c);
-  copy_forces(c);
+  copy_mesh_error(c);
   if (c.worst == no_site) return "no wire was evaluated";
   if (worst.damage == 0) return "no wire is damaged";
   const double p10 = hours(p10_repeats, c.repeat_seconds());
@@ -724,7 +725,8 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_program(c, cycles);
   write_causes(c, cycles, write_worst_strain(c));
   const std::string summary = write_worst(c, cycles, p10_repeats);
-  return {warnings_of(c, cycles), summary + write_hose(c)};
+  const std::vector<pipeline::Warning> of_forces = write_cable_forces(strain, job, life);
+  return {pipeline::joined(of_forces, warnings_of(c, cycles)), summary + write_hose(c)};
 }
 
 }  // namespace dresslife::fatigue

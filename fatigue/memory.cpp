@@ -54,8 +54,10 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t t
            sampling);
   const std::size_t samples = strain.rows("/time");
   const double joints = strain.has("/robot/joint_position") ? static_cast<double>(strain.row_size("/robot/joint_position")) : 0;
+  // Of a cable as they are read and by themselves its three strains, its force, and both on their way to the file.
+  constexpr double of_a_cable = 2 * 3 + 2;
   constexpr double histories = 8;  // times, steps, damage by opening and closing, the worst wire's strain
-  need.add(static_cast<double>(samples) * (histories + 2 * joints) * sizeof(double),
+  need.add(static_cast<double>(samples) * (histories + 2 * joints + of_a_cable * rows("/cable/span")) * sizeof(double),
            fmt::format("histories of {} samples", samples), sampling);
   // Tables of sites are copied and looked at in blocks of text and numbers.
   constexpr double table_block = (1 << 15) * 300.0;
@@ -64,6 +66,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t t
                                                 {"segment", strain.rows("/segment/length")},
                                                 {"site", static_cast<std::size_t>(sites)},
                                                 {"level", 4},
+                                                {"cable", static_cast<std::size_t>(rows("/cable/span"))},
+                                                {"cable_span", 1},
                                                 {"probe", 1}};
   need.add(pipeline::file_buffers(pipeline::life_format(), axes) + pipeline::file_buffers(pipeline::strain_format(), axes) / 2,
            "what is being read and written");

@@ -63,19 +63,21 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
                 radial_share(layer.axial_stiffness, layer.lay_angle, layer.helix_radius, layer.radial_stiffness),
                 elastic_share(layer.jacket_stiffness, layer.axial_stiffness,
                               std::accumulate(lengths_.begin(), lengths_.end(), 0.0))};
-    cable.place = place_of(construction, part, arcs.front() - lengths_.front() / 2);
-    cable.place_at_tool = place_of(construction, part, arcs.back() + lengths_.back() / 2);
+    cable.pulled = {layer.force,
+                    {},
+                    {place_of(construction, part, arcs.front() - lengths_.front() / 2),
+                     place_of(construction, part, arcs.back() + lengths_.back() / 2)}};
     cable.remembers = cable.rubs || std::min(cable.base_grip, cable.tool_grip) < without_limit;
     cable.strain.assign(stride_, 0.0);
     if (cable.sticks)
-      for (std::vector<double>& of : cable.stuck) of.assign(samples, 0.0);
+      for (std::vector<double>& of : cable.pulled.strain) of.assign(samples, 0.0);
     if (cable.rubs) {
       cable.along.assign(segments * samples, 0.0);
       cable.pressing.assign(segments * samples, 0.0f);
     }
     if (cable.loose) {
       LooseCable& lies = loose.emplace_back();
-      lies.place = cable.place;
+      lies.place = cable.pulled.place[0];
       lies.radius = layer.part_radius;
       lies.axial_stiffness = layer.axial_stiffness;
       lies.bending_stiffness = layer.force.bending_stiffness();
@@ -106,6 +108,10 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
 
 const std::string& CablePaths::name(std::size_t cable) const {
   return construction_.parts()[cables_[cable].part].path;
+}
+
+int CablePaths::component(std::size_t cable) const {
+  return construction_.layers()[construction_.parts()[cables_[cable].part].layer].component;
 }
 
 void CablePaths::add(const SpanBlock& block) {
@@ -181,7 +187,7 @@ double CablePaths::pulled_by_twist(const Cable& cable, double twist) const {
 /// path: length in the segment (sample of the block) [m]. rest: that at rest [m]. twist: of the hose there [rad/m].
 void CablePaths::add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path,
                            double rest) {
-  auto& [largest, at_base, at_tool] = cable.stuck;
+  auto& [largest, at_base, at_tool] = cable.pulled.strain;
   for (std::size_t t = 0; t < path.size(); ++t) {
     const double strain = cable.radial_share * (path[t] / rest - 1) + pulled_by_twist(cable, twist[t]);
     if (std::abs(strain) > std::abs(largest[next_ + t])) largest[next_ + t] = strain;
@@ -235,7 +241,7 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
   Cable& cable = cables_[index];
   const CableState& state = loose_->state(state_index);
   const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
-  const double free_length = (1 + cable.slack) * (1 - construction_.rest_curvature() * cable.place[0]);
+  const double free_length = (1 + cable.slack) * (1 - construction_.rest_curvature() * cable.pulled.place[0][0]);
   double mean = 0;
   for (const double gain : state.gain) mean += gain / static_cast<double>(elements);
   cable.strain[sample] = (1 + mean) / free_length - 1;
@@ -267,7 +273,7 @@ void CablePaths::finish() {
   finished_ = true;
   for (Cable& cable : cables_)
     if (cable.remembers) slide(cable);
-  if (any() && next_ > 0) weigh();
+  if (any() && next_ > 0) ask_for_forces();
 }
 
 /// Goes through the motion again and again until it ends as it ended before: what is in memory then is where a
@@ -327,46 +333,32 @@ void CablePaths::slide(Cable& cable) {
   cable.grip_slip = {line.travel_at_base() - before[0], line.travel_at_tool() - before[1]};
 }
 
-/// What the strains ask of cables and clamps. A cable's force grows with its strain, so the largest of it has the largest
-/// strain. Its wires are strained by its twist, too: one that shortens as much as that asks for (a weight hangs on it, not a
-/// second clamp) pulls at nothing.
-void CablePaths::weigh() {
+/// Strains that make forces. A cable's force grows with its strain, so the largest of it has the largest strain. Its wires
+/// are strained by its twist, too: one that shortens as much as that asks for (a weight hangs on it, not a second clamp)
+/// pulls at nothing.
+void CablePaths::ask_for_forces() {
   const std::size_t last = lengths_.size() - 1;
-  std::vector<double> moment(4 * next_, 0.0);  // (clamp, 2, sample) about d1 and d2
   for (Cable& cable : cables_) {
-    const CableForce& force = construction_.layers()[construction_.parts()[cable.part].layer].force;
-    cable.tension.resize(next_);
-    for (std::size_t t = 0; t < next_; ++t) {
-      const double by_twist = cable.sticks ? 0 : pulled_by_twist(cable, hose_twist_[t]);
-      double largest = cable.sticks ? cable.stuck[0][t] : cable.rubs ? 0 : cable.strain[t] + by_twist;
-      for (std::size_t i = 0; cable.rubs && i <= last; ++i)
-        if (const double strain = cable.along[i * all_ + t] + by_twist; std::abs(strain) > std::abs(largest)) largest = strain;
-      cable.tension[t] = force.force(largest);
-      if (force.strength() > 0)
-        largest_force_share_ = std::max(largest_force_share_, std::abs(cable.tension[t]) / force.strength());
-      for (int clamp = 0; clamp < 2; ++clamp) {
-        const double pull = cable.sticks ? force.force(cable.stuck[clamp + 1][t])
-                            : cable.rubs ? force.force(cable.along[(clamp == 0 ? 0 : last) * all_ + t] + by_twist)
-                                         : cable.tension[t];
-        const auto& place = clamp == 0 ? cable.place : cable.place_at_tool;
-        moment[(2 * clamp) * next_ + t] += pull * place[1];
-        moment[(2 * clamp + 1) * next_ + t] -= pull * place[0];
-      }
+    auto& [largest, at_base, at_tool] = cable.pulled.strain;
+    for (std::vector<double>& of : cable.pulled.strain) of.resize(next_);
+    for (std::size_t t = 0; t < next_ && !cable.sticks; ++t) {
+      const double by_twist = pulled_by_twist(cable, hose_twist_[t]);
+      largest[t] = at_base[t] = at_tool[t] = cable.rubs ? 0 : cable.strain[t] + by_twist;
+      if (!cable.rubs) continue;
+      for (std::size_t i = 0; i <= last; ++i)
+        if (const double strain = cable.along[i * all_ + t] + by_twist; std::abs(strain) > std::abs(largest[t]))
+          largest[t] = strain;
+      at_base[t] = cable.along[t] + by_twist;
+      at_tool[t] = cable.along[last * all_ + t] + by_twist;
     }
   }
-  cable_moment_.assign(next_, 0.0);
   hose_moment_.assign(next_, 0.0);
   for (int clamp = 0; clamp < 2; ++clamp)
     for (std::size_t t = 0; t < next_; ++t) {
-      const double* const own = moment.data() + 2 * clamp * next_ + t;
-      cable_moment_[t] = std::max(cable_moment_[t], std::hypot(own[0], own[next_]));
       const float* const bent = hose_curvature_.data() + 2 * clamp * all_ + t;
       hose_moment_[t] = std::max(hose_moment_[t], construction_.hose_bending_stiffness() *
                                                       std::hypot(bent[0], bent[all_]));
     }
-  const double most = *std::max_element(cable_moment_.begin(), cable_moment_.end());
-  const double carried = *std::max_element(hose_moment_.begin(), hose_moment_.end());
-  if (carried > 0) clamp_moment_share_ = most / carried;
 }
 
 const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t segment,

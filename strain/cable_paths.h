@@ -2,9 +2,9 @@
 // known of parts of the first level that hold parts and slide, before the wires in them are looked at.
 //
 // A cable at its place has the path that its place gives it (W5); a loose one lies where it rests (loose/).
-// Either slides along its path under friction and grips (sliding_line.h), and its force is that of the wires
-// in it (cable_force.h). What clamps and friction keep in memory is that of a motion repeated for long: it is
-// gone through twice, and the second time counts.
+// Either slides along its path under friction and grips (sliding_line.h). What force its strain makes is for
+// whoever knows its metal (pipeline/job/cable_pulls.h). What clamps and friction keep in memory is that of a
+// motion repeated for long: it is gone through twice, and the second time counts.
 #pragma once
 
 #include <array>
@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/job/cable_pulls.h"
 #include "strain/loose/loose_cables.h"
 #include "strain/path_rates.h"
 #include "strain/segment_motion.h"
@@ -71,17 +72,13 @@ class CablePaths {
   std::size_t samples() const { return next_; }
   std::size_t cables() const { return cables_.size(); }
   const std::string& name(std::size_t cable) const;
-  /// Largest force along each cable, by size, with its sign (sample) [N].
-  const std::vector<double>& tension(std::size_t cable) const { return cables_[cable].tension; }
-  /// Over the force at which it tears; 0: not known. The largest of all samples and cables.
-  double largest_force_share() const { return largest_force_share_; }
+  /// What makes its force, and where it meets the clamps.
+  const pipeline::PulledCable& pulled(std::size_t cable) const { return cables_[cable].pulled; }
+  /// Of the dresspack's components.
+  int component(std::size_t cable) const;
   /// Both ways along, in a repeat of the motion, at base and tool clamp [m].
   std::array<double, 2> grip_slip(std::size_t cable) const { return cables_[cable].grip_slip; }
-  /// Largest moment of all cables on the hose at a clamp, over the largest that the simulated hose carries there; 0:
-  /// it carries none.
-  double clamp_moment_share() const { return clamp_moment_share_; }
-  /// Of all cables on the hose, and of the hose as it was simulated: the larger of both clamps (sample) [N m].
-  const std::vector<double>& cable_moment() const { return cable_moment_; }
+  /// That the hose carries as it was simulated: the larger of both clamps (sample) [N m].
   const std::vector<double>& hose_moment() const { return hose_moment_; }
   /// Where loose cables lie at some samples: offset from their places (cable, segment, 2) [m].
   const std::vector<std::size_t>& offset_samples() const { return offset_samples_; }
@@ -98,13 +95,10 @@ class CablePaths {
     double axial_stiffness, slack, friction, line_load, base_grip, tool_grip;
     double radial_share;  ///< of its strain that the bed of its layer leaves (W31)
     double elastic;       ///< share of the deviation from the mean that a jacket holds (W30)
-    std::array<double, 2> place{};           ///< of its axis at the clamps' ends [m]: at the base clamp
-    std::array<double, 2> place_at_tool{};
+    pipeline::PulledCable pulled{};  ///< at the clamps' ends
     std::array<double, 2> grip_slip{};
-    std::vector<double> tension{};  ///< (sample)
     std::vector<double> strain{};  ///< (sample) of all segments; before finish(): unslid
     std::vector<double> along{};   ///< (segment, sample) the same, each segment its own: with friction
-    std::array<std::vector<double>, 3> stuck{};  ///< (sample) strain where it sticks: the largest, at base, at tool
     std::vector<float> pressing{}; ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
   };
 
@@ -115,7 +109,7 @@ class CablePaths {
   /// Of its strain, beside what its axis has, that makes force: what twist would take from its length if it could.
   double pulled_by_twist(const Cable& cable, double twist) const;
   void slide(Cable& cable);
-  void weigh();
+  void ask_for_forces();
 
   const Construction& construction_;
   std::vector<double> lengths_;
@@ -130,9 +124,8 @@ class CablePaths {
   std::vector<HoseNode> nodes_;
   std::vector<double> hose_twist_;          ///< (sample) mean along it [rad/m]
   std::vector<float> hose_curvature_;       ///< (clamp, 2, sample) at the base and the tool end [1/m]
-  std::vector<double> cable_moment_, hose_moment_, offsets_;
+  std::vector<double> hose_moment_, offsets_;
   std::vector<std::size_t> offset_samples_;
-  double largest_force_share_ = 0, clamp_moment_share_ = 0;
 };
 
 }  // namespace dresslife::strain

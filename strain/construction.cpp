@@ -109,7 +109,8 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   if (layer.is_cable()) {
     layer.loose = pipeline::lies_loose(dresspack, component);
     layer.laying = component.laying;
-    layer.force = CableForce(dresspack, component);
+    layer.component = static_cast<int>(&component - dresspack.components.data());
+    layer.force = pipeline::CableForce(dresspack, component);
     layer.shortening = pipeline::twist_shortening(dresspack, component);
   }
   const int index = static_cast<int>(layers_.size());

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "pipeline/helices/helix.h"
+#include "pipeline/job/cable_force.h"
 #include "pipeline/job/cable_pull.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/job/strain.h"
-#include "strain/cable_force.h"
 #include "strain/loose/rings.h"
 
 namespace dresslife::strain {
@@ -50,7 +50,8 @@ struct Layer {
   double axial_stiffness = 0;  ///< EA of a part, of its wires alone [N]; 0: a material is not known
   bool loose = false;          ///< lies where it rests in the hose, if it may slide
   pipeline::Laying laying;     ///< of a cable: a part of the first level that holds parts
-  CableForce force;            ///< of a cable
+  int component = -1;          ///< of the dresspack, which a cable is
+  pipeline::CableForce force;  ///< of a cable
   pipeline::TwistShortening shortening;  ///< of a cable
 
   bool is_cable() const { return level == 1 && !is_wire; }

@@ -62,6 +62,7 @@ struct SpanPlace {
   bool free_tool_end = false;       ///< no clamp holds it there
   // Of the dresspacks before it in the file:
   std::size_t segments_before = 0, sites_before = 0;
+  std::size_t dresspack = 0;
   std::string name{};  ///< of its dresspack among several: begins the paths of its wires; empty: the only one
   int levels = 0;      ///< of the file's helix table; 0: of the construction
 };
@@ -110,6 +111,7 @@ class Evaluation {
   std::string name_of_cable(std::size_t cable) const {
     return (place_.name.empty() ? "" : place_.name + "/") + cables_.name(cable);
   }
+  std::size_t dresspack() const { return place_.dresspack; }
   /// What the cables do. Precondition: end_first_pass(), or evaluate(), which does the same.
   const CablePaths& cables() const { return cables_; }
   void end_first_pass() { cables_.finish(); }

@@ -124,9 +124,9 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
                                           0.0);
     const Counts counts = counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, length);
     const double in_span = static_cast<double>(span.segments);
-    // Strain and force of each cable, strain and pressing along one that rubs (cable_paths.h); curvature along a loose one
-    // (segment_rows.h), and the rows of one segment.
-    cable_rows += laid * (2 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
+    // Strain of each cable and the three that make its force, strain and pressing along one that rubs (cable_paths.h);
+    // curvature along a loose one (segment_rows.h), and the rows of one segment.
+    cable_rows += laid * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
     bent_rows += laid * in_span * counts.loose;
     part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
     // A thread's states of a part and of its parent, and what friction holds of every level.

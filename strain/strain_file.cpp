@@ -320,6 +320,7 @@ struct Evaluations {
         for (const pipeline::MotionSpan& span : spans)
           if (span.dresspack == d) place.segments_in_all += span.segments;
         place.first_arc = 0;
+        place.dresspack = d;
         place.name = pipeline::name_among(job, d);
       }
       place.first_segment = spans[k].first_segment - place.segments_before;
@@ -332,20 +333,6 @@ struct Evaluations {
   }
 };
 
-std::vector<Warning> force_warnings(double force_share, double moment_share) {
-  std::vector<Warning> warnings;
-  const auto warn = [&](double share, const char* what) {
-    if (share > pipeline::believable_share)
-      warnings.push_back({WarningKind::force, "",
-                          fmt::format("{:.2g} times {} (more than {:g}: strains rest on forces that nobody sees in a "
-                                      "dresspack); check slack, play, grips and position of its cables",
-                                      share, what, pipeline::believable_share)});
-  };
-  warn(force_share, "what tears a cable pulls at one");
-  warn(moment_share, "the hose's own moment is what all cables put on a clamp");
-  return warnings;
-}
-
 std::vector<Warning> mesh_warnings(double error) {
   if (error <= believable_mesh_error) return {};
   return {{WarningKind::mesh, "",
@@ -354,54 +341,71 @@ std::vector<Warning> mesh_warnings(double error) {
                        error, believable_mesh_error)}};
 }
 
-/// What pulls at the cables of all spans, and what that asks of clamps and copper. Nothing where there is no cable.
-/// Returns what a person should look at: forces that nobody sees, segments that are too long.
+/// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the clamps.
+class CableRows {
+ public:
+  void add(std::int32_t span, const Evaluation& evaluation) {
+    const CablePaths& cables = evaluation.cables();
+    for (std::size_t k = 0; k < cables.cables(); ++k) {
+      names_.push_back(evaluation.name_of_cable(k));
+      span_.push_back(span);
+      dresspack_.push_back(static_cast<std::int32_t>(evaluation.dresspack()));
+      component_.push_back(cables.component(k));
+      pulled_.push_back(&cables.pulled(k));
+      for (const double slipped : cables.grip_slip(k)) slip_.push_back(slipped);
+      for (const auto& at_clamp : pulled_.back()->place) place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
+    }
+  }
+  void write(FileWriter& file, std::size_t samples) const {
+    file.set_axis("cable", names_.size());
+    const auto shorter = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
+    file.set_text_width("/cable/name", std::max_element(names_.begin(), names_.end(), shorter)->size());
+    file.append("/cable/name", names_);
+    file.append("/cable/span", span_);
+    file.append("/cable/dresspack", dresspack_);
+    file.append("/cable/component", component_);
+    file.append("/cable/grip_slip", slip_);
+    file.append("/cable/clamp_place", place_);
+    std::vector<double> rows;
+    for (std::size_t t = 0; t < samples; ++t)
+      for (const pipeline::PulledCable* of : pulled_)
+        for (const std::vector<double>& strain : of->strain) rows.push_back(strain[t]);
+    file.append("/cable/strain", rows);
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::int32_t> span_, dresspack_, component_;
+  std::vector<double> slip_, place_;
+  std::vector<const pipeline::PulledCable*> pulled_;
+};
+
+/// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns what a person
+/// should look at: segments that are too long.
 std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
-  std::vector<std::string> names;
-  std::vector<double> slip;
-  std::vector<const std::vector<double>*> tension;
-  std::vector<double> cable_moment, hose_moment;
-  double force_share = 0, moment_share = 0, mesh_error = 0;
+  CableRows rows;
+  std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
+  double mesh_error = 0;
   for (const auto& evaluation : evaluations) {
     if (!evaluation->any_cables()) continue;
-    const CablePaths& cables = evaluation->cables();
-    for (std::size_t k = 0; k < cables.cables(); ++k) {
-      names.push_back(evaluation->name_of_cable(k));
-      const std::array<double, 2> slipped = cables.grip_slip(k);
-      slip.insert(slip.end(), slipped.begin(), slipped.end());
-      tension.push_back(&cables.tension(k));
-    }
-    force_share = std::max(force_share, cables.largest_force_share());
-    mesh_error = std::max(mesh_error, cables.mesh_error());
-    // the moments of the span whose cables ask most of their hose
-    if (!cable_moment.empty() && cables.clamp_moment_share() <= moment_share) continue;
-    moment_share = cables.clamp_moment_share();
-    cable_moment = cables.cable_moment();
-    hose_moment = cables.hose_moment();
+    rows.add(static_cast<std::int32_t>(hose_moment.size()), *evaluation);
+    hose_moment.push_back(&evaluation->cables().hose_moment());
+    mesh_error = std::max(mesh_error, evaluation->cables().mesh_error());
   }
-  if (names.empty()) return {};
-  file.set_axis("cable", names.size());
-  file.set_text_width("/cable/name", std::max_element(names.begin(), names.end(), [](const auto& a, const auto& b) {
-                                       return a.size() < b.size();
-                                     })->size());
-  file.append("/cable/name", names);
-  file.append("/cable/grip_slip", slip);
-  std::vector<double> rows;
-  for (std::size_t t = 0; t < cable_moment.size(); ++t)
-    for (const std::vector<double>* of : tension) rows.push_back((*of)[t]);
-  file.append("/cable/tension", rows);
-  file.append("/clamp/cable_moment", cable_moment);
-  file.append("/clamp/hose_moment", hose_moment);
-  file.attribute("largest_force_share", force_share);
-  file.attribute("clamp_moment_share", moment_share);
-  if (std::any_of(evaluations.begin(), evaluations.end(), [](const auto& evaluation) { return evaluation->any_loose(); }))
-    file.attribute("loose_mesh_error", mesh_error);
-  const std::vector<Warning> warnings =
-      pipeline::joined(force_warnings(force_share, moment_share), mesh_warnings(mesh_error));
+  if (hose_moment.empty()) return {};
+  const std::size_t samples = hose_moment.front()->size();
+  rows.write(file, samples);
+  file.set_axis("cable_span", hose_moment.size());
+  std::vector<double> moments;
+  for (std::size_t t = 0; t < samples; ++t)
+    for (const std::vector<double>* of : hose_moment) moments.push_back((*of)[t]);
+  file.append("/cable_span/hose_moment", moments);
+  if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
+  const std::vector<Warning> warnings = mesh_warnings(mesh_error);
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
-  std::vector<std::uint32_t> samples(cables.offset_samples().begin(), cables.offset_samples().end());
-  file.append("/cable/offset_sample", samples);
+  const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(), cables.offset_samples().end());
+  file.append("/cable/offset_sample", offset_samples);
   file.append("/cable/offset", cables.offsets());
   return warnings;
 }

@@ -221,21 +221,37 @@ Format make_motion_format() {
   return format;
 }
 
-/// Forces of the cables that run from clamp to clamp, and where loose ones lie. Absent where none slides.
+/// Cables that run from clamp to clamp: what makes their forces, and where loose ones lie. Absent where none slides.
 void add_cables(std::vector<Dataset>& datasets) {
   const auto add = [&](const char* path, Type type, std::vector<std::string> axes, const char* unit,
                        const char* meaning) { datasets.push_back({path, type, axes, unit, meaning, false, true}); };
   add("/cable/name", Type::text, {"cable"}, "1",
       "cables: parts right in the dresspack that hold parts; of each span between two clamps anew");
-  add("/cable/tension", Type::f64, {"sample", "cable"}, "N",
-      "force of each, by the cyclic curve of its wires; where it differs along it, the largest");
+  add("/cable/span", Type::i32, {"cable"}, "1", "of /cable_span between whose clamps each lies");
+  add("/cable/dresspack", Type::i32, {"cable"}, "1", "of the job's dresspacks, 0 first");
+  add("/cable/component", Type::i32, {"cable"}, "1", "of that dresspack's components, 0 first");
+  add("/cable/strain", Type::f64, {"sample", "cable", "3"}, "1",
+      "strain that makes its force: the largest along it by size, that at its base clamp, that at its tool clamp");
+  add("/cable/clamp_place", Type::f64, {"cable", "2", "2"}, "m",
+      "its axis at its base and its tool clamp, toward d1 and d2 of the dresspack");
   add("/cable/grip_slip", Type::f64, {"cable", "2"}, "m",
       "length that slips through its base and its tool clamp per repeat, both ways added up");
   add("/cable/offset_sample", Type::u32, {"picture"}, "1", "samples at which /cable/offset tells");
   add("/cable/offset", Type::f64, {"picture", "cable", "segment", "2"}, "m",
       "where loose cables lie, from their places toward d1 and d2; only with one span");
+  add("/cable_span/hose_moment", Type::f64, {"sample", "cable_span"}, "N m",
+      "bending moment that the simulated hose carries at the clamps of each span with cables, by its E I: the larger of both");
+}
+
+/// Forces of those cables by the metals of the job.
+void add_cable_forces(std::vector<Dataset>& datasets) {
+  const auto add = [&](const char* path, Type type, std::vector<std::string> axes, const char* unit,
+                       const char* meaning) { datasets.push_back({path, type, axes, unit, meaning, false, true}); };
+  add("/cable/name", Type::text, {"cable"}, "1", "cables, as in the strain file");
+  add("/cable/tension", Type::f64, {"sample", "cable"}, "N",
+      "force of each, by the cyclic curve of its wires; where it differs along it, the largest");
   add("/clamp/cable_moment", Type::f64, {"sample"}, "N m",
-      "of all cables on the hose by their forces, the larger of both clamps");
+      "of all cables on the hose by their forces, the larger of both clamps; of the span where they ask most of the hose");
   add("/clamp/hose_moment", Type::f64, {"sample"}, "N m",
       "bending moment that the simulated hose carries there, by its E I");
 }
@@ -276,15 +292,8 @@ Format make_strain_format() {
   add_site_set(format.datasets, "/bound_free", "free_");
   add_cables(format.datasets);
   add_bending(format.datasets);
-  format.attributes.push_back(
-      {"largest_force_share",
-       "largest force of a cable over that at which it tears (materials' tensile_strength_MPa; 0: not known)",
-       false, true});
-  format.attributes.push_back(
-      {"clamp_moment_share",
-       "largest moment of all cables on the hose at a clamp, over the largest that the simulated hose carries "
-       "there",
-       false, true});
+  for (const char* share : {"largest_force_share", "clamp_moment_share"})
+    format.attributes.push_back({share, "as in the life file, in files without /cable/strain", false, true});
   format.attributes.push_back(
       {"loose_mesh_error",
        "share of loose cables' curvature that the length of their pieces (strain.cable_elements_per_segment) leaves out: an "
@@ -503,6 +512,7 @@ Format make_life_format() {
                              true});
   format.datasets.push_back(
       {"/dresspack/damage", Type::f64, {"dresspack"}, "1", "its damage per repeat", false, true});
+  add_cable_forces(format.datasets);
   format.attributes = {
       {"life_repeats", "repeats of the motion until the worst wire breaks"},
       {"life_hours", "the same in hours of motion"},
@@ -514,8 +524,11 @@ Format make_life_format() {
       {"life_repeats_all_free", "bound: everything in the cables slipping freely; cables themselves likewise"},
       {"life_hours_all_stick", "the bound in hours of motion"},
       {"life_hours_all_free", "the bound in hours of motion"},
-      {"largest_force_share", "as in the strain file", false, true},
-      {"clamp_moment_share", "as in the strain file", false, true},
+      {"largest_force_share",
+       "largest force of a cable over that at which it tears (materials' tensile_strength_MPa; 0: not known)", false, true},
+      {"clamp_moment_share",
+       "largest moment of all cables on the hose at a clamp, over the largest that the simulated hose carries there",
+       false, true},
       {"loose_mesh_error", "as in the strain file", false, true},
       {"worst_site", "index of the worst site"},
       {"worst_segment_from_tool", "its segment, counted from the tool, 1 first"},

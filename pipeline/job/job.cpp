@@ -313,18 +313,18 @@ std::string job_text(const std::filesystem::path& file, const std::vector<std::s
 
 namespace {
 
-/// What of a wire's material decides the forces of cables: its cyclic curve. Of the strain-life constants that only
-/// as far as K' and n' follow from them; their change leaves strains alone where these are given.
-struct ForceKeys {
+/// What of a wire's material decides strains: how stiff it is, and, where a grip bounds the force of a cable, its cyclic
+/// curve, given or as it follows from the strain-life constants.
+struct MetalKeys {
   Material material;
+  bool pulls_at_grips = false;
 };
 
-void describe(Fields& echo, ForceKeys& keys) {
+void describe(Fields& echo, MetalKeys& keys) {
   Material& m = keys.material;
   echo.text("name", m.name, Need::required, "");
   echo.number("youngs_modulus_GPa", m.youngs_modulus, Need::required, any_number(), "");
-  echo.maybe_number("tensile_strength_MPa", m.tensile_strength, any_number(), "");
-  if (!m.strain_life_table.empty()) return;  // taken as elastic
+  if (!keys.pulls_at_grips || !m.strain_life_table.empty()) return;  // a polymer is taken as elastic
   m.cyclic_hardening_exponent = hardening_exponent(m);
   m.cyclic_strength = cyclic_strength(m);
   echo.maybe_number("cyclic_strength_MPa", m.cyclic_strength, any_number(), "");
@@ -340,11 +340,15 @@ bool has_wires_of(const std::vector<Component>& components, const std::string& m
 /// What of a dresspack decides the strain of its parts.
 struct StrainKeys {
   MountedDresspack mounted;
-  std::vector<ForceKeys> materials{};
+  std::vector<MetalKeys> materials{};
 
   explicit StrainKeys(const MountedDresspack& of) : mounted(of) {
+    const std::vector<Component>& components = of.dresspack.components;
+    const bool grips = std::any_of(components.begin(), components.end(), [](const Component& component) {
+      return component.laying.base_grip || component.laying.tool_grip;
+    });
     for (const Material& material : of.dresspack.materials)
-      if (has_wires_of(of.dresspack.components, material.name)) materials.push_back({material});
+      if (has_wires_of(components, material.name)) materials.push_back({material, grips});
   }
   StrainKeys() = default;
 };

@@ -9,6 +9,8 @@
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;
+using dresslife::pipeline::CableForce;
+using dresslife::pipeline::CablePulls;
 using dresslife::pipeline::Dresspack;
 using dresslife::pipeline::Kinematics;
 using dresslife::pipeline::Position;
@@ -19,6 +21,13 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double length = 2;
 constexpr std::size_t segments = 64;
+
+/// What the cables' strains ask of them, by the metals of their dresspack.
+CablePulls pulls_of(const CablePaths& paths) {
+  std::vector<dresslife::pipeline::PulledCable> cables;
+  for (std::size_t k = 0; k < paths.cables(); ++k) cables.push_back(paths.pulled(k));
+  return dresslife::pipeline::pulls_of(cables, paths.samples());
+}
 
 /// What a measured stiffness needs to be explained by.
 void rub(std::vector<dresslife::pipeline::Component>& parts) {
@@ -88,9 +97,10 @@ struct Run {
     return strain(cable, segment, sample) + layer.shortening.at(twist * layer.lay_cosine * layer.lay_cosine);
   }
   double largest_tension() {
+    const CablePulls pulls = pulls_of(paths);
     double most = 0;
-    for (std::size_t k = 0; k < paths.cables(); ++k)
-      for (const double force : paths.tension(k)) most = std::max(most, force);
+    for (const std::vector<double>& tension : pulls.tension)
+      for (const double force : tension) most = std::max(most, force);
     return most;
   }
 };
@@ -167,8 +177,9 @@ TEST_CASE("tension begins where slack no longer covers what turning asks less wh
                      std::vector<double>(segments, length / segments), Run::centres(), 40);
     paths.add({history});
     paths.finish();
+    const CablePulls pulls = pulls_of(paths);
     double most = 0;
-    for (std::size_t k = 0; k < 10; ++k) most = std::max(most, paths.tension(k).back());
+    for (const std::vector<double>& tension : pulls.tension) most = std::max(most, tension.back());
     return most;
   };
   // cable 3 and 4 lie at 72 and 108 degrees: sin 72 of the radius is the farthest outside
@@ -276,18 +287,18 @@ TEST_CASE("a grip bounds the force of a cable, and its slip adds up over a repea
 
 TEST_CASE("forces of held cables are told beside their moment on the hose") {
   Run run(held_hose(), Slip::free, 20, 20);
-  const double share = run.paths.largest_force_share();
-  CHECK(share > 1);  // copper does not bear what held cables ask of it
+  const CablePulls pulls = pulls_of(run.paths);
+  CHECK(pulls.force_share > 1);  // copper does not bear what held cables ask of it
   double most = 0;
-  for (const double moment : run.paths.cable_moment()) most = std::max(most, moment);
+  for (const double moment : pulls.moment) most = std::max(most, moment);
   CHECK(most > 100);  // [N m], of a hose that carries 25 N m2 x 1 1/m
   CHECK(*std::max_element(run.paths.hose_moment().begin(), run.paths.hose_moment().end()) < 25);
-  CHECK(run.paths.clamp_moment_share() ==
+  CHECK(dresslife::pipeline::moment_share(pulls, run.paths.hose_moment()) ==
         most / *std::max_element(run.paths.hose_moment().begin(), run.paths.hose_moment().end()));
   Dresspack with_slack = thesis_hose();
   with_slack.components[0].laying.slack = 1;
   Run loose(with_slack, Slip::free, 20, 20);
-  CHECK(loose.paths.largest_force_share() < 0.2);
+  CHECK(pulls_of(loose.paths).force_share < 0.2);
 }
 
 TEST_CASE("a twisted cable that shortens as its wires ask for pulls at nothing, one that is held as they do") {
@@ -312,15 +323,16 @@ TEST_CASE("a twisted cable that shortens as its wires ask for pulls at nothing, 
                          std::vector<double>(segments, length / segments), Run::centres(), 1);
         paths.add({history});
         paths.finish();
+        const double tension = pulls_of(paths).tension[0][0];
         const double by_length = force.force(elongation);  // what its axis alone would tell
         if (elongation == 0) {
           // Of a strain x of the cable a wire has cos^2 x; what a turn a metre does besides is of second order, R t = 0.02.
           constexpr double second_order = 0.04;
           const double wire = std::cos(alpha) * std::hypot(turning, 1) - 1;
-          CHECK(paths.tension(0)[0] == Approx(force.force(wire / std::pow(std::cos(alpha), 2))).epsilon(second_order));
+          CHECK(tension == Approx(force.force(wire / std::pow(std::cos(alpha), 2))).epsilon(second_order));
         } else {
           // of the twist's cube, (R t)^2 of it
-          CHECK(std::abs(paths.tension(0)[0]) < 2e-3 * std::abs(by_length));
+          CHECK(std::abs(tension) < 2e-3 * std::abs(by_length));
         }
       }
     }
@@ -340,16 +352,17 @@ TEST_CASE("forces of cables that stick to the hose are told, too") {
     paths.add({history});
     paths.finish();
     const CableForce force(dresspack, dresspack.components[0]);
+    const CablePulls pulls = pulls_of(paths);
     double moment = 0;
     for (std::size_t k = 0; k < 10; ++k) {
       const double away = 0.01845 * std::sin(2 * pi * static_cast<double>(k) / 10);  // W5: kappa times that
-      CHECK(paths.tension(k)[0] == Approx(force.force(kappa * away)).margin(1e-6));
+      CHECK(pulls.tension[k][0] == Approx(force.force(kappa * away)).margin(1e-6));
       moment += force.force(kappa * away) * away;
     }
-    CHECK(paths.largest_force_share() ==
+    CHECK(pulls.force_share ==
           Approx(force.force(kappa * 0.01845 * std::sin(72 * pi / 180)) / force.strength()));
     // at a clamp only what is bent beside it asks for a moment
-    CHECK(paths.cable_moment()[0] == Approx(bent == 0 ? moment : 0).margin(1e-6));
+    CHECK(pulls.moment[0] == Approx(bent == 0 ? moment : 0).margin(1e-6));
   }
 }
 
@@ -365,9 +378,10 @@ TEST_CASE("a free end of the hose does not pull at its cables") {
                      std::vector<double>(segments, length / segments), Run::centres(), 20);
     paths.add({history});
     paths.finish();
+    const CablePulls pulls = pulls_of(paths);
     double most = 0;
-    for (std::size_t k = 0; k < 10; ++k)
-      for (const double tension : paths.tension(k)) most = std::max(most, std::abs(tension));
+    for (const std::vector<double>& of : pulls.tension)
+      for (const double tension : of) most = std::max(most, std::abs(tension));
     return most;
   };
   Dresspack dresspack = held_hose();
@@ -395,7 +409,7 @@ TEST_CASE("with friction along it a cable's largest force counts, wherever it is
     for (std::size_t i = 0; i < segments; ++i)
       for (std::size_t t = 0; t < 20; ++t)
         largest = std::max(largest, std::abs(force.force(run.pulling_strain(k, i, t))));
-  CHECK(run.paths.largest_force_share() == Approx(largest / force.strength()));
+  CHECK(pulls_of(run.paths).force_share == Approx(largest / force.strength()));
   double ends = 0;
   for (std::size_t k = 0; k < 10; ++k)
     for (const std::size_t i : {std::size_t{0}, segments - 1})
@@ -420,7 +434,7 @@ TEST_CASE("the same cables come out in blocks of any size") {
     paths.add({part});
   }
   paths.finish();
-  for (std::size_t k = 0; k < 10; ++k) CHECK(paths.tension(k) == whole.paths.tension(k));
+  CHECK(pulls_of(paths).tension == pulls_of(whole.paths).tension);
 }
 
 namespace {

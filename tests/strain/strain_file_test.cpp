@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fatigue/life_file.h"
 #include "pipeline/job/document.h"
 #include "pipeline/job/job.h"
 #include "tests/pipeline/sample_job.h"
@@ -102,6 +103,19 @@ std::string evaluate(const std::filesystem::path& motion, const std::filesystem:
   return told;
 }
 
+/// The lives that follow, in a file of that name. Returns the warnings.
+std::string judge(const FileReader& strain, const pipeline::Job& job, const std::filesystem::path& out) {
+  FileWriter life(out, pipeline::life_format());
+  const fatigue::Notes notes = fatigue::write_life(strain, job, life, 1, [](double) {});
+  life.attribute("job", "");
+  life.attribute("history", "");
+  life.attribute("input_sha256", "");
+  life.commit();
+  std::string told;
+  for (const pipeline::Warning& warning : notes.warnings) told += warning.line() + "\n";
+  return told;
+}
+
 }  // namespace
 
 TEST_CASE("strain.h5 holds the deformation, every site's turning points and the probes of the motion") {
@@ -176,40 +190,62 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("forces of cables that slide are in the file, and warned of where nobody would see them") {
+TEST_CASE("of the strains of cables in the file forces follow, which are warned of where nobody would see them") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
-  const auto forces_with = [&](std::vector<std::string> sets) {
-    sets.insert(sets.begin(), "strain.slip=free");
-    return evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with(sets));
+  struct Forces {
+    double share = 0;  ///< of what tears a cable
+    std::string warnings;
+    std::vector<double> tension, slip;
   };
-  const std::string gripped = forces_with({});
-  CHECK(gripped.find("\nwarning: ") != std::string::npos);
-  CHECK(gripped.find("what tears a cable") != std::string::npos);
-  double share_of_sliding = 0;
-  {
-    const FileReader file(scratch / "strain.h5", pipeline::strain_format());
-    CHECK(file.read<std::string>("/cable/name") == std::vector<std::string>{"cable 1", "cable 2", "cable 3"});
-    const auto tension = file.read<double>("/cable/tension");
-    REQUIRE(tension.size() == samples * 3);
-    const double most = std::abs(*std::max_element(tension.begin(), tension.end(), [](double a, double b) {
-      return std::abs(a) < std::abs(b);
-    }));
-    const double area = 6 * 3.14159265 * 0.1e-3 * 0.1e-3 * std::cos(25 * 3.14159265 / 180);
-    share_of_sliding = file.number_attribute("largest_force_share");
-    CHECK(share_of_sliding == Approx(most / (230e6 * area)));
-    for (const double slip : file.read<double>("/cable/grip_slip")) CHECK(slip == 0);
-  }
-  CHECK(forces_with({"dresspack.components.1.base_grip_N=1", "dresspack.components.1.tool_grip_N=1"})
-            .find("what tears a cable") == std::string::npos);
-  const FileReader file(scratch / "strain.h5", pipeline::strain_format());
-  for (const double slip : file.read<double>("/cable/grip_slip")) CHECK(slip > 0);
+  const auto forces_with = [&](const std::vector<std::string>& sets, double strength = 1) {
+    evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with(sets));
+    const FileReader strain(scratch / "strain.h5", pipeline::strain_format());
+    CHECK(strain.read<std::string>("/cable/name") == std::vector<std::string>{"cable 1", "cable 2", "cable 3"});
+    Forces forces{.slip = strain.read<double>("/cable/grip_slip")};
+    pipeline::Job job = job_with(sets);
+    for (pipeline::Material& metal : job.dresspacks[0].dresspack.materials) metal.fatigue_strength *= strength;
+    forces.warnings = judge(strain, job, scratch / "life.h5");
+    const FileReader life(scratch / "life.h5", pipeline::life_format());
+    forces.share = life.number_attribute("largest_force_share");
+    forces.tension = life.read<double>("/cable/tension");
+    return forces;
+  };
+  const auto largest = [](const std::vector<double>& tension) {
+    double most = 0;
+    for (const double force : tension) most = std::max(most, std::abs(force));
+    return most;
+  };
+  const auto is_zero = [](double slip) { return slip == 0; };
+  const Forces held = forces_with({"strain.slip=free"});
+  CHECK(held.warnings.find("what tears a cable") != std::string::npos);
+  REQUIRE(held.tension.size() == samples * 3);
+  const double area = 6 * 3.14159265 * 0.1e-3 * 0.1e-3 * std::cos(25 * 3.14159265 / 180);
+  CHECK(held.share == Approx(largest(held.tension) / (230e6 * area)));
+  CHECK(std::all_of(held.slip.begin(), held.slip.end(), is_zero));
+  // By the metal of the job that judges them: a curve with half the stresses at a plastic strain.
+  const Forces softer = forces_with({"strain.slip=free"}, 0.5);
+  CHECK(largest(softer.tension) < 0.9 * largest(held.tension));
+  CHECK(largest(softer.tension) > 0.5 * largest(held.tension));
+  const Forces gripped = forces_with(
+      {"strain.slip=free", "dresspack.components.1.base_grip_N=1", "dresspack.components.1.tool_grip_N=1"});
+  CHECK(gripped.warnings.find("what tears a cable") == std::string::npos);
+  CHECK(std::none_of(gripped.slip.begin(), gripped.slip.end(), is_zero));
   // cables that stick to the hose need more than those that even out along it: each segment's own strain has its force
-  const std::string told = evaluate(scratch / "motion.h5", scratch / "stuck.h5", job_with());
-  CHECK(told.find("what tears a cable") != std::string::npos);
-  const FileReader stuck(scratch / "stuck.h5", pipeline::strain_format());
-  CHECK(stuck.number_attribute("largest_force_share") > share_of_sliding);
-  for (const double slip : stuck.read<double>("/cable/grip_slip")) CHECK(slip == 0);
+  const Forces stuck = forces_with({});
+  CHECK(stuck.warnings.find("what tears a cable") != std::string::npos);
+  CHECK(stuck.share > held.share);
+  CHECK(std::all_of(stuck.slip.begin(), stuck.slip.end(), is_zero));
+}
+
+TEST_CASE("a strain file with a cable that its job does not have is refused") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with({"strain.slip=free"}));
+  const FileReader strain(scratch / "strain.h5", pipeline::strain_format());
+  pipeline::Job job = job_with();
+  job.dresspacks[0].dresspack.components.clear();
+  CHECK_THROWS_WITH(judge(strain, job, scratch / "life.h5"), Catch::Contains("which its job does not have"));
 }
 
 TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {

@@ -1,5 +1,6 @@
 #include "pipeline/job/job.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -459,23 +460,33 @@ TEST_CASE("job: each stage depends on its own part of the job only") {
   CHECK(changed("simulation.segments=20") == "---");
 }
 
-TEST_CASE("job: of a material's strain-life constants strains depend on the cyclic curve that follows from them alone") {
-  const auto parts = [](const std::string& constants, const std::string& curve) {
-    const Job job = job_of_text(
-        sample_job, {"dresspack.materials=[{name: copper, source: s, youngs_modulus_GPa: 117, " + constants + curve + "}]"});
-    return std::pair{part_text(job, Part::strain), part_text(job, Part::fatigue)};
+TEST_CASE("job: strains depend on a metal's stiffness, and on its cyclic curve where a grip bounds a cable's force") {
+  const auto parts = [](const std::string& constants, const std::string& curve, std::vector<std::string> sets = {},
+                        const std::string& modulus = "117") {
+    sets.push_back("dresspack.materials=[{name: copper, source: s, youngs_modulus_GPa: " + modulus + ", " + constants + curve +
+                   "}]");
+    const Job job = job_of_text(sample_job, sets);
+    return std::array{part_text(job, Part::strain), part_text(job, Part::fatigue), part_text(job, Part::sim)};
   };
   const std::string one =
       "fatigue_strength_MPa: 400, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, fatigue_ductility_exponent: -0.5";
   const std::string other =
       "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.12, fatigue_ductility: 0.4, fatigue_ductility_exponent: -0.6";
   const std::string curve = ", cyclic_strength_MPa: 450, cyclic_hardening_exponent: 0.2";
-  CHECK(parts(one, curve).first == parts(other, curve).first);
-  CHECK(parts(one, curve).second != parts(other, curve).second);
-  // Without a measured one the curve that forces are judged by follows from them: n' is b / c, here 0.2 of both.
-  CHECK(parts(one, "").first != parts(other, "").first);
-  CHECK(parts(one, "").first.find("cyclic_hardening_exponent: 0.2\n") != std::string::npos);
-  CHECK(parts(one, curve).first != parts(one, ", cyclic_strength_MPa: 451, cyclic_hardening_exponent: 0.2").first);
+  for (const std::string& changed : {other, one + ", tensile_strength_MPa: 240", one + curve, one + ", poisson_ratio: 0.3"}) {
+    CHECK(parts(one, "")[0] == parts(changed, "")[0]);
+    CHECK(parts(one, "")[1] != parts(changed, "")[1]);
+    CHECK(parts(one, "")[2] == parts(changed, "")[2]);
+  }
+  CHECK(parts(one, "")[0] != parts(one, "", {}, "118")[0]);
+  // Up to which strain a grip holds follows from the curve, given or implied: n' is b / c, here 0.2 of both.
+  for (const std::string& at : {"base", "tool"}) {
+    const std::vector<std::string> grip{"dresspack.components.1." + at + "_grip_N=10"};
+    CHECK(parts(one, curve, grip)[0] == parts(other, curve, grip)[0]);
+    CHECK(parts(one, "", grip)[0] != parts(other, "", grip)[0]);
+    CHECK(parts(one, "", grip)[0].find("cyclic_hardening_exponent: 0.2\n") != std::string::npos);
+    CHECK(parts(one, curve, grip)[0] != parts(one, ", cyclic_strength_MPa: 451, cyclic_hardening_exponent: 0.2", grip)[0]);
+  }
 }
 
 TEST_CASE("job: a wire's material is its own unless the fatigue settings name one for all") {

@@ -121,6 +121,23 @@ TEST_CASE("build graph: a changed setting reruns what depends on it and nothing 
   CHECK(bench.calls("two") == "sim strain fatigue ");
 }
 
+TEST_CASE("build graph: a metal's strain-life constants rerun the last stage of the jobs that are of it alone") {
+  Bench bench;
+  const auto study_of = [&](int strength) {
+    return bench.study({{"one", fmt::format("dresspack.materials=[{{name: copper, source: s, youngs_modulus_GPa: 117, "
+                                            "tensile_strength_MPa: 230, fatigue_strength_MPa: {}, "
+                                            "fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
+                                            "fatigue_ductility_exponent: -0.5}}]",
+                                            strength)},
+                        {"two", "simulation.segments=40"}});
+  };
+  bench.run(study_of(400));
+  CHECK(bench.words(study_of(500)) == Words{"stale", "done"});
+  CHECK(bench.run(study_of(500)).executed == 1);
+  CHECK(bench.calls("one") == "sim strain fatigue fatigue ");
+  CHECK(bench.calls("two") == "sim strain fatigue ");
+}
+
 TEST_CASE("build graph: what a study does not keep goes when its job is done, and is not to do for that") {
   for (const Keep keep : {Keep::histories, Keep::lives}) {
     Bench bench;

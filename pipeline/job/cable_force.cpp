@@ -1,4 +1,4 @@
-#include "strain/cable_force.h"
+#include "pipeline/job/cable_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "pipeline/job/cyclic_curve.h"
 
-namespace dresslife::strain {
+namespace dresslife::pipeline {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -17,33 +17,33 @@ constexpr double polymer_modulus = 50e6;                        // [Pa]
 
 }  // namespace
 
-CableForce::CableForce(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {
+CableForce::CableForce(const Dresspack& dresspack, const Component& cable) {
   const double area = pi * cable.radius * cable.radius;
   mass_ = polymer_density * area;
   bending_ = cable.polymer_bending_stiffness > 0 ? cable.polymer_bending_stiffness
                                                  : polymer_modulus * area * cable.radius * cable.radius / 4;
-  for (const pipeline::Component& inner : cable.components) add(dresspack, inner, 1, 1);
+  for (const Component& inner : cable.components) add(dresspack, inner, 1, 1);
   if (!all_strengths_known_) strength_ = 0;
   bending_ = cable.measured_bending_stiffness.value_or(bending_);
 }
 
-void CableForce::add(const pipeline::Dresspack& dresspack, const pipeline::Component& part, double count,
+void CableForce::add(const Dresspack& dresspack, const Component& part, double count,
                      double cosines) {
   count *= part.count;
   cosines *= std::cos(part.lay_angle);
-  for (const pipeline::Component& inner : part.components) add(dresspack, inner, count, cosines);
+  for (const Component& inner : part.components) add(dresspack, inner, count, cosines);
   if (!part.components.empty()) return;
   const double area = count * pi * part.radius * part.radius;
   mass_ += (wire_density - polymer_density) * area / cosines;
-  const pipeline::Material* material = pipeline::find_material(dresspack, part.material);
+  const Material* material = find_material(dresspack, part.material);
   all_strengths_known_ &= material && material->tensile_strength;
   if (!material) return;
   bending_ += material->youngs_modulus * area * part.radius * part.radius / 4 * cosines;
   strength_ += area * cosines * material->tensile_strength.value_or(0);
   Wires wires{area * cosines, cosines * cosines, material->youngs_modulus, 0, 1};
   if (material->fatigue_strength > 0) {  // else a polymer's table: elastic
-    wires.hardening = pipeline::hardening_exponent(*material);
-    wires.cyclic_strength = pipeline::cyclic_strength(*material);
+    wires.hardening = hardening_exponent(*material);
+    wires.cyclic_strength = cyclic_strength(*material);
   }
   const auto same = std::find_if(wires_.begin(), wires_.end(), [&](const Wires& other) {
     return other.share == wires.share && other.modulus == wires.modulus &&
@@ -90,4 +90,4 @@ double CableForce::strain_at(double wanted) const {
   return std::copysign((low + high) / 2, wanted);
 }
 
-}  // namespace dresslife::strain
+}  // namespace dresslife::pipeline

@@ -1,4 +1,4 @@
-// The force of a cable from its strain, and what it bears (README W37): the principle is that a strain is
+// The force of a cable from its strain, and what it bears (strain/README.md, W37): the principle is that a strain is
 // believed only with the force that makes it.
 //
 // Wires at lay angles alpha, one for each level in the cable, have of its strain the product of cos^2(alpha),
@@ -11,12 +11,12 @@
 
 #include "pipeline/job/dresspack.h"
 
-namespace dresslife::strain {
+namespace dresslife::pipeline {
 
 class CableForce {
  public:
   CableForce() = default;
-  CableForce(const pipeline::Dresspack& dresspack, const pipeline::Component& cable);
+  CableForce(const Dresspack& dresspack, const Component& cable);
 
   double force(double strain) const;      ///< sum of A sigma [N]
   double strain_at(double force) const;   ///< its inverse, for a force of any sign [N]
@@ -34,7 +34,7 @@ class CableForce {
     double modulus, cyclic_strength, hardening;  ///< E, K' [Pa], n'
     double stress(double strain) const;
   };
-  void add(const pipeline::Dresspack& dresspack, const pipeline::Component& part, double count,
+  void add(const Dresspack& dresspack, const Component& part, double count,
            double cosines);
 
   std::vector<Wires> wires_;
@@ -42,4 +42,4 @@ class CableForce {
   bool all_strengths_known_ = true;
 };
 
-}  // namespace dresslife::strain
+}  // namespace dresslife::pipeline

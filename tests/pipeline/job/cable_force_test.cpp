@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "strain/cable_force.h"
+#include "pipeline/job/cable_force.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife;
-using strain::CableForce;
+using pipeline::CableForce;
 
 namespace {
 

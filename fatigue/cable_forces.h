@@ -1,0 +1,18 @@
+// What the strains of cables ask of them and of their clamps, by the metals of the job (strain/README.md, W37):
+// told, and warned of, beside the lives that rest on them.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/files/files.h"
+#include "pipeline/job/job.h"
+#include "pipeline/warnings.h"
+
+namespace dresslife::fatigue {
+
+/// Writes tensions, moments and their shares into the life file. Of a file that has no strains of cables what it tells
+/// itself is handed on. Errors: InputError when the file names a cable that the job does not have.
+std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job,
+                                                  pipeline::FileWriter& life);
+
+}  // namespace dresslife::fatigue
