@@ -125,7 +125,7 @@ TEST_CASE("validate: run-outs and breaks are judged, and a model that says for e
   CHECK(refused("observations: []\n").find("holds no observations; write 'observations:' and a list") !=
         std::string::npos);
   CHECK(refused("observations:\n" + one("x", "    outcome: broken\n"))
-            .find("'x' must have either cycles or hours (or stiffness_Nm2, or bending); give one of them") != std::string::npos);
+            .find("'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending); give one of them") != std::string::npos);
   CHECK(refused("observations:\n" + one("a", "    cycles: 5\n") + one("a", "    cycles: 5\n"))
             .find("two observations are named 'a'") != std::string::npos);
   CHECK(refused("observations:\n" + one("a/b", "    cycles: 5\n")).find("is not made of letters, digits and _") !=
