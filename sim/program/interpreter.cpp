@@ -970,6 +970,7 @@ bool Interpreter::only_waits(const std::vector<Statement>& body) const {
 /// of input writes.
 bool Interpreter::changes_nothing(const Statement& statement, int module, int depth) {
   constexpr int deepest = 4;  // calls
+  charge(1);
   if (depth > deepest || moves(statement, module) || leaves(statement, false)) return false;
   switch (statement.kind) {
     case Kind::assign: {  // KRL's outputs
