@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "pipeline/commands/making.h"
@@ -48,7 +49,8 @@ int run(const RunOptions& options) {
   const int executed = make_rest(request, standing, options);
   tell_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, looks, digests] = standing;
-  if (!options.quiet)
+  const bool any = std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& job) { return job.failure.empty(); });
+  if (!options.quiet && any)
     tell(executed ? fmt::format("{}: {} stages ran\n", study.name, executed)
                   : fmt::format("{}: nothing to do\n", study.name));
   std::vector<RankingRow> rows = ranking_of(study, places, states);

@@ -15,6 +15,9 @@ using helices::Series;
 
 constexpr double pi = std::numbers::pi;
 constexpr int phases = 36;    // around a layer: whole harmonics are exact, what yields is to 1e-3
+// Two levels and more below the cable: what is summed has 2 d harmonics at level d, 12 angles are exact for those of five,
+// and what yields is met at as many others by the angles above.
+constexpr int deep_phases = 12;
 constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
 constexpr double reach = 1e-3;  // [m]: as much of elongation per twist, a wire's distance from the axis
 
@@ -34,6 +37,7 @@ struct Deformed {
   double evening;         ///< path length of the nearest helix' pitch in it or above; 0: none [m]
   double friction_level;  ///< of what lies in it
   int depth;
+  bool alike_around = false;  ///< whatever lies in it at one radius feels the same at every angle
 };
 
 /// Of a layer of parts or wires at one angle, per size of the deformation.
@@ -56,11 +60,12 @@ void descend(const Dresspack& dresspack, const Component& layer, const Deformed&
   const double EA = axial_stiffness(dresspack, layer);
   const double share =
       helices::radial_share(EA, layer.lay_angle, R, layer.radial_stiffness.value_or(HUGE_VAL));
-  const double weight = parent.per_length * layer.count / phases / cosine;
+  const int angles = parent.alike_around ? 1 : parent.depth < 2 ? phases : deep_phases;
+  const double weight = parent.per_length * layer.count / angles / cosine;
   const double inside = layer.measured_bending_stiffness ? friction_level(dresspack, layer) : parent.friction_level;
-  for (int k = 0; k < phases; ++k) {
+  for (int k = 0; k < angles; ++k) {
     const Placement place =
-        helices::make_placement(Kinematics::exact, R, signed_angle, 2 * pi * (k + 0.5) / phases);
+        helices::make_placement(Kinematics::exact, R, signed_angle, 2 * pi * (k + 0.5) / angles);
     const Rod<double> rest = helices::child(parent.rest, place), glued = helices::child(parent.now, place);
     const double strain = glued.stretch.at[0] / rest.stretch.at[0] - 1;
     const double mean =
@@ -81,7 +86,7 @@ constexpr int order = Series<double>::capacity - 1;
 
 Deformed straight_cable(double elongation, double curvature, double twist) {
   return {helices::uniform_rod<double>(0, 0, 0, 0, order),
-          helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, 1, 0};
+          helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, 1, 0, curvature == 0};
 }
 
 /// Of a wire whose deviation is free, per size of the deformation and length of the cable.

@@ -5,21 +5,21 @@
 #include <numbers>
 
 #include "pipeline/job/cyclic_curve.h"
+#include "pipeline/job/stiffness.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// ESTIMATES for what a maker's sheet does not tell: copper; jackets and insulation of polyurethane, PVC or TPE,
-// of which 50 MPa is a soft one at a bend's small strain.
-constexpr double wire_density = 8900, polymer_density = 1200;  // [kg/m3]
-constexpr double polymer_modulus = 50e6;                        // [Pa]
+// ESTIMATE for what a maker's sheet does not tell: jackets and insulation of polyurethane, PVC or TPE, of which 50 MPa
+// is a soft one at a bend's small strain.
+constexpr double polymer_modulus = 50e6;  // [Pa]
 
 }  // namespace
 
 CableForce::CableForce(const Dresspack& dresspack, const Component& cable) {
   const double area = pi * cable.radius * cable.radius;
-  mass_ = polymer_density * area;
+  mass_ = mass_of_part(cable);
   bending_ = cable.polymer_bending_stiffness > 0 ? cable.polymer_bending_stiffness
                                                  : polymer_modulus * area * cable.radius * cable.radius / 4;
   for (const Component& inner : cable.components) add(dresspack, inner, 1, 1);
@@ -34,7 +34,6 @@ void CableForce::add(const Dresspack& dresspack, const Component& part, double c
   for (const Component& inner : part.components) add(dresspack, inner, count, cosines);
   if (!part.components.empty()) return;
   const double area = count * pi * part.radius * part.radius;
-  mass_ += (wire_density - polymer_density) * area / cosines;
   const Material* material = find_material(dresspack, part.material);
   all_strengths_known_ &= material && material->tensile_strength;
   if (!material) return;

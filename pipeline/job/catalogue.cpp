@@ -1,6 +1,7 @@
 #include "pipeline/job/catalogue.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <set>
 
@@ -86,7 +87,8 @@ void check_accelerations(const Node& robot, const fs::path& urdf, const Where& a
       asked,
       fmt::format("{} has no accelerations of {} (a URDF cannot hold any)", urdf.string(),
                   fmt::join(without, ", ")),
-      fmt::format("give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes",
+      fmt::format("give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes (those of config/robots have "
+                  "some 300 to 3,000)",
                   driven));
 }
 
@@ -115,6 +117,14 @@ void read_urdf(Node& entry) {
   }
   check_accelerations(robot, request.urdf, entry.where);
   entry = std::move(robot);
+}
+
+/// A robot's program in its own language, or joints as columns.
+bool is_program_file(const fs::path& file) {
+  std::string end = file.extension();
+  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  static const std::set<std::string> ends{".mod", ".modx", ".prg", ".pgf", ".src", ".ls", ".csv"};
+  return ends.contains(end) && is_file(file);
 }
 
 void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0);
@@ -224,12 +234,29 @@ void add_materials(Node& dresspack, const Node& job, const std::string& path, Pr
     std::erase_if(dresspack.entries, [](const Entry& e) { return e.key == "materials"; });
 }
 
+/// What nobody measured of a dresspack is taken from its construction, and its damping is that of the shipped ones.
+void add_estimates(Node& dresspack) {
+  const Node* components = dresspack.find("components");
+  if (!components || components->items.empty() || dresspack.find("cable_alone")) return;
+  const auto add = [&](const char* key, const std::string& text) {
+    Node& value = dresspack[key];
+    value = scalar(text);
+    value.where = dresspack.where;
+  };
+  for (const char* key : {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})
+    if (!dresspack.find(key)) add(key, "from_construction");
+  if (dresspack.find("damping_time_ms") || dresspack.find("damping_source")) return;
+  add("damping_time_ms", is_hose(dresspack) ? "10" : "20");
+  add("damping_source", "ESTIMATE, the default of dresslife; a decay test of a hanging length decides");
+}
+
 /// A catalogue entry where a job has one: written out, of a dresspack with the layers of cables that are given by data
 /// sheets and the materials that its wires name.
 void resolve_entry(Node* entry, const std::string& path, const std::string& folder, const Node& job, Problems& problems) {
   if (!entry || !problems.attempt(path, entry->where, [&] { resolve(*entry, folder, job.where); })) return;
   if (folder != "dresspacks" || !entry->is_map()) return;
   expand_data_sheets(*entry, path, problems);
+  add_estimates(*entry);
   add_materials(*entry, job, path, problems);
 }
 
@@ -258,6 +285,12 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   if (name.ends_with(".urdf")) {  // alone: its entry is the file itself
     Node entry;
     entry["urdf"] = scalar(name);
+    place_at(entry, named_at);
+    return entry;
+  }
+  if (folder == "programs" && is_program_file(folder_of(named_at) / name)) {  // likewise
+    Node entry;
+    entry["program"] = scalar(name);
     place_at(entry, named_at);
     return entry;
   }

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <regex>
+#include <string_view>
 
 #include "pipeline/job/dresspack.h"
 #include "pipeline/job/fields.h"
@@ -239,7 +242,7 @@ void expand(Node& component) {
                        "keep one of the two");
   DataSheet sheet;
   sheet.where = written->where;
-  read_fields(*written, sheet);
+  read_fields(written->is_scalar() ? sheet_from_line(*written) : *written, sheet);
   const Expansion expansion(sheet);
   Node made = echo_fields(Layers{expansion.components()});
   made["radius_mm"] = scalar(text_in_unit(expansion.radius(), unit_of_key("radius_mm")));
@@ -248,7 +251,61 @@ void expand(Node& component) {
   component.entries.insert(component.entries.end(), made.entries.begin(), made.entries.end());
 }
 
+/// In lower case, without space around it.
+std::string plain(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  const std::size_t begin = text.find_first_not_of(" \t\n"), end = text.find_last_not_of(" \t\n");
+  return begin == std::string::npos ? "" : text.substr(begin, end + 1 - begin);
+}
+
+constexpr const char* example_line =
+    "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm";
+
+/// The keys that one phrase of a sheet's line stands for.
+std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase, const Where& where) {
+  static const std::regex section(R"((\d+) *[x*] *(?:(\d+) *[x*] *)?([\d.]+) *mm(?:2|\^2|²))"), word_class("class *[1-6]"),
+      length(R"(([a-z][a-z -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
+  static const std::vector<std::pair<std::regex, const char*>> lengths{
+      {std::regex("(single )?wires?( diameter)?"), "wire_diameter_mm"},
+      {std::regex("(outer |outside )?diameter|od"), "outer_diameter_mm"},
+      {std::regex("(jacket|sheath)( [a-z-]+)*"), "jacket_thickness_mm"},
+      {std::regex("cores?( diameter)?"), "core_diameter_mm"},
+      {std::regex("lay( length)?"), "lay_length_mm"},
+      {std::regex("(pair|group) lay( length)?"), "group_lay_length_mm"},
+      {std::regex("wire lay( length)?"), "wire_lay_length_mm"}};
+  std::smatch found;
+  if (std::regex_match(phrase, word_class)) return {};
+  if (std::regex_match(phrase, found, section)) {
+    std::vector<std::pair<const char*, std::string>> keys{{"cores", found[1]}, {"cross_section_mm2", found[3]}};
+    if (found[2].matched) keys.emplace_back("cores_per_group", found[2]);
+    return keys;
+  }
+  if (std::regex_match(phrase, found, length))
+    for (const auto& [words, key] : lengths)
+      if (std::regex_match(found[1].str(), words)) return {{key, found[2]}};
+  throw InputError(where, fmt::format("'{}' of a data sheet is not understood", phrase),
+                   fmt::format("write phrases as in '{}', lengths in mm, or the keys of a data sheet", example_line));
+}
+
 }  // namespace
+
+Node sheet_from_line(const Node& line) {
+  Node sheet;
+  sheet.kind = Node::Kind::map;
+  std::string_view rest = line.text;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(','), rest.size());
+    const std::string phrase = plain(std::string(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    for (const auto& [key, value] : keys_of_phrase(phrase, line.where)) {
+      if (sheet.find(key))
+        throw InputError(line.where, fmt::format("'{}' tells {} a second time", phrase, key), "keep one of the two");
+      sheet[key] = scalar(value);
+    }
+  }
+  place_at(sheet, line.where);
+  return sheet;
+}
 
 void describe(Fields& f, DataSheet& sheet) {
   f.place(sheet.where);

@@ -86,8 +86,9 @@ void describe(Fields& f, Dresspack& dresspack) {
   const Need need = dresspack.cable_alone ? Need::optional : Need::required;
   const Range range = dresspack.cable_alone ? at_least(0) : above(0);
   f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
-  f.number("mass_kg_per_m", dresspack.mass_per_length, need, range, "of the filled hose");
   constexpr std::string_view from = "from_construction";
+  f.number_or_word("mass_kg_per_m", dresspack.mass_per_length, dresspack.mass_from_construction, from, need, range,
+                   "of the filled hose; or of its parts and wall");
   f.number_or_word("bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction, from, need,
                    range, "EI of the filled hose; or of its parts, wall and core in their construction_state");
   f.number_or_word("torsional_stiffness_Nm2", dresspack.torsional_stiffness, dresspack.torsional_from_construction, from,
@@ -284,7 +285,7 @@ void check_ratings(const Component& component, bool first_level) {
 }  // namespace
 
 bool is_from_construction(const Dresspack& dresspack) {
-  return dresspack.bending_from_construction || dresspack.torsional_from_construction || dresspack.axial_from_construction;
+  return dresspack.mass_from_construction || dresspack.bending_from_construction || dresspack.torsional_from_construction || dresspack.axial_from_construction;
 }
 
 void drop_ratings(Dresspack& dresspack) {

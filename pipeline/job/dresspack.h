@@ -116,7 +116,8 @@ struct Dresspack {
   double bending_stiffness = 0;                 ///< EI [N m2]
   double torsional_stiffness = 0;               ///< GJ [N m2]
   double axial_stiffness = 0;                   ///< EA [N]
-  /// Whether those three were taken from the construction, in that state and bent as far (stiffness.h).
+  /// Whether those four were taken from the construction, stiffnesses in that state and bent as far (stiffness.h).
+  bool mass_from_construction = false;
   bool bending_from_construction = false, torsional_from_construction = false, axial_from_construction = false;
   SlipState construction_state = SlipState::friction;
   double construction_curvature = 1;                ///< [1/m]

@@ -395,6 +395,7 @@ void describe_each(Fields& echo, const Forms& forms, std::vector<Keys> keys) {
 /// The motion hangs on how stiff the dresspack is, not on why.
 void count_as_numbers(Dresspack& dresspack) {
   const Dresspack untold;
+  dresspack.mass_from_construction = false;
   dresspack.bending_from_construction = dresspack.torsional_from_construction = dresspack.axial_from_construction = false;
   dresspack.construction_state = untold.construction_state;
   dresspack.construction_curvature = untold.construction_curvature;

@@ -13,6 +13,7 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double wire_density = 8900, polymer_density = 1200;  // [kg/m3]; ESTIMATES: copper, polyurethane or PVC
 constexpr double polymer_modulus = 50e6;  // ESTIMATE [Pa]: a soft jacket of polyurethane, PVC or TPE, as in W35
 constexpr double torsion_of_polymer = 2.0 / 3;  // G J over E I of a round that keeps its volume: G = E/3, J = 2 I
 constexpr double torsion_of_core = 0.8;         // ESTIMATE, as of a solid round bar
@@ -61,6 +62,25 @@ HoseStiffness wall_of(const Dresspack& dresspack) {
   return {EA * R * R / 2, 2 * pi * R * R * R * profile.wall * G * profile.pitch / fold.unfolded(), EA};
 }
 
+/// Adds the wires over the polymer that they displace [kg/m].
+void add_wires(const Component& part, double count, double cosines, double& mass) {
+  count *= part.count;
+  cosines *= std::cos(part.lay_angle);
+  for (const Component& inner : part.components) add_wires(inner, count, cosines, mass);
+  if (!part.components.empty()) return;
+  const double area = count * pi * part.radius * part.radius;
+  mass += (wire_density - polymer_density) * area / cosines;
+}
+
+/// [m2] across the hose.
+double section_of_wall(const Dresspack& dresspack) {
+  if (dresspack.hose_corrugation) {
+    const Corrugation& profile = *dresspack.hose_corrugation;
+    return pi * (dresspack.diameter - profile.height) * profile.wall * fold_of(profile).unfolded() / profile.pitch;
+  }
+  return pi / 4 * (dresspack.diameter * dresspack.diameter - *dresspack.inner_diameter * *dresspack.inner_diameter);
+}
+
 HoseStiffness core_of(const Dresspack& dresspack) {
   const double bending = dresspack.core_bending_stiffness.value_or(0);
   return {bending, dresspack.core_torsional_stiffness.value_or(torsion_of_core * bending),
@@ -74,19 +94,48 @@ Component alone(const Component& layer) {
   return cable;
 }
 
-double bending_of_wires(const Dresspack& dresspack, SlipState state, double curvature) {
+Component whole(const Dresspack& dresspack) {
   Component all;
   all.components = dresspack.components;
-  const CableBending bending(dresspack, all, StraightParts::slide);
-  switch (state) {
-    case SlipState::sliding:
-      return bending.free_stiffness();
-    case SlipState::friction:
-      return bending.moment(curvature, 1) / curvature;
-    case SlipState::stuck:
-      return bending.stuck_stiffness();
+  return all;
+}
+
+/// What its wires answer, once for all states.
+class Wires {
+ public:
+  explicit Wires(const Dresspack& dresspack) : bending_(dresspack, whole(dresspack), StraightParts::slide) {
+    for (const Component& layer : dresspack.components) layers_.push_back(pull_and_twist(dresspack, alone(layer)));
   }
-  return 0;
+  double bending(SlipState state, double curvature) const {
+    switch (state) {
+      case SlipState::sliding:
+        return bending_.free_stiffness();
+      case SlipState::friction:
+        return bending_.moment(curvature, 1) / curvature;
+      case SlipState::stuck:
+        return bending_.stuck_stiffness();
+    }
+    return 0;
+  }
+  const std::vector<PullAndTwist>& layers() const { return layers_; }
+
+ private:
+  CableBending bending_;
+  std::vector<PullAndTwist> layers_;  ///< of the dresspack
+};
+
+HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, SlipState state, double curvature) {
+  const HoseStiffness wall = wall_of(dresspack), core = core_of(dresspack);
+  const double polymer = polymer_of(dresspack);
+  HoseStiffness sum{wall.bending + core.bending + polymer + wires.bending(state, curvature),
+                    wall.torsional + core.torsional + torsion_of_polymer * polymer, wall.axial + core.axial};
+  for (std::size_t k = 0; k < dresspack.components.size(); ++k) {
+    const PullAndTwist& of = wires.layers()[k];
+    const bool pulls = state == SlipState::stuck || dresspack.components[k].laying.slack == 0;
+    sum.torsional += pulls ? of.torque_by_twist : of.relaxed();
+    sum.axial += pulls ? of.pull_by_elongation : 0;
+  }
+  return sum;
 }
 
 std::string state_words(const Dresspack& dresspack) {
@@ -98,18 +147,26 @@ std::string state_words(const Dresspack& dresspack) {
 
 }  // namespace
 
-HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState state, double curvature) {
-  const HoseStiffness wall = wall_of(dresspack), core = core_of(dresspack);
-  const double polymer = polymer_of(dresspack);
-  HoseStiffness sum{wall.bending + core.bending + polymer + bending_of_wires(dresspack, state, curvature),
-                    wall.torsional + core.torsional + torsion_of_polymer * polymer, wall.axial + core.axial};
-  for (const Component& layer : dresspack.components) {
-    const PullAndTwist wires = pull_and_twist(dresspack, alone(layer));
-    const bool pulls = state == SlipState::stuck || layer.laying.slack == 0;
-    sum.torsional += pulls ? wires.torque_by_twist : wires.relaxed();
-    sum.axial += pulls ? wires.pull_by_elongation : 0;
+double mass_of_part(const Component& part) {
+  const double area = pi * part.radius * part.radius;
+  double mass = polymer_density * area;
+  for (const Component& inner : part.components) add_wires(inner, 1, 1, mass);
+  return mass;
+}
+
+double mass_of_construction(const Dresspack& dresspack) {
+  double mass = is_hose(dresspack) ? polymer_density * section_of_wall(dresspack) : 0, parts = 0;
+  for (const Component& part : dresspack.components) {
+    const double own = part.components.empty() ? wire_density * pi * part.radius * part.radius : mass_of_part(part);
+    mass += part.count * part.laying.mass.value_or(own) / std::cos(part.lay_angle);
+    parts += part.count * pi * part.radius * part.radius / std::cos(part.lay_angle);
   }
-  return sum;
+  const double left = pi / 4 * dresspack.diameter * dresspack.diameter - parts;
+  return is_hose(dresspack) ? mass : mass + polymer_density * std::max(left, 0.0);
+}
+
+HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState state, double curvature) {
+  return stiffness_with(Wires(dresspack), dresspack, state, curvature);
 }
 
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
@@ -124,6 +181,7 @@ std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
 
 void take_from_construction(Dresspack& dresspack) {
   if (!is_from_construction(dresspack)) return;
+  if (dresspack.mass_from_construction) dresspack.mass_per_length = mass_of_construction(dresspack);
   const HoseStiffness taken =
       stiffness_of_construction(dresspack, dresspack.construction_state, dresspack.construction_curvature);
   const auto take = [&](bool wanted, const char* key, double value, double& to) {
@@ -154,7 +212,8 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
                            : warning(fmt::format("bending_stiffness_Nm2 is from_construction, {:.3g}{} (count that, or give "
                                                  "a measured one)",
                                                  given, without));
-  const auto bending = [&](SlipState state) { return stiffness_of_construction(dresspack, state, curvature).bending; };
+  const Wires wires(dresspack);
+  const auto bending = [&](SlipState state) { return stiffness_with(wires, dresspack, state, curvature).bending; };
   const double sliding = bending(SlipState::sliding), friction = bending(SlipState::friction),
                stuck = bending(SlipState::stuck);
   // How solid a jacket is that holds parts, and how it holds them, is not known of a cable.
@@ -170,10 +229,14 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
 std::string stiffness_text(const Dresspack& dresspack) {
   if (dresspack.components.empty() && dresspack.hose_material.empty()) return "";
   const double curvature = dresspack.construction_curvature;
-  const HoseStiffness sliding = stiffness_of_construction(dresspack, SlipState::sliding, curvature),
-                      friction = stiffness_of_construction(dresspack, SlipState::friction, curvature),
-                      stuck = stiffness_of_construction(dresspack, SlipState::stuck, curvature);
+  const Wires wires(dresspack);
+  const HoseStiffness sliding = stiffness_with(wires, dresspack, SlipState::sliding, curvature),
+                      friction = stiffness_with(wires, dresspack, SlipState::friction, curvature),
+                      stuck = stiffness_with(wires, dresspack, SlipState::stuck, curvature);
   std::string text;
+  if (dresspack.mass_from_construction)
+    text += fmt::format("mass {:.4g} kg/m from construction: wires of {:.0f} kg/m3 in a polymer of {:.0f}\n",
+                        dresspack.mass_per_length, wire_density, polymer_density);
   const auto line = [&](const char* name, const char* unit, double used, bool taken, double HoseStiffness::*of) {
     text += fmt::format("{} {:.4g} {} {}; of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n",
                         name, used, unit, taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given",

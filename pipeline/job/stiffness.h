@@ -28,6 +28,12 @@
 
 namespace dresslife::pipeline {
 
+/// Of one part [kg/m]: its wires of 8900 kg/m3, longer by their lays, in a polymer of 1200.
+double mass_of_part(const Component& part);
+/// Of the dresspack [kg/m]: its parts, as they are given or by mass_of_part(), and a polymer wall; what fills its core and
+/// what flows in it is left out. Of what is no hose, a jacket fills what its parts leave.
+double mass_of_construction(const Dresspack& dresspack);
+
 struct HoseStiffness {
   double bending = 0;    ///< E I [N m2]
   double torsional = 0;  ///< G J [N m2]
@@ -41,7 +47,7 @@ HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState st
 /// What of the construction is there, and not in those numbers, as words: "what fills its core (...)". Empty: nothing.
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack);
 
-/// Sets the stiffnesses that the dresspack takes from its construction. Precondition: it is checked (check_dresspack).
+/// Sets the mass and the stiffnesses that the dresspack takes from its construction. Precondition: it is checked (check_dresspack).
 /// Errors: InputError where that has none.
 void take_from_construction(Dresspack& dresspack);
 
@@ -50,8 +56,8 @@ void take_from_construction(Dresspack& dresspack);
 /// jacket, whose stiffness by itself nobody knows: one below that of its sliding wires or above glued ones.
 std::vector<Warning> stiffness_warnings(const Dresspack& dresspack);
 
-/// For people: "E I 8.23 N m2 from construction (friction at 1 1/m); ...", one line for each of the three, ending with
-/// line feeds.
+/// For people: "E I 8.23 N m2 from construction (friction at 1 1/m); ...", one line for each of the three, before them one
+/// for a mass from construction, ending with line feeds.
 std::string stiffness_text(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

@@ -57,6 +57,15 @@ TEST_CASE("catalogue: an entry may be a file, named relative to who names it") {
             ": error: cannot be read (No such file or directory); check the path");
 }
 
+TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
+  const Scratch scratch;
+  scratch.write("jobs/nod.csv", "t_s,joint_1_deg,joint_2_deg\n0,0,0\n1,10,5\n");
+  const auto job = scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nod.csv\n"));
+  CHECK(read_job(job).motion.program == scratch / "jobs/nod.csv");
+  scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nid.csv\n"));
+  CHECK(message_of([&] { read_job(job); }).find("'nid.csv' is not in the catalogue") != std::string::npos);
+}
+
 TEST_CASE("catalogue: the shipped entries are always there") {
   const Job job =
       job_from(parse_yaml(edited(sample_job, dresspack_block, "dresspack: spot_welding\n"), "job.yaml"),

@@ -171,6 +171,39 @@ TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the nu
                                             Contains("G J 4 N m2 given"));
 }
 
+TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and wall") {
+  const double metal = 10 * pi * 1e-8 * 8900 / std::cos(0.2), left = (pi * 25e-6 - 10 * pi * 1e-8 / std::cos(0.2)) * 1200;
+  const Component cable = cable_of({wires(10, 1e-4, 2e-3, 0.2)});
+  CHECK(mass_of_part(cable) == Approx(metal + left).epsilon(1e-12));
+  Dresspack pack = of({cable});
+  pack.diameter = 0.012;  // of a jacket, as far as parts leave room
+  CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi * (36e-6 - 25e-6)).epsilon(1e-12));
+  pack.inner_diameter = 0.011;
+  CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
+  pack.components[0].laying.mass = 0.5;
+  CHECK(mass_of_construction(pack) == Approx(0.5 + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
+}
+
+TEST_CASE("stiffness: what a dresspack with parts leaves out is from its construction, its damping the default") {
+  const auto without = [](const std::string& keys) {
+    Node document = parse_yaml(sample_job, "job.yaml");
+    Node& dresspack = *document.find("dresspack");
+    std::erase_if(dresspack.entries, [&](const Entry& entry) { return (" " + keys + " ").find(" " + entry.key + " ") != std::string::npos; });
+    return document;
+  };
+  const std::string all = "mass_kg_per_m bending_stiffness_Nm2 torsional_stiffness_Nm2 axial_stiffness_N damping_time_ms damping_source";
+  const Job job = job_from(without(all));
+  const Dresspack& dresspack = job.dresspacks.front().dresspack;
+  CHECK(dresspack.mass_per_length == mass_of_construction(dresspack));
+  CHECK(dresspack.bending_stiffness == in_state(dresspack, SlipState::friction).bending);
+  CHECK(dresspack.damping_time == 0.02);
+  CHECK_THAT(dresspack.damping_source, Contains("ESTIMATE"));
+  CHECK_THAT(stiffness_text(dresspack), Contains("mass ") && Contains(" kg/m from construction"));
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "again"))) == job_text(job));
+  CHECK_THROWS_WITH(job_from(without("damping_source")), Contains("damping_source is missing"));
+  CHECK_THROWS_WITH(job_from(without("components " + all)), Contains("bending_stiffness_Nm2 is missing"));
+}
+
 TEST_CASE("stiffness: what has none, and words that are none, are refused with a remedy") {
   const auto refusal = [](const std::vector<std::string>& sets) -> std::string {
     try {
