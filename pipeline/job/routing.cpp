@@ -169,7 +169,9 @@ void check_intermediate_clamps(const Routing& routing, const Robot& robot, Probl
   double before = 0;
   for (std::size_t k = 0; k < routing.clamps.size(); ++k) {
     const auto& [clamp, at_length] = routing.clamps[k];
-    problems.attempt("", clamp.where, [&] { check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot); });
+    problems.attempt("", clamp.where, [&, &clamp = clamp] {
+      check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot);
+    });
     if (!(at_length > before && at_length < routing.free_length))
       problems.add(
           clamp.where,
