@@ -285,7 +285,8 @@ void check_ratings(const Component& component, bool first_level) {
 }  // namespace
 
 bool is_from_construction(const Dresspack& dresspack) {
-  return dresspack.mass_from_construction || dresspack.bending_from_construction || dresspack.torsional_from_construction || dresspack.axial_from_construction;
+  return dresspack.mass_from_construction || dresspack.bending_from_construction ||
+         dresspack.torsional_from_construction || dresspack.axial_from_construction;
 }
 
 void drop_ratings(Dresspack& dresspack) {

@@ -59,7 +59,9 @@ void Problems::finish(const std::string& first_file) const {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
   if (more_)
-    sorted.push_back({Where{first_file, 0, 0}, "", fmt::format("{}: error: only the first {} problems are told; mend them first", first_file, most_problems)});
+    sorted.push_back({Where{first_file, 0, 0}, "",
+                      fmt::format("{}: error: only the first {} problems are told; mend them first", first_file,
+                                  most_problems)});
   throw InputErrors(std::move(sorted));
 }
 

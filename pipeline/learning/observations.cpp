@@ -104,6 +104,9 @@ Observation read_one(const Node& item) {
   if (observation.decrement && observation.decrement_without_slip >= *observation.decrement)
     throw InputError(item.where, fmt::format("'{}': nothing of decrement is left for slip", observation.name),
                      "give a decrement_without_slip below decrement");
+  if (!observation.decrement && observation.decrement_without_slip > 0)
+    throw InputError(item.where, fmt::format("'{}' has decrement_without_slip but no decrement", observation.name),
+                     "give decrement, or leave it out");
   if (!item.find("job"))
     throw InputError(item.where, fmt::format("'{}' has no job (what was done to it)", observation.name),
                      "give a job, or the file of one");

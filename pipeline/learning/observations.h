@@ -86,7 +86,7 @@ struct Observation {
   std::filesystem::path bending;        ///< a bending test as a table (measured_bending.h); empty: none
 
   double at_curvature = 1;            ///< of stiffness; of decrement beside the clamp, at the end of a swing [1/m]
-  double decrement_without_slip = 0;  ///< share of decrement that polymer and air have [1]
+  double decrement_without_slip = 0;  ///< of decrement, what polymer and air have, to be taken off [1]
   double noise_percent = 5;           ///< of a measured moment or decrement
   double cycles_per_repeat = 1;         ///< that the observer counts in one repeat of the job's motion
   ObservedEnd outcome = ObservedEnd::broken;

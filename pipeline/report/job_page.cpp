@@ -230,7 +230,8 @@ class Page {
         "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div>\n<div "
         "id=\"place\"></div>\n";
     if (setup_) text += cross_section(row_, *setup_);
-    text += "</div></div>\n<div id=\"wire\"></div>\n<h2>What the numbers rest on</h2>\n" + assumptions(row_, job(), motion_.get(), strain_.get(), setup_ ? &*setup_ : nullptr);
+    text += "</div></div>\n<div id=\"wire\"></div>\n<h2>What the numbers rest on</h2>\n" +
+            assumptions(row_, job(), motion_.get(), strain_.get(), setup_ ? &*setup_ : nullptr);
     if (motion_) text += check_table(files_.motion());
     text += "<p class=\"soft\" id=\"shown\"></p>\n";
     return text + folded("Settings", life_.text_attribute("job")) +

@@ -105,7 +105,8 @@ std::string cell_text(const RankingRow& row, const Cell& cell, const std::option
                                         : row.waits() ? row.failure : "failed"),
                        many);
   const bool spread = span && span->second > span->first;
-  const double part = !(hours > 0) ? 0 : std::isinf(hours) ? 1 : spread ? (std::log(hours) - span->first) / (span->second - span->first) : 0.5;
+  const double between = spread ? (std::log(hours) - span->first) / (span->second - span->first) : 0.5;
+  const double part = !(hours > 0) ? 0 : std::isinf(hours) ? 1 : between;
   const std::string kinds = warning_kinds(row);
   return fmt::format("<td class=\"coloured\" style=\"background:{}\" title=\"{}{}{}\">{}{}{}</td>", colour_of(part), escaped(row.job),
                      kinds.empty() ? "" : "; warnings: ", escaped(kinds),

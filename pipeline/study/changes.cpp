@@ -77,7 +77,9 @@ std::vector<std::string> changed_files(const fs::path& folder, const StudyPlaces
     for (const auto& [what, digest] : receipt->made_with) {
       const bool program = what.starts_with("dresslife-");
       const std::string& now = digests.of(program ? places.programs / what : fs::path(what));
-      if (now != digest) changed.push_back(fmt::format("{} {}", what, program ? "is another program" : now == "absent" ? "is gone" : "has changed"));
+      if (now == digest) continue;
+      const char* how = program ? "is another program" : now == "absent" ? "is gone" : "has changed";
+      changed.push_back(fmt::format("{} {}", what, how));
     }
     later = receipt;
   }
