@@ -88,15 +88,10 @@ void add_place(std::string& places, const Vector3d& at) {
   fmt::format_to(std::back_inserter(places), "{:.4f} {:.4f} {:.4f} ", at.x(), at.y(), at.z());
 }
 
-/// What every moment has in common stands once, at the head of the domain.
-std::string shared_item(const char* name, const std::string& shape, const char* type,
-                        const std::string& values) {
-  return fmt::format(
-      "<DataItem Name=\"{}\" Dimensions=\"{}\" NumberType=\"{}\" Format=\"XML\">{}</DataItem>\n", name, shape,
-      type, values);
-}
-std::string shared(const char* name) {
-  return fmt::format("<DataItem Reference=\"XML\">/Xdmf/Domain/DataItem[@Name=\"{}\"]</DataItem>", name);
+/// Numbers that every moment repeats: a reference to one list at the head makes the Xdmf3 readers abort.
+std::string numbers(std::size_t count, const char* type, const std::string& values) {
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Format=\"XML\">{}</DataItem>", count, type,
+                     values);
 }
 
 // ---- the robot --------------------------------------------------------------------------------------------
@@ -128,16 +123,9 @@ class Shapes {
     return fmt::format(
         "<Grid Name=\"robot\"><Topology TopologyType=\"Mixed\" "
         "NumberOfElements=\"{}\">{}</Topology>\n{}{}{}</Grid>\n",
-        count_, shared("link cells"), geometry(points_.size(), places),
-        attribute("radius [m]", "Cell", count_, shared("link radii")),
-        attribute("link", "Cell", count_, shared("link numbers")));
-  }
-
-  std::string shared_items() const {
-    const std::string count = std::to_string(count_);
-    return shared_item("link cells", std::to_string(numbers_), "Int", cells_) +
-           shared_item("link radii", count, "Float", radii_) +
-           shared_item("link numbers", count, "Int", links_);
+        count_, numbers(numbers_, "Int", cells_), geometry(points_.size(), places),
+        attribute("radius [m]", "Cell", count_, numbers(count_, "Float", radii_)),
+        attribute("link", "Cell", count_, numbers(count_, "Int", links_)));
   }
 
  private:
@@ -171,26 +159,27 @@ class Shapes {
 /// A line through the segments of each dresspack.
 struct HoseLines {
   std::size_t lines = 0;
-  std::string shared_items;
+  std::string cells, radii;  ///< as items
 
   HoseLines(const std::vector<std::size_t>& dresspack_of_segment, const Setup& setup) {
-    std::string cells, radii;
-    std::size_t numbers = 0;
+    std::string points_of_lines, radius_of_each;
+    std::size_t count = 0;
     for (std::size_t first = 0; first < dresspack_of_segment.size();) {
       std::size_t end = first;
       while (end < dresspack_of_segment.size() && dresspack_of_segment[end] == dresspack_of_segment[first])
         ++end;
-      cells += fmt::format("2 {} ", end - first);
+      points_of_lines += fmt::format("2 {} ", end - first);
       for (std::size_t k = first; k < end; ++k) {
-        cells += fmt::format("{} ", k);
-        radii += fmt::format("{:.6g} ", setup.dresspacks.at(dresspack_of_segment[k]).dresspack.diameter / 2);
+        points_of_lines += fmt::format("{} ", k);
+        radius_of_each +=
+            fmt::format("{:.6g} ", setup.dresspacks.at(dresspack_of_segment[k]).dresspack.diameter / 2);
       }
       ++lines;
-      numbers += 2 + end - first;
+      count += 2 + end - first;
       first = end;
     }
-    shared_items = shared_item("hose cells", std::to_string(numbers), "Int", cells) +
-                   shared_item("hose radii", std::to_string(dresspack_of_segment.size()), "Float", radii);
+    cells = numbers(count, "Int", points_of_lines);
+    radii = numbers(dresspack_of_segment.size(), "Float", radius_of_each);
   }
 };
 
@@ -211,9 +200,7 @@ std::string xdmf_text(const JobFiles& files, const fs::path& output) {
   const Shapes shapes(setup.robot);
   const bool with_robot = !shapes.empty() && motion.has("/robot/link_pose");
 
-  std::string text = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n" + hose.shared_items;
-  if (with_robot) text += shapes.shared_items();
-  text += "<Grid Name=\"job\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string text = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"job\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   const std::size_t segments = of_segment.size();
   const auto at_nodes = [&](const char* name, const std::string& item) {
     return attribute(name, "Node", segments, item);
@@ -227,8 +214,8 @@ std::string xdmf_text(const JobFiles& files, const fs::path& output) {
         "<Grid Name=\"moment\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{}\"/>\n"
         "<Grid Name=\"dresspack\"><Topology TopologyType=\"Mixed\" "
         "NumberOfElements=\"{}\">{}</Topology>\n{}{}",
-        times[k], hose.lines, shared("hose cells"), geometry(segments, places),
-        at_nodes("radius [m]", shared("hose radii")));
+        times[k], hose.lines, hose.cells, geometry(segments, places),
+        at_nodes("radius [m]", hose.radii));
     text += at_nodes("tension [N]", moved.scalars("/tension", k, 8));
     if (motion.has("/contact/force"))
       text += at_nodes("contact force [N]", moved.scalars("/contact/force", k, 4));

@@ -55,7 +55,7 @@ TEST_CASE("show tells what lies in a file, with shapes, units, ranges and meanin
   CHECK(run(scratch, "dresslife", "show job.yaml").out.find("free_length_m: 0.9") != std::string::npos);
 }
 
-TEST_CASE("export names every moment for ParaView, which reads them all where it is installed") {
+TEST_CASE("export names every moment for ParaView, and writes over no file but its own") {
   Scratch scratch;
   write_small_job(scratch);
   REQUIRE(run(scratch, "dresslife", "run job.yaml --quiet").status == 0);
@@ -77,23 +77,6 @@ TEST_CASE("export names every moment for ParaView, which reads them all where it
   CHECK(foreign.err.find("mine.xdmf: error: is there already and no XDMF; name another file") == 0);
   CHECK(content(scratch / "mine.xdmf") == "keep: me\n");
   CHECK(run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf").status == 0);  // its own, again
-
-  if (std::system("command -v pvpython >/dev/null 2>&1") != 0) {
-    WARN("pvpython is not installed: ParaView was not asked");
-    return;
-  }
-  scratch.write(
-      "read.py",
-      "from paraview.simple import *\n"
-      "reader = XDMFReader(FileNames=['job.xdmf'])\n"
-      "reader.UpdatePipelineInformation()\n"
-      "for time in reader.TimestepValues: reader.UpdatePipeline(time)\n"
-      "print('read', len(reader.TimestepValues), reader.GetDataInformation().GetNumberOfPoints())\n");
-  const Outcome read = run_shell(scratch, "pvpython read.py");
-  INFO(read.err);
-  CHECK(read.status == 0);
-  CHECK(read.out.find("read " + std::to_string(moments) + " 12") != std::string::npos);
-  CHECK(read.err.find("ERR") == std::string::npos);
 }
 
 TEST_CASE("the page for Python users runs as it stands") {
