@@ -33,27 +33,6 @@ FibreShape shape_of(const Fibre& fibre, const WireNode& node) {
   return fibre_shape(node.place.kinematics, node.rest, node.wire_radius, fibre.phi_sine, fibre.phi_cosine);
 }
 
-void PartStates::fill(const BundleNesting& nesting, const DeformationColumns& columns, std::size_t samples,
-                      bool in_double) {
-  stride_ = padded(samples);
-  single_.resize(part_rows * stride_);
-  const NestingLevel& last = nesting.steps.back();
-  const bool from_dresspack = nesting.steps.size() == 1 && single_suffices(last, nullptr, 0, 0);
-  in_double_ = in_double || !from_dresspack;
-  if (from_dresspack)  // the same numbers whatever else is wanted
-    kernels().part_rows_of_dresspack(pointers(nesting), columns, 0, samples, single_.data(), stride_);
-  if (!in_double_) return;
-  rows_.resize(part_state_rows(nesting.order) * stride_);
-  kernels().part_states(pointers(nesting), columns, 0, samples, rows_.data(),
-                        from_dresspack ? nullptr : single_.data(), stride_);
-}
-
-void PartStates::lend(BundlePointers& nesting) const {
-  nesting.parent = in_double_ ? rows_.data() : nullptr;
-  nesting.parent_rows = single_.data();
-  nesting.parent_stride = stride_;
-}
-
 MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
                                    const std::vector<double>& angles) const {
   MixedLanes mixed;

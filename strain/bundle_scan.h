@@ -23,23 +23,6 @@ struct ScanSettings {
 double rest_ingredient(const WireNode& node, const Fibre* fibre);
 FibreShape shape_of(const Fibre& fibre, const WireNode& node);
 
-/// The state of a part over the motion, from which its own parts go on: worked out once for all of them.
-class PartStates {
- public:
-  /// nesting: down to the part, its order that of its parts plus one. in_double: whether that is wanted too.
-  void fill(const BundleNesting& nesting, const DeformationColumns& columns, std::size_t samples,
-            bool in_double);
-  bool in_double() const { return in_double_; }
-  /// To the nesting of one of its parts.
-  void lend(BundlePointers& nesting) const;
-
- private:
-  std::vector<double> rows_;
-  std::vector<float> single_;
-  std::size_t stride_ = 0;
-  bool in_double_ = false;
-};
-
 /// Reused from bundle to bundle by one thread.
 class BundleScan {
  public:

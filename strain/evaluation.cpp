@@ -190,7 +190,14 @@ bool Evaluation::rubs_inside() const {
 }
 
 void Evaluation::add_held(const ClampMeans& means) {
-  for (Worker& worker : workers_) worker.held.push_back(std::make_unique<HeldStrains>(construction_, means));
+  for (Worker& worker : workers_)
+    worker.held.push_back(std::make_unique<HeldStrains>(construction_, means, worker.deviations));
+}
+
+bool Evaluation::holds_down_to(int part, const ClampMeans& means) const {
+  const std::vector<int> line = construction_.ancestry(part);
+  return std::any_of(line.begin(), line.end(),
+                     [&](int above) { return means.plan()[construction_.parts()[above].layer].friction; });
 }
 
 HeldStrains* Evaluation::held_of(const ClampMeans& means, Worker& worker) const {
@@ -245,7 +252,8 @@ BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, s
   BundlePointers from = pointers(nesting);
   const int parent = part == dresspack_itself ? dresspack_itself : construction_.parts()[part].parent;
   if (parent == dresspack_itself || !parent_suffices(nesting)) return from;
-  const std::pair wanted{parent, nesting.order + 1};
+  const bool rubbed = held_of(means, worker) && !holds_down_to(parent, means);
+  const ParentKey wanted{parent, nesting.order + 1, rubbed ? &means_ : &means};
   const bool in_double = !single_suffices(nesting.steps.back(), from.nodes, from.node_count, nesting.order);
   if (worker.parent_is != wanted || (in_double && !worker.parent.in_double())) {
     BundleNesting to_parent = part_nesting(parent, segment, means, motion, fibres_, worker);
@@ -324,8 +332,7 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
   const std::size_t samples = motion.samples, stride = padded(samples);
   std::vector<std::vector<double>> histories;
   if (mixed(means)) {
-    for (const Site site : sites) {
-      FibreHistory both = fibre_history(site, segment, means, motion, worker);
+    for (FibreHistory& both : fibre_histories(sites, segment, means, motion, scan_.with_shear, worker)) {
       for (std::size_t t = 0; scan_.with_shear && t < samples; ++t)
         both.strain[t] =
             std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
@@ -367,41 +374,47 @@ void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, co
   for (std::size_t k = 0; k < sites.size(); ++k) list(strain.data() + k * stride, lists[k]);
 }
 
-FibreHistory Evaluation::fibre_history(Site site, std::size_t segment, const ClampMeans& means,
-                                       const SegmentMotion& motion,
-                                       Worker& worker) const {
+std::vector<FibreHistory> Evaluation::fibre_histories(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                                                      const SegmentMotion& motion, bool with_shear, Worker& worker) const {
   std::vector<std::vector<double>> sliding;
-  const BundleNesting nesting = site_nesting({&site, 1}, segment, means, motion, sliding, worker);
-  FibreHistory both =
-      mixed_history(nesting, means.plan()[wires_[site.wire].layer], columns_of(site, means, motion),
-                    motion.samples);
-  both.site = site_row(segment, site);
-  return both;
+  const BundleNesting nesting = site_nesting(sites, segment, means, motion, sliding, worker);
+  const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
+  const BundlePointers from = from_parent(nesting, part, segment, means, motion, worker);
+  const std::size_t stride = padded(motion.samples), of_one = ingredients(1) * stride;
+  std::vector<double> rows(sites.size() * of_one);
+  kernels().node_ingredients(from, columns_of(sites[0], means, motion), 0, motion.samples, rows.data(), stride);
+  std::vector<FibreHistory> all;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    all.push_back(mixed_history(nesting.nodes[k], nesting.fibres[0], means.plan()[wires_[sites[k].wire].layer],
+                                rows.data() + k * of_one, motion.samples, with_shear));
+    all.back().site = site_row(segment, sites[k]);
+  }
+  return all;
 }
 
-/// What Kernels::mix does, of one fibre in double precision.
-FibreHistory Evaluation::mixed_history(const BundleNesting& nesting, const LayerSlip& slip,
-                                       const DeformationColumns& columns, std::size_t samples) const {
+/// What Kernels::mix does, of one fibre in double precision. rows: its ingredients.
+FibreHistory Evaluation::mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip, const double* rows,
+                                       std::size_t samples, bool with_shear) const {
   const std::size_t stride = padded(samples);
-  std::vector<double> rows(ingredients(1) * stride);
-  FibreHistory both{0, std::vector<double>(samples), std::vector<double>(samples)};
-  kernels().node_ingredients(pointers(nesting), columns, 0, samples, rows.data(), stride);
-  const WireNode& node = nesting.nodes[0];
-  const Fibre& fibre = nesting.fibres[0];
+  const double *const means = rows + mean_strain * stride, *const deviations = rows + deviation * stride;
+  const double *const bending = rows + first_bending * stride, *const shears = rows + shear * stride;
   const double rest_bending = rest_ingredient(node, &fibre), rest_shear = rest_ingredient(node, nullptr);
   const double fibre_scale = shape_of(fibre, node).scale;
   const bool scales = !is_thesis(construction_.kinematics());
   constexpr double glued = std::numeric_limits<double>::infinity();
+  const auto cap = [&](std::size_t t) { return slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, means[t]); };
   Slider slider;
-  for (int run = 0; run < (slip.friction ? 2 : 1); ++run)
-    for (std::size_t t = 0; t < samples; ++t) {
-      const double mean = rows[mean_strain * stride + t], away = rows[deviation * stride + t];
-      const double cap = slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, mean);
-      const double axial = mean + slider.next((1 - slip.elastic) * away, cap) + slip.elastic * away;
-      const double scale = scales ? (1 + axial) / (1 + (mean + away) / slip.radial_share) : 1;
-      both.strain[t] = (axial + rows[first_bending * stride + t] * scale - rest_bending) * fibre_scale;
-      both.shear[t] = std::numbers::sqrt3 * (rows[shear * stride + t] * scale - rest_shear) * fibre_scale;
-    }
+  for (std::size_t t = 0; slip.friction && t < samples; ++t) slider.next((1 - slip.elastic) * deviations[t], cap(t));
+  std::vector<double> held(samples);
+  for (std::size_t t = 0; t < samples; ++t) held[t] = slider.next((1 - slip.elastic) * deviations[t], cap(t));
+  FibreHistory both{0, std::vector<double>(samples), std::vector<double>(with_shear ? samples : 0)};
+  for (std::size_t t = 0; t < samples; ++t) {
+    const double mean = means[t], away = deviations[t];
+    const double axial = mean + held[t] + slip.elastic * away;
+    const double scale = scales ? (1 + axial) / (1 + (mean + away) / slip.radial_share) : 1;
+    both.strain[t] = (axial + bending[t] * scale - rest_bending) * fibre_scale;
+    if (with_shear) both.shear[t] = std::numbers::sqrt3 * (shears[t] * scale - rest_shear) * fibre_scale;
+  }
   return both;
 }
 
@@ -554,7 +567,7 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   pipeline::in_order(
       workers_.size(), list.size(), found.size(),
       [&](std::size_t part, std::size_t k) {
-        found[k % found.size()] = fibre_history(list[k], segment, means_, motion, workers_[part]);
+        found[k % found.size()] = fibre_histories({&list[k], 1}, segment, means_, motion, true, workers_[part])[0];
       },
       [&](std::size_t k) { sink.fibre(found[k % found.size()]); });
 }
@@ -568,7 +581,7 @@ void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
         found[k % found.size()] = {
             site_row(segment, sites[k]),
             histories_of({&sites[k], 1}, segment, means_, motion, workers_[part])[0],
-            fibre_history(sites[k], segment, means_, motion, workers_[part]).shear};
+            fibre_histories({&sites[k], 1}, segment, means_, motion, true, workers_[part])[0].shear};
       },
       [&](std::size_t k) { sink.probe(found[k % found.size()]); });
 }
@@ -593,7 +606,7 @@ std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst
 
 void Evaluation::put_bound(const std::vector<Site>& list, const ClampMeans& means, std::size_t segment,
                            const SegmentMotion& motion, const std::function<void(const SiteRows&)>& sink) {
-  const std::vector<TurningList> turning = turning_of(list, segment, means, motion);
+  const std::vector<TurningList> turning = std::move(turning_of(list, segment, {&means}, motion)[0]);
   SiteRows rows;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const int part = construction_.bundles()[wires_[list[k].wire].bundle].part;
@@ -603,21 +616,24 @@ void Evaluation::put_bound(const std::vector<Site>& list, const ClampMeans& mean
   sink(rows);
 }
 
-std::vector<TurningList> Evaluation::turning_of(const std::vector<Site>& list, std::size_t segment, const ClampMeans& means,
-                                                const SegmentMotion& motion) {
+std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<Site>& list, std::size_t segment,
+                                                             const std::vector<const ClampMeans*>& ways,
+                                                             const SegmentMotion& motion) {
   std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one nesting for all of a piece
   const auto piece = [&](std::size_t k) { return std::pair(list[k].fibre, wires_[list[k].wire].bundle); };
   for (std::size_t k = 0; k < list.size(); ++k)
     if (k == 0 || piece(k) != piece(k - 1)) cuts.push_back(k);
   cuts.push_back(list.size());
-  std::vector<TurningList> turning(list.size());
+  std::vector<std::vector<TurningList>> turning(ways.size());
+  for (std::vector<TurningList>& of_way : turning) of_way.resize(list.size());
   for (Worker& worker : workers_) worker.parent_is = {};
   std::atomic<std::size_t> next = 0;
   pipeline::in_parallel(workers_.size(), [&](std::size_t part) {
     for (std::size_t cut = next++; cut + 1 < cuts.size(); cut = next++) {
       const std::size_t first = cuts[cut], count = cuts[cut + 1] - first;
-      list_turns(std::span(list).subspan(first, count), segment, means, motion, workers_[part],
-                 std::span(turning).subspan(first, count));
+      for (std::size_t way = 0; way < ways.size(); ++way)
+        list_turns(std::span(list).subspan(first, count), segment, *ways[way], motion, workers_[part],
+                   std::span(turning[way]).subspan(first, count));
     }
   });
   return turning;
@@ -627,12 +643,14 @@ std::vector<SiteRows> Evaluation::varied(const std::vector<Site>& sites, const s
                                          const DeformationHistory& history, std::size_t row) {
   cables_.finish();
   const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
+  std::vector<const ClampMeans*> ways;
+  for (const double factor : factors) ways.push_back(&means_rubbing(factor));
+  for (Worker& worker : workers_)
+    for (const ClampMeans* const means : ways) held_of(*means, worker)->begin(arcs_[segment], motion);
   std::vector<SiteRows> all;
-  for (const double factor : factors) {
-    const ClampMeans& means = means_rubbing(factor);
-    for (Worker& worker : workers_) held_of(means, worker)->begin(arcs_[segment], motion);
+  for (const std::vector<TurningList>& of_way : turning_of(sites, segment, ways, motion)) {
     SiteRows& rows = all.emplace_back();
-    for (const TurningList& turning : turning_of(sites, segment, means, motion)) append_points(rows, turning.points());
+    for (const TurningList& turning : of_way) append_points(rows, turning.points());
   }
   return all;
 }

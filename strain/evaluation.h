@@ -17,6 +17,7 @@
 #include "strain/bundle_scan.h"
 #include "strain/cable_paths.h"
 #include "strain/friction.h"
+#include "strain/part_states.h"
 
 namespace dresslife::strain {
 
@@ -160,13 +161,20 @@ class Evaluation {
     std::vector<std::array<float, Worst::sums.size()>> most{};  ///< (layer) the largest sums in the segments so far
   };
 
+  /// Whose states a worker has of a part in which others lie.
+  struct ParentKey {
+    int part = -1, order = 0;            ///< order 0: none yet
+    const ClampMeans* means = nullptr;  ///< the job's own where other friction makes no difference
+    bool operator==(const ParentKey&) const = default;
+  };
   /// What one thread keeps between bundles.
   struct Worker {
     BundleScan scan;
     PartStates parent;
-    std::pair<int, int> parent_is;  ///< part and order of the states, in the run at hand; order 0: none yet
+    ParentKey parent_is;  ///< of the states, in the run at hand
     /// Of the segment being evaluated: for the job's own way of sliding, then with other friction.
     std::vector<std::unique_ptr<HeldStrains>> held;
+    std::shared_ptr<PartDeviations> deviations = std::make_shared<PartDeviations>();
   };
   /// The sites of one bundle, wire by wire.
   struct BundleSites {
@@ -180,9 +188,12 @@ class Evaluation {
   /// What friction holds under these means; null: nothing.
   HeldStrains* held_of(const ClampMeans& means, Worker& worker) const;
   void add_held(const ClampMeans& means);
+  /// Whether friction holds anything of `part` or of what it lies in.
+  bool holds_down_to(int part, const ClampMeans& means) const;
   const ClampMeans& means_rubbing(double factor);
-  std::vector<TurningList> turning_of(const std::vector<Site>& list, std::size_t segment, const ClampMeans& means,
-                                      const SegmentMotion& motion);
+  /// The turning points of sites in each of several ways of sliding, (way, site).
+  std::vector<std::vector<TurningList>> turning_of(const std::vector<Site>& list, std::size_t segment,
+                                                   const std::vector<const ClampMeans*>& ways, const SegmentMotion& motion);
   const DeformationColumns& columns_of(Site site, const ClampMeans& means, const SegmentMotion& motion) const;
   void find_probes(const std::vector<pipeline::Probe>& probes);
   BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means,
@@ -206,11 +217,11 @@ class Evaluation {
   void list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
                   const SegmentMotion& motion, Worker& worker,
                   std::span<TurningList> lists) const;
-  /// Strain along the fibre and shear of a site, in double precision.
-  FibreHistory fibre_history(Site site, std::size_t segment, const ClampMeans& means,
-                             const SegmentMotion& motion, Worker& worker) const;
-  FibreHistory mixed_history(const BundleNesting& nesting, const LayerSlip& slip,
-                             const DeformationColumns& columns, std::size_t samples) const;
+  /// Strain along the fibre and, where asked for, shear of sites of one bundle and one fibre, in double precision.
+  std::vector<FibreHistory> fibre_histories(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                                            const SegmentMotion& motion, bool with_shear, Worker& worker) const;
+  FibreHistory mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip, const double* rows,
+                             std::size_t samples, bool with_shear) const;
   /// The nesting to such sites, which are its nodes. sliding: keeps the clamp means that they point to.
   BundleNesting site_nesting(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
                              const SegmentMotion& motion, std::vector<std::vector<double>>& sliding,

@@ -2,29 +2,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace dresslife::strain {
 namespace {
 
-/// Rows of deviations (mean, then the powers) to what is held of them (the powers). Runs twice, the first
-/// time to settle.
+/// The slider at the end of a repeat of the motion, and at which sample it slid last; none: never.
+std::optional<std::size_t> settle(const double* means, const double* deviations, std::size_t samples, const LayerSlip& slip,
+                                  Slider& slider) {
+  std::optional<std::size_t> slid;
+  for (std::size_t t = 0; t < samples; ++t) {
+    const double before = slider.slip();
+    slider.next((1 - slip.elastic) * deviations[t], cap_at(slip.cap, means[t]));
+    if (slider.slip() != before) slid = t;
+  }
+  return slid;
+}
+
+/// Rows of deviations (mean, then the powers) to what is held of them (the powers), from where one repeat leaves them.
 void hold(const std::vector<double>& deviations, int powers, std::size_t stride, std::size_t samples,
           const LayerSlip& slip, std::vector<double>& held) {
   held.assign(powers * stride, 0.0);
   std::vector<double> slope_slip(powers, 0.0);
   Slider slider;
-  for (int run = 0; run < 2; ++run)
-    for (std::size_t t = 0; t < samples; ++t) {
-      const double before = slider.slip();
-      const double away = deviations[stride + t], slides = 1 - slip.elastic;
-      held[t] = slider.next(slides * away, cap_at(slip.cap, deviations[t])) + slip.elastic * away;
-      const bool sliding = slider.slip() != before;
-      for (int power = 1; power < powers; ++power) {
-        const double slope = deviations[(1 + power) * stride + t];
-        held[power * stride + t] =
-            Slider::next_slope(slides * slope, sliding, slope_slip[power]) + slip.elastic * slope;
-      }
+  const double slides = 1 - slip.elastic;
+  if (const auto slid = settle(deviations.data(), deviations.data() + stride, samples, slip, slider))
+    for (int power = 1; power < powers; ++power) slope_slip[power] = slides * deviations[(1 + power) * stride + *slid];
+  for (std::size_t t = 0; t < samples; ++t) {
+    const double before = slider.slip();
+    const double away = deviations[stride + t];
+    held[t] = slider.next(slides * away, cap_at(slip.cap, deviations[t])) + slip.elastic * away;
+    const bool sliding = slider.slip() != before;
+    for (int power = 1; power < powers; ++power) {
+      const double slope = deviations[(1 + power) * stride + t];
+      held[power * stride + t] = Slider::next_slope(slides * slope, sliding, slope_slip[power]) + slip.elastic * slope;
     }
+  }
 }
 
 /// Level of the nearest helical ancestor of the last part of `line`; 0: the part itself, or nobody.
@@ -64,6 +77,8 @@ void HeldStrains::begin(double arc, const SegmentMotion& motion) {
   samples_ = motion.samples;
   stride_ = padded(samples_);
   for (Rows& rows : kept_) rows.part = nobody;
+  deviations_->of = {};
+  deviations_->parent_is = nobody;
 }
 
 const HeldStrains::Rows& HeldStrains::rows_of(int part, int level) {
@@ -74,20 +89,51 @@ const HeldStrains::Rows& HeldStrains::rows_of(int part, int level) {
 }
 
 /// The parts above are asked for on the way, each of them at a level of its own.
-void HeldStrains::fill(Rows& rows, int part) {
-  const auto& plan = means_.plan();
-  BundleNesting nesting = nesting_to(construction_, plan, part, arc_, surface_fibres(0));
-  const int level = static_cast<int>(nesting.steps.size()) - 1, powers = this->powers(level);
-  nesting.order = powers - 1;
+BundleNesting HeldStrains::nesting_of(int part) {
+  BundleNesting nesting = nesting_to(construction_, means_.plan(), part, arc_, surface_fibres(0));
   means_.attach(nesting, part, *motion_);
-  if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself)
-    attach(nesting, parent);
-  deviations_.resize((powers + 1) * stride_);
+  if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself) attach(nesting, parent);
+  return nesting;
+}
+
+void HeldStrains::find_deviations(const BundleNesting& nesting, const PartDeviations::Of& of) {
+  BundlePointers from = pointers(nesting);
+  const DeformationColumns& columns = motion_->columns(construction_, means_.plan(), of.part);
+  const int parent = construction_.parts()[of.part].parent;
+  if (parent != dresspack_itself && !of.means && !any_turned()) {
+    if (deviations_->parent_is != parent) {
+      BundleNesting to_parent = nesting_of(parent);
+      to_parent.order = nesting.order + 1;
+      deviations_->parent.fill(to_parent, columns, samples_, true);
+      deviations_->parent_is = parent;
+    }
+    deviations_->parent.lend(from);
+  }
+  const auto rows = static_cast<std::size_t>(nesting.order) + 2;  // the mean, and the powers
+  deviations_->rows.resize(rows * stride_);
+  kernels().deviations(from, of.turn, turned_level(construction_, construction_.ancestry(of.part)), columns, 0, samples_,
+                       deviations_->rows.data(), stride_);
+  deviations_->of = of;
+}
+
+void HeldStrains::fill(Rows& rows, int part) {
+  const std::vector<int> line = construction_.ancestry(part);
+  const int powers = this->powers(static_cast<int>(line.size()) - 1);
+  const LayerSlip& slip = means_.plan()[construction_.parts()[part].layer];
+  const bool held_above = std::any_of(line.begin(), line.end() - 1, [&](int above) {
+    return means_.plan()[construction_.parts()[above].layer].friction;
+  });
+  std::optional<BundleNesting> nesting;
   const auto hold_turned = [&](int turn, std::vector<double>& held) {
-    kernels().deviations(pointers(nesting), turn, turned_level(construction_, construction_.ancestry(part)),
-                         motion_->columns(construction_, plan, part), 0, samples_, deviations_.data(),
-                         stride_);
-    hold(deviations_, powers, stride_, samples_, plan[construction_.parts()[part].layer], held);
+    const PartDeviations::Of of{part, turn, held_above ? &means_ : nullptr};
+    if (deviations_->of != of) {
+      if (!nesting) {
+        nesting = nesting_of(part);
+        nesting->order = powers - 1;
+      }
+      find_deviations(*nesting, of);
+    }
+    hold(deviations_->rows, powers, stride_, samples_, slip, held);
   };
   for (int turn = 0; any_turned() && turn < phases_per_pitch; ++turn) hold_turned(turn, rows.turned[turn]);
   hold_turned(-1, rows.own);

@@ -16,9 +16,11 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "strain/clamp_means.h"
+#include "strain/part_states.h"
 
 namespace dresslife::strain {
 
@@ -46,14 +48,30 @@ inline double cap_at(const FrictionCap& cap, double mean) {
   return std::max(0.0, cap.constant + cap.per_mean * mean);
 }
 
+/// What friction holds a share of: the mean of a part and its deviation from it as a series, (1 + power, sample). Of the part
+/// asked for last, and of its parent the state from which all parts in it go on.
+struct PartDeviations {
+  struct Of {
+    int part = -1, turn = -1;
+    const ClampMeans* means = nullptr;  ///< null: the same for any friction, since it holds nothing of the parts above
+    bool operator==(const Of&) const = default;
+  };
+  Of of;
+  std::vector<double> rows;
+  int parent_is = -1;
+  PartStates parent;
+};
+
 /// What friction holds of the strains of the parts on the way to one bundle, over the whole motion. The
 /// sliders start where one repeat of the motion leaves them: slip settles in the first, and life is counted
 /// in many. Of every level the part asked for last is kept: bundles come part by part, and all parts of a
 /// segment would be hundreds of histories.
 class HeldStrains {
  public:
-  HeldStrains(const Construction& construction, const ClampMeans& means)
-      : construction_(construction), means_(means), kept_(construction.levels()) {}
+  /// shared: by those that differ in how hard friction is, and in nothing else; they begin together.
+  HeldStrains(const Construction& construction, const ClampMeans& means,
+              std::shared_ptr<PartDeviations> shared = std::make_shared<PartDeviations>())
+      : construction_(construction), means_(means), kept_(construction.levels()), deviations_(std::move(shared)) {}
 
   /// Memory that it takes in the end, for a motion of so many samples.
   std::size_t bytes(std::size_t samples) const;
@@ -77,14 +95,16 @@ class HeldStrains {
   int powers(int level) const { return construction_.levels() - level; }  ///< of its series, level from 0
   const Rows& rows_of(int part, int level);
   void fill(Rows& rows, int part);
+  BundleNesting nesting_of(int part);
+  void find_deviations(const BundleNesting& nesting, const PartDeviations::Of& of);
 
   const Construction& construction_;
   const ClampMeans& means_;
   double arc_ = 0;
   const SegmentMotion* motion_ = nullptr;
   std::size_t samples_ = 0, stride_ = 0;
-  std::vector<Rows> kept_;          ///< (level)
-  std::vector<double> deviations_;  ///< scratch
+  std::vector<Rows> kept_;  ///< (level)
+  std::shared_ptr<PartDeviations> deviations_;
 };
 
 }  // namespace dresslife::strain
