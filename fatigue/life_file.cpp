@@ -511,7 +511,7 @@ std::string write_hose(const Context& c) {
 bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
   const auto holds_wires = [](const pipeline::MountedDresspack& mounted) {
     return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(),
-                       [](const pipeline::Component& part) { return part.components.empty(); });
+                       [](const pipeline::Component& part) { return is_wire(part); });
   };
   const bool cables_only =
       pipeline::slides(job.strain.slip.front()) && job.strain.slip.size() > 1 &&

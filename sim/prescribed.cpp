@@ -161,7 +161,8 @@ double stiffness_of(const std::vector<pipeline::Component>& components, const pi
   double sum = 0;
   for (const pipeline::Component& part : components) {
     const pipeline::Material* material = pipeline::find_material(dresspack, part.material);
-    const double own = part.components.empty()
+    const double own = part.plain ? pipeline::properties_of(*part.plain, part.radius).axial
+                       : part.components.empty()
                            ? (material ? material->youngs_modulus : 0) * EIGEN_PI * part.radius * part.radius
                            : stiffness_of(part.components, dresspack);
     sum += part.count * std::pow(std::cos(part.lay_angle), 3) * own;

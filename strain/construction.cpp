@@ -92,7 +92,7 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   layer.name = component.name;
   layer.label = component.layer;
   layer.material = component.material;
-  layer.is_wire = component.components.empty();
+  layer.is_wire = is_wire(component);
   layer.level = level;
   layer.parent = parent_layer;
   layer.count = component.count;

@@ -49,7 +49,7 @@ struct Layer {
   double radial_stiffness = std::numeric_limits<double>::infinity();  ///< of what the layer lies on [N/m2]
   double axial_stiffness = 0;  ///< EA of a part, of its wires alone [N]; 0: a material is not known
   bool loose = false;          ///< lies where it rests in the hose, if it may slide
-  pipeline::Laying laying;     ///< of a cable: a part of the first level that holds parts
+  pipeline::Laying laying;     ///< of a cable: a part of the first level that is no wire
   int component = -1;          ///< of the dresspack, which a cable is
   pipeline::CableForce force;  ///< of a cable
   pipeline::TwistShortening shortening;  ///< of a cable
@@ -87,7 +87,7 @@ class Construction {
   /// Of the delivered dresspack, about d2 [1/m]: the shape in which its parts are free of strain.
   double rest_curvature() const { return rest_curvature_; }
 
-  /// Cables: parts of the first level that hold parts, in their order.
+  /// Cables: parts of the first level that are no wires, in their order. Those without wires lie among them.
   const std::vector<int>& cables() const { return cables_; }
   /// The cable, as an index into cables(), in which a part lies or that it is; no_cable for the dresspack.
   int cable_of(int part) const;

@@ -68,9 +68,9 @@ Parts parts_in(const std::vector<pipeline::Component>& components) {
   Parts sum;
   for (const pipeline::Component& component : components) {
     const Parts inside = parts_in(component.components);
-    const bool is_wire = component.components.empty();
-    sum.parts += component.count * (is_wire ? 0 : 1 + inside.parts);
-    sum.wires += component.count * (is_wire ? 1 : inside.wires);
+    const bool wire = is_wire(component);
+    sum.parts += component.count * (wire ? 0 : 1 + inside.parts);
+    sum.wires += component.count * (wire ? 1 : inside.wires);
   }
   return sum;
 }

@@ -261,13 +261,14 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
                                            reader.spans().back().dresspack + 1, job.dresspacks.size()),
                                "run dresslife-sim again");
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
-    if (job.dresspacks[d].dresspack.components.empty()) {
+    if (const pipeline::Dresspack& dresspack = job.dresspacks[d].dresspack; !has_wires(dresspack)) {
       const std::string name = pipeline::name_among(job, d);
       throw pipeline::InputError(
           motion.where(),
-          fmt::format("comes from a dresspack {}without components (there is no wire to evaluate)",
-                      name.empty() ? "" : "'" + name + "' "),
-          "give dresspack.components");
+          fmt::format("comes from a dresspack {}without {} (there is no wire to evaluate)",
+                      name.empty() ? "" : "'" + name + "' ",
+                      dresspack.components.empty() ? "components" : "wires"),
+          "give dresspack.components that hold wires");
     }
 }
 

@@ -25,6 +25,10 @@ void scale(Component& component, double factor) {
   multiply(inertia, {&component.polymer_bending_stiffness});
   multiply(inertia, {&component.measured_bending_stiffness});
   multiply(1 / factor, {&component.measured_at_curvature});
+  if (component.plain) {
+    multiply(factor, {&component.plain->bore});
+    multiply(inertia, {&component.plain->bending_stiffness});
+  }
   for (Component& part : component.components) scale(part, factor);
 }
 

@@ -109,6 +109,7 @@ void refuse_straight(const Component& layer) {
 }  // namespace
 
 double axial_stiffness(const Dresspack& dresspack, const Component& part) {
+  if (part.plain) return properties_of(*part.plain, part.radius).axial;
   if (part.components.empty()) {
     const Material* const material = find_material(dresspack, part.material);
     return material ? material->youngs_modulus * pi * part.radius * part.radius : 0;

@@ -5,21 +5,25 @@
 #include <numbers>
 
 #include "pipeline/job/cyclic_curve.h"
+#include "pipeline/job/polymer.h"
 #include "pipeline/job/stiffness.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// ESTIMATE for what a maker's sheet does not tell: jackets and insulation of polyurethane, PVC or TPE, of which 50 MPa
-// is a soft one at a bend's small strain.
-constexpr double polymer_modulus = 50e6;  // [Pa]
 
 }  // namespace
 
 CableForce::CableForce(const Dresspack& dresspack, const Component& cable) {
   const double area = pi * cable.radius * cable.radius;
   mass_ = mass_of_part(cable);
+  if (cable.plain) {
+    const PlainProperties plain = properties_of(*cable.plain, cable.radius);
+    bending_ = plain.bending;
+    wires_.push_back({area, 1, plain.axial / area, 0, 1});  // elastic
+    return;
+  }
   bending_ = cable.polymer_bending_stiffness > 0 ? cable.polymer_bending_stiffness
                                                  : polymer_modulus * area * cable.radius * cable.radius / 4;
   for (const Component& inner : cable.components) add(dresspack, inner, 1, 1);

@@ -4,7 +4,7 @@
 // Wires at lay angles alpha, one for each level in the cable, have of its strain the product of cos^2(alpha),
 // and give it of their force the product of cos(alpha). A metal wire has the stress of its cyclic curve,
 //     strain = sigma / E + (sigma / K')^(1/n')    (F7 of fatigue/README.md),
-// rising and odd. Insulation counts nothing.
+// rising and odd. Insulation counts nothing. A part without wires (plain_part.h) is elastic.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ class CableForce {
   double force(double strain) const;      ///< sum of A sigma [N]
   double strain_at(double force) const;   ///< its inverse, for a force of any sign [N]
   double strength() const { return strength_; }  ///< at which it tears [N]; 0: not known
-  double mass_per_length() const { return mass_; }  ///< wires of 8900 kg/m3 in a polymer of 1200 [kg/m]
+  double mass_per_length() const { return mass_; }  ///< mass_of_part() (stiffness.h) [kg/m]
   /// E I: measured, else of its wires, each about its own axis, and of its polymer, given or a round of 50 MPa: a
   /// cable whose parts slide past one another [N m2].
   double bending_stiffness() const { return bending_; }

@@ -43,7 +43,8 @@ double bending_of(const std::vector<Component>& components, const Dresspack& dre
   for (const Component& part : components) {
     const Material* material = find_material(dresspack, part.material);
     const double wire = (material ? material->youngs_modulus : 0) * std::numbers::pi / 4 * std::pow(part.radius, 4);
-    const double own = part.components.empty() ? wire
+    const double own = part.plain              ? properties_of(*part.plain, part.radius).bending
+                       : part.components.empty() ? wire
                        : part.measured_bending_stiffness
                            ? *part.measured_bending_stiffness
                            : part.polymer_bending_stiffness + bending_of(part.components, dresspack);

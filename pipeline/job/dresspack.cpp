@@ -23,7 +23,7 @@ void describe(Fields& f, Laying& laying) {
                  "force at which the base clamp lets the part slip; without it never");
   f.maybe_number("tool_grip_N", laying.tool_grip, above(0), "the same of the tool clamp");
   f.maybe_number("mass_kg_per_m", laying.mass, above(0),
-                 "of a loose part; without it wires of 8900 kg/m3 in a polymer of 1200");
+                 "of a loose part, or one without wires; without it wires of 8900 kg/m3 in a polymer of 1200");
 }
 
 }  // namespace
@@ -53,6 +53,9 @@ void describe(Fields& f, Component& component) {
   f.text("material", component.material, Need::optional,
          "of a wire: a name of config/materials; a part with parts has none");
   f.list("components", component.components, Need::optional, "the layers of parts inside");
+  f.maybe_group("without_wires", component.plain,
+                "of a part right in the dresspack that is neither wire nor cable: it has mass, stiffness and a place, and "
+                "no life of its own");
   f.number("jacket_stiffness_N_per_m2", component.jacket_stiffness, Need::optional, at_least(0),
            "force per length and displacement by which a jacket that fills the gussets holds the part along "
            "its path; read where strain.slip is friction");
@@ -152,7 +155,7 @@ bool lies_loose(const Dresspack& dresspack, const Component& component) {
     case Position::loose:
       return true;
     case Position::automatic:
-      return inner_radius(dresspack) && component.lay_angle == 0 && !component.components.empty();
+      return inner_radius(dresspack) && component.lay_angle == 0 && !is_wire(component);
   }
   return false;
 }
@@ -171,13 +174,30 @@ bool is_hose_wall(const Dresspack& dresspack, std::string_view component) {
 
 namespace {
 
+void check_plain(const Component& part, const Component* parent, Problems& problems) {
+  problems.attempt("", part.where, [&] { check_plain_part(*part.plain, part.radius, part.name); });
+  if (!parent->components.empty())
+    problems.add(part.where, fmt::format("'{}' is without wires and lies in '{}'", part.name, parent->name),
+                 "leave it out: what a cable holds beside its wires counts as polymer");
+  if (!part.material.empty() || !part.components.empty())
+    problems.add(part.where, fmt::format("'{}' is without wires and has {}", part.name,
+                                         part.material.empty() ? "components" : "a material"),
+                 "leave out one of the two");
+  if (part.measured_bending_stiffness || part.polymer_bending_stiffness > 0)
+    problems.add(part.where, fmt::format("'{}' is without wires and has a cable's stiffness", part.name),
+                 "give without_wires.bending_stiffness_Nm2");
+}
+
 /// Returns how many levels of parts it has, itself the first.
 int check_component(const Component& component, const Component* parent, Problems& problems) {
   const Where& where = component.where;
-  if (component.components.empty() == component.material.empty())
+  if (component.plain)
+    check_plain(component, parent, problems);
+  else if (component.components.empty() == component.material.empty())
     problems.add(where,
                      fmt::format("'{}' must have either a material (a wire) or components", component.name),
-                     "give one of the two");
+                     parent->components.empty() ? "give one of the two, or without_wires: {kind: hose, fibre or filler}"
+                                                : "give one of the two");
   if (component.count > 1 && component.helix_radius == 0)
     problems.add(
         where,
@@ -217,10 +237,15 @@ void check_hose(const Dresspack& dresspack) {
         "check the three, or give hose_strain_factor");
 }
 
+bool hold_wires(const std::vector<Component>& parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [](const Component& part) { return is_wire(part) || hold_wires(part.components); });
+}
+
 /// A loose part needs room that is known, and must be straight; deeper parts and wires lie where they are.
 void check_laying(const Dresspack& dresspack, const Component& component, bool first_level) {
   const Laying& laying = component.laying;
-  const bool lone = component.components.empty();
+  const bool lone = is_wire(component);
   if (!(laying == Laying{}) && (!first_level || lone))
     throw InputError(component.where,
                      fmt::format("'{}' has position, slack, play, grip or mass (they are of cables right in the "
@@ -256,9 +281,27 @@ void check_room(const Dresspack& dresspack) {
                      "check core_diameter_mm");
 }
 
+/// What fills the middle is either told by the core's keys or a component.
+void check_middle(const Dresspack& dresspack, const Component& component) {
+  constexpr double allowed = 0.02;  // of its diameter, as a caliper reads wrong
+  const double inside = component.helix_radius - component.radius, core = dresspack.core_diameter / 2;
+  const bool has_core = core > 0 || dresspack.core_bending_stiffness.value_or(0) > 0;
+  if (component.helix_radius == 0 && has_core && inner_radius(dresspack))
+    throw InputError(component.where,
+                     fmt::format("'{}' lies in the middle, and the keys core_.. tell of something that does too (of no "
+                                 "component)",
+                                 component.name),
+                     "leave them out, or the component");
+  if (component.helix_radius > 0 && inside + 2 * allowed * component.radius < core)
+    throw InputError(component.where,
+                     fmt::format("'{}' begins {:.4g} mm from the axis (core_diameter_mm is {:.4g})", component.name,
+                                 1e3 * inside, 2e3 * core),
+                     "check core_diameter_mm, helix_radius_mm and radius_mm");
+}
+
 /// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
 void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
-  if (rubs(slip[std::min(level, slip.size()) - 1]) && !(component.friction && component.radial_line_load))
+  if (rubs(slip[std::min(level, slip.size()) - 1]) && !component.plain && !(component.friction && component.radial_line_load))
     throw InputError(component.where,
                      fmt::format("'{}' has no {} (strain.slip of its level is friction)", component.name,
                                  component.friction ? "radial_line_load_N_per_m" : "friction_coefficient"),
@@ -283,6 +326,8 @@ void check_ratings(const Component& component, bool first_level) {
 }
 
 }  // namespace
+
+bool has_wires(const Dresspack& dresspack) { return hold_wires(dresspack.components); }
 
 bool is_from_construction(const Dresspack& dresspack) {
   return dresspack.mass_from_construction || dresspack.bending_from_construction ||
@@ -312,6 +357,7 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   for (const Component& component : dresspack.components) {
     attempt(component.where, [&] { check_ratings(component, true); });
     attempt(component.where, [&] { check_laying(dresspack, component, true); });
+    attempt(component.where, [&] { check_middle(dresspack, component); });
     if (component.laying.position == Position::loose && !slides(slip.front()))
       problems.add(component.where,
                    fmt::format("'{}' is loose, and sticks to the hose (strain.slip of its level is {})",

@@ -8,6 +8,7 @@
 
 #include "pipeline/job/document.h"
 #include "pipeline/job/material.h"
+#include "pipeline/job/plain_part.h"
 #include "pipeline/job/rating.h"
 #include "pipeline/job/strain.h"
 
@@ -94,11 +95,14 @@ struct Component {
   double measured_at_curvature = 1;                  ///< [1/m]
   double polymer_bending_stiffness = 0;              ///< of it, of jacket and insulation [N m2]
   std::string material;  ///< of a wire; a key of Dresspack::materials; empty for a part with parts
-  Laying laying;         ///< of a part of the first level that holds parts
+  std::optional<PlainPart> plain;  ///< of a part of the first level that is no wire and holds none
+  Laying laying;         ///< of a part of the first level that is no wire
   std::vector<Rating> ratings;  ///< likewise, a cable
   std::vector<Component> components;
   Where where;
 };
+
+inline bool is_wire(const Component& part) { return part.components.empty() && !part.plain; }
 
 /// The profile of a hose's wall, as a caliper finds it.
 struct Corrugation {
@@ -160,6 +164,9 @@ bool is_hose_wall(const Dresspack& dresspack, std::string_view component);
 void describe(Fields& f, Component& component);
 void describe(Fields& f, Corrugation& corrugation);
 void describe(Fields& f, Dresspack& dresspack);
+
+/// Whether it holds a wire at any level.
+bool has_wires(const Dresspack& dresspack);
 
 /// Whether any of its stiffnesses is taken from its construction.
 bool is_from_construction(const Dresspack& dresspack);

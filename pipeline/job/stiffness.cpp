@@ -8,14 +8,13 @@
 
 #include "pipeline/job/cable_bending.h"
 #include "pipeline/job/corrugation.h"
+#include "pipeline/job/polymer.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double wire_density = 8900, polymer_density = 1200;  // [kg/m3]; ESTIMATES: copper, polyurethane or PVC
-constexpr double polymer_modulus = 50e6;  // ESTIMATE [Pa]: a soft jacket of polyurethane, PVC or TPE, as in W35
-constexpr double torsion_of_polymer = 2.0 / 3;  // G J over E I of a round that keeps its volume: G = E/3, J = 2 I
+constexpr double wire_density = 8900;           // [kg/m3], of copper
 constexpr double torsion_of_core = 0.8;         // ESTIMATE, as of a solid round bar
 constexpr double believable = 2;                // a life moves by up to a factor of five with twice the E I (README)
 
@@ -23,7 +22,9 @@ constexpr double believable = 2;                // a life moves by up to a facto
 double round_bending(double radius) { return polymer_modulus * pi / 4 * std::pow(radius, 4); }
 
 /// Of a part's jacket and insulation: given, else of a round as wide as it is. A measured stiffness has it in it.
+/// Of a part without wires all of it.
 double polymer_of(const Component& part) {
+  if (part.plain) return properties_of(*part.plain, part.radius).bending;
   if (part.components.empty()) return 0;
   if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness) return part.polymer_bending_stiffness;
   return round_bending(part.radius);
@@ -124,6 +125,10 @@ class Wires {
   std::vector<PullAndTwist> layers_;  ///< of the dresspack
 };
 
+double pull_of_plain(const Component& part) {
+  return part.plain ? part.count * properties_of(*part.plain, part.radius).axial * std::pow(std::cos(part.lay_angle), 3) : 0;
+}
+
 HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, SlipState state, double curvature) {
   const HoseStiffness wall = wall_of(dresspack), core = core_of(dresspack);
   const double polymer = polymer_of(dresspack);
@@ -133,7 +138,7 @@ HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, Sli
     const PullAndTwist& of = wires.layers()[k];
     const bool pulls = state == SlipState::stuck || dresspack.components[k].laying.slack == 0;
     sum.torsional += pulls ? of.torque_by_twist : of.relaxed();
-    sum.axial += pulls ? of.pull_by_elongation : 0;
+    sum.axial += pulls ? of.pull_by_elongation + pull_of_plain(dresspack.components[k]) : 0;
   }
   return sum;
 }
@@ -148,6 +153,7 @@ std::string state_words(const Dresspack& dresspack) {
 }  // namespace
 
 double mass_of_part(const Component& part) {
+  if (part.plain) return properties_of(*part.plain, part.radius).mass;
   const double area = pi * part.radius * part.radius;
   double mass = polymer_density * area;
   for (const Component& inner : part.components) add_wires(inner, 1, 1, mass);
@@ -157,7 +163,7 @@ double mass_of_part(const Component& part) {
 double mass_of_construction(const Dresspack& dresspack) {
   double mass = is_hose(dresspack) ? polymer_density * section_of_wall(dresspack) : 0, parts = 0;
   for (const Component& part : dresspack.components) {
-    const double own = part.components.empty() ? wire_density * pi * part.radius * part.radius : mass_of_part(part);
+    const double own = is_wire(part) ? wire_density * pi * part.radius * part.radius : mass_of_part(part);
     mass += part.count * part.laying.mass.value_or(own) / std::cos(part.lay_angle);
     parts += part.count * pi * part.radius * part.radius / std::cos(part.lay_angle);
   }

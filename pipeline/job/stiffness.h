@@ -8,7 +8,7 @@
 //     E A = sum of its wires' where it has no slack                               + wall + core.
 // What a cable off the axis gains in a bend it keeps or loses along the whole hose: that is a force from clamp to clamp
 // (W34 of strain/README.md), no stiffness of the cross-section, and nothing where it has slack. Only glued cables
-// (`stuck`) add E A R^2 / 2 to E I.
+// (`stuck`) add E A R^2 / 2 to E I. Parts without wires (plain_part.h) count as polymer, in E A too.
 //
 // state: `sliding`, nothing rubs; `stuck`, nothing slides; `friction`, what friction and pressures hold at
 // construction_curvature. That is the secant of the first bend. A bend to and fro between -kappa and kappa ends where the
@@ -28,7 +28,7 @@
 
 namespace dresslife::pipeline {
 
-/// Of one part [kg/m]: its wires of 8900 kg/m3, longer by their lays, in a polymer of 1200.
+/// Of one part [kg/m]: given properties_of() what is without wires (plain_part.h), else its wires of 8900 kg/m3, longer by their lays, in a polymer of 1200.
 double mass_of_part(const Component& part);
 /// Of the dresspack [kg/m]: its parts, as they are given or by mass_of_part(), and a polymer wall; what fills its core and
 /// what flows in it is left out. Of what is no hose, a jacket fills what its parts leave.

@@ -31,7 +31,24 @@ std::string lay_words(const Component& of) {
                      millimetres(lay_length(of)));
 }
 
+std::string kind_words(const Component& part) {
+  const PlainProperties plain = properties_of(*part.plain, part.radius);
+  std::string words(word(part.plain->kind));
+  if (plain.bore > 0)
+    words += fmt::format(" for {}, bore {:.4g} mm", word(part.plain->medium), millimetres(2 * plain.bore));
+  return words;
+}
+
+/// What a part without wires has instead.
+std::string plain_words(const Component& part) {
+  const PlainProperties plain = properties_of(*part.plain, part.radius);
+  return kind_words(part) +
+         fmt::format(", {:.3g} kg/m, E I {:.3g} N m2{}; no life here", part.laying.mass.value_or(plain.mass),
+                             plain.bending, part.plain->bending_stiffness ? "" : " (ESTIMATE)");
+}
+
 double section_of_wires(const Component& part) {
+  if (part.plain) return 0;
   if (part.components.empty()) return pi * part.radius * part.radius;
   double area = 0;
   for (const Component& inner : part.components) area += inner.count * section_of_wires(inner);
@@ -39,7 +56,7 @@ double section_of_wires(const Component& part) {
 }
 
 double wires_of(const Component& part) {
-  if (part.components.empty()) return 1;
+  if (is_wire(part)) return 1;
   double wires = 0;
   for (const Component& inner : part.components) wires += inner.count * wires_of(inner);
   return wires;
@@ -58,6 +75,7 @@ struct Stiffness {
 
 /// solid_from: the level from which on parts do not slide; `level` is that of `part`'s inner parts.
 Stiffness stiffness_of(const Dresspack& dresspack, const Component& part, int level, int solid_from) {
+  if (part.plain) return {};
   if (part.components.empty()) {
     const Material* material = find_material(dresspack, part.material);
     const double youngs_modulus = material ? material->youngs_modulus : 0, area = section_of_wires(part);
@@ -78,10 +96,11 @@ Stiffness stiffness_of(const Dresspack& dresspack, const Component& part, int le
 
 constexpr std::string_view style =
     "text{font:13px sans-serif;fill:#222}.wall{fill:none;stroke:#777}.room{fill:#f4f4f2}.core{fill:#ddd}"
-    ".part{fill:#cfe0ee;stroke:#5a7d99}.wire{fill:#c0733d}.over{fill:#e23b3b}.scale{stroke:#222;stroke-width:"
+    ".part{fill:#cfe0ee;stroke:#5a7d99}.plain{fill:#b9b4aa;stroke:#77726a}.air{fill:#fff}.water{fill:#9fc6e8}"
+    ".wire{fill:#c0733d}.over{fill:#e23b3b}.scale{stroke:#222;stroke-width:"
     "2}.halo{fill:none;stroke:#fff;stroke-width:6}.worst{fill:none;stroke:#d00;stroke-width:3}"
     "@media(prefers-color-scheme:dark){text{fill:#ddd}.room{fill:#1c1c1e}.core{fill:#444}"
-    ".part{fill:#2c4356;stroke:#7fa6c4}.scale{stroke:#ddd}}";
+    ".part{fill:#2c4356;stroke:#7fa6c4}.plain{fill:#57534c;stroke:#a39d92}.air{fill:#1c1c1e}.water{fill:#2f5f86}.scale{stroke:#ddd}}";
 
 class Drawing {
  public:
@@ -153,9 +172,12 @@ class Drawing {
   }
 
   std::string define(const Component& component) {
-    const bool wire = component.components.empty();
-    std::string shape = circle(overlaps(component) ? "over" : wire ? "wire" : "part", component.radius);
-    if (!wire) shape += inside(component.components);
+    const char* const own = component.plain ? "plain" : is_wire(component) ? "wire" : "part";
+    std::string shape = circle(overlaps(component) ? "over" : own, component.radius);
+    if (component.plain && component.plain->kind == PlainKind::hose)
+      shape += circle(component.plain->medium == Medium::water ? "water" : "air",
+                      properties_of(*component.plain, component.radius).bore);
+    shape += inside(component.components);
     const std::string id = fmt::format("p{}", parts_++);
     definitions_ += fmt::format("<g id=\"{}\">\n{}</g>\n", id, shape);
     return id;
@@ -166,6 +188,7 @@ class Drawing {
                                    millimetres(2 * of.radius));
     if (of.helix_radius > 0)
       line += fmt::format(", {:.4g} mm off the axis, {}", millimetres(of.helix_radius), lay_words(of));
+    if (of.plain) line += ", " + kind_words(of);
     if (overlaps(of)) line += " (they overlap: red)";
     lines_.push_back(line);
     for (const Component& inner : of.components) list(inner, level + 1);
@@ -220,6 +243,7 @@ void list_layer(const Component& of, int level, std::string& text) {
   if (of.helix_radius > 0)
     text += fmt::format("  at {:>6.4g} mm, {}", millimetres(of.helix_radius), lay_words(of));
   if (!of.material.empty()) text += "  " + of.material;
+  if (of.plain) text += "  " + plain_words(of);
   text += '\n';
   for (const Component& inner : of.components) list_layer(inner, level + 1, text);
 }

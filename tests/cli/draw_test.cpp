@@ -35,6 +35,21 @@ TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlap
   CHECK(count_of(picture, "class=\"over\"") == 1);
 }
 
+TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has no life here") {
+  Scratch scratch;
+  const Outcome drawn = run(scratch, "dresslife", "draw handling -o hose.svg");
+  INFO(drawn.err);
+  REQUIRE(drawn.status == 0);
+  // pi/4 (12^2 - 8^2) mm2 of 1200 kg/m3 and pi/4 8^2 of water; 50 MPa pi/64 (12^4 - 8^4) mm4.
+  CHECK(drawn.out.find("hose for water, bore 8 mm, 0.126 kg/m, E I 0.0408 N m2 (ESTIMATE); no life here") != std::string::npos);
+  CHECK(drawn.out.find("fibre, 0.015 kg/m") != std::string::npos);
+  CHECK(drawn.out.find("1792 wires") != std::string::npos);  // 4 cables of 7 cores of 64
+  const std::string picture = content(scratch / "hose.svg");
+  CHECK(count_of(picture, "class=\"plain\"") == 3);
+  CHECK(count_of(picture, "class=\"water\"") == 1);
+  CHECK(count_of(picture, "class=\"air\"") == 1);
+}
+
 TEST_CASE("draw replaces pictures and nothing else") {
   Scratch scratch;
   scratch.write("mine.yaml", "keep: me\n");

@@ -124,6 +124,52 @@ Dresspack held_hose() {
 
 }  // namespace
 
+TEST_CASE("a part without wires takes room, stays in its ring and pulls as a tube, and no wire of it is evaluated") {
+  constexpr double beside = 0.7;  // [rad]
+  const auto widest_way = [](double tube_radius) {  // of a cable along the circle, beside that of the tube
+    Dresspack dresspack = thesis_hose();
+    dresslife::pipeline::Component cable = dresspack.components[0], tube;
+    cable.count = 1;
+    cable.laying.slack = 2;
+    tube.name = "air hose";
+    tube.count = 1;
+    tube.radius = tube_radius;
+    tube.helix_radius = cable.helix_radius;
+    tube.phase = cable.phase + beside;
+    tube.plain = dresslife::pipeline::PlainPart{dresslife::pipeline::PlainKind::hose, {}, {}, {}, {}};
+    tube.laying.slack = 2;
+    dresspack.components = {cable, tube};
+    Run run(dresspack, Slip::free, 60, 20);
+    REQUIRE(run.paths.cables() == 2);
+    CHECK(run.paths.name(1) == "air hose 1");
+    for (const auto& bundle : run.construction.bundles())
+      CHECK(run.construction.cable_of(bundle.part) == 0);  // all wires lie in the cable
+    const auto tubes = dresslife::pipeline::properties_of(*tube.plain, tube.radius);
+    CHECK(run.paths.pulled(1).force.force(1e-3) == Approx(1e-3 * tubes.axial));
+    CHECK(run.paths.pulled(1).force.strength() == 0);  // not known: it tears at nothing
+    double most = 0;
+    const auto& offsets = run.paths.offsets();
+    const double R = cable.helix_radius;
+    for (std::size_t row = 0; row < run.paths.offset_samples().size(); ++row)
+      for (std::size_t i = 0; i < segments; ++i) {
+        const auto angle = [&](std::size_t k, double phase) {
+          const double* b = &offsets[((row * 2 + k) * segments + i) * 2];
+          return std::atan2(R * std::sin(phase) + b[1], R * std::cos(phase) + b[0]) - phase;
+        };
+        const double apart = angle(0, cable.phase) - angle(1, tube.phase);
+        most = std::max(most, R * std::abs(std::remainder(apart, 2 * pi)));
+      }
+    return most;
+  };
+  // The ring turns as one; in it each has half of what is free between them.
+  const auto free = [](double tube) { return 2 * 0.01845 * std::sin(beside / 2) - 0.0053 - tube; };
+  const double thin = widest_way(0.003), thick = widest_way(0.005);
+  constexpr double soft = 1e-4;  // [m]: a wall gives by the press over k_w = 1e7 N/m2
+  CHECK(thick <= free(0.005) + soft);
+  CHECK(thin <= free(0.003) + soft);
+  CHECK(thin > thick);
+}
+
 TEST_CASE("a held cable has the mean stretch of its place, less its slack") {
   Dresspack dresspack = held_hose();
   for (const double slack : {0.0, 0.5}) {
