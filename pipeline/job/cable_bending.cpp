@@ -65,7 +65,8 @@ void descend(const Dresspack& dresspack, const Component& layer, const Deformed&
   const double inside = layer.measured_bending_stiffness ? friction_level(dresspack, layer) : parent.friction_level;
   for (int k = 0; k < angles; ++k) {
     const Placement place =
-        helices::make_placement(Kinematics::exact, R, signed_angle, 2 * pi * (k + 0.5) / angles);
+        helices::make_placement(Kinematics::exact, R, std::tan(signed_angle), std::cos(signed_angle),
+                                2 * pi * (k + 0.5) / angles, parent.rest.stretch.order);
     const Rod<double> rest = helices::child(parent.rest, place), glued = helices::child(parent.now, place);
     const double strain = glued.stretch.at[0] / rest.stretch.at[0] - 1;
     const double mean =
@@ -82,9 +83,16 @@ void descend(const Dresspack& dresspack, const Component& layer, const Deformed&
   }
 }
 
-constexpr int order = Series<double>::capacity - 1;
+/// Levels of parts in it, at least one: each uses up one order (series.h).
+int levels_in(const Component& part) {
+  int levels = 0;
+  for (const Component& inner : part.components) levels = std::max(levels, levels_in(inner) + 1);
+  return levels;
+}
 
-Deformed straight_cable(double elongation, double curvature, double twist) {
+/// Exact down to the deepest wires in it.
+Deformed straight_cable(const Component& cable, double elongation, double curvature, double twist) {
+  const int order = std::clamp(levels_in(cable), 1, Series<double>::capacity - 1);
   return {helices::uniform_rod<double>(0, 0, 0, 0, order),
           helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, 1, 0, curvature == 0};
 }
@@ -134,7 +142,7 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
                      gathers * layer.tension * press / of.EA, gathers * line_load / of.EA,
                      helices::elastic_share(layer.jacket_stiffness, of.EA, of.evening)});
   };
-  for (const Component& layer : cable.components) descend(dresspack, layer, straight_cable(0, small, 0), take);
+  for (const Component& layer : cable.components) descend(dresspack, layer, straight_cable(cable, 0, small, 0), take);
 }
 
 double CableBending::moment(double curvature, double friction_level) const {
@@ -170,7 +178,7 @@ PullAndTwist pull_and_twist(const Dresspack& dresspack, const Component& cable) 
   const auto twice_energy = [&](double elongation, double twist) {
     double sum = 0;
     for (const Component& layer : cable.components)
-      descend(dresspack, layer, straight_cable(elongation * reach * small, 0, twist * small),
+      descend(dresspack, layer, straight_cable(cable, elongation * reach * small, 0, twist * small),
               [&](const Answer& of) { sum += own_stiffness(dresspack, of); });
     return sum;
   };
