@@ -135,7 +135,6 @@ void BundleScan::scan_mixed(std::size_t count, Wanted wanted) {
   for (Group& group : groups_) {
     const float* of_layer = waves_.data() + group.layer * kinds * waves_per_layer * block_samples;
     kernels().mix(group.mixed, of_layer, block_samples, count, fibres, strains_.data());
-    if (wanted == Wanted::nothing) continue;
     runs_.clear();
     for (int f = 0; f < fibres; ++f)
       add_run(group, f, count, wanted).strain = strains_.data() + f * count * lanes;
@@ -160,13 +159,25 @@ void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wa
   }
 }
 
+void BundleScan::settle(const BundlePointers& nesting, const DeformationColumns& columns, std::size_t samples) {
+  constexpr std::size_t of_layer = (deviation + 1) * waves_per_layer * block_samples;
+  waves_.resize(nesting.node_count / waves_per_layer * of_layer);
+  std::vector<MixedRun> settling;
+  for (Group& group : groups_) settling.push_back({&group.mixed, waves_.data() + group.layer * of_layer});
+  for (std::size_t first = 0; first < samples; first += block_samples) {
+    const std::size_t count = std::min(block_samples, samples - first);
+    kernels().deviation_waves(nesting, columns, first, count, waves_.data(), block_samples);
+    kernels().settle(settling.data(), settling.size(), block_samples, count);
+  }
+}
+
 void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan,
                          const BundlePointers& nesting, bool mixed, const DeformationColumns& columns,
                          std::size_t samples, Wanted wanted) {
   start(bundle, plan, nesting, mixed);
   const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
                                    [&](int layer) { return plan[layer].friction; });
-  if (settles) run_blocks(nesting, mixed, Wanted::nothing, columns, samples);
+  if (settles) settle(nesting, columns, samples);
   run_blocks(nesting, mixed, wanted, columns, samples);
 }
 

@@ -63,12 +63,13 @@ class BundleScan {
   MixedLanes mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
                          const std::vector<double>& angles) const;
   std::span<TurningList> lists_of(const Group& group, int fibre);
-  /// What is wanted of the samples: nothing, while friction settles, turning points, or ranks.
-  enum class Wanted { nothing, turns, ranks };
+  enum class Wanted { turns, ranks };
   void run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
                bool mixed, const DeformationColumns& columns, std::size_t samples, Wanted wanted);
   void run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted, const DeformationColumns& columns,
                   std::size_t samples);
+  /// Sliders to where one repeat of the motion leaves them.
+  void settle(const BundlePointers& nesting, const DeformationColumns& columns, std::size_t samples);
   /// The next `count` samples of all groups, from the waves of the block.
   void scan_waves(std::size_t count, Wanted wanted);
   void scan_mixed(std::size_t count, Wanted wanted);

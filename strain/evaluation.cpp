@@ -353,14 +353,19 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
 void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
                             const SegmentMotion& motion, Worker& worker,
                             std::span<TurningList> lists) const {
-  const auto list = [&](const auto* strain, TurningList& to) {
+  const auto list = [&](std::span<const float> strain, TurningList& to) {
     TurningPoints points(scan_.gate);
-    for (std::size_t t = 0; t < motion.samples; ++t) points.next(static_cast<float>(strain[t]), to);
+    points.next(strain, to);
     points.finish(to);
   };
   if (mixed(means)) {
     const auto histories = histories_of(sites, segment, means, motion, worker);
-    for (std::size_t k = 0; k < sites.size(); ++k) list(histories[k].data(), lists[k]);
+    std::vector<float> in_single(motion.samples);
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+      std::transform(histories[k].begin(), histories[k].end(), in_single.begin(),
+                     [](double strain) { return static_cast<float>(strain); });
+      list(in_single, lists[k]);
+    }
     return;
   }
   std::vector<std::vector<double>> sliding;
@@ -371,7 +376,7 @@ void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, co
   std::vector<float> strain(sites.size() * stride);
   kernels().node_strains_in_single(from, columns_of(sites[0], means, motion), 0, motion.samples,
                                    strain.data(), stride);
-  for (std::size_t k = 0; k < sites.size(); ++k) list(strain.data() + k * stride, lists[k]);
+  for (std::size_t k = 0; k < sites.size(); ++k) list({strain.data() + k * stride, motion.samples}, lists[k]);
 }
 
 std::vector<FibreHistory> Evaluation::fibre_histories(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,

@@ -37,6 +37,30 @@ void TurningPoints::next(float strain, TurningList& out) {
   extreme_at_ = now;
 }
 
+void TurningPoints::next(std::span<const float> strains, TurningList& out) {
+  std::size_t k = 0;
+  while (k < strains.size() && direction_ == 0) next(strains[k++], out);
+  const std::uint32_t first = sample_ - static_cast<std::uint32_t>(k);
+  float direction = static_cast<float>(direction_), extreme = extreme_;  // in registers: most samples move nothing
+  std::uint32_t extreme_at = extreme_at_;
+  for (; k < strains.size(); ++k) {
+    const float beyond = direction * (strains[k] - extreme);
+    if (beyond < 0 && -beyond >= gate_) {
+      out.add(extreme, extreme_at);
+      direction = -direction;
+    } else if (!(beyond > 0)) {
+      continue;
+    }
+    extreme = strains[k];
+    extreme_at = first + static_cast<std::uint32_t>(k);
+  }
+  direction_ = static_cast<int>(direction);
+  extreme_ = extreme;
+  extreme_at_ = extreme_at;
+  sample_ = first + static_cast<std::uint32_t>(strains.size());
+  if (!strains.empty()) last_ = strains.back();
+}
+
 void TurningPoints::finish(TurningList& out) const {
   if (sample_ < 2) return;
   if (direction_ != 0 && extreme_at_ != sample_ - 1) out.add(extreme_, extreme_at_);

@@ -24,6 +24,7 @@ class TurningPoints {
   explicit TurningPoints(float gate) : gate_(gate) {}
 
   void next(float strain, TurningList& out);
+  void next(std::span<const float> strains, TurningList& out);  ///< one after the other
   void finish(TurningList& out) const;  ///< after the last sample
 
  private:

@@ -1,5 +1,5 @@
 // The hot loops, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of which names it
-// (pipeline/simd.h). Needs every standard header it uses to be included before.
+// (pipeline/simd.h).
 #include "pipeline/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/kernels/kernels.h"
@@ -797,6 +797,22 @@ void ingredients_of_layer(const FiveNodes& layer, const PartState& part, std::si
   }
 }
 
+/// The first two of them alone, which decide how far wires have slid.
+template <bool thesis, Sliding how>
+void deviations_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
+                         std::size_t stride) {
+  const FiveToWaves to_waves;
+  const auto factor_of_wall = static_cast<float>(layer.nodes[0].strain_factor);
+  for (std::size_t t = 0; t < count; t += float_pack_size) {
+    const LayerAt<thesis, false> at(layer, part, t);
+    FloatPack sliding[waves_per_layer], away[waves_per_layer];
+    at.sliding(how, out, stride, sliding);
+    for (int n = 0; n < waves_per_layer; ++n) away[n] = factor_of_wall * at(layer.node[n]).strain - sliding[n];
+    to_waves.store_waves(sliding, out + mean_strain * waves_per_layer * stride + t, stride);
+    to_waves.store_waves(away, out + deviation * waves_per_layer * stride + t, stride);
+  }
+}
+
 }  // namespace
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain
@@ -838,6 +854,11 @@ constexpr BySliding ingredients_by_sliding{ingredients_of_layer<thesis, with_ben
                                            ingredients_of_layer<thesis, with_bend1, Sliding::over_pitch>,
                                            ingredients_of_layer<thesis, with_bend1, Sliding::clamp_to_clamp>,
                                            ingredients_of_layer<thesis, with_bend1, Sliding::along_ancestor>};
+template <bool thesis>
+constexpr BySliding deviations_by_sliding{deviations_of_layer<thesis, Sliding::glued>,
+                                          deviations_of_layer<thesis, Sliding::over_pitch>,
+                                          deviations_of_layer<thesis, Sliding::clamp_to_clamp>,
+                                          deviations_of_layer<thesis, Sliding::along_ancestor>};
 
 /// Runs `by` over all layers, chunk by chunk, but for those of `sliding` that have closed forms. kinds: of
 /// waves per layer.
@@ -924,6 +945,12 @@ void ingredient_waves(const BundlePointers& nesting, const DeformationColumns& i
                                   : ingredients_by_sliding<false, false>);
 }
 
+void deviation_waves(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
+                     std::size_t count, float* out, std::size_t stride) {
+  over_layers(nesting, in, first, count, deviation + 1, out, stride, nullptr,
+              is_thesis(nesting) ? deviations_by_sliding<true> : deviations_by_sliding<false>);
+}
+
 __attribute__((flatten)) void add_path_rates(const BundlePointers& nesting, const DeformationColumns& in,
                                              std::size_t first, std::size_t count, double weight, double* sum,
                                              std::size_t stride) {
@@ -945,6 +972,7 @@ __attribute__((flatten)) void add_path_rates(const BundlePointers& nesting, cons
 struct Around {
   FloatPack sine1, cosine1, sine2, cosine2;
 
+  Around() = default;
   Around(const float (*shape)[lanes], int at)
       : sine1(load<FloatPack>(shape[0] + at)),
         cosine1(load<FloatPack>(shape[1] + at)),
@@ -957,21 +985,35 @@ struct Around {
   }
 };
 
+/// The sliders of a pack of wires (W17).
+struct Sliders {
+  FloatPack slip;
+  float cap0, cap_per_mean, share;
+
+  Sliders() = default;
+  Sliders(const MixedLanes& state, int lane)
+      : slip(load<FloatPack>(state.slip + lane)), cap0(state.cap), cap_per_mean(state.cap_per_mean), share(1 - state.elastic) {}
+
+  /// What they hold. Return mapping: the deviation less the slip, cut at the cap; the slip follows.
+  inline FloatPack next(const FloatPack& mean, const FloatPack& away) {
+    const FloatPack cap = larger(cap0 + cap_per_mean * mean, FloatPack{});
+    const FloatPack slides = share * away;
+    const FloatPack held = -larger(-larger(slides - slip, -cap), -cap);
+    slip = slides - held;
+    return held;
+  }
+};
+
 void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t stride, std::size_t count,
               int fibres, float* out) {
   const Around around(state.shape, lane);
   const std::size_t per_kind = waves_per_layer * stride;
   const FloatPack zero{};
-  const float sliding_share = 1 - state.elastic;
-  FloatPack slip = load<FloatPack>(state.slip + lane);
+  Sliders sliders(state, lane);
   for (std::size_t t = 0; t < count; ++t) {
     const FloatPack mean = around.at(waves + mean_strain * per_kind, stride, t);
     const FloatPack away = around.at(waves + deviation * per_kind, stride, t);
-    const FloatPack cap = larger(state.cap + state.cap_per_mean * mean, zero);
-    // return mapping (W17): what is held is the deviation less the slip, cut at the cap; the slip follows
-    const FloatPack slides = sliding_share * away;
-    const FloatPack by_friction = -larger(-larger(slides - slip, -cap), -cap);
-    slip = slides - by_friction;
+    const FloatPack by_friction = sliders.next(mean, away);
     const FloatPack axial = mean + (by_friction + state.elastic * away);
     const FloatPack scale =
         state.scales ? (1.0f + axial) / (1.0f + (mean + away) * state.inverse_radial_share) : zero + 1.0f;
@@ -995,13 +1037,39 @@ void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t strid
       store(strain, out + (f * count + t) * lanes + lane);
     }
   }
-  store(slip, state.slip + lane);
+  store(sliders.slip, state.slip + lane);
 }
 
 void mix(MixedLanes& state, const float* waves, std::size_t stride, std::size_t count, int fibres,
          float* out) {
   for (int lane = 0; lane < lanes; lane += float_pack_size)
     mix_pack(state, lane, waves, stride, count, fibres, out);
+}
+
+/// A slider waits for itself from sample to sample: `together` packs at a time fill that wait.
+template <int together>
+void settle_packs(const MixedRun* runs, int lane, std::size_t stride, std::size_t count) {
+  Around around[together];
+  Sliders sliders[together];
+  for (int k = 0; k < together; ++k) {
+    around[k] = Around(runs[k].state->shape, lane);
+    sliders[k] = Sliders(*runs[k].state, lane);
+  }
+  for (std::size_t t = 0; t < count; ++t)
+    for (int k = 0; k < together; ++k) {
+      const FloatPack mean = around[k].at(runs[k].waves + mean_strain * waves_per_layer * stride, stride, t);
+      sliders[k].next(mean, around[k].at(runs[k].waves + deviation * waves_per_layer * stride, stride, t));
+    }
+  for (int k = 0; k < together; ++k) store(sliders[k].slip, runs[k].state->slip + lane);
+}
+
+void settle(const MixedRun* runs, std::size_t run_count, std::size_t stride, std::size_t count) {
+  constexpr int together = 4;
+  for (int lane = 0; lane < lanes; lane += float_pack_size) {
+    std::size_t k = 0;
+    for (; k + together <= run_count; k += together) settle_packs<together>(runs + k, lane, stride, count);
+    for (; k < run_count; ++k) settle_packs<1>(runs + k, lane, stride, count);
+  }
 }
 
 // ---- what ranks the wires of a bound ----------------------------------------------------------------------
@@ -1049,7 +1117,9 @@ const Kernels set{DRESSLIFE_MACHINE_NAME,
                   part_rows_of_dresspack,
                   node_ingredients,
                   ingredient_waves,
+                  deviation_waves,
                   mix,
+                  settle,
                   add_path_rates,
                   scan,
                   scan_strains,

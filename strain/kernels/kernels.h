@@ -209,6 +209,12 @@ struct MixedLanes {
   bool with_shear = false, on_axis = false;
 };
 
+/// Such wires and the waves that they go through.
+struct MixedRun {
+  MixedLanes* state;
+  const float* waves;
+};
+
 struct Kernels {
   const char* machine;
   int wires_at_once;  ///< in one register
@@ -243,9 +249,14 @@ struct Kernels {
   /// wave) * stride + t].
   void (*ingredient_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                            std::size_t count, float* out, std::size_t stride);
+  /// Those of mean strain and deviation alone, to out[(layer * 2 + ingredient) * waves_per_layer * stride + wave * stride + t].
+  void (*deviation_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
+                          std::size_t count, float* out, std::size_t stride);
   /// Puts the strains of sixteen wires together, fibre by fibre, to out[(fibre * count + t) * lanes + lane].
   /// waves: of one layer's ingredients.
   void (*mix)(MixedLanes&, const float* waves, std::size_t stride, std::size_t count, int fibres, float* out);
+  /// How far wires slide meanwhile, and nothing else. waves: of their layer's mean strain and deviation.
+  void (*settle)(const MixedRun*, std::size_t runs, std::size_t stride, std::size_t count);
   /// Path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
   void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                          std::size_t count, double weight, double* sum, std::size_t stride);

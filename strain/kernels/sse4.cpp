@@ -5,17 +5,7 @@
 #define DRESSLIFE_MACHINE_NAME "sse4"
 #define DRESSLIFE_TARGET HWY_SSE4
 
-// Everything from outside comes first: it must be compiled for any machine.
-#include <array>
-#include <cassert>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <new>
-#include <string>
-#include <vector>
-
-#include "pipeline/simd.h"
+#include "pipeline/simd.h"  // and what loops use from outside: it must be compiled for any machine
 
 DRESSLIFE_BEGIN_MACHINE
 #include "strain/kernels/body.h"

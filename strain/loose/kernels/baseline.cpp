@@ -6,17 +6,7 @@
 #define DRESSLIFE_TARGET HWY_EMU128
 #endif
 
-// Everything from outside comes first: it must be compiled for any machine.
-#include <array>
-#include <cassert>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <new>
-#include <string>
-#include <vector>
-
-#include "pipeline/simd.h"
+#include "pipeline/simd.h"  // and what loops use from outside: it must be compiled for any machine
 
 DRESSLIFE_BEGIN_MACHINE
 #include "strain/loose/kernels/body.h"

@@ -1,5 +1,5 @@
 // The hot loops of loose cables, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of which names
-// it (pipeline/simd.h). Needs every standard header it uses to be included before.
+// it (pipeline/simd.h).
 //
 // The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill that
 // wait.
