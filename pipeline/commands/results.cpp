@@ -89,9 +89,12 @@ namespace {
 void refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& rows) {
   const std::vector<bool> detailed = detailed_jobs(rows);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (!detailed[k] || rows[k].stale) continue;  // a stale one keeps the page of its last result
+    const JobFolder files{rows[k].job, places.job(rows[k].job)};
     try {
-      refresh_job_page({rows[k].job, places.job(rows[k].job)});
+      if (rows[k].stale)
+        mark_job_page(files, stale_words(rows[k]));
+      else if (detailed[k])
+        refresh_job_page(files);
     } catch (const InputError& problem) {
       tell(fmt::format("note: no page of {}: {}\n", rows[k].job, problem.what()));
     }

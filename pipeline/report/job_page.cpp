@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -253,6 +254,15 @@ std::string made_from(const JobFolder& files) {
   return xxh3(told);
 }
 
+/// Style, and a mark of what is stale, lie in it.
+std::string head_of(const std::filesystem::path& page) {
+  std::string head(1 << 16, '\0');
+  std::ifstream in(page, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
+}
+
 }  // namespace
 
 std::string job_page(const JobFolder& files) { return Page(files).text(made_from(files)); }
@@ -261,6 +271,21 @@ bool refresh_job_page(const JobFolder& files) {
   if (made_from_of(files.page()) == made_from(files)) return false;
   write_text_if_changed(files.page(), job_page(files), Sync::never);
   return true;
+}
+
+void mark_job_page(const JobFolder& files, const std::string& words) {
+  constexpr std::string_view body = "<body>\n", open = "<p class=\"failed\" id=\"stale\">", close = "</p>\n";
+  const std::string digest = made_from_of(files.page());
+  if (digest.empty()) return;
+  const std::string mark = fmt::format("{}{}{}{}", body, open, escaped(words), close);
+  if (head_of(files.page()).find(mark) != std::string::npos) return;
+  std::string text = read_text(files.page());
+  const std::size_t at = text.find(body), behind = at + body.size();
+  if (at == std::string::npos) return;
+  const bool marked = std::string_view(text).substr(behind).starts_with(open);
+  text.replace(at, (marked ? text.find(close, behind) + close.size() : behind) - at, mark);
+  text.replace(text.find(digest), digest.size(), xxh3(digest + mark));  // no page of these results any more
+  write_text_if_changed(files.page(), text, Sync::never);
 }
 
 }  // namespace dresslife::pipeline

@@ -330,7 +330,7 @@ class Viewer {
   }
   resize() {
     const width = this.place.clientWidth, height = this.place.clientHeight;
-    if (!width || !height) return;
+    if (!width || !height || matchMedia('print').matches) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
@@ -372,8 +372,9 @@ class Viewer {
            tries < 8 && taken.some(other => left < other.right && right > other.left && Math.abs(top - other.top) < 17); ++tries)
         top += 17;
       taken.push({left, right, top});
-      label.element.style.left = `${left}px`;
-      label.element.style.top = `${top}px`;
+      // In shares of the picture, which paper makes narrower.
+      label.element.style.left = `${100 * left / this.place.clientWidth}%`;
+      label.element.style.top = `${100 * top / this.place.clientHeight}%`;
     }
   }
 }

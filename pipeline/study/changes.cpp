@@ -87,8 +87,15 @@ std::vector<std::string> changed_files(const fs::path& folder, const StudyPlaces
   return changed;
 }
 
+/// Tells who wrote something or what it is called, and moves no life.
+bool is_prose(const std::string& change) {
+  const std::string key = change.substr(0, change.find(' '));
+  return key.ends_with("source") || key.ends_with(".name");
+}
+
 std::string words_of(std::vector<std::string> changed) {
   constexpr std::size_t named = 3;
+  std::stable_partition(changed.begin(), changed.end(), [](const std::string& change) { return !is_prose(change); });
   if (changed.empty()) return "what it was made of is not noted any more";
   const std::size_t more = changed.size() - std::min(changed.size(), named);
   changed.resize(changed.size() - more);

@@ -88,6 +88,21 @@ TEST_CASE(
       0);
   CHECK(content(page).size() < 500'000);
 
+  // A page of a last result says so, and what changed; back at its settings it is as before.
+  const auto mark = [&](const std::string& length) {
+    run(scratch, "dresslife", "report job.yaml --set routing.free_length_m=" + length);
+    const std::string text = content(page), open = "<p class=\"failed\" id=\"stale\">";
+    const std::size_t at = text.find(open);
+    CHECK(text.find(open, at + 1) == std::string::npos);
+    return at == std::string::npos ? "" : text.substr(at + open.size(), text.find("</p>", at) - at - open.size());
+  };
+  CHECK(mark("0.9") == "");
+  const std::string unmarked = content(page);
+  CHECK(mark("0.95") == "stale: since this result routing.free_length_m 0.9 -&gt; 0.95");
+  CHECK(mark("0.97") == "stale: since this result routing.free_length_m 0.9 -&gt; 0.97");
+  CHECK(mark("0.9") == "");
+  CHECK(content(page) == unmarked);
+
   // Files that are not of one motion make no page.
   REQUIRE(run(scratch, "dresslife-sim", "job.yaml --set simulation.segments=10 -o other.h5").status == 0);
   fs::copy_file(scratch / "other.h5", scratch / "runs/job/job/motion.h5",
