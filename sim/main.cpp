@@ -18,7 +18,7 @@ using namespace dresslife;
 
 namespace {
 
-enum Option { preview, screen, propose, ring, tried, rehearsals, seed, exercise };
+enum Option { preview, screen, rehearse, propose, ring, tried, rehearsals, seed, exercise };
 
 /// A count on the command line. Errors: InputError at the option.
 std::uint64_t whole(const std::string& option, const std::string& text, std::uint64_t least, std::uint64_t most) {
@@ -54,7 +54,7 @@ bool told_at_rest(const pipeline::StageCall& call, pipeline::Job& job) {
   if (asked(preview))
     sim::write_preview(job, file);
   else if (asked(screen))
-    sim::write_screening(job, call.options[screen].back(), file);
+    sim::write_screening(job, call.options[screen].back(), asked(rehearse), file);
   else
     write_proposals(call, job, file);
   pipeline::stamp(file, call, job, "");
@@ -105,6 +105,8 @@ int main(int argc, char** argv) {
                    "simulate nothing; write what stands where, and which lengths suit (preview.h5)"},
                   {"--screen", "LIST.yaml",
                    "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)"},
+                  {"--rehearse", "",
+                   "with --screen: run each with few segments, and write what was seen"},
                   {"--propose", "COUNT",
                    "simulate nothing; write routings with clamps on the job's links that geometry finds nothing "
                    "against (screening.h5)"},

@@ -20,17 +20,16 @@ enum Place { base, tool, ring };
 
 /// Wished of each limit beyond keeping it, in the order of ScreenedLimit; a run bends, twists and sways on
 /// top of what geometry says.
-constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.25};
+constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.25, 0};
 
 /// Likewise of a run with few segments, which sees less of a bend.
-constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0};
+constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0, 0.005};
 
 /// Likewise of the job's own run: its numbers are rounded when it is written.
-constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0};
+constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001};
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double farthest = 4;  // of a clamp from the link that carries it [diameters]
-constexpr int rehearsed_segments = 24, rehearsed_repeats = 1;
 constexpr int side_by_side = 4;  // rehearsals, however many threads there are
 
 struct Candidate {

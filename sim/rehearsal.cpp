@@ -29,7 +29,7 @@ void see(Screening& seen, const Check& check) {
   if (check.name == check_name::too_long)
     see(seen, ScreenedLimit::too_long, most_slack_share * (check.value / check.limit - 1), check.time);
   if (check.name == check_name::tension && check.value > 0)
-    see(seen, ScreenedLimit::too_short, std::log(check.value / check.limit), check.time);
+    see(seen, ScreenedLimit::tension, std::log(check.value / check.limit), check.time);
 }
 
 }  // namespace

@@ -13,11 +13,13 @@
 namespace dresslife::sim {
 
 struct Rehearsal {
-  /// (V1) to (V4) of what the run's checks saw; (V5) is -infinity: the run itself looks after obstacles. A pull
-  /// beyond the maker's counts as too short, g = ln(pull/limit).
+  /// (V1) to (V4) and (V6) of what the run's checks saw; (V5) is -infinity: the run itself looks after obstacles.
   Screening seen;
   std::string refusal;  ///< why it does not run; empty: it does
 };
+
+/// What a search asks for.
+inline constexpr int rehearsed_segments = 24, rehearsed_repeats = 1;
 
 /// segments: of each dresspack, at most as many as the job asks for. repeats: of the motion, at most likewise.
 Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats);

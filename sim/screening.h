@@ -11,6 +11,7 @@
 // (V4) twist       g = |Phi|/(L t_limit) - 1       Phi: turn about the tangent since it was clamped
 // (V5) overlap     g = (depth - d/2)/d             depth: in the links' capsules, the cell and the floor
 //                                                  d: diameter
+// (V6) tension     g = ln(F/F_limit)               F: largest pull, which only a run knows (rehearsal.h)
 //
 // Phi counts whole turns: the direction is transported from clamp to chord to clamp at every moment of the
 // program and followed without jumps; in the poses the transport along the curve itself takes its place.
@@ -30,8 +31,8 @@ struct Setup;
 
 namespace dresslife::sim {
 
-enum class ScreenedLimit { too_short, too_long, bend, twist, overlap };
-inline constexpr int screened_limits = 5;
+enum class ScreenedLimit { too_short, too_long, bend, twist, overlap, tension };
+inline constexpr int screened_limits = 6;
 constexpr std::string_view word(ScreenedLimit value) {
   switch (value) {
     case ScreenedLimit::too_short:
@@ -44,6 +45,8 @@ constexpr std::string_view word(ScreenedLimit value) {
       return "twisted too far";
     case ScreenedLimit::overlap:
       return "in the robot";
+    case ScreenedLimit::tension:
+      return "pulled too hard";
   }
   return {};
 }
@@ -52,6 +55,7 @@ constexpr std::string_view word(ScreenedLimit value) {
 /// contact. Of 350 random routings none that was rejected kept its limits in a full run (README.md). In the
 /// robot: the hose is pushed aside, so nothing is sure.
 inline constexpr std::array<double, screened_limits> surely_beyond{0, 0, 1, 0.5,
+                                                                   std::numeric_limits<double>::infinity(),
                                                                    std::numeric_limits<double>::infinity()};
 
 /// Of a point to the nearest one of the line between two others [m].

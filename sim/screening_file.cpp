@@ -5,7 +5,9 @@
 
 #include "pipeline/job/catalogue.h"
 #include "pipeline/job/job.h"
+#include "pipeline/threads.h"
 #include "sim/proposal.h"
+#include "sim/rehearsal.h"
 
 namespace dresslife::sim {
 namespace {
@@ -17,6 +19,7 @@ using pipeline::Node;
 struct Verdict {
   std::string changes, refusal;
   Screening screening;
+  std::optional<pipeline::Setup> setup{};  // where it is a job
 };
 
 class Writer {
@@ -92,10 +95,28 @@ Verdict verdict_of(Bench& bench, Node document, const Node& changes) {
       throw InputError(setup.motion.where, "a prescribed deformation has no routing to screen",
                        "leave it as it is");
     verdict.screening = bench.screen(setup, document);
+    verdict.setup = setup;
   } catch (const InputError& problem) {
     verdict.refusal = problem.what();
   }
   return verdict;
+}
+
+/// Runs them, one beside the other. Of what does not run geometry says how far it is from that.
+void rehearse(std::vector<Verdict>& verdicts) {
+  std::vector<Verdict*> left;
+  for (Verdict& verdict : verdicts)
+    if (verdict.setup) left.push_back(&verdict);
+  std::vector<Rehearsal> done(left.size());
+  const std::size_t threads = std::min(pipeline::thread_count(), left.size());
+  pipeline::in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t k = part; k < left.size(); k += threads)
+      done[k] = rehearsed(*left[k]->setup, rehearsed_segments, rehearsed_repeats);
+  });
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    left[k]->refusal = done[k].refusal;
+    if (done[k].refusal.empty()) left[k]->screening = done[k].seen;
+  }
 }
 
 std::string vector_text(const pipeline::Vector3d& v, int decimals) {
@@ -130,7 +151,7 @@ std::string routing_text(const pipeline::Routing& routing) {
 }  // namespace
 
 void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates,
-                     pipeline::FileWriter& file) {
+                     bool in_runs, pipeline::FileWriter& file) {
   const Node list = pipeline::read_yaml(candidates);
   if (!list.is_list())
     throw InputError(list.where, "holds no list of changes", "write a list of maps {KEY.PATH: VALUE}");
@@ -142,6 +163,7 @@ void write_screening(const pipeline::Job& job, const std::filesystem::path& cand
       throw InputError(changes.where, "is no map of key paths to values", "write {KEY.PATH: VALUE, ...}");
     verdicts.push_back(verdict_of(bench, document, changes));
   }
+  if (in_runs) rehearse(verdicts);
   Writer(file).write(verdicts);
   file.attribute("motion", "");
 }

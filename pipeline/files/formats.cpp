@@ -670,12 +670,12 @@ Format make_screening_format() {
   Format format{"dresslife-screening", 1, "dresslife-sim --screen or --propose",
                 "what geometry alone, or a short run, says of routings", {}, {}};
   const auto add = [&](Dataset dataset) { format.datasets.push_back(std::move(dataset)); };
-  add({"/limit/name", Type::text, {"limit"}, "1", "too short, too long, bent too tightly, twisted too far, in the robot"});
+  add({"/limit/name", Type::text, {"limit"}, "1", "too short, too long, bent too tightly, twisted too far, in the robot, pulled too hard"});
   add({"/candidate/changes", Type::text, {"candidate"}, "1", "YAML: what was changed in the job, or the routing that is proposed"});
   add({"/candidate/refusal", Type::text, {"candidate"}, "1", "why it is no job, or does not run; empty: it is one"});
   add({"/candidate/rejected", Type::i32, {"candidate"}, "1", "1: cannot work, 0: may"});
   add({"/candidate/beyond", Type::f64, {"candidate", "limit"}, "1",
-       "how far beyond each limit, (V1) to (V5) in sim/screening.h, of the last run where there were rehearsals; <= 0: kept; 0 where it is no job", true});
+       "how far beyond each limit, (V1) to (V6) in sim/screening.h, of the last run where there were rehearsals; <= 0: kept; 0 where it is no job", true});
   add({"/candidate/time", Type::f64, {"candidate", "limit"}, "s", "when"});
   format.attributes = {{"motion", "YAML of the motion for which routings are proposed; empty: the job's own", true}};
   return format;

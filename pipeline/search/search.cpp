@@ -13,7 +13,7 @@ double Look::violation() const {
 bool better(const Look& a, const Look& b) {
   if (a.ran != b.ran) return a.ran;
   if (a.violation() != b.violation()) return a.violation() < b.violation();
-  return a.ran && a.aims.front() < b.aims.front();
+  return a.ran && !a.aims.empty() && a.aims.front() < b.aims.front();
 }
 
 namespace {

@@ -22,7 +22,7 @@ struct Look {
 };
 
 /// Whether a is to be preferred, by its first aim: what ran before what did not; less beyond its limits; a
-/// smaller aim.
+/// smaller aim, where there are aims.
 bool better(const Look& a, const Look& b);
 
 /// Indices of the feasible looks than which none is as good in all aims and better in one, by their first aim.
@@ -30,6 +30,10 @@ std::vector<std::size_t> front(const std::vector<Look>& looks);
 
 /// (place) how far each is surely beyond its limits, before anything runs; 0: it may work.
 using Screen = std::function<std::vector<double>(const std::vector<Eigen::VectorXd>&)>;
+
+/// (place) what a cheaper look tells of each: whether it runs, and limits in the order of Look::beyond, which err; not a
+/// number: of that limit it knows nothing. Without aims. Equal places, equal answers.
+using Rehearse = std::function<std::vector<Look>(const std::vector<Eigen::VectorXd>&)>;
 
 class Search {
  public:

@@ -10,7 +10,6 @@
 namespace dresslife::pipeline {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -18,36 +17,21 @@ namespace {
 constexpr double first_width = 0.3, most_width = 0.5, least_width = 1e-4;  // half a side of the trust region
 constexpr int hits_to_widen = 3, least_misses_to_narrow = 4;
 constexpr double near = 1e-6;  // places nearer than that are one
-constexpr int candidate_count = 200, polish_evaluations = 150, shape_evaluations = 60;
+constexpr int candidate_count = 200, polish_evaluations = 150;
 constexpr double moved_at_once = 6;  // variables of a candidate that differ from the best look, on average
 constexpr std::size_t screened_at_once = 24;
-
-/// (Q3), no further than any limit matters.
-double tamed(double g) {
-  constexpr double far_kept = -1, far_beyond = 20;
-  const double bounded = std::clamp(g, far_kept, far_beyond);
-  return std::copysign(std::log1p(std::abs(bounded)), bounded);
-}
-
-/// Whether a limit is worth a model: it is not the same for all looks.
-bool varies(const VectorXd& values) { return values.maxCoeff() - values.minCoeff() > 1e-9; }
+constexpr std::size_t rehearsed_for_a_look = 4, rehearsed_together = 8;
+constexpr int rehearsed_again = 8;   // for a look, while none keeps its limits
+constexpr int spread_share = 4;      // of the first looks: places that keep their limits are spread by chance, too
+constexpr double least_ahead = 0.01; // width, then the search ahead begins anew
+constexpr double much_more = 1.3;    // rehearsals than shapes were found from
 
 const Look& best_of(const std::vector<Look>& looks) {
   return *std::min_element(looks.begin(), looks.end(), better);
 }
 
-MatrixXd places_of(const std::vector<const Look*>& looks) {
-  MatrixXd rows(static_cast<Index>(looks.size()), looks.front()->place.size());
-  for (std::size_t k = 0; k < looks.size(); ++k) rows.row(static_cast<Index>(k)) = looks[k]->place.transpose();
-  return rows;
-}
-
-/// (look) of the numbers that `of` tells of each.
-template <class Of>
-VectorXd numbers_of(const std::vector<const Look*>& looks, const Of& of) {
-  VectorXd numbers(static_cast<Index>(looks.size()));
-  for (std::size_t k = 0; k < looks.size(); ++k) numbers[static_cast<Index>(k)] = of(*looks[k]);
-  return numbers;
+bool any_ran(const std::vector<Look>& looks) {
+  return std::any_of(looks.begin(), looks.end(), [](const Look& look) { return look.ran; });
 }
 
 SearchBox around(const VectorXd& centre, double width) {
@@ -56,99 +40,15 @@ SearchBox around(const VectorXd& centre, double width) {
 
 }  // namespace
 
-/// Of the aim, of each limit that some look came near, and of whether a job runs.
-struct SurrogateSearch::Models {
-  MatrixXd ran, all;                // (look, variable)
-  VectorXd aim;                     // (look that ran)
-  std::vector<VectorXd> limits;     // (limit)(look that ran)
-  VectorXd failed;                  // (look) -1: it ran; else 1 and how far it was from that; empty: all ran
-  std::vector<GaussianProcess::Shape> shapes;
-  std::optional<GaussianProcess> of_aim, of_failure;
-  std::vector<GaussianProcess> of_limits;
-  bool any_feasible = false;
-
-  explicit Models(const std::vector<Look>& looks);
-  void fit(std::vector<GaussianProcess::Shape>& known);
-  void build();
-  void believe(const VectorXd& place);
-
-  VectorXd beyond(const VectorXd& place, double deviations) const;
-  double aim_at(const VectorXd& place, double deviations) const {
-    const GaussianProcess::Told told = of_aim->at(place);
-    return told.mean - deviations * told.deviation;
-  }
-};
-
-SurrogateSearch::Models::Models(const std::vector<Look>& looks) {
-  std::vector<const Look*> those, everyone;
-  for (const Look& look : looks) {
-    everyone.push_back(&look);
-    if (look.ran) those.push_back(&look);
-    any_feasible = any_feasible || look.feasible();
-  }
-  ran = places_of(those);
-  all = places_of(everyone);
-  aim = numbers_of(those, [](const Look& look) { return look.aims.front(); });
-  for (std::size_t k = 0; k < those.front()->beyond.size(); ++k) {
-    const VectorXd g = numbers_of(those, [k](const Look& look) { return tamed(look.beyond[k]); });
-    if (varies(g)) limits.push_back(g);
-  }
-  if (those.size() < everyone.size())
-    failed = numbers_of(everyone, [](const Look& look) { return look.ran ? -1 : 1 + tamed(look.violation()); });
-}
-
-void SurrogateSearch::Models::fit(std::vector<GaussianProcess::Shape>& known) {
-  known.resize(limits.size() + 2, GaussianProcess::usual_shape(all.cols()));
-  const auto refit = [](GaussianProcess::Shape& shape, const MatrixXd& points, const VectorXd& values) {
-    shape = GaussianProcess::likeliest_shape(points, values, shape, shape_evaluations);
-  };
-  refit(known[0], ran, aim);
-  if (failed.size() > 0) refit(known[1], all, failed);
-  for (std::size_t k = 0; k < limits.size(); ++k) refit(known[k + 2], ran, limits[k]);
-  shapes = known;
-}
-
-void SurrogateSearch::Models::build() {
-  of_aim.emplace(ran, aim, shapes[0]);
-  if (failed.size() > 0) of_failure.emplace(all, failed, shapes[1]);
-  of_limits.clear();
-  for (std::size_t k = 0; k < limits.size(); ++k) of_limits.emplace_back(ran, limits[k], shapes[k + 2]);
-}
-
-/// As if the place had been looked at and been as expected, so that the next pick goes elsewhere.
-void SurrogateSearch::Models::believe(const VectorXd& place) {
-  const auto longer = [](VectorXd& values, double value) {
-    values.conservativeResize(values.size() + 1);
-    values[values.size() - 1] = value;
-  };
-  longer(aim, of_aim->at(place).mean);
-  for (std::size_t k = 0; k < limits.size(); ++k) longer(limits[k], of_limits[k].at(place).mean);
-  if (failed.size() > 0) longer(failed, of_failure->at(place).mean);
-  for (MatrixXd* places : {&ran, &all}) {
-    places->conservativeResize(places->rows() + 1, Eigen::NoChange);
-    places->row(places->rows() - 1) = place.transpose();
-  }
-  build();
-}
-
-VectorXd SurrogateSearch::Models::beyond(const VectorXd& place, double deviations) const {
-  const auto limits_of = static_cast<Index>(of_limits.size());
-  VectorXd g(limits_of + (of_failure ? 1 : 0));
-  const auto bound = [&](const GaussianProcess& model) {
-    const GaussianProcess::Told told = model.at(place);
-    return told.mean + deviations * told.deviation;
-  };
-  for (Index k = 0; k < limits_of; ++k) g[k] = bound(of_limits[static_cast<std::size_t>(k)]);
-  if (of_failure) g[limits_of] = bound(*of_failure);
-  return g;
-}
-
-SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& settings, Screen screen)
+SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& settings, Screen screen, Rehearse rehearse)
     : variables_(variables),
       settings_(settings),
       screen_(std::move(screen)),
-      numbers_(settings.seed) {
+      rehearse_(std::move(rehearse)),
+      numbers_(settings.seed),
+      ahead_width_(first_width) {
   if (settings_.first_looks == 0) settings_.first_looks = static_cast<int>(2 * variables + 2);
+  if (settings_.rehearsals == 0) settings_.rehearsals = static_cast<int>(10 * variables);
   if (settings_.aims == 1)
     regions_ = {{1, first_width}};
   else
@@ -164,17 +64,21 @@ VectorXd SurrogateSearch::first_look() {
     for (double& u : place) u = numbers_.uniform();
     some.push_back(std::move(place));
   }
-  const auto distance = [&](const VectorXd& place) {
-    double least = static_cast<double>(variables_);
-    for (const Look& look : looks_) least = std::min(least, (look.place - place).squaredNorm());
-    for (const VectorXd& other : pending_) least = std::min(least, (other - place).squaredNorm());
-    return least;
-  };
-  const std::vector<double> beyond = screen_(some);
+  const std::vector<double> beyond = rehearse_ ? std::vector<double>(some.size(), 0.0) : screen_(some);
   std::size_t best = 0;
   for (std::size_t k = 1; k < some.size(); ++k)
-    if (beyond[k] < beyond[best] || (beyond[k] == beyond[best] && distance(some[k]) > distance(some[best]))) best = k;
+    if (beyond[k] < beyond[best] ||
+        (beyond[k] == beyond[best] && distance_to_known(some[k]) > distance_to_known(some[best])))
+      best = k;
   return some[best];
+}
+
+/// Squared; of looks and what is asked for.
+double SurrogateSearch::distance_to_known(const VectorXd& place) const {
+  double least = static_cast<double>(variables_);
+  for (const Look& look : looks_) least = std::min(least, (look.place - place).squaredNorm());
+  for (const VectorXd& other : pending_) least = std::min(least, (other - place).squaredNorm());
+  return least;
 }
 
 bool SurrogateSearch::is_known(const VectorXd& place) const {
@@ -207,13 +111,14 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
   return some[static_cast<std::size_t>(std::min_element(beyond.begin(), beyond.end()) - beyond.begin())];
 }
 
-VectorXd SurrogateSearch::pick(const Models& models, const VectorXd& best, double width, const Trust& trust) {
+/// Best first, by what is beyond the limits, then by the aim: places about the best, and what a local search finds from
+/// the best of those.
+std::vector<VectorXd> SurrogateSearch::ranked(const LookModels& models, const VectorXd& best, double width,
+                                              const Trust& trust) {
   const SearchBox box = trust.anywhere ? SearchBox{VectorXd::Zero(variables_), VectorXd::Ones(variables_)} : around(best, width);
-  const auto excess = [&](const VectorXd& place) {
-    return models.beyond(place, trust.of_limits).cwiseMax(0.0).sum();
-  };
+  const auto excess = [&](const VectorXd& place) { return models.excess(place, trust.of_limits); };
   const auto aim = [&](const VectorXd& place) {
-    return models.any_feasible ? models.aim_at(place, trust.of_aim) : excess(place);
+    return models.any_feasible() ? models.aim_at(place, trust.of_aim) : excess(place);
   };
   using Ranked = std::tuple<double, double, VectorXd>;
   std::vector<Ranked> some;
@@ -226,7 +131,7 @@ VectorXd SurrogateSearch::pick(const Models& models, const VectorXd& best, doubl
   std::stable_sort(some.begin(), some.end(), better_one);
 
   LimitFunctions limits;
-  if (models.any_feasible) {
+  if (models.any_feasible()) {
     limits.count = static_cast<int>(models.beyond(best, 0).size());
     limits.beyond = [&](const VectorXd& place) { return models.beyond(place, trust.of_limits); };
   }
@@ -235,7 +140,101 @@ VectorXd SurrogateSearch::pick(const Models& models, const VectorXd& best, doubl
   std::stable_sort(some.begin(), some.end(), better_one);
   std::vector<VectorXd> by_merit;
   for (Ranked& one : some) by_merit.push_back(std::move(std::get<2>(one)));
-  return allowed(by_merit);
+  return by_merit;
+}
+
+bool SurrogateSearch::is_rehearsed(const VectorXd& place) const {
+  return std::any_of(rehearsals_.begin(), rehearsals_.end(),
+                     [&](const Look& one) { return (one.place - place).cwiseAbs().maxCoeff() < near; });
+}
+
+void SurrogateSearch::rehearse(const std::vector<VectorXd>& places) {
+  for (Look& told : rehearse_(places)) rehearsals_.push_back(std::move(told));
+}
+
+/// What was told unasked, so that it is known what rehearsals miss there.
+void SurrogateSearch::rehearse_looks(const std::vector<Look>& looks) {
+  std::vector<VectorXd> places;
+  for (const Look& look : looks)
+    if (!is_rehearsed(look.place)) places.push_back(look.place);
+  if (!places.empty()) rehearse(places);
+}
+
+/// The first few are rehearsed; then that is taken which is best by what is known now, of all that were rehearsed.
+VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<VectorXd>& by_merit, const Trust& trust) {
+  std::vector<VectorXd> some;
+  for (const VectorXd& place : by_merit)
+    if (some.size() < rehearsed_for_a_look && !is_known(place) && !is_rehearsed(place)) some.push_back(place);
+  const auto before = static_cast<std::ptrdiff_t>(rehearsals_.size());
+  rehearse(some);
+  models.learn({rehearsals_.begin() + before, rehearsals_.end()});
+  using Merit = std::pair<double, double>;
+  Merit least{HUGE_VAL, HUGE_VAL};
+  const Look* best = nullptr;
+  for (const Look& rehearsal : rehearsals_) {
+    if (is_known(rehearsal.place) || !rehearsal.ran) continue;
+    const Merit merit{models.excess(rehearsal.place, trust.of_limits), models.aim_at(rehearsal.place, trust.of_aim)};
+    if (!best || merit < least) least = merit, best = &rehearsal;
+  }
+  return best ? best->place : first_look();
+}
+
+/// Rehearsed, not yet looked at, and believed to keep all limits.
+std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const {
+  std::vector<VectorXd> places;
+  for (const Look& rehearsal : rehearsals_)
+    if (rehearsal.ran && !is_known(rehearsal.place) && models.excess(rehearsal.place, 0) == 0)
+      places.push_back(rehearsal.place);
+  return places;
+}
+
+/// That the models find least beyond its limits.
+VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models) const {
+  double least = HUGE_VAL;
+  const Look* nearest = &rehearsals_.front();
+  for (const Look& rehearsal : rehearsals_)
+    if (const double excess = models.excess(rehearsal.place, 0); rehearsal.ran && excess < least)
+      least = excess, nearest = &rehearsal;
+  return nearest->place;
+}
+
+/// (Q6)
+void SurrogateSearch::rehearse_ahead(int wanted) {
+  int left = asked_ == 0 ? settings_.rehearsals : rehearsed_again * wanted;
+  if (asked_ == 0) {
+    std::vector<VectorXd> spread;
+    while (static_cast<int>(spread.size()) < std::min(settings_.first_looks, left)) {
+      spread.push_back(first_look());
+      pending_.push_back(spread.back());
+    }
+    pending_.clear();
+    rehearse(spread);
+    left -= static_cast<int>(spread.size());
+  }
+  double nearest = HUGE_VAL;
+  while (left > 0 && any_ran(rehearsals_)) {
+    LookModels models = models_of(looks_);
+    if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
+    const VectorXd centre = nearest_rehearsal(models);
+    const double now = models.excess(centre, 0);
+    if (std::isfinite(nearest))
+      ahead_width_ = now < nearest ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
+    if (ahead_width_ < least_ahead) ahead_width_ = first_width;
+    nearest = now;
+    std::vector<VectorXd> batch;
+    while (batch.size() < std::min(rehearsed_together, static_cast<std::size_t>(left))) {
+      static constexpr Trust trusts[] = {{0, 0, false}, {0, -1, false}, {0, 0, false}, {0, -1, true}};
+      const Trust& trust = trusts[batch.size() % std::size(trusts)];
+      for (VectorXd& place : ranked(models, centre, ahead_width_, trust))
+        if (!is_known(place) && !is_rehearsed(place)) {
+          models.believe_rehearsal(place);
+          batch.push_back(std::move(place));
+          break;
+        }
+    }
+    left -= static_cast<int>(batch.size());
+    rehearse(batch);
+  }
 }
 
 /// The looks with one aim made of two: the larger of both, each as a share of what it spans among the best, weighed;
@@ -260,6 +259,30 @@ std::vector<Look> SurrogateSearch::by_weight(double weight) const {
   return looks;
 }
 
+/// Of looks and of rehearsals near the best of them; of shapes that are looked for when there is much more to find them
+/// from.
+LookModels SurrogateSearch::models_of(const std::vector<Look>& looks) {
+  const std::vector<Look>& those = any_ran(looks) ? looks : rehearsals_;
+  LookModels models(looks, rehearsals_, best_of(those).place, shapes_);
+  const auto known = static_cast<double>(looks.size() + rehearsals_.size());
+  if (looks.size() != shapes_of_looks_ || known > much_more * shapes_of_) {
+    models.fit();
+    shapes_ = models.shapes();
+    shapes_of_looks_ = looks.size();
+    shapes_of_ = known;
+  }
+  return models;
+}
+
+/// What is promising and farthest from all looks; the first few looks of a search that rehearses.
+std::optional<VectorXd> SurrogateSearch::spread_look(const LookModels& models) const {
+  std::optional<VectorXd> farthest;
+  double most = -1;
+  for (const VectorXd& place : promising(models))
+    if (const double distance = distance_to_known(place); distance > most) most = distance, farthest = place;
+  return farthest;
+}
+
 std::vector<VectorXd> SurrogateSearch::ask(int count) {
   std::vector<VectorXd> places;
   const auto take = [&](VectorXd place) {
@@ -268,21 +291,26 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
     ++asked_;
   };
   const auto wanted = static_cast<std::size_t>(count);
-  const bool any_ran = std::any_of(looks_.begin(), looks_.end(), [](const Look& look) { return look.ran; });
-  while (places.size() < wanted && (!any_ran || asked_ < settings_.first_looks)) take(first_look());
+  if (rehearse_) rehearse_ahead(count);
+  const bool can_model = any_ran(looks_) || any_ran(rehearsals_);
+  while (places.size() < wanted && (!can_model || (!rehearse_ && asked_ < settings_.first_looks))) take(first_look());
   if (places.size() == wanted) return places;
 
   region_ = (region_ + 1) % regions_.size();
   const std::vector<Look> looks = by_weight(regions_[region_].weight);
-  Models models(looks);
-  models.fit(shapes_);
-  models.build();
+  LookModels models = models_of(looks);
   for (const VectorXd& place : pending_) models.believe(place);
-  const VectorXd best = best_of(looks).place;
+  const VectorXd best = models.any_feasible() || !rehearse_ ? best_of(looks).place : nearest_rehearsal(models);
   while (places.size() < wanted) {
     static constexpr Trust trusts[] = {{0, 0, false}, {1, 1, false}, {1, -1, false}, {2, 0, true}};
-    const Trust& trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
-    take(pick(models, best, regions_[region_].width, trust));
+    std::optional<VectorXd> place;
+    if (rehearse_ && asked_ < settings_.first_looks / spread_share) place = spread_look(models);
+    if (!place) {
+      const Trust& trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
+      const std::vector<VectorXd> by_merit = ranked(models, best, regions_[region_].width, trust);
+      place = rehearse_ ? rehearsed_pick(models, by_merit, trust) : allowed(by_merit);
+    }
+    take(std::move(*place));
     if (places.size() < wanted) models.believe(places.back());
   }
   return places;
@@ -293,6 +321,7 @@ void SurrogateSearch::tell(const std::vector<Look>& looks) {
   const std::size_t before = looks_.size();
   looks_.insert(looks_.end(), looks.begin(), looks.end());
   pending_.clear();
+  if (rehearse_) rehearse_looks(looks);
   if (picks_ == 0 || before == 0) return;
   const std::vector<Look> now = by_weight(region.weight);
   const auto old_end = now.begin() + static_cast<std::ptrdiff_t>(before);

@@ -44,7 +44,7 @@ TEST_CASE("a rehearsal grades what the run's checks saw") {
   CHECK(beyond(found, ScreenedLimit::too_long) == Approx(2.0 / 3 - 0.9).margin(1e-9));
   job.dresspacks.front().dresspack.mass_per_length = 15;  // a heavy one hangs like a chain
   job.dresspacks.front().dresspack.most_tension = 1;
-  CHECK(beyond(rehearsed(job, as_the_job, 1), ScreenedLimit::too_short) > 1);
+  CHECK(beyond(rehearsed(job, as_the_job, 1), ScreenedLimit::tension) > 1);
   job.dresspacks.front().routing.free_length = 0.85;
   CHECK(rehearsed(job, as_the_job, 1).refusal.find("too short") != std::string::npos);
 }

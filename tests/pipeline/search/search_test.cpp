@@ -79,6 +79,26 @@ Problem g04() {
           }};
 }
 
+/// Two springs of six variables: each must be neither slack nor overstretched, together they must fit, and the more
+/// they bend the sooner they break. A thousandth of the box keeps all limits.
+Problem springs() {
+  const auto bow = [](const VectorXd& x, Eigen::Index k) { return x[k] + x[k + 1] * x[k + 1] - 1.2 * std::sin(2 * x[k + 2]); };
+  return {"springs", VectorXd::Zero(6), VectorXd::Ones(6), 0,
+          [=](const VectorXd& x) { return x.squaredNorm() + bow(x, 0); },
+          [=](const VectorXd& x) {
+            return std::vector<double>{std::abs(bow(x, 0) + 0.55) - 0.1, std::log((bow(x, 3) + 2) / 1.25),
+                                       std::abs(x[0] - x[3] + 0.3 * x[1]) - 0.2, 0.9 - x[2] - 0.3 * x[5]};
+          }};
+}
+
+/// What a cheaper look tells of it: of the first three limits, and a little wrong.
+Look rehearsal_of(const Problem& problem, const VectorXd& place) {
+  std::vector<double> beyond = problem.beyond(problem.at(place));
+  for (std::size_t k = 0; k < 3; ++k) beyond[k] += 0.03 * std::cos(5 * place[static_cast<Eigen::Index>(k)]) - 0.05;
+  beyond[3] = std::nan("");
+  return {place, true, {}, beyond};
+}
+
 const Screen nothing_rejected = [](const std::vector<VectorXd>& places) {
   return std::vector<double>(places.size(), 0.0);
 };
@@ -180,6 +200,40 @@ TEST_CASE("looks that do not run lead to where they do") {
   const Look best = best_of(all);
   REQUIRE(best.feasible());
   CHECK(best.aims.front() == Approx(1.0).margin(0.02));  // there x1 >= (2 x0)^3 = 1
+}
+
+TEST_CASE("where a thousandth keeps all limits, rehearsals lead there within a few looks") {
+  const Problem problem = springs();
+  RandomSearch draws(6, 99, nothing_rejected);
+  int kept = 0;
+  constexpr int drawn = 200'000;
+  for (const VectorXd& place : draws.ask(drawn)) kept += problem.look(place).feasible();
+  INFO(kept << " of " << drawn);
+  CHECK(kept > drawn / 2000);
+  CHECK(kept < drawn / 700);
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    INFO("seed " << seed);
+    SurrogateSettings settings;
+    settings.seed = seed;
+    int rehearsed = 0;
+    const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
+      std::vector<Look> told;
+      for (const VectorXd& place : places) told.push_back(rehearsal_of(problem, place));
+      rehearsed += static_cast<int>(places.size());
+      return told;
+    };
+    SurrogateSearch search(6, settings, nothing_rejected, rehearse);
+    RandomSearch chance(6, seed, nothing_rejected);
+    const std::vector<Look> looks = searched(search, problem, 20, 4);
+    const auto first = std::find_if(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
+    WARN(first - looks.begin() << " rehearsed " << rehearsed << " best " << best_of(looks).aims.front());
+    CHECK(first - looks.begin() < 8);
+    CHECK_FALSE(best_of(searched(chance, problem, 20, 4)).feasible());
+    SurrogateSearch alone = surrogate(problem, seed);
+    const std::vector<Look> al = searched(alone, problem, 60, 4);
+    const auto f2 = std::find_if(al.begin(), al.end(), [](const Look& look) { return look.feasible(); });
+    WARN(f2 - al.begin() << " alone best " << best_of(al).aims.front());
+  }
 }
 
 TEST_CASE("a search is a function of its seed and of what it is told") {
