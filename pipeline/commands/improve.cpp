@@ -36,13 +36,14 @@ struct Options : RunOptions {
 };
 
 /// What geometry says; nothing where the program refuses the job.
-ScreenedList screened(const Job& job, const std::string& candidates, const fs::path& folder) {
+ScreenedList screened(const Job& job, const std::string& candidates, bool in_runs, const fs::path& folder) {
   const fs::path draft = folder / "screened.yaml", list = folder / "candidates.yaml";
   write_text_if_changed(draft, job_text(job), Sync::never);
   write_text_if_changed(list, candidates, Sync::never);
   const PassingFile told("screening.h5");
-  const int status = run_stage_program(
-      "dresslife-sim", {draft.string(), "--screen", list.string(), "-o", told.path().string(), "--quiet"});
+  std::vector<std::string> arguments{draft.string(), "--screen", list.string(), "-o", told.path().string(), "--quiet"};
+  if (in_runs) arguments.push_back("--rehearse");
+  const int status = run_stage_program("dresslife-sim", arguments);
   return status == 0 ? read_screening(told.path()) : ScreenedList{};
 }
 
@@ -221,9 +222,11 @@ std::string words_of(const Improvement& found, const Finals& finals, const Impro
   std::string text = fmt::format(
       "As it is: {}{}\n", was.failure.empty() ? hours_words(finals.of.front().hours) : "it does not run",
       was.feasible() ? ", all limits kept" : was.failure.empty() ? ", " + was.words() : ": " + was.failure);
-  if (finals.of.size() == 1)
-    return text + fmt::format("No feasible job was found in {} trials; see improve.csv for what stands against them.\n",
-                              found.trials.size());
+  if (finals.of.size() == 1) {
+    text += fmt::format("No feasible job was found in {} trials and {} short runs.\n", found.trials.size(), found.rehearsals);
+    for (const std::string& line : found.obstacle) text += line + "\n";
+    return text;
+  }
   if (found.front.size() > 1) {
     text += fmt::format("Longest lives for their {}:\n", options.second);
     for (std::size_t k = 1; k < finals.of.size(); ++k) {
@@ -254,7 +257,9 @@ int improve_study(Options options) {
   Progress progress(name, options.quiet);
   const TrialMakers makers{
       [&](const Study& study) { return made_rows(study, places, quiet); },
-      [&](const Job& job, const std::string& candidates) { return screened(job, candidates, places.folder); },
+      [&](const Job& job, const std::string& candidates, bool in_runs) {
+        return screened(job, candidates, in_runs, places.folder);
+      },
       [&](const Improvement& so_far) {
         const std::optional<std::size_t> best = so_far.best();
         progress.show(fmt::format("{}/{}  best {}", so_far.trials.size(), options.request.trials,
@@ -306,6 +311,12 @@ Command add_improve(CLI::App& program) {
   words->add_option("--seed", options->request.seed, "of the search's chances")
       ->check(CLI::Range(0, 1'000'000'000))
       ->type_name("NUMBER")
+      ->capture_default_str();
+  words
+      ->add_option("--rehearsals", options->request.rehearsals,
+                   "short runs before the first trial, at most; each trial adds a few; 0: none; -1: ten for each variable")
+      ->check(CLI::Range(-1, 100'000))
+      ->type_name("COUNT")
       ->capture_default_str();
   words->add_option("--method", options->method, "models of lives and limits, or chance alone to hold against it")
       ->check(CLI::IsMember({"surrogate", "random"}))

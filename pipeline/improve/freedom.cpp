@@ -71,6 +71,9 @@ class NumberRange : public FreeKey {
     const std::optional<double> number = number_of(value);
     return number ? if_within(one((*number - low_) / (high_ - low_))) : VectorXd();
   }
+  std::string end_words(Index, bool high) const override {
+    return high ? fmt::format("at most {:.6g}", high_) : fmt::format("at least {:.6g}", low_);
+  }
 
  private:
   double low_, high_;
@@ -87,6 +90,10 @@ class PositionBox : public FreeKey {
   VectorXd place_of(const Node& value) const override {
     const std::optional<Vector3d> vector = vector_of(value);
     return vector ? if_within((((*vector - centre_) / spread_).array() + 1) / 2) : VectorXd();
+  }
+  std::string end_words(Index variable, bool high) const override {
+    return fmt::format("{} {} {:.6g}", "xyz"[variable], high ? "at most" : "at least",
+                       centre_[variable] + (high ? spread_ : -spread_));
   }
 
  private:
@@ -105,6 +112,9 @@ class PositionLine : public FreeKey {
     const std::optional<Vector3d> vector = vector_of(value);
     if (!vector || (*vector - origin_).cross(along_).norm() > step_of(high_ - low_)) return {};
     return if_within(one(((*vector - origin_).dot(along_) - low_) / (high_ - low_)));
+  }
+  std::string end_words(Index, bool high) const override {
+    return fmt::format("{} {:.6g} along its line", high ? "at most" : "at least", high ? high_ : low_);
   }
 
  private:
@@ -133,6 +143,9 @@ class DirectionCone : public FreeKey {
     const Vector3d q = *vector / vector->dot(axis_) - axis_;
     const Eigen::Vector2d square = on_square({q.dot(first_) / reach_, q.dot(second_) / reach_});
     return if_within((square.array() + 1) / 2);
+  }
+  std::string end_words(Index, bool) const override {
+    return fmt::format("at most {:.3g} deg around", std::atan(reach_) * 180 / std::numbers::pi);
   }
 
  private:
@@ -172,6 +185,7 @@ class Choice : public FreeKey {
         return one((static_cast<double>(k) + 0.5) / static_cast<double>(values_.size()));
     return {};
   }
+  std::string end_words(Index, bool) const override { return ""; }
 
  private:
   std::vector<Node> values_;
@@ -367,6 +381,23 @@ Index Freedom::variables() const {
   Index sum = 0;
   for (const Freed& freed : keys_) sum += freed.key->variables();
   return sum;
+}
+
+std::vector<std::string> Freedom::at_ends(const VectorXd& place) const {
+  constexpr double end = 0.02;  // of a range: as near as a search of some dozen trials comes to it
+  std::vector<std::string> told;
+  Index at = 0;
+  for (const Freed& freed : keys_) {
+    std::string words;
+    for (Index k = 0; k < freed.key->variables(); ++k) {
+      const double u = place[at + k];
+      const std::string one = u < end || u > 1 - end ? freed.key->end_words(k, u > 1 - end) : "";
+      if (!one.empty() && words.find(one) == std::string::npos) words += ", " + one;
+    }
+    if (!words.empty()) told.push_back(freed.path + words);
+    at += freed.key->variables();
+  }
+  return told;
 }
 
 std::vector<std::string> Freedom::sets_at(const VectorXd& place) const {

@@ -31,6 +31,8 @@ class FreeKey {
   virtual Node value_at(const Eigen::VectorXd& place) const = 0;
   /// Where a job's own value lies; empty: it is not among what the key may be.
   virtual Eigen::VectorXd place_of(const Node& value) const = 0;
+  /// "at most 2.75", of what a variable stands at the end of; empty: it has no ends that could be moved.
+  virtual std::string end_words(Eigen::Index variable, bool high) const = 0;
 };
 
 class Freedom {
@@ -54,6 +56,8 @@ class Freedom {
 
   /// "KEY.PATH=VALUE" of every key.
   std::vector<std::string> sets_at(const Eigen::VectorXd& place) const;
+  /// "routing.free_length_m, at most 2.75", of every key that stands at an end of what it may be.
+  std::vector<std::string> at_ends(const Eigen::VectorXd& place) const;
   /// Where the first job lies; absent where a key of it does not.
   std::optional<Eigen::VectorXd> place_of_job() const { return start_; }
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 
+#include "pipeline/improve/obstacle.h"
 #include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/sources.h"
@@ -92,7 +94,10 @@ class Improver {
     const std::unique_ptr<Search> search = made_search();
     Trial as_it_is = tried({{}}).front();
     const std::optional<VectorXd> start = freedom_.place_of_job();
-    if (start) search->tell({look_of(as_it_is, *start)});
+    if (start) {
+      as_it_is.place = *start;
+      search->tell({look_of(as_it_is, *start)});
+    }
     done_.trials.push_back(std::move(as_it_is));
     makers_.tell(done_);
     while (static_cast<int>(done_.trials.size()) < request_.trials) {
@@ -102,13 +107,15 @@ class Improver {
       for (const VectorXd& place : asked) sets.push_back(freedom_.sets_at(place));
       std::vector<Look> looks;
       for (Trial& trial : tried(sets)) {
-        looks.push_back(look_of(trial, asked[looks.size()]));
+        trial.place = asked[looks.size()];
+        looks.push_back(look_of(trial, trial.place));
         done_.trials.push_back(std::move(trial));
       }
       search->tell(looks);
       makers_.tell(done_);
     }
     done_.front = best_trials();
+    if (done_.front.empty()) done_.obstacle = obstacle_words(done_.trials, freedom_);
     return std::move(done_);
   }
 
@@ -122,13 +129,17 @@ class Improver {
     SurrogateSettings settings;
     settings.seed = request_.seed;
     settings.aims = aims();
-    return std::make_unique<SurrogateSearch>(freedom_.variables(), settings, screen);
+    settings.rehearsals = std::max(0, request_.rehearsals);
+    Rehearse rehearse;
+    if (request_.rehearsals != 0 && !screened_.empty())
+      rehearse = [this](const std::vector<VectorXd>& places) { return rehearsed(places); };
+    return std::make_unique<SurrogateSearch>(freedom_.variables(), settings, screen, rehearse);
   }
 
   /// Jobs whose routing geometry can look at, one of those that are alike in it.
   void find_screened() {
     for (const auto& job : jobs_) {
-      const ScreenedList list = makers_.screen(*job, "[{}]\n");
+      const ScreenedList list = makers_.screen(*job, "[{}]\n", false);
       if (!list.candidates.empty() && list.candidates.front().refusal.empty()) screened_.push_back(job);
     }
   }
@@ -141,11 +152,10 @@ class Improver {
     std::string words;
   };
   std::vector<Screened> screened(const std::vector<std::vector<std::string>>& sets) const {
-    std::string candidates;
-    for (const std::vector<std::string>& of : sets) candidates += "- " + changes_of(of) + "\n";
+    const std::string candidates = list_of_changes(sets);
     std::vector<Screened> worst(sets.size());
     for (const auto& job : screened_) {
-      const ScreenedList list = makers_.screen(*job, candidates);
+      const ScreenedList list = makers_.screen(*job, candidates, false);
       for (std::size_t k = 0; k < list.candidates.size() && k < sets.size(); ++k) {
         constexpr double no_job = 10;  // beyond every geometry that is one
         const ScreenedCandidate& of = list.candidates[k];
@@ -156,6 +166,39 @@ class Improver {
       }
     }
     return worst;
+  }
+
+  static std::string list_of_changes(const std::vector<std::vector<std::string>>& sets) {
+    std::string text;
+    for (const std::vector<std::string>& of : sets) text += "- " + changes_of(of) + "\n";
+    return text;
+  }
+
+  /// (place) the worst of all jobs' short runs. A trial that does not run is graded by geometry in one (V1) to (V5).
+  std::vector<Look> rehearsed(const std::vector<VectorXd>& places) {
+    std::vector<std::vector<std::string>> sets;
+    for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
+    const std::string candidates = list_of_changes(sets);
+    std::vector<Look> looks;
+    for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
+    for (const auto& job : screened_) {
+      const ScreenedList list = makers_.screen(*job, candidates, true);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        if (k >= list.candidates.size()) throw std::logic_error("a list of short runs is not whole");
+        add_rehearsal(looks[k], list, list.candidates[k]);
+      }
+    }
+    done_.rehearsals += static_cast<int>(places.size() * screened_.size());
+    return looks;
+  }
+
+  static void add_rehearsal(Look& look, const ScreenedList& list, const ScreenedCandidate& candidate) {
+    const bool runs = candidate.refusal.empty();
+    if (!runs && look.ran) look = {look.place, false, {}, {}};
+    if (runs != look.ran) return;
+    const std::vector<double> beyond = runs ? limits_of_rehearsal(list.limits, candidate.beyond) : candidate.beyond;
+    if (look.beyond.empty()) look.beyond = beyond;
+    for (std::size_t k = 0; k < beyond.size(); ++k) look.beyond[k] = std::max(look.beyond[k], beyond[k]);
   }
 
   std::vector<double> surely_beyond(const std::vector<VectorXd>& places) const {

@@ -54,10 +54,12 @@ struct ImproveRequest {
   std::uint64_t seed = 1;
   SearchMethod method = SearchMethod::surrogate;
   SecondAim second = SecondAim::none;
+  int rehearsals = -1;  ///< short runs before the first trial, at most; 0: none at all; -1: ten times as many as variables
 };
 
 /// What was tried.
 struct Trial {
+  Eigen::VectorXd place;                ///< (variable) 0 .. 1; empty: the jobs as they are, not among what is free
   std::vector<std::string> sets;        ///< of each free key; empty: the jobs as they are
   std::vector<std::string> jobs;        ///< names in the study of trials
   std::vector<Outcome> outcomes;        ///< (job)
@@ -75,13 +77,16 @@ struct Improvement {
   AskedLimits limits;                ///< that the study asks besides the checks
   std::vector<Trial> trials;         ///< in their order, the jobs as they are first
   std::vector<std::size_t> front;    ///< of the feasible, longest life first; with one aim one
+  int rehearsals = 0;                ///< short runs besides
+  std::vector<std::string> obstacle; ///< lines on what stands against every trial; empty: some are feasible
   std::optional<std::size_t> best() const;  ///< longest life of the feasible; absent: none is
 };
 
 struct TrialMakers {
   std::function<std::vector<RankingRow>(const Study&)> make_rows;
-  /// (candidate) what geometry says of a job changed so (YAML lists of maps); empty: it cannot be asked.
-  std::function<ScreenedList(const Job&, const std::string& candidates)> screen;
+  /// (candidate) what geometry, or a short run of each, says of a job changed so (YAML lists of maps); empty: it cannot
+  /// be asked.
+  std::function<ScreenedList(const Job&, const std::string& candidates, bool in_runs)> screen;
   std::function<void(const Improvement&)> tell;  ///< after every few trials
 };
 

@@ -23,6 +23,10 @@ void describe(Fields& f, AskedLimits& limits);
 inline constexpr int outcome_limits = 8;
 const std::vector<std::string>& outcome_limit_names();
 
+/// The same of a short run (screened.h), whose limits have the names of those of geometry; not a number where it knows
+/// nothing.
+std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names, const std::vector<double>& beyond);
+
 struct Outcome {
   std::string failure;         ///< why there is no life; empty: there is one
   double hours = 0;            ///< planner's life in 10 % of dresspacks; infinite without damage

@@ -59,14 +59,15 @@ GaussianProcess::Shape GaussianProcess::usual_shape(Index variables) {
   return shape;
 }
 
-GaussianProcess::GaussianProcess(const MatrixXd& points, const VectorXd& values, const Shape& shape)
+GaussianProcess::GaussianProcess(const MatrixXd& points, const VectorXd& values, const Shape& shape, const Scale& scale)
     : scaled_(points * per_length(shape).asDiagonal()),
       per_length_(per_length(shape)),
       covariance_(correlations(scaled_, noise_of(shape))),
       mean_(values.mean()) {
   const VectorXd centred = values.array() - mean_;
   weights_ = covariance_.solve(centred);
-  variance_ = std::max(flat, centred.dot(weights_) / static_cast<double>(values.size()));
+  const double believed = scale.worth * scale.deviation * scale.deviation;
+  variance_ = std::max(flat, (believed + centred.dot(weights_)) / (scale.worth + static_cast<double>(values.size())));
 }
 
 GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, const VectorXd& values,

@@ -17,8 +17,15 @@ class GaussianProcess {
   using Shape = Eigen::VectorXd;
   static Shape usual_shape(Eigen::Index variables);
 
+  /// What is believed of s before anything is seen: s, as sure as so many values would make it.
+  struct Scale {
+    double deviation = 0, worth = 0;
+  };
+
   /// points: (place, variable), values: (place), finite, at least one.
-  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape);
+  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape)
+      : GaussianProcess(points, values, shape, Scale{}) {}
+  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape, const Scale& scale);
 
   /// The likeliest shape, sought from `start` with so many evaluations.
   static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& start,

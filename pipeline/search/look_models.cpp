@@ -18,6 +18,8 @@ constexpr Index most_for_shape = 120;          // likewise
 constexpr int shape_evaluations = 60;
 constexpr double same = 1e-9;  // values and places that differ by less are one
 
+constexpr GaussianProcess::Scale missed_by_rehearsals{0.1, 3};
+
 enum ShapeOf : std::size_t { of_aim, of_failure, of_limits };
 
 Shape& shape_of(LookModels::Shapes& shapes, std::size_t limit, bool difference) {
@@ -56,8 +58,8 @@ void LookModels::Known::add(const VectorXd& place, double value) {
   values[values.size() - 1] = value;
 }
 
-void LookModels::Known::build(const Shape& shape) {
-  if (values.size() > 0) model.emplace(places, values, shape);
+void LookModels::Known::build(const Shape& shape, const GaussianProcess::Scale& scale) {
+  if (values.size() > 0) model.emplace(places, values, shape, scale);
 }
 
 GaussianProcess::Told LookModels::Limit::at(const VectorXd& place) const {
@@ -144,7 +146,7 @@ void LookModels::build_limits() {
     if (limit.rehearsed.model)
       for (Index i = 0; i < limit.difference.values.size(); ++i)
         limit.difference.values[i] -= limit.rehearsed.model->at(limit.looked.places.row(i).transpose()).mean;
-    limit.difference.build(shape_of(shapes_, k, true));
+    limit.difference.build(shape_of(shapes_, k, true), limit.rehearsed.model ? missed_by_rehearsals : GaussianProcess::Scale{});
   }
 }
 

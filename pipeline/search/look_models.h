@@ -3,7 +3,7 @@
 // (Q5) A limit of which rehearsals tell is modelled in two parts, g(x) = r(x) + d(x): r through all rehearsals near the
 //      centre of the search, d through what looks differed from it; both Gaussian processes (Q4), independent, so that
 //      their variances add up (M. Kennedy and A. O'Hagan, Biometrika 87 (2000) 1, eq. 2 with rho = 1). Where a place was
-//      rehearsed, r is known. Other limits, and the aim, are modelled through the looks alone.
+//      rehearsed, r is known. Before looks tell, d is believed to be about a tenth, as limits are graded. Other limits, and the aim, are modelled through the looks alone.
 #pragma once
 
 #include <optional>
@@ -52,7 +52,7 @@ class LookModels {
     std::optional<GaussianProcess> model{};
 
     void add(const Eigen::VectorXd& place, double value);
-    void build(const GaussianProcess::Shape& shape);
+    void build(const GaussianProcess::Shape& shape, const GaussianProcess::Scale& scale = {});
   };
   struct Limit {
     Known rehearsed, looked;  // looked: g, not the difference

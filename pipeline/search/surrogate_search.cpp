@@ -23,6 +23,7 @@ constexpr std::size_t screened_at_once = 24;
 constexpr std::size_t rehearsed_for_a_look = 4, rehearsed_together = 8;
 constexpr int rehearsed_again = 8;   // for a look, while none keeps its limits
 constexpr int spread_share = 4;      // of the first looks: places that keep their limits are spread by chance, too
+constexpr double cautious = 1;       // deviations of limits, while none is known to be kept
 constexpr double least_ahead = 0.01; // width, then the search ahead begins anew
 constexpr double much_more = 1.3;    // rehearsals than shapes were found from
 
@@ -179,11 +180,11 @@ VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<V
   return best ? best->place : first_look();
 }
 
-/// Rehearsed, not yet looked at, and believed to keep all limits.
+/// Rehearsed, not yet looked at, and most likely to keep all limits.
 std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const {
   std::vector<VectorXd> places;
   for (const Look& rehearsal : rehearsals_)
-    if (rehearsal.ran && !is_known(rehearsal.place) && models.excess(rehearsal.place, 0) == 0)
+    if (rehearsal.ran && !is_known(rehearsal.place) && models.excess(rehearsal.place, cautious) == 0)
       places.push_back(rehearsal.place);
   return places;
 }
@@ -193,7 +194,7 @@ VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models) const {
   double least = HUGE_VAL;
   const Look* nearest = &rehearsals_.front();
   for (const Look& rehearsal : rehearsals_)
-    if (const double excess = models.excess(rehearsal.place, 0); rehearsal.ran && excess < least)
+    if (const double excess = models.excess(rehearsal.place, cautious); rehearsal.ran && excess < least)
       least = excess, nearest = &rehearsal;
   return nearest->place;
 }
@@ -216,14 +217,14 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
     LookModels models = models_of(looks_);
     if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
     const VectorXd centre = nearest_rehearsal(models);
-    const double now = models.excess(centre, 0);
+    const double now = models.excess(centre, cautious);
     if (std::isfinite(nearest))
       ahead_width_ = now < nearest ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     if (ahead_width_ < least_ahead) ahead_width_ = first_width;
     nearest = now;
     std::vector<VectorXd> batch;
     while (batch.size() < std::min(rehearsed_together, static_cast<std::size_t>(left))) {
-      static constexpr Trust trusts[] = {{0, 0, false}, {0, -1, false}, {0, 0, false}, {0, -1, true}};
+      static constexpr Trust trusts[] = {{0, cautious, false}, {0, 0, false}, {0, cautious, false}, {0, -1, true}};
       const Trust& trust = trusts[batch.size() % std::size(trusts)];
       for (VectorXd& place : ranked(models, centre, ahead_width_, trust))
         if (!is_known(place) && !is_rehearsed(place)) {
@@ -306,7 +307,8 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
     std::optional<VectorXd> place;
     if (rehearse_ && asked_ < settings_.first_looks / spread_share) place = spread_look(models);
     if (!place) {
-      const Trust& trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
+      Trust trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
+      if (rehearse_ && !models.any_feasible()) trust.of_limits = cautious;
       const std::vector<VectorXd> by_merit = ranked(models, best, regions_[region_].width, trust);
       place = rehearse_ ? rehearsed_pick(models, by_merit, trust) : allowed(by_merit);
     }
