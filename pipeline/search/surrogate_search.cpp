@@ -31,6 +31,14 @@ const Look& best_of(const std::vector<Look>& looks) {
   return *std::min_element(looks.begin(), looks.end(), better);
 }
 
+/// The less, the better.
+using Merit = std::pair<double, double>;
+
+/// To keeping all limits: by what is believed, then by what is feared.
+Merit nearness(const LookModels& models, const VectorXd& place) {
+  return {models.excess(place, 0), models.excess(place, cautious)};
+}
+
 bool any_ran(const std::vector<Look>& looks) {
   return std::any_of(looks.begin(), looks.end(), [](const Look& look) { return look.ran; });
 }
@@ -49,7 +57,7 @@ SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& setti
       numbers_(settings.seed),
       ahead_width_(first_width) {
   if (settings_.first_looks == 0) settings_.first_looks = static_cast<int>(2 * variables + 2);
-  if (settings_.rehearsals == 0) settings_.rehearsals = static_cast<int>(10 * variables);
+  if (settings_.rehearsals == 0) settings_.rehearsals = static_cast<int>(25 * variables);
   if (settings_.aims == 1)
     regions_ = {{1, first_width}};
   else
@@ -169,12 +177,13 @@ VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<V
   const auto before = static_cast<std::ptrdiff_t>(rehearsals_.size());
   rehearse(some);
   models.learn({rehearsals_.begin() + before, rehearsals_.end()});
-  using Merit = std::pair<double, double>;
-  Merit least{HUGE_VAL, HUGE_VAL};
+  Merit least;
   const Look* best = nullptr;
   for (const Look& rehearsal : rehearsals_) {
     if (is_known(rehearsal.place) || !rehearsal.ran) continue;
-    const Merit merit{models.excess(rehearsal.place, trust.of_limits), models.aim_at(rehearsal.place, trust.of_aim)};
+    const Merit merit = models.any_feasible() ? Merit{models.excess(rehearsal.place, trust.of_limits),
+                                                      models.aim_at(rehearsal.place, trust.of_aim)}
+                                              : nearness(models, rehearsal.place);
     if (!best || merit < least) least = merit, best = &rehearsal;
   }
   return best ? best->place : first_look();
@@ -189,13 +198,15 @@ std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const
   return places;
 }
 
-/// That the models find least beyond its limits.
+/// That runs and that the models find least beyond its limits. Precondition: one ran.
 VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models) const {
-  double least = HUGE_VAL;
-  const Look* nearest = &rehearsals_.front();
-  for (const Look& rehearsal : rehearsals_)
-    if (const double excess = models.excess(rehearsal.place, cautious); rehearsal.ran && excess < least)
-      least = excess, nearest = &rehearsal;
+  Merit least;
+  const Look* nearest = nullptr;
+  for (const Look& rehearsal : rehearsals_) {
+    if (!rehearsal.ran) continue;
+    const Merit merit = nearness(models, rehearsal.place);
+    if (!nearest || merit < least) least = merit, nearest = &rehearsal;
+  }
   return nearest->place;
 }
 
@@ -212,19 +223,19 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
     rehearse(spread);
     left -= static_cast<int>(spread.size());
   }
-  double nearest = HUGE_VAL;
+  std::optional<Merit> nearest;
   while (left > 0 && any_ran(rehearsals_)) {
     LookModels models = models_of(looks_);
     if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
     const VectorXd centre = nearest_rehearsal(models);
-    const double now = models.excess(centre, cautious);
-    if (std::isfinite(nearest))
-      ahead_width_ = now < nearest ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
+    const Merit now = nearness(models, centre);
+    if (nearest)
+      ahead_width_ = now < *nearest ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     if (ahead_width_ < least_ahead) ahead_width_ = first_width;
     nearest = now;
     std::vector<VectorXd> batch;
     while (batch.size() < std::min(rehearsed_together, static_cast<std::size_t>(left))) {
-      static constexpr Trust trusts[] = {{0, cautious, false}, {0, 0, false}, {0, cautious, false}, {0, -1, true}};
+      static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
       const Trust& trust = trusts[batch.size() % std::size(trusts)];
       for (VectorXd& place : ranked(models, centre, ahead_width_, trust))
         if (!is_known(place) && !is_rehearsed(place)) {
@@ -301,14 +312,13 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   const std::vector<Look> looks = by_weight(regions_[region_].weight);
   LookModels models = models_of(looks);
   for (const VectorXd& place : pending_) models.believe(place);
-  const VectorXd best = models.any_feasible() || !rehearse_ ? best_of(looks).place : nearest_rehearsal(models);
+  const VectorXd best = models.any_feasible() || !any_ran(rehearsals_) ? best_of(looks).place : nearest_rehearsal(models);
   while (places.size() < wanted) {
     static constexpr Trust trusts[] = {{0, 0, false}, {1, 1, false}, {1, -1, false}, {2, 0, true}};
     std::optional<VectorXd> place;
     if (rehearse_ && asked_ < settings_.first_looks / spread_share) place = spread_look(models);
     if (!place) {
-      Trust trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
-      if (rehearse_ && !models.any_feasible()) trust.of_limits = cautious;
+      const Trust& trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
       const std::vector<VectorXd> by_merit = ranked(models, best, regions_[region_].width, trust);
       place = rehearse_ ? rehearsed_pick(models, by_merit, trust) : allowed(by_merit);
     }

@@ -16,7 +16,7 @@ struct SurrogateSettings {
   std::uint64_t seed = 1;
   int first_looks = 0;   ///< spread over the box before a model is made; 0: twice as many as variables, and 2
   std::size_t aims = 1;  ///< 2: places along the front between both
-  int rehearsals = 0;    ///< most before the first look is asked for; 0: ten times as many as variables
+  int rehearsals = 0;    ///< most before the first look is asked for; 0: 25 times as many as variables
 };
 
 class SurrogateSearch : public Search {

@@ -89,9 +89,12 @@ TEST_CASE("improve refuses what it cannot search") {
   scratch.write("bad.yaml", "base: job.yaml\nfree: {routing.free_length_m: 1 .. 2}\nlimits: {force_N: 4}\n");
   CHECK(run(scratch, "dresslife", "improve bad.yaml").err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") == 0);
   // Nothing keeps a limit: the exit status says so.
-  const Outcome none = run(scratch, "dresslife", "improve better.yaml --trials 3 --quiet --set dresspack.least_bend_radius_mm=5000");
+  const Outcome none = run(scratch, "dresslife", "improve better.yaml --trials 3 --rehearsals 20 --quiet --set dresspack.least_bend_radius_mm=5000");
   CHECK(none.status == 1);
-  CHECK(none.out.find("No feasible job was found in 3 trials") != std::string::npos);
+  CHECK(none.out.find("No feasible job was found in 3 trials and ") != std::string::npos);
+  CHECK(none.out.find("\nNo trial keeps bend radius: the best passes it by ") != std::string::npos);
+  CHECK(none.out.find("\nIt stands at the end of what may be changed: routing.free_length_m, at least 0.85; widen it\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("reprogram tries the costly lines in other ways, and names them by file and line") {

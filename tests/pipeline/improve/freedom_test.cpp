@@ -7,6 +7,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/improve/freedom.h"
 #include "pipeline/improve/improvement.h"
+#include "pipeline/improve/obstacle.h"
 #include "pipeline/job/job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -41,6 +42,42 @@ TEST_CASE("a range is gone through from end to end, in round numbers") {
   REQUIRE(freedom.place_of_job());
   CHECK((*freedom.place_of_job())[0] == Approx((2.035 - 1.9) / 0.7));
   CHECK_FALSE(freed("routing.free_length_m: 3 .. 4").place_of_job());
+}
+
+TEST_CASE("ends of what is free are told where a place stands at them") {
+  const Freedom freedom = freed(
+      "routing.free_length_m: 1.9 .. 2.6\nrouting.tool_clamp.position_m: 0.1 around [0, 0.2, 0.3]\n"
+      "routing.tool_clamp.direction: 30 deg around\ndresspack: [spot_welding, sensor_cable]");
+  using Words = std::vector<std::string>;
+  CHECK(freedom.at_ends(place_of({0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 1})) == Words());
+  CHECK(freedom.at_ends(place_of({0.99, 0.5, 0, 1, 0.5, 1, 0})) ==
+        Words{"routing.free_length_m, at most 2.6", "routing.tool_clamp.position_m, y at least 0.1, z at most 0.4",
+              "routing.tool_clamp.direction, at most 30 deg around"});
+  CHECK(freed("routing.base_clamp.position_m: -0.2 .. 0.3 along link_3").at_ends(place_of({0})) ==
+        Words{"routing.base_clamp.position_m, at least -0.2 along its line"});
+}
+
+TEST_CASE("where nothing is feasible it is told which limit binds, how near the best came, and what to widen") {
+  const Freedom freedom = freed("{routing.free_length_m: 1.9 .. 2.6, routing.pre_twist_deg: -90 .. 90}");
+  const auto trial = [](double u, double v, double bend, double twist) {
+    Trial made;
+    made.place = place_of({u, v});
+    made.worst.beyond.assign(outcome_limits, -1);
+    made.worst.beyond[0] = bend, made.worst.beyond[1] = twist;
+    return made;
+  };
+  using Lines = std::vector<std::string>;
+  Trial failed = trial(0, 0, 0, 0);
+  failed.worst.failure = "too short by 3 mm";
+  CHECK(obstacle_words({trial(0.5, 0.5, 0.5, -0.1), failed, trial(0.999, 0.5, 0.125, 0.25)}, freedom) ==
+        Lines{"Nearest is trial 2: bend radius passed by 0.12, twist passed by 0.25",
+              "No trial keeps bend radius: the best passes it by 0.12",
+              "It stands at the end of what may be changed: routing.free_length_m, at most 2.6; widen it"});
+  CHECK(obstacle_words({trial(0.5, 0.5, 0.5, -0.1), trial(0.5, 0.5, -0.1, 0.75)}, freedom) ==
+        Lines{"Nearest are the jobs as they are: bend radius passed by 0.5",
+              "Each limit is kept by some trial, but not with the others: bend radius",
+              "It stands inside of all that may be changed: more trials, other keys, or another dresspack"});
+  CHECK(obstacle_words({failed}, freedom) == Lines{"No trial runs; the last: too short by 3 mm"});
 }
 
 TEST_CASE("directions stay in their cone, and the job's own lies in its middle") {

@@ -99,6 +99,12 @@ Look rehearsal_of(const Problem& problem, const VectorXd& place) {
   return {place, true, {}, beyond};
 }
 
+const Rehearse rehearse_springs = [](const std::vector<VectorXd>& places) {
+  std::vector<Look> told;
+  for (const VectorXd& place : places) told.push_back(rehearsal_of(springs(), place));
+  return told;
+};
+
 const Screen nothing_rejected = [](const std::vector<VectorXd>& places) {
   return std::vector<double>(places.size(), 0.0);
 };
@@ -215,24 +221,17 @@ TEST_CASE("where a thousandth keeps all limits, rehearsals lead there within a f
     INFO("seed " << seed);
     SurrogateSettings settings;
     settings.seed = seed;
-    int rehearsed = 0;
-    const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
-      std::vector<Look> told;
-      for (const VectorXd& place : places) told.push_back(rehearsal_of(problem, place));
-      rehearsed += static_cast<int>(places.size());
-      return told;
-    };
-    SurrogateSearch search(6, settings, nothing_rejected, rehearse);
+    SurrogateSearch search(6, settings, nothing_rejected, rehearse_springs);
     RandomSearch chance(6, seed, nothing_rejected);
     const std::vector<Look> looks = searched(search, problem, 20, 4);
     const auto first = std::find_if(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
-    WARN(first - looks.begin() << " rehearsed " << rehearsed << " best " << best_of(looks).aims.front());
     CHECK(first - looks.begin() < 8);
+    // No more than were allowed beforehand, and of each look a few.
+    CHECK(search.rehearsals().size() <= 150 + 20 * 12);
     CHECK_FALSE(best_of(searched(chance, problem, 20, 4)).feasible());
+    // Without rehearsals it takes longer, but less than the thousand looks of chance.
     SurrogateSearch alone = surrogate(problem, seed);
-    const std::vector<Look> al = searched(alone, problem, 60, 4);
-    const auto f2 = std::find_if(al.begin(), al.end(), [](const Look& look) { return look.feasible(); });
-    WARN(f2 - al.begin() << " alone best " << best_of(al).aims.front());
+    CHECK(best_of(searched(alone, problem, 60, 4)).feasible());
   }
 }
 
@@ -249,6 +248,54 @@ TEST_CASE("a search is a function of its seed and of what it is told") {
   }
   SurrogateSearch other = surrogate(problem, 8);
   CHECK_FALSE(other.ask(1).front() == first.ask(1).front());
+}
+
+TEST_CASE("a search that rehearses goes on where it was killed, too") {
+  SurrogateSettings settings;
+  SurrogateSearch whole(6, settings, nothing_rejected, rehearse_springs), again(6, settings, nothing_rejected, rehearse_springs);
+  const std::vector<Look> looks = searched(whole, springs(), 12, 4);
+  for (std::size_t k = 0; k < looks.size(); k += 4) {
+    const std::vector<VectorXd> places = again.ask(4);
+    for (std::size_t j = 0; j < 4; ++j) CHECK(places[j] == looks[k + j].place);
+    again.tell({looks.begin() + static_cast<std::ptrdiff_t>(k), looks.begin() + static_cast<std::ptrdiff_t>(k + 4)});
+  }
+}
+
+TEST_CASE("rehearsals that do not run, or tell nothing, do not lead astray") {
+  // Runs where x0 > 0.5 alone; of limits nothing is told there.
+  const Problem problem = g24();
+  const auto runs = [](const VectorXd& place) { return place[0] > 0.5; };
+  const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
+    std::vector<Look> told;
+    for (const VectorXd& place : places)
+      told.push_back({place, runs(place), {}, runs(place) ? std::vector<double>(2, std::nan("")) : std::vector<double>{0.5 - place[0]}});
+    return told;
+  };
+  SurrogateSearch search(2, {}, nothing_rejected, rehearse);
+  std::vector<Look> all;
+  while (all.size() < 40) {
+    std::vector<Look> told;
+    for (const VectorXd& place : search.ask(4))
+      told.push_back(runs(place) ? problem.look(place) : Look{place, false, {}, {0.5 - place[0]}});
+    search.tell(told);
+    all.insert(all.end(), told.begin(), told.end());
+  }
+  const Look best = best_of(all);
+  CHECK(best.feasible());
+  CHECK(best.aims.front() - problem.least < 0.05);  // its best place, x0 = 2.33, runs
+  // Nothing runs at all: it still looks, and says so.
+  const Rehearse never = [](const std::vector<VectorXd>& places) {
+    std::vector<Look> told;
+    for (const VectorXd& place : places) told.push_back({place, false, {}, {1}});
+    return told;
+  };
+  SurrogateSearch lost(2, {}, nothing_rejected, never);
+  for (int k = 0; k < 3; ++k) {
+    std::vector<Look> told;
+    for (const VectorXd& place : lost.ask(4)) told.push_back({place, false, {}, {1}});
+    CHECK(told.size() == 4);
+    lost.tell(told);
+  }
 }
 
 TEST_CASE("places that are rejected beforehand are not asked for") {
