@@ -30,7 +30,8 @@ std::vector<std::string> binding(const std::vector<Trial>& trials, const Trial& 
     if (least > 0) lines.push_back(fmt::format("No trial keeps {}: the best passes it by {:.2g}", name, least));
     if (nearest.worst.beyond[k] > 0) together += (together.empty() ? "" : ", ") + name;
   }
-  if (lines.empty()) lines.push_back(fmt::format("Each limit is kept by some trial, but not with the others: {}", together));
+  if (lines.empty())
+    lines.push_back(fmt::format("Each limit is kept by some trial, but not with the others: {}", together));
   return lines;
 }
 
@@ -46,7 +47,8 @@ std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const 
   for (std::string& line : binding(trials, nearest)) lines.push_back(std::move(line));
   if (nearest.place.size() == 0) return lines;
   const std::vector<std::string> ends = freedom.at_ends(nearest.place);
-  for (const std::string& end : ends) lines.push_back("It stands at the end of what may be changed: " + end + "; widen it");
+  for (const std::string& end : ends)
+    lines.push_back("It stands at the end of what may be changed: " + end + "; widen it");
   if (ends.empty())
     lines.push_back("It stands inside of all that may be changed: more trials, other keys, or another dresspack");
   return lines;

@@ -27,7 +27,8 @@ Shape& shape_of(LookModels::Shapes& shapes, std::size_t limit, bool difference) 
 }
 
 /// Those at places of looks, then the nearest to the centre.
-std::vector<const Look*> chosen(const std::vector<Look>& rehearsals, const std::vector<Look>& looks, const VectorXd& centre) {
+std::vector<const Look*> chosen(const std::vector<Look>& rehearsals, const std::vector<Look>& looks,
+                                const VectorXd& centre) {
   std::vector<std::pair<double, const Look*>> some;
   for (const Look& rehearsal : rehearsals) {
     const auto is_here = [&](const Look& look) { return (look.place - rehearsal.place).cwiseAbs().maxCoeff() < same; };
@@ -146,7 +147,8 @@ void LookModels::build_limits() {
     if (limit.rehearsed.model)
       for (Index i = 0; i < limit.difference.values.size(); ++i)
         limit.difference.values[i] -= limit.rehearsed.model->at(limit.looked.places.row(i).transpose()).mean;
-    limit.difference.build(shape_of(shapes_, k, true), limit.rehearsed.model ? missed_by_rehearsals : GaussianProcess::Scale{});
+    limit.difference.build(shape_of(shapes_, k, true),
+                           limit.rehearsed.model ? missed_by_rehearsals : GaussianProcess::Scale{});
   }
 }
 

@@ -31,8 +31,8 @@ std::vector<std::size_t> front(const std::vector<Look>& looks);
 /// (place) how far each is surely beyond its limits, before anything runs; 0: it may work.
 using Screen = std::function<std::vector<double>(const std::vector<Eigen::VectorXd>&)>;
 
-/// (place) what a cheaper look tells of each: whether it runs, and limits in the order of Look::beyond, which err; not a
-/// number: of that limit it knows nothing. Without aims. Equal places, equal answers.
+/// (place) what a cheaper look tells of each: whether it runs, and limits in the order of Look::beyond, which err; not
+/// a number: of that limit it knows nothing. Without aims. Equal places, equal answers.
 using Rehearse = std::function<std::vector<Look>(const std::vector<Eigen::VectorXd>&)>;
 
 class Search {

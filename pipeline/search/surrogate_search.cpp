@@ -124,7 +124,8 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
 /// the best of those.
 std::vector<VectorXd> SurrogateSearch::ranked(const LookModels& models, const VectorXd& best, double width,
                                               const Trust& trust) {
-  const SearchBox box = trust.anywhere ? SearchBox{VectorXd::Zero(variables_), VectorXd::Ones(variables_)} : around(best, width);
+  const SearchBox whole{VectorXd::Zero(variables_), VectorXd::Ones(variables_)};
+  const SearchBox box = trust.anywhere ? whole : around(best, width);
   const auto excess = [&](const VectorXd& place) { return models.excess(place, trust.of_limits); };
   const auto aim = [&](const VectorXd& place) {
     return models.any_feasible() ? models.aim_at(place, trust.of_aim) : excess(place);
@@ -170,7 +171,8 @@ void SurrogateSearch::rehearse_looks(const std::vector<Look>& looks) {
 }
 
 /// The first few are rehearsed; then that is taken which is best by what is known now, of all that were rehearsed.
-VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<VectorXd>& by_merit, const Trust& trust) {
+VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<VectorXd>& by_merit,
+                                         const Trust& trust) {
   std::vector<VectorXd> some;
   for (const VectorXd& place : by_merit)
     if (some.size() < rehearsed_for_a_look && !is_known(place) && !is_rehearsed(place)) some.push_back(place);
@@ -312,7 +314,8 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   const std::vector<Look> looks = by_weight(regions_[region_].weight);
   LookModels models = models_of(looks);
   for (const VectorXd& place : pending_) models.believe(place);
-  const VectorXd best = models.any_feasible() || !any_ran(rehearsals_) ? best_of(looks).place : nearest_rehearsal(models);
+  const bool by_looks = models.any_feasible() || !any_ran(rehearsals_);
+  const VectorXd best = by_looks ? best_of(looks).place : nearest_rehearsal(models);
   while (places.size() < wanted) {
     static constexpr Trust trusts[] = {{0, 0, false}, {1, 1, false}, {1, -1, false}, {2, 0, true}};
     std::optional<VectorXd> place;

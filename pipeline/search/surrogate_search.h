@@ -45,10 +45,12 @@ class SurrogateSearch : public Search {
   Eigen::VectorXd first_look();
   double distance_to_known(const Eigen::VectorXd& place) const;
   LookModels models_of(const std::vector<Look>& looks);
-  std::vector<Eigen::VectorXd> ranked(const LookModels& models, const Eigen::VectorXd& best, double width, const Trust& trust);
+  std::vector<Eigen::VectorXd> ranked(const LookModels& models, const Eigen::VectorXd& best, double width,
+                                      const Trust& trust);
   std::vector<Eigen::VectorXd> promising(const LookModels& models) const;
   std::optional<Eigen::VectorXd> spread_look(const LookModels& models) const;
-  Eigen::VectorXd rehearsed_pick(LookModels& models, const std::vector<Eigen::VectorXd>& by_merit, const Trust& trust);
+  Eigen::VectorXd rehearsed_pick(LookModels& models, const std::vector<Eigen::VectorXd>& by_merit,
+                                 const Trust& trust);
   Eigen::VectorXd nearest_rehearsal(const LookModels& models) const;
   void rehearse_ahead(int wanted);
   void rehearse_looks(const std::vector<Look>& looks);
