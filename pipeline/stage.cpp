@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <sstream>
@@ -154,6 +155,7 @@ void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt
 void run_with_receipt(const StageCall& call, const StageFlags& flags, const Settings& settings,
                       const std::function<void()>& body) {
   Digests digests;
+  if (const char* const noted = std::getenv("DRESSLIFE_DIGESTS")) digests.believe(noted);
   Receipt wanted;
   wanted.recipe =
       recipe_of(settings.text, settings.files, program_file(), digests);

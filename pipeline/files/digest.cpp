@@ -1,8 +1,9 @@
 #include "pipeline/files/digest.h"
 
+// The envelope around it (EVP) makes tables of every cipher first: a third of a millisecond at each start of a stage.
+#define OPENSSL_API_COMPAT 10101
 #include <fmt/format.h>
-#include <openssl/crypto.h>
-#include <openssl/evp.h>
+#include <openssl/sha.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -18,24 +19,18 @@ namespace {
 
 class Sha256 {
  public:
-  Sha256() : context_(nullptr, EVP_MD_CTX_free) {
-    OPENSSL_init_crypto(OPENSSL_INIT_NO_LOAD_CONFIG, nullptr);  // no setting of the machine's changes a digest
-    context_.reset(EVP_MD_CTX_new());
-    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
-      throw std::runtime_error("SHA-256 is not available");
-  }
-  void add(const void* bytes, std::size_t count) { EVP_DigestUpdate(context_.get(), bytes, count); }
+  Sha256() { SHA256_Init(&context_); }
+  void add(const void* bytes, std::size_t count) { SHA256_Update(&context_, bytes, count); }
   std::string hex() {
-    unsigned char digest[EVP_MAX_MD_SIZE];
-    unsigned int length = 0;
-    EVP_DigestFinal_ex(context_.get(), digest, &length);
+    unsigned char digest[SHA256_DIGEST_LENGTH];
+    SHA256_Final(digest, &context_);
     std::string text;
-    for (unsigned int i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);
+    for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
     return text;
   }
 
  private:
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+  SHA256_CTX context_;
 };
 
 }  // namespace

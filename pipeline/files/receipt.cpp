@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "pipeline/errors.h"
 #include "pipeline/files/checksum.h"
@@ -91,12 +92,24 @@ std::string out_of_line(std::string_view line) {
   return text;
 }
 
+std::string words_of(const FileState& state) {
+  return fmt::format("{} {} {} {}", state.size, state.modified_ns, state.changed_ns, state.inode);
+}
+
+/// end: what follows the state.
+FileState state_in(Words& words, char end) {
+  FileState state;
+  state.size = words.number<std::int64_t>(' ');
+  state.modified_ns = words.number<std::int64_t>(' ');
+  state.changed_ns = words.number<std::int64_t>(' ');
+  state.inode = words.number<std::uint64_t>(end);
+  return state;
+}
+
 /// All but the digest at the end.
 std::string text_of(const Receipt& receipt) {
-  const FileState& state = receipt.state;
-  std::string text =
-      fmt::format("recipe {}\ninput {}\noutput {}\nstate {} {} {} {}\n", receipt.recipe, receipt.input,
-                  receipt.output, state.size, state.modified_ns, state.changed_ns, state.inode);
+  std::string text = fmt::format("recipe {}\ninput {}\noutput {}\nstate {}\n", receipt.recipe, receipt.input,
+                                 receipt.output, words_of(receipt.state));
   for (const Told& told : receipt.told)
     text += told.text.empty() ? fmt::format("number {} {}\n", told.name, told.number)
                               : fmt::format("text {} {}\n", told.name, in_line(told.text));
@@ -105,6 +118,28 @@ std::string text_of(const Receipt& receipt) {
 }
 
 }  // namespace
+
+std::string note_digests(const std::vector<std::filesystem::path>& files) {
+  constexpr auto tick = std::chrono::milliseconds(10);  // of the slowest kernels' file times
+  std::string notes;
+  for (const std::filesystem::path& file : files) {
+    const FileState state = state_of(file);
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    if (!state.exists() || now - std::chrono::nanoseconds(state.changed_ns) < tick) continue;
+    const std::string digest = Digests().of(file);
+    if (state_of(file) == state) notes += fmt::format("{} {} {}\n", digest, words_of(state), in_line(file.string()));
+  }
+  return notes;
+}
+
+void Digests::believe(std::string_view notes) {
+  for (Words lines(notes); lines.any();) {
+    const std::string digest(lines.until(' '));
+    const FileState then = state_in(lines, ' ');
+    const std::filesystem::path file = out_of_line(lines.until('\n'));
+    if (then.exists() && state_of(file) == then) known_.try_emplace(file, digest);
+  }
+}
 
 std::optional<Receipt> read_receipt(const std::filesystem::path& file) {
   Receipt receipt;
@@ -122,10 +157,7 @@ std::optional<Receipt> read_receipt(const std::filesystem::path& file) {
     } else if (what == "output") {
       receipt.output = lines.until('\n');
     } else if (what == "state") {
-      receipt.state.size = lines.number<std::int64_t>(' ');
-      receipt.state.modified_ns = lines.number<std::int64_t>(' ');
-      receipt.state.changed_ns = lines.number<std::int64_t>(' ');
-      receipt.state.inode = lines.number<std::uint64_t>('\n');
+      receipt.state = state_in(lines, '\n');
     } else if (what == "with") {
       std::string digest(lines.until(' '));
       receipt.made_with.emplace_back(out_of_line(lines.until('\n')), std::move(digest));

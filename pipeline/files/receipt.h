@@ -56,10 +56,16 @@ class Digests {
   /// XXH3; "absent" for a file that cannot be read: whoever needs it will say so.
   const std::string& of(const std::filesystem::path& file);
   const std::map<std::filesystem::path, std::string>& all() const { return known_; }
+  /// Takes the digests of note_digests() of those files that are as they were then, unread.
+  void believe(std::string_view notes);
 
  private:
   std::map<std::filesystem::path, std::string> known_;
 };
+
+/// Digests of files by their canonical paths, a line each with the state that the file had: who starts many programs looks at
+/// what all need once. Nothing of a file that is not there or was changed a moment ago, when its state says too little.
+std::string note_digests(const std::vector<std::filesystem::path>& files);
 
 std::string recipe_of(std::string_view settings, const std::vector<std::filesystem::path>& files,
                       const std::filesystem::path& program, Digests& digests);

@@ -235,12 +235,14 @@ void join_logs(const fs::path& folder) {
 class Ninja {
  public:
   Ninja(const StudyPlaces& places, int parallel) {
+    const Programs programs = found_programs(places);  // each stage would read all of its own
+    const std::string digests = note_digests({programs.begin(), programs.end()});
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
     std::fflush(nullptr);
     process_ = ::fork();
     if (process_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
-    if (process_ == 0) become_ninja(places, parallel, ends[1]);
+    if (process_ == 0) become_ninja(places, parallel, digests, ends[1]);
     ::close(ends[1]);
     said_ = ::fdopen(ends[0], "r");
   }
@@ -274,7 +276,7 @@ class Ninja {
  private:
   static constexpr int not_installed = 127;
 
-  [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, int said) {
+  [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, const std::string& digests, int said) {
     const pid_t runner = ::getppid();
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != runner) ::_exit(1);   // it died before that was said
@@ -282,6 +284,7 @@ class Ninja {
     // Through the environment goes whatever a folder may be named.
     ::setenv("DRESSLIFE_PROGRAMS", fs::absolute(places.programs).c_str(), 1);
     ::setenv("DRESSLIFE_MEMORY", (fs::absolute(places.folder) / places.notes() / memory_file).c_str(), 1);
+    ::setenv("DRESSLIFE_DIGESTS", digests.c_str(), 1);
     ::setenv("DRESSLIFE_PARENT", std::to_string(::getpid()).c_str(), 1);
     ::dup2(said, STDOUT_FILENO);
     ::dup2(said, STDERR_FILENO);

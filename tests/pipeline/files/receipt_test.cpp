@@ -1,0 +1,35 @@
+// Digests that one program notes for many: believed of a file while its state is the one that was noted, and else worked out.
+#include "pipeline/files/receipt.h"
+
+#include <catch2/catch.hpp>
+
+#include "pipeline/files/digest.h"
+
+using namespace dresslife::pipeline;
+namespace fs = std::filesystem;
+
+TEST_CASE("a noted digest is believed of a file that is as it was, and of no other") {
+  const fs::path file = fs::canonical(fs::path(DRESSLIFE_SOURCE_DIR) / "CMakeLists.txt");
+  const std::string digest = xxh3_of_file(file), notes = note_digests({file, "/nowhere/at all"});
+  REQUIRE(notes.starts_with(digest + " "));
+  REQUIRE(std::count(notes.begin(), notes.end(), '\n') == 1);
+
+  Digests unread;  // another digest in its place tells whether the file was read
+  unread.believe("noted" + notes.substr(digest.size()));
+  CHECK(unread.of(file) == "noted");
+
+  for (std::size_t word = 1; word <= 4; ++word) {  // size, both times, inode
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < word; ++k) at = notes.find(' ', at) + 1;
+    std::string changed = "noted" + notes.substr(digest.size());
+    changed.insert(at + 5 - digest.size(), "1");
+    Digests read;
+    read.believe(changed);
+    CHECK(read.of(file) == digest);
+  }
+  for (const std::string& nothing : {std::string(), std::string("\n\n"), notes.substr(0, digest.size() + 3), "noted -1 0 0 0 " + file.string() + "\n"}) {
+    Digests read;
+    read.believe(nothing);
+    CHECK(read.of(file) == digest);
+  }
+}
