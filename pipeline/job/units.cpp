@@ -47,7 +47,7 @@ constexpr std::array units{
 const Unit& unit_of_key(std::string_view key) {
   const Unit* longest = &dimensionless;
   for (const Unit& unit : units)
-    if (key.size() > unit.suffix.size() + 1 && key.ends_with(unit.suffix) &&
+    if (key.size() > unit.suffix.size() + 1 && key.back() == unit.suffix.back() && key.ends_with(unit.suffix) &&
         key[key.size() - unit.suffix.size() - 1] == '_' && unit.suffix.size() > longest->suffix.size())
       longest = &unit;
   return *longest;
@@ -66,6 +66,9 @@ std::string text_in_unit(double si, const Unit& unit) {
   // the roundings of the quotient's neighbours.
   using Limits = std::numeric_limits<double>;
   const double near = si / unit.to_si;
+  // Most are the quotient itself, and tell so by being short.
+  if (std::string text = shortest_text(near); near * unit.to_si == si && (unit.to_si == 1 || text.size() <= Limits::digits10))
+    return text;
   for (int digits = Limits::digits10; digits <= Limits::max_digits10; ++digits)
     for (const double x : {near, std::nextafter(near, INFINITY), std::nextafter(near, -INFINITY)}) {
       const double rounded = std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr);

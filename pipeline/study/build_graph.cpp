@@ -327,6 +327,14 @@ void look_at(JobState& state, const fs::path& folder) {
   state.damaged.clear();
   state.compared.clear();
   state.told.clear();
+  if (std::error_code ignored; !fs::exists(folder, ignored)) {  // of thousands that are new
+    state.failure.clear();
+    state.changed.clear();
+    state.has_results = state.has_last = false;
+    state.inputs = {"-"};
+    state.next = 0;
+    return;
+  }
   state.failure = noted_failure(state, folder);
   state.has_results = std::any_of(stages.begin(), stages.end(), [&](const Stage& stage) {
     return state_of(folder / stage.output).exists() ||
