@@ -33,9 +33,9 @@ double length_of(const std::vector<Vector3>& points) {
 
 // The largest value of a parameter in [0, most] with which the curve is not longer than `length` (bisection;
 // the length grows with the parameter but for a small dip, which does no harm).
-void stretch_to(Curve& curve, double Curve::*parameter, double most, double length, int count) {
+void stretch_to(Curve& curve, double Curve::*parameter, double most, double length, int count, int halvings) {
   double low = 0, high = most;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < halvings; ++k) {
     const double middle = (low + high) / 2;
     curve.*parameter = middle;
     (length_of(curve.points(count)) > length ? high : low) = middle;
@@ -51,16 +51,16 @@ Vector3 sag_direction(const Rod& rod, const Vector3& chord, const Vector3& base_
                                                                      : along.unitOrthogonal();
 }
 
-Curve fitted_curve(const Rod& rod, const ClampFrames& clamps, double most_speed, int count) {
+Curve fitted_curve(const Rod& rod, const ClampFrames& clamps, double most_speed, int count, int halvings) {
   const double length = rod.properties().length;
   Curve curve{clamps.base.position, clamps.tool.position, tangent(clamps.base.orientation),
               tangent(clamps.tool.orientation), Vector3::Zero()};
   curve.sag_direction = sag_direction(rod, curve.to - curve.from, curve.from_tangent);
   curve.speed = most_speed * length;
   if (length_of(curve.points(count)) > length)
-    stretch_to(curve, &Curve::speed, most_speed * length, length, count);
+    stretch_to(curve, &Curve::speed, most_speed * length, length, count, halvings);
   else
-    stretch_to(curve, &Curve::sag, length, length, count);
+    stretch_to(curve, &Curve::sag, length, length, count, halvings);
   return curve;
 }
 
@@ -88,10 +88,10 @@ Quaternion transported(const Quaternion& q, const Vector3& t) {
 
 }  // namespace
 
-StartCurve start_curve(const Rod& rod, const ClampFrames& clamps, double most_speed) {
-  const int n = rod.segments();
+StartCurve start_curve(const Rod& rod, const ClampFrames& clamps, double most_speed, int halvings) {
+  const int n = rod.segments(), count = points_per_segment * n;
   const std::vector<Vector3> joints =
-      evenly(fitted_curve(rod, clamps, most_speed, points_per_segment * n).points(points_per_segment * n), n);
+      evenly(fitted_curve(rod, clamps, most_speed, count, halvings).points(count), n);
   StartCurve result;
   RodState& state = result.state;
   state = rod.straight(clamps.base);
