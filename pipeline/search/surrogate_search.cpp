@@ -20,7 +20,8 @@ constexpr double near = 1e-6;  // places nearer than that are one
 constexpr int candidate_count = 200, polish_evaluations = 150;
 constexpr double moved_at_once = 6;  // variables of a candidate that differ from the best look, on average
 constexpr std::size_t screened_at_once = 24;
-constexpr std::size_t rehearsed_for_a_look = 4, rehearsed_together = 8;
+constexpr std::size_t rehearsed_for_a_look = 4;
+constexpr int rehearsed_together = 8;
 constexpr int rehearsed_again = 8;   // for a look, while none keeps its limits
 constexpr int spread_share = 4;      // of the first looks: places that keep their limits are spread by chance, too
 constexpr double cautious = 1;       // deviations of limits, while none is known to be kept
@@ -212,18 +213,38 @@ VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models) const {
   return nearest->place;
 }
 
+/// So many, far from each other and from all looks.
+void SurrogateSearch::rehearse_spread(int count) {
+  std::vector<VectorXd> spread;
+  while (static_cast<int>(spread.size()) < count) {
+    spread.push_back(first_look());
+    pending_.push_back(spread.back());
+  }
+  pending_.clear();
+  rehearse(spread);
+}
+
+/// Each where the models are nearest to keeping all limits, if the ones before turn out as believed.
+std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const VectorXd& centre, std::size_t count) {
+  static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
+  std::vector<VectorXd> batch;
+  while (batch.size() < count) {
+    const std::vector<VectorXd> some = ranked(models, centre, ahead_width_, trusts[batch.size() % std::size(trusts)]);
+    const auto is_new = [&](const VectorXd& place) { return !is_known(place) && !is_rehearsed(place); };
+    const auto found = std::find_if(some.begin(), some.end(), is_new);
+    batch.push_back(found == some.end() ? first_look() : *found);
+    models.believe_rehearsal(batch.back());
+  }
+  return batch;
+}
+
 /// (Q6)
 void SurrogateSearch::rehearse_ahead(int wanted) {
   int left = asked_ == 0 ? settings_.rehearsals : rehearsed_again * wanted;
   if (asked_ == 0) {
-    std::vector<VectorXd> spread;
-    while (static_cast<int>(spread.size()) < std::min(settings_.first_looks, left)) {
-      spread.push_back(first_look());
-      pending_.push_back(spread.back());
-    }
-    pending_.clear();
-    rehearse(spread);
-    left -= static_cast<int>(spread.size());
+    const int spread = std::min(settings_.first_looks, left);
+    rehearse_spread(spread);
+    left -= spread;
   }
   std::optional<Merit> nearest;
   while (left > 0 && any_ran(rehearsals_)) {
@@ -235,19 +256,9 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
       ahead_width_ = now < *nearest ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     if (ahead_width_ < least_ahead) ahead_width_ = first_width;
     nearest = now;
-    std::vector<VectorXd> batch;
-    while (batch.size() < std::min(rehearsed_together, static_cast<std::size_t>(left))) {
-      static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
-      const Trust& trust = trusts[batch.size() % std::size(trusts)];
-      for (VectorXd& place : ranked(models, centre, ahead_width_, trust))
-        if (!is_known(place) && !is_rehearsed(place)) {
-          models.believe_rehearsal(place);
-          batch.push_back(std::move(place));
-          break;
-        }
-    }
-    left -= static_cast<int>(batch.size());
-    rehearse(batch);
+    const int count = std::min(rehearsed_together, left);
+    rehearse(next_rehearsals(models, centre, static_cast<std::size_t>(count)));
+    left -= count;
   }
 }
 
@@ -273,10 +284,11 @@ std::vector<Look> SurrogateSearch::by_weight(double weight) const {
   return looks;
 }
 
-/// Of looks and of rehearsals near the best of them; of shapes that are looked for when there is much more to find them
-/// from.
+/// Of looks, and of rehearsals near the best that is known; of shapes that are looked for when there is much more to
+/// find them from.
 LookModels SurrogateSearch::models_of(const std::vector<Look>& looks) {
-  const std::vector<Look>& those = any_ran(looks) ? looks : rehearsals_;
+  const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
+  const std::vector<Look>& those = by_looks ? looks : rehearsals_;
   LookModels models(looks, rehearsals_, best_of(those).place, shapes_);
   const auto known = static_cast<double>(looks.size() + rehearsals_.size());
   if (looks.size() != shapes_of_looks_ || known > much_more * shapes_of_) {

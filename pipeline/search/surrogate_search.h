@@ -52,6 +52,8 @@ class SurrogateSearch : public Search {
   Eigen::VectorXd rehearsed_pick(LookModels& models, const std::vector<Eigen::VectorXd>& by_merit,
                                  const Trust& trust);
   Eigen::VectorXd nearest_rehearsal(const LookModels& models) const;
+  void rehearse_spread(int count);
+  std::vector<Eigen::VectorXd> next_rehearsals(LookModels& models, const Eigen::VectorXd& centre, std::size_t count);
   void rehearse_ahead(int wanted);
   void rehearse_looks(const std::vector<Look>& looks);
   void rehearse(const std::vector<Eigen::VectorXd>& places);
