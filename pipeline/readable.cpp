@@ -37,6 +37,10 @@ std::string readable(double value, int figures) {
   return grouped(fmt::format("{:.{}f}", rounded, decimals));
 }
 
+std::string life_text(double life, int figures) { return std::isinf(life) ? "no damage" : readable(life, figures); }
+
+std::string hours_text(double hours) { return life_text(hours) + (std::isinf(hours) ? "" : " h"); }
+
 std::string calendar_words(double months) {
   constexpr double days_per_month = 365.2425 / 12, months_of_years = 36;
   if (std::isfinite(months) && months >= months_of_years) return readable(months / 12, 2) + " years";
@@ -45,6 +49,8 @@ std::string calendar_words(double months) {
   const double days = months * days_per_month;
   return days < 1 ? "less than a day" : readable(days, 2) + " days";
 }
+
+std::string calendar_text(double months) { return std::isinf(months) ? life_text(months) : calendar_words(months); }
 
 std::size_t columns_of(const std::string& text) {
   return static_cast<std::size_t>(

@@ -10,9 +10,15 @@ namespace dresslife::pipeline {
 /// "-" for NaN.
 std::string readable(double value, int figures = 3);
 
+/// A life in whatever unit, readable() or "no damage" for infinity; hours: the same with their unit, "1,234 h".
+std::string life_text(double life, int figures = 3);
+std::string hours_text(double hours);
+
 /// A time in calendar months as people say it: "5.7 years", "13.2 months", "1.6 days", "less than a day",
 /// "unlimited".
 std::string calendar_words(double months);
+/// The same of a life: "no damage" for infinity.
+std::string calendar_text(double months);
 
 /// The digits of a whole part in groups of three: "1234567.5" -> "1,234,567.5".
 std::string grouped(std::string digits);

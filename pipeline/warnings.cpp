@@ -76,7 +76,7 @@ const char* title(WarningKind kind) {
     case WarningKind::force:
       return "forces";
     case WarningKind::material:
-      return "material constants";
+      return "material, stiffness";
     case WarningKind::twist:
     case WarningKind::tension:
     case WarningKind::slack:

@@ -337,7 +337,7 @@ struct Evaluations {
 std::vector<Warning> mesh_warnings(double error) {
   if (error <= believable_mesh_error) return {};
   return {{WarningKind::mesh, "",
-           fmt::format("pieces as long as a segment are too long for how loose cables bend: they miss {:.2g} of it (more "
+           fmt::format("pieces as long as a segment are too long for how loose cables bend: they miss {:.3g} of it (more "
                        "than {:g}); give twice the strain.cable_elements_per_segment, or more simulation.segments",
                        error, believable_mesh_error)}};
 }

@@ -60,7 +60,7 @@ int improve_study(Options options) {
       [&](const Improvement& so_far) {
         const std::optional<std::size_t> best = so_far.best();
         progress.show(fmt::format("{}/{}  best {}", so_far.trials.size(), options.request.trials,
-                                  best ? hours_words(so_far.trials[*best].worst.hours) : "none within the limits"));
+                                  best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits"));
       }};
   const Improvement found = improve(options.request, places, makers);
   progress.clear();

@@ -1,11 +1,13 @@
 #include "pipeline/commands/command.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job_text.h"
+#include "pipeline/report/figures.h"
 #include "pipeline/report/file_summary.h"
 
 namespace dresslife::pipeline {
@@ -17,6 +19,10 @@ struct Options {
 };
 
 int show(const Options& options) {
+  if (std::error_code failure; std::filesystem::is_directory(options.file, failure)) {
+    print(shown(file_summary(job_files(options.file).life)));
+    return 0;
+  }
   if (is_dresslife_file(options.file)) {
     print(shown(file_summary(options.file)));
     return 0;
@@ -30,8 +36,8 @@ int show(const Options& options) {
 Command add_show(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* words = program.add_subcommand(
-      "show", "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file");
-  words->add_option("job", options->file, "JOB.yaml or FILE.h5")->required()->type_name("");
+      "show", "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a job's folder its life.h5");
+  words->add_option("job", options->file, "JOB.yaml, FILE.h5, or a job's folder")->required()->type_name("");
   add_sets(*words, "override a key", options->sets);
   return {words, [options] { return show(*options); }};
 }

@@ -312,7 +312,7 @@ Improvement improve(const ImproveRequest& request, const StudyPlaces& places, co
 }
 
 std::string improvement_csv(const Improvement& improvement) {
-  std::string text = "trial,feasible,life_hours_p10,beyond,free_length_m,cycle_s";
+  std::string text = "trial,feasible,scatter_life_hours_p10,beyond,free_length_m,cycle_s";
   for (const std::string& freed : improvement.freed) text += "," + csv_cell(freed);
   text += "\n";
   for (std::size_t k = 0; k < improvement.trials.size(); ++k) {

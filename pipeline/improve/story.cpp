@@ -82,8 +82,6 @@ std::string change_lines(const Trial& trial) {
 
 }  // namespace
 
-std::string hours_words(double hours) { return std::isinf(hours) ? "no damage" : readable(hours) + " h"; }
-
 ImprovementStory story_of(const Improvement& found, const Finals& finals, const ImproveRequest& request, double off,
                           const StudyPlaces& places, const MakeRows& make_rows) {
   ImprovementStory story;
@@ -115,7 +113,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
                               SecondAim second, double off, const StudyPlaces& places) {
   const Outcome& was = found.trials.front().worst;
   std::string text = fmt::format(
-      "As it is: {}{}\n", was.failure.empty() ? hours_words(finals.of.front().hours) : "it does not run",
+      "As it is: {}{}\n", was.failure.empty() ? hours_text(finals.of.front().hours) : "it does not run",
       was.feasible() ? ", all limits kept" : was.failure.empty() ? ", " + was.words() : ": " + was.failure);
   if (finals.of.size() == 1) {
     text += fmt::format("No feasible job was found in {} trials and {} short runs.\n", found.trials.size(),
@@ -128,12 +126,12 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     for (std::size_t k = 1; k < finals.of.size(); ++k) {
       const Trial& trial = found.trials[finals.of[k].trial];
       text += fmt::format("  trial {:4}  {:>12}  {:.3f} m  {:.1f} s\n", finals.of[k].trial,
-                          hours_words(finals.of[k].hours), trial.hose_length, trial.cycle_seconds);
+                          hours_text(finals.of[k].hours), trial.hose_length, trial.cycle_seconds);
     }
     return text;
   }
   const Final& best = *finals.best();
-  text += fmt::format("Trial {} of {}: {}, all limits kept", best.trial, found.trials.size(), hours_words(best.hours));
+  text += fmt::format("Trial {} of {}: {}, all limits kept", best.trial, found.trials.size(), hours_text(best.hours));
   if (story.longer_in) text += fmt::format("; it lives longer in {:.0f} % of draws", 100 * *story.longer_in);
   text += "\n" + change_lines(found.trials[best.trial]) + forgives_words(story.nudges, off);
   if (best.hours <= finals.of.front().hours && was.feasible())

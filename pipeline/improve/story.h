@@ -17,7 +17,4 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, const 
 std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
                               SecondAim second, double off, const StudyPlaces& places);
 
-/// "1,230 h", "no damage".
-std::string hours_words(double hours);
-
 }  // namespace dresslife::pipeline

@@ -215,8 +215,8 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   };
   if (dresspack.bending_from_construction)
     return missing.empty() ? std::vector<Warning>{}
-                           : warning(fmt::format("bending_stiffness_Nm2 is from_construction, {:.3g}{} (count that, or give "
-                                                 "a measured one)",
+                           : warning(fmt::format("bending_stiffness_Nm2 is from_construction: {:.3g}{} (give that, or a "
+                                                 "measured stiffness)",
                                                  given, without));
   const Wires wires(dresspack);
   const auto bending = [&](SlipState state) { return stiffness_with(wires, dresspack, state, curvature).bending; };

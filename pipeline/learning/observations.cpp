@@ -251,7 +251,7 @@ std::string words_of(const Judgement& judgement) {
 
 namespace {
 
-std::string life_text(double life) { return std::isinf(life) ? "no damage" : readable(life, 2); }
+std::string short_life(double life) { return life_text(life, 2); }
 
 }  // namespace
 
@@ -281,12 +281,12 @@ std::string validation_table(const ValidationStudy& validation, const std::vecto
     }
     const std::string medians =
         prediction.variants == 1
-            ? life_text(prediction.median)
-            : fmt::format("{} .. {} ({})", life_text(prediction.shortest), life_text(prediction.longest),
+            ? short_life(prediction.median)
+            : fmt::format("{} .. {} ({})", short_life(prediction.shortest), short_life(prediction.longest),
                           prediction.variants);
     text += fmt::format("| {} | {} | {}, {} | {} | {} .. {} | {} .. {} | {} |\n", observation.name, observation.what,
-                        observed_text(observation), word(observation.outcome), medians, life_text(prediction.low),
-                        life_text(prediction.high), life_text(prediction.stuck), life_text(prediction.free),
+                        observed_text(observation), word(observation.outcome), medians, short_life(prediction.low),
+                        short_life(prediction.high), short_life(prediction.stuck), short_life(prediction.free),
                         words_of(judged(observation, prediction)));
   }
   return text;

@@ -22,14 +22,20 @@ constexpr std::string_view style = R"(
 :root { color-scheme: light dark; --page: #ffffff; --ink: #1b1f24; --soft: #5b6570; --rule: #d5dae0; --grid: #e6e9ed;
   --blue: #0072b2; --hot: #c94f00; --band: #eef1f5; --band-2: #d9dfe7; --arm: #c3ccd6; --arm-2: #b3bdc9; }
 @media (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e8eaed; --soft: #a0a9b4; --rule: #3a424c;
-  --grid: #2a3037; --blue: #56b4e9; --hot: #f08c3a; --band: #242a31; --band-2: #37404a; --arm: #4a5562; --arm-2: #57636f; } }
+  --grid: #2a3037; --blue: #56b4e9; --hot: #f08c3a; --band: #242a31; --band-2: #37404a; --arm: #4a5562;
+  --arm-2: #57636f; } }
 svg { display: block; width: 100%; height: auto; font: 12px system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
-svg text { fill: var(--ink); } svg .tick, svg .axis-title { fill: var(--soft); } svg .cell { fill: var(--soft); font-size: 11px; }
+svg text { fill: var(--ink); } svg .tick, svg .axis-title { fill: var(--soft); } svg .cell { fill: var(--soft);
+  font-size: 11px; }
 svg .note { paint-order: stroke; stroke: var(--page); stroke-width: 4px; stroke-linejoin: round; }
-svg path { fill: none; } svg .grid { stroke: var(--grid); } svg .mark { stroke: var(--soft); } svg .leader { stroke: var(--hot); stroke-dasharray: 3 3; }
-svg .curve { stroke: var(--blue); stroke-width: 1.2; stroke-linejoin: round; } svg .curve-hot { stroke: var(--hot); stroke-width: 1.6; }
-svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg .light { fill: var(--band); } svg .dark { fill: var(--band-2); }
-svg line { stroke-linecap: round; } svg .arm { stroke: var(--arm); } svg .arm-2 { stroke: var(--arm-2); } svg .halo { stroke: var(--page); stroke-linecap: butt; }
+svg path { fill: none; } svg .grid { stroke: var(--grid); } svg .mark { stroke: var(--soft); }
+svg .leader { stroke: var(--hot); stroke-dasharray: 3 3; }
+svg .curve { stroke: var(--blue); stroke-width: 1.2; stroke-linejoin: round; } svg .curve-hot { stroke: var(--hot);
+  stroke-width: 1.6; }
+svg .bar, svg .dot { fill: var(--blue); } svg .bar-hot { fill: var(--hot); } svg .light { fill: var(--band); }
+svg .dark { fill: var(--band-2); }
+svg line { stroke-linecap: round; } svg .arm { stroke: var(--arm); } svg .arm-2 { stroke: var(--arm-2); }
+svg .halo { stroke: var(--page); stroke-linecap: butt; }
 svg .hose { stroke: var(--blue); } svg .hose-hot { stroke: var(--hot); }
 svg .costly { fill: var(--hot); fill-opacity: .55; }
 svg .scatter { stroke: var(--hot); stroke-width: 5; }

@@ -19,17 +19,17 @@ p { max-width: 46rem; } .soft { color: var(--soft); font-size: .9rem; } .failed 
 table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .3rem 1.2rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; } .number { text-align: right; white-space: nowrap; }
-.beside { display: grid; grid-template-columns: 1fr 1fr; gap: 1rem; } .beside iframe { width: 100%; height: 46rem; border: 1px solid var(--rule); }
+.beside { display: grid; grid-template-columns: 1fr 1fr; gap: 1rem; } .beside iframe { width: 100%; height: 46rem;
+  border: 1px solid var(--rule); }
 .chart { max-width: 60rem; }
 )";
 
-std::string hours_cell(double hours) { return std::isinf(hours) ? "no damage" : printed(hours); }
 
 std::string lives_section(const ImprovementStory& story) {
   const auto row = [](const char* name, const ImprovementStory::Lives& of) {
     return fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
                        "<td>{}</td></tr>\n",
-                       name, hours_cell(of.p10), hours_cell(of.p50), hours_cell(of.p90), escaped(of.words));
+                       name, printed_life(of.p10), printed_life(of.p50), printed_life(of.p90), escaped(of.words));
   };
   std::string text =
       "<h2>Lives</h2>\n<table><thead><tr><th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th>"
@@ -96,7 +96,7 @@ std::string history_chart(const std::vector<ImprovementStory::Look>& looks) {
     const double x = panel.across(look.trial);
     const double y = panel.down(std::min(look.hours, panel.y.high));
     picture.dot(x, y, look.feasible ? 4 : 2.5, look.feasible ? "dot" : "bar-hot",
-                fmt::format("trial {}: {} h{}", look.trial, hours_cell(look.hours), look.feasible ? "" : "; " + look.words));
+                fmt::format("trial {}: {} h{}", look.trial, printed_life(look.hours), look.feasible ? "" : "; " + look.words));
     if (!look.feasible || look.hours <= best) continue;
     if (best > 0) stairs.emplace_back(x, panel.down(std::min(best, panel.y.high)));
     best = look.hours;
@@ -124,7 +124,7 @@ std::string front_chart(const ImprovementStory& story) {
   panel.draw_axes(picture);
   for (const auto& [second, hours] : story.front)
     picture.dot(panel.across(second), panel.down(std::min(hours, panel.y.high)), 4, "dot",
-                fmt::format("{:.4g}: {} h", second, hours_cell(hours)));
+                fmt::format("{:.4g}: {} h", second, printed_life(hours)));
   return "<h2>Between the two aims</h2>\n<div class=\"chart\">" + picture.svg() + "</div>\n";
 }
 

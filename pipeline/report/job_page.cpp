@@ -51,13 +51,12 @@ void check_together(const FileReader& life, const FileReader* other) {
                    "run the stages again, one after the other");
 }
 
-std::string hours_words(double hours) { return std::isinf(hours) ? "no damage" : printed(hours) + " h"; }
 
 bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
 
 std::string headline(const RankingRow& row) {
   const double hours = row.headline_hours();
-  std::string text = fmt::format("<h1>{}</h1>\n<p><b>{}</b>", escaped(row.job), hours_words(hours));
+  std::string text = fmt::format("<h1>{}</h1>\n<p><b>{}</b>", escaped(row.job), printed_hours(hours));
   if (std::isfinite(hours))
     text += fmt::format(
         " of motion until {}: {} repeats of {:.1f} s, {} by the calendar",
@@ -66,11 +65,11 @@ std::string headline(const RankingRow& row) {
             : "the worst wire breaks (median)",
         printed(row.headline_repeats()), row.repeat_seconds, calendar_words(row.headline_months()));
   text += fmt::format("; {} if all inside the cables stuck, {} if all slid",
-                      hours_words(row.headline_hours_of(row.life_repeats_all_stick)),
-                      hours_words(row.headline_hours_of(row.life_repeats_all_free)));
+                      printed_hours(row.headline_hours_of(row.life_repeats_all_stick)),
+                      printed_hours(row.headline_hours_of(row.life_repeats_all_free)));
   if (row.planned() && std::isfinite(row.planned_hours[2]))
-    text += fmt::format("; {} until half have, {} until 90 %", hours_words(row.planned_hours[1]),
-                        hours_words(row.planned_hours[2]));
+    text += fmt::format("; {} until half have, {} until 90 %", printed_hours(row.planned_hours[1]),
+                        printed_hours(row.planned_hours[2]));
   if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
     text += fmt::format("; a first wire breaks after {} .. {} h in 10 .. 90 %",
                         printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));

@@ -101,7 +101,7 @@ std::string cell_text(const RankingRow& row, const Cell& cell, const std::option
   if (!row.done())
     return fmt::format("<td title=\"{}: {}\"><span class=\"failed\">{}</span>{}</td>", escaped(row.job),
                        escaped(row.stale ? stale_words(row) : row.failure),
-                       linked(row.stale ? fmt::format("stale {}", std::isinf(hours) ? "no damage" : printed(hours))
+                       linked(row.stale ? fmt::format("stale {}", printed_life(hours))
                                         : row.waits() ? row.failure : "failed"),
                        many);
   const bool spread = span && span->second > span->first;
@@ -110,7 +110,7 @@ std::string cell_text(const RankingRow& row, const Cell& cell, const std::option
   const std::string kinds = warning_kinds(row);
   return fmt::format("<td class=\"coloured\" style=\"background:{}\" title=\"{}{}{}\">{}{}{}</td>", colour_of(part), escaped(row.job),
                      kinds.empty() ? "" : "; warnings: ", escaped(kinds),
-                     linked(std::isinf(hours) ? "no damage" : printed(hours)),
+                     linked(printed_life(hours)),
                      kinds.empty() ? "" : " <span aria-label=\"has warnings\">\u26a0</span>", many);
 }
 

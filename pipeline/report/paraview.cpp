@@ -200,7 +200,8 @@ std::string xdmf_text(const JobFiles& files, const fs::path& output) {
   const Shapes shapes(setup.robot);
   const bool with_robot = !shapes.empty() && motion.has("/robot/link_pose");
 
-  std::string text = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"job\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string text = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+                     "<Grid Name=\"job\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   const std::size_t segments = of_segment.size();
   const auto at_nodes = [&](const char* name, const std::string& item) {
     return attribute(name, "Node", segments, item);

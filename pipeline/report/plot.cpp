@@ -140,6 +140,10 @@ std::string printed(double value, int figures) {
   return text.substr(0, exponent) + "·" + power_of_ten(std::stoi(text.substr(exponent + 1)));
 }
 
+std::string printed_life(double life) { return std::isinf(life) ? life_text(life) : printed(life); }
+
+std::string printed_hours(double hours) { return std::isinf(hours) ? hours_text(hours) : printed(hours) + " h"; }
+
 std::vector<Tick> Axis::ticks(int most) const {
   return logarithmic ? logarithmic_ticks(low, high, most) : linear_ticks(low, high, most);
 }

@@ -17,6 +17,9 @@ std::string power_of_ten(int exponent);
 
 /// readable() as pages write it: "4.56·10¹²" instead of "4.56e+12".
 std::string printed(double value, int figures = 3);
+/// life_text() and hours_text() as pages write them.
+std::string printed_life(double life);
+std::string printed_hours(double hours);
 
 struct Tick {
   double value;

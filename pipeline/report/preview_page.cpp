@@ -111,7 +111,7 @@ std::string words(const SpanPreview& span) {
       "{:.2f} .. {:.2f} m over this program (with a slack of 2 % to a third where the clamps are farthest "
       "apart){}",
       span.subject, span.length, span.least_way, span.most_way,
-      span.works()                    ? "that works"
+      span.works()                    ? "neither too short nor too long"
       : span.length < span.program[0] ? "too short"
                                       : "too long",
       span.here[0], span.here[1], span.program[0], span.program[1], bend_words(span));

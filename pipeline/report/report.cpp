@@ -31,45 +31,54 @@ constexpr std::size_t most_detailed = 40;
 constexpr std::size_t rows_at_once = 100;
 constexpr std::size_t most_compared = 40;
 constexpr std::size_t listed_lines = 10, listed_layers = 12;
+constexpr double least_shear_told = 5e-5;  // what two decimals of a per cent show
 
 constexpr const char* report_style = R"(
 body { margin: 0 auto; max-width: 68rem; padding: 1.5rem 1rem 4rem; background: var(--page); color: var(--ink);
   font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
-h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem; border-top: 2px solid var(--rule); }
-h3 { font-size: 1rem; margin: 1.6rem 0 .2rem; } p { margin: .3rem 0 .6rem; max-width: 46rem; } .soft { color: var(--soft); font-size: .9rem; }
+h1 { font-size: 1.7rem; margin: 0 0 .3rem; } h2 { font-size: 1.3rem; margin: 3rem 0 .3rem; padding-top: .8rem;
+  border-top: 2px solid var(--rule); }
+h3 { font-size: 1rem; margin: 1.6rem 0 .2rem; } p { margin: .3rem 0 .6rem; max-width: 46rem; }
+.soft { color: var(--soft); font-size: .9rem; }
 a { color: var(--blue); } .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
-th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { text-align: right; white-space: nowrap; } th.number { white-space: normal; } .failed { color: var(--hot); font-weight: 600; }
+th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { text-align: right;
+  white-space: nowrap; } th.number { white-space: normal; } .failed { color: var(--hot); font-weight: 600; }
 .meter { display: inline-block; width: 8rem; height: .7rem; background: var(--band); margin-right: .5rem; }
 .meter > span { display: block; height: 100%; background: var(--hot); }
-dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; } dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
+dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
+dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 @media (max-width: 40rem) { dl { grid-template-columns: minmax(0, 1fr); } dd { margin-bottom: .5rem; } }
 [id^=job-] { content-visibility: auto; contain-intrinsic-size: auto 60rem; }
 details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8rem; line-height: 1.35; }
 .tools { display: flex; flex-wrap: wrap; gap: .4rem 1rem; align-items: center; margin: .8rem 0; font-size: .9rem; }
-.tools input[type=search] { font: inherit; padding: .2rem .5rem; min-width: 14rem; color: inherit; background: var(--page); border: 1px solid var(--rule); border-radius: .3rem; }
-.sort { font: inherit; color: inherit; text-align: inherit; background: none; border: 0; padding: 0; cursor: pointer; }
-.sort::after { content: ""; } [aria-sort=ascending] .sort::after { content: " \25B2"; } [aria-sort=descending] .sort::after { content: " \25BC"; }
-.pick { margin-right: .3rem; } caption { text-align: left; color: var(--soft); padding: .6rem 0 .2rem; } tbody th { font-weight: 400; vertical-align: top; }
-#compared td { overflow-wrap: anywhere; } #ranking details { margin: 0; } #ranking summary { color: var(--hot); } #matrix { width: auto; } #matrix td, #matrix th { padding: .25rem .6rem; } #matrix td { text-align: right; border: 1px solid var(--page); } #matrix thead th { overflow-wrap: anywhere; }
+.tools input[type=search] { font: inherit; padding: .2rem .5rem; min-width: 14rem; color: inherit;
+  background: var(--page); border: 1px solid var(--rule); border-radius: .3rem; }
+.sort { font: inherit; color: inherit; text-align: inherit; background: none; border: 0; padding: 0;
+  cursor: pointer; }
+.sort::after { content: ""; } [aria-sort=ascending] .sort::after { content: " \25B2"; }
+[aria-sort=descending] .sort::after { content: " \25BC"; }
+.pick { margin-right: .3rem; } caption { text-align: left; color: var(--soft); padding: .6rem 0 .2rem; }
+tbody th { font-weight: 400; vertical-align: top; }
+#compared td { overflow-wrap: anywhere; } #ranking details { margin: 0; } #ranking summary { color: var(--hot); }
+#matrix { width: auto; } #matrix td, #matrix th { padding: .25rem .6rem; } #matrix td { text-align: right;
+  border: 1px solid var(--page); } #matrix thead th { overflow-wrap: anywhere; }
 #matrix .coloured, #matrix .coloured a { color: #111; } #ranking ul { margin: .2rem 0; padding-left: 1rem; }
-@media print { [id^=job-] { content-visibility: visible; } .tools, .pick, .sort::after { display: none; } details, template { display: none; } h2 { break-before: page; } svg, tr { break-inside: avoid; } h3 { break-after: avoid; }
-  body { max-width: none; padding: 0; font-size: 12px; } thead { display: table-header-group; } .wide { overflow: visible; } #matrix .coloured { print-color-adjust: exact; -webkit-print-color-adjust: exact; }  }
+@media print { [id^=job-] { content-visibility: visible; } .tools, .pick, .sort::after { display: none; }
+  details, template { display: none; } h2 { break-before: page; } svg, tr { break-inside: avoid; }
+  h3 { break-after: avoid; }
+  body { max-width: none; padding: 0; font-size: 12px; } thead { display: table-header-group; }
+  .wide { overflow: visible; } #matrix .coloured { print-color-adjust: exact; -webkit-print-color-adjust: exact; }  }
 )";
-
-std::string life_cell(double life) { return std::isinf(life) ? "no damage" : printed(life); }
-std::string hours_words(double hours) { return std::isinf(hours) ? "no damage" : printed(hours) + " h"; }
-
-std::string calendar_cell(double months) { return std::isinf(months) ? "no damage" : calendar_words(months); }
 
 /// When the first wire of such dresspacks breaks, in 10 to 90 % of them.
 std::string first_break_cell(const RankingRow& row) {
   if (std::isnan(row.first_wire_hours[0])) return "";
   return std::isinf(row.first_wire_hours[0])
-             ? "no damage"
-             : fmt::format("{} .. {}", printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
+             ? printed_life(row.first_wire_hours[0])
+             : fmt::format("{} .. {}", printed(row.first_wire_hours[0]), printed_life(row.first_wire_hours[2]));
 }
 
 std::string place_words(const RankingRow& row) {
@@ -126,8 +135,8 @@ std::string number_cell(double value, const std::string& words) {
 /// Where half and 90 % lie, and how sure the job's place is, below its life.
 std::string certainty_cell(const RankingRow& row) {
   if (std::isnan(row.scatter_hours[0])) return "";
-  std::string text = fmt::format("<br><span class=\"soft\">p50 {}<br>p90 {}", life_cell(row.planned_hours[1]),
-                                 life_cell(row.planned_hours[2]));
+  std::string text = fmt::format("<br><span class=\"soft\">p50 {}<br>p90 {}", printed_life(row.planned_hours[1]),
+                                 printed_life(row.planned_hours[2]));
   if (row.outlives_next) text += fmt::format("<br>outlives the next in {:.0f} % of draws", 100 * *row.outlives_next);
   return text + "</span>";
 }
@@ -173,10 +182,10 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
     text += fmt::format("{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
                         number_cell(static_cast<double>(i + 1), row.stale ? "-" : std::to_string(i + 1)),
                         name + stale_note(row),
-                        number_cell(row.headline_hours(), "<b>" + life_cell(row.headline_hours()) + "</b>" + certainty_cell(row)),
-                        number_cell(bounds.first, life_cell(bounds.first) + " .. " + life_cell(bounds.second)),
+                        number_cell(row.headline_hours(), "<b>" + printed_life(row.headline_hours()) + "</b>" + certainty_cell(row)),
+                        number_cell(bounds.first, printed_life(bounds.first) + " .. " + printed_life(bounds.second)),
                         number_cell(row.first_wire_hours[0], first_break_cell(row)),
-                        number_cell(row.headline_months(), calendar_cell(row.headline_months())), where, moved,
+                        number_cell(row.headline_months(), calendar_text(row.headline_months())), where, moved,
                         sorted_by(count), warning_cell(row));
   }
   return text;
@@ -229,7 +238,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
     if (spread[0] > 0 && std::isfinite(spread[2]))
       picture.line(panel.across(spread[0]), y, panel.across(spread[2]), y, "scatter");
     picture.dot(panel.across(row.headline_hours()), y, 5, "dot",
-                fmt::format("{}: {} h", row.job, life_cell(row.headline_hours())));
+                fmt::format("{}: {} h", row.job, printed_life(row.headline_hours())));
   }
   return picture.svg();
 }
@@ -442,8 +451,8 @@ std::string facts(const RankingRow& row) {
                      : fmt::format("<b>{} h</b> of motion = {} by the calendar until 10 % of such dresspacks have a "
                                    "conductor that has lost its share of wires at one place; {} until half have, {} until "
                                    "90 %{}",
-                                   printed(lives[0]), calendar_words(row.planned_months), hours_words(lives[1]),
-                                   hours_words(lives[2]),
+                                   printed(lives[0]), calendar_words(row.planned_months), printed_hours(lives[1]),
+                                   printed_hours(lives[2]),
                                    row.failing_conductor.empty()
                                        ? ""
                                        : fmt::format("; likeliest {}, {:.2f} m from the tool",
@@ -458,19 +467,19 @@ std::string facts(const RankingRow& row) {
                          printed(row.life_repeats), row.repeat_seconds, calendar_words(row.life_months)));
   if (!std::isnan(row.scatter_hours[0]))
     fact("by the scatter of wires alone", fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, all else as the job has it",
-                                                      hours_words(row.scatter_hours[0]), hours_words(row.scatter_hours[1]),
-                                                      hours_words(row.scatter_hours[2])));
+                                                      printed_hours(row.scatter_hours[0]), printed_hours(row.scatter_hours[1]),
+                                                      printed_hours(row.scatter_hours[2])));
   if (!row.life_shares.empty()) fact("its spread comes from", escaped(row.life_shares));
   if (const std::string certainty = certainty_words(row); !certainty.empty()) fact("how sure", escaped(certainty));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
   fact("bounds",
        fmt::format("{} (inside of the cables stuck) .. {} (free)",
-                   hours_words(row.headline_hours_of(row.life_repeats_all_stick)),
-                   hours_words(row.headline_hours_of(row.life_repeats_all_free))));
+                   printed_hours(row.headline_hours_of(row.life_repeats_all_stick)),
+                   printed_hours(row.headline_hours_of(row.life_repeats_all_free))));
   if (row.hours_mean_stress_kept)
     fact("mean stress", fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
-                                    hours_words(*row.hours_mean_stress_kept),
-                                    hours_words(*row.hours_without_mean_stress)));
+                                    printed_hours(*row.hours_mean_stress_kept),
+                                    printed_hours(*row.hours_without_mean_stress)));
   if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
   for (const Warning& warning : warnings_of(row))
     fact("warning", "<b>" + escaped(warning.text()) + "</b>");
@@ -492,10 +501,10 @@ std::string facts(const RankingRow& row) {
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;
     fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks{}",
-                           hours_words(lives[0]), hours_words(lives[1]), hours_words(lives[2]),
+                           printed_hours(lives[0]), printed_hours(lives[1]), printed_hours(lives[2]),
                            std::isfinite(lives[0]) && stuck < 1
                                ? fmt::format("; if all in the cables stuck, roughly from {} on",
-                                             hours_words(lives[0] * stuck))
+                                             printed_hours(lives[0] * stuck))
                                : ""));
   };
   scatter("first broken wire", row.first_wire_hours);
@@ -512,7 +521,7 @@ std::string facts(const RankingRow& row) {
   }
   if (damaged(row)) {
     fact("breaks first",
-         escaped(row.worst_component) + (row.worst_shear_range > 0
+         escaped(row.worst_component) + (row.worst_shear_range >= least_shear_told
                                              ? fmt::format(" (its surface is sheared by {:.2f} % to and fro)",
                                                            100 * row.worst_shear_range)
                                              : ""));
@@ -641,7 +650,8 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
   page += summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (detailed[i]) page += job_section(rows[i], i + 1);
-  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n<script>\n\"use strict\";\n(() => {{\n{}}})();\n</script>\n</body>\n</html>\n",
+  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n<script>\n\"use strict\";\n(() => {{\n{}}})();\n</script>\n"
+                            "</body>\n</html>\n",
                             version(), study_script());
 }
 

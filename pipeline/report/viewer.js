@@ -366,7 +366,8 @@ class Viewer {
       label.element.hidden = !seen;
       if (!seen) continue;
       // Below the labels that are in its way.
-      const left = (place.x + 1) / 2 * this.place.clientWidth, right = left + label.element.offsetWidth;
+      const widest = this.place.clientWidth - label.element.offsetWidth - 20;
+      const left = Math.min((place.x + 1) / 2 * this.place.clientWidth, widest), right = left + label.element.offsetWidth;
       let top = (1 - place.y) / 2 * this.place.clientHeight;
       for (let tries = 0;
            tries < 8 && taken.some(other => left < other.right && right > other.left && Math.abs(top - other.top) < 17); ++tries)

@@ -219,10 +219,6 @@ struct Column {
   }
 };
 
-std::string life_text(double life) { return std::isinf(life) ? "no damage" : readable(life); }
-
-std::string calendar_text(double months) { return std::isinf(months) ? "no damage" : calendar_words(months); }
-
 std::string bounds_text(const RankingRow& row) {
   return fmt::format("{} .. {}", life_text(row.headline_hours_of(row.life_repeats_all_stick)),
                      life_text(row.headline_hours_of(row.life_repeats_all_free)));
@@ -247,10 +243,10 @@ std::string more_story(const RankingRow& row) {
   std::vector<std::string> parts;
   const bool damaged = !row.worst_component.empty() && row.damage_per_repeat > 0;
   if (damaged && row.planned())
-    parts.push_back(fmt::format("p50 {}, p90 {} h", life_text(row.planned_hours[1]), life_text(row.planned_hours[2])));
+    parts.push_back(fmt::format("p50 {}, p90 {}", life_text(row.planned_hours[1]), hours_text(row.planned_hours[2])));
   if (damaged && !std::isnan(row.first_wire_hours[0]))
-    parts.push_back(fmt::format("first wire after {} .. {} h",
-                                life_text(row.first_wire_hours[0]), life_text(row.first_wire_hours[2])));
+    parts.push_back(fmt::format("first wire after {} .. {}",
+                                life_text(row.first_wire_hours[0]), hours_text(row.first_wire_hours[2])));
   if (damaged && !row.worst_joint.empty()) parts.push_back(joint_words(row));
   if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
   return fmt::format("{}", fmt::join(parts, "; "));
@@ -275,7 +271,7 @@ std::string hose_life_words(double hours) {
 std::string relative_words(const RelativeLife& relative) {
   const double hours = relative.hours();
   return fmt::format("one hour does the damage of {} rated cycles of {}; {} rated: {} ({})", readable(relative.cycles_per_hour),
-                     relative.cable, readable(relative.rated_cycles), std::isinf(hours) ? "no damage" : readable(hours) + " h",
+                     relative.cable, readable(relative.rated_cycles), hours_text(hours),
                      relative.rig);
 }
 

@@ -103,10 +103,6 @@ class Maker {
   RateStudy made_;
 };
 
-std::string count_text(double cycles) {
-  return std::isnan(cycles) ? "-" : std::isinf(cycles) ? "no damage" : readable(cycles);
-}
-
 const RankingRow* row_of(const std::vector<RankingRow>& rows, const std::string& job) {
   const auto found = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& row) { return row.job == job; });
   return found == rows.end() ? nullptr : &*found;
@@ -177,9 +173,9 @@ std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& ro
     std::string maker = test.rated_cycles > 0 ? readable(test.rated_cycles) : "";
     if (const std::string words = verdict(test.rated_cycles, lives.conductor[1]); !words.empty())
       maker += " (" + words + ")";
-    text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", shortened(test.rig, 46), count_text(lives.conductor[1]),
-                        count_text(lives.conductor[0]) + " .. " + count_text(lives.conductor[2]),
-                        count_text(lives.all_stick) + " .. " + count_text(lives.all_free), maker);
+    text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", shortened(test.rig, 46), life_text(lives.conductor[1]),
+                        life_text(lives.conductor[0]) + " .. " + life_text(lives.conductor[2]),
+                        life_text(lives.all_stick) + " .. " + life_text(lives.all_free), maker);
   }
   return text + "\ncycles: by which half of such cables have a conductor that lost its share of wires "
                 "(fatigue.failed_wires_percent) at one place, 10 .. 90 % of them by scatter;\nbounds: of the worst wire. rolling_flex: round trips.\n";

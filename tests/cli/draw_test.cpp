@@ -50,6 +50,22 @@ TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has 
   CHECK(count_of(picture, "class=\"air\"") == 1);
 }
 
+TEST_CASE("a cable needs no more than its data sheet's line, and is as wide as that says") {
+  Scratch scratch;
+  const auto cable = [](const std::string& keys) {
+    return "name: c\nsource: a data sheet\ncomponents:\n  - name: cable\n    helix_radius_mm: 0\n    data_sheet: 7 x 0.5 mm2, wire 0.1 "
+           "mm, outer diameter 8.2 mm, jacket 1.1 mm\n" +
+           keys;
+  };
+  scratch.write("cable.yaml", cable(""));
+  const Outcome drawn = run(scratch, "dresslife", "draw cable.yaml");
+  INFO(drawn.err);
+  CHECK(drawn.status == 0);
+  CHECK(drawn.out.find("c: 8.2 mm, ") == 0);
+  scratch.write("hose.yaml", cable("inner_diameter_mm: 20\n"));
+  CHECK(run(scratch, "dresslife", "draw hose.yaml").err.find("diameter_mm is missing") != std::string::npos);
+}
+
 TEST_CASE("draw replaces pictures and nothing else") {
   Scratch scratch;
   scratch.write("mine.yaml", "keep: me\n");

@@ -241,5 +241,5 @@ TEST_CASE("stiffness: a given one that its construction cannot have is warned of
   CHECK_THAT(told(), Contains("without what fills its core of 26 mm"));
   dresspack.bending_from_construction = true;
   take_from_construction(dresspack);
-  CHECK_THAT(told(), Contains("from_construction, 3.41 without what fills its core"));
+  CHECK_THAT(told(), Contains("from_construction: 3.41 without what fills its core"));
 }
