@@ -179,7 +179,6 @@ void CablePaths::add_held(const SpanBlock& block) {
 }
 
 double CablePaths::pulled_by_twist(const Cable& cable, double twist) const {
-  if (cable.loose) return 0;
   const Layer& layer = construction_.layers()[construction_.parts()[cable.part].layer];
   return layer.shortening.at(twist * layer.lay_cosine * layer.lay_cosine);
 }
@@ -220,6 +219,8 @@ void CablePaths::add_loose(const SpanBlock& block) {
       const double* pull_b = block.pull.data() + (t * segments + high) * 2;
       for (int d = 0; d < 2; ++d) node.pull[d] = pull_a[d] + share * (pull_b[d] - pull_a[d]);
     }
+    for (std::size_t k = 0; k < loosened_.size(); ++k)
+      loose_->shorten(k, pulled_by_twist(cables_[loosened_[k]], hose_twist_[next_ + t]));
     loose_->advance(nodes_, block.step);
     for (std::size_t k = 0; k < loosened_.size(); ++k) put_loose(loosened_[k], k, next_ + t, t);
     if ((next_ + t) % every != 0) continue;

@@ -65,6 +65,7 @@ class CableLines {
   void end(const HoseLine& hose, std::span<const Frame* const> frames, double step, std::span<CableState> states);
 
   void feed_in(double share);  ///< see CableTension
+  void shorten(std::size_t cable, double share) { tensions_[cable].shorten(share); }  ///< see CableTension
 
   /// What the distance h of the nodes leaves out of a path's waves: second differences have their curvature a by
   /// h^2 a'' / 12 wrong. Both squared and summed over nodes and samples so far, of which a state was asked.

@@ -30,8 +30,20 @@ LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSetti
     rings_.emplace_back(of_ring, hose_, settings.rest_curvature);
     frame_of[number] = &rings_.back().frame();
   }
+  std::map<int, std::pair<Ring*, std::size_t>> next;
+  for (std::size_t k = 0; k < rings_.size(); ++k) next[std::next(rings.begin(), static_cast<long>(k))->first] = {&rings_[k], 0};
+  in_ring_.resize(cables.size());
   for (std::size_t k = 0; k < cables.size(); ++k)
-    if (cables[k].ring != no_ring) frames_[k] = frame_of[cables[k].ring];
+    if (cables[k].ring != no_ring) {
+      frames_[k] = frame_of[cables[k].ring];
+      in_ring_[k] = next[cables[k].ring];
+      ++next[cables[k].ring].second;
+    }
+}
+
+void LooseCables::shorten(std::size_t cable, double share) {
+  lines_.shorten(cable, share);
+  if (const auto& [ring, number] = in_ring_[cable]; ring) ring->shorten(number, share);
 }
 
 void LooseCables::advance(std::span<const HoseNode> hose, double step) {

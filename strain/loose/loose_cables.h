@@ -27,6 +27,8 @@ class LooseCables {
   std::size_t cables() const { return lines_.count(); }
   const LooseCable& cable(std::size_t k) const { return lines_.cable(k); }
 
+  /// At the samples to come twist takes this share of a cable's length, if nothing pulls.
+  void shorten(std::size_t cable, double share);
   /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].
   void advance(std::span<const HoseNode> hose, double step);
 
@@ -50,6 +52,7 @@ class LooseCables {
   CableLines lines_;
   std::vector<Ring> rings_;
   std::vector<const CableLines::Frame*> frames_;  ///< (cable)
+  std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and number there; null: in none
   std::vector<CableState> states_;
   std::size_t restless_ = 0, iterations_ = 0;
   bool started_ = false;

@@ -18,6 +18,7 @@ class Ring {
  public:
   Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature);
   void feed_in(double share) { lines_.feed_in(share); }  ///< see CableTension
+  void shorten(std::size_t cable, double share) { lines_.shorten(cable, share); }  ///< of its own; see CableTension
 
   /// Turns to the minimum at the next sample. time: since the sample before [s]. goes_on: as it turned then.
   /// Returns whether it has come to rest.

@@ -15,9 +15,15 @@ CableTension::CableTension(const LooseCable& cable, double laid_in)
 }
 
 void CableTension::feed_in(double share) {
-  free_length_rate_ = (1 + share * slack_) * (1 + laid_in_);
+  fed_in_ = share;
+  shorten(shortened_);
   slipped_ = 0;
   held_ = share < 1;
+}
+
+void CableTension::shorten(double share) {
+  shortened_ = share;
+  free_length_rate_ = (1 + fed_in_ * slack_) * (1 + laid_in_) * (1 - share);
 }
 
 double CableTension::settle(double mean_gain) {

@@ -27,8 +27,11 @@ class CableTension {
   /// clamps let nothing through before all of it is there.
   void feed_in(double share);
 
+  /// What twist takes from its length at this sample, over it, if nothing pulls (README W37).
+  void shorten(double share);
+
  private:
-  double slack_, laid_in_, free_length_rate_;
+  double slack_, laid_in_, free_length_rate_, fed_in_ = 1, shortened_ = 0;
   double most_ = without_limit;
   double slipped_ = 0;
   bool held_ = false;  ///< while slack is fed in
