@@ -78,6 +78,7 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     if (cable.loose) {
       LooseCable& lies = loose.emplace_back();
       lies.place = cable.pulled.place[0];
+      if (layer.helix_radius > 0) lies.lay_rate = layer.lay_tangent / layer.helix_radius;
       lies.radius = layer.part_radius;
       lies.axial_stiffness = layer.axial_stiffness;
       lies.bending_stiffness = layer.force.bending_stiffness();
@@ -242,7 +243,7 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
   Cable& cable = cables_[index];
   const CableState& state = loose_->state(state_index);
   const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
-  const double free_length = (1 + cable.slack) * (1 - construction_.rest_curvature() * cable.pulled.place[0][0]);
+  const double free_length = (1 + cable.slack) * (1 + loose_->laid_in(state_index));
   double mean = 0;
   for (const double gain : state.gain) mean += gain / static_cast<double>(elements);
   cable.strain[sample] = (1 + mean) / free_length - 1;

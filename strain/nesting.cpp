@@ -77,7 +77,7 @@ BundleNesting nesting_to(const Construction& construction, const std::vector<Lay
     NestingLevel step;
     step.place = plan[of.layer].loose
                      ? make_placement(construction.kinematics(), 0.0, 0.0, 1.0,
-                                      construction.phase(of.layer, of.number, of.parent, arc), order)
+                                      construction.phase(of.layer, of.number, of.parent, 0), order)
                      : construction.placement(of.layer, of.number, of.parent, arc, 0, order);
     step.rest = child(rest_at_end(nesting), step.place);
     step.slide = sliding_numbers(plan[of.layer], nesting, step.place);

@@ -12,7 +12,7 @@ namespace {
 void describe(Fields& f, Laying& laying) {
   f.choice("position", laying.position,
            "in the cross-section of a hose: held at its place, loose where it rests, or auto: loose if the "
-           "part is straight, holds parts, may slide, and the dresspack has an inner_diameter_mm or a "
+           "part holds parts, has a lay angle of 20 deg at most, may slide, and the dresspack has an inner_diameter_mm or a "
            "hose_corrugation");
   f.number("slack_percent", laying.slack, Need::optional, between(0, 20),
            "length of the part beyond the path on which it was laid in, when the hose had its rest shape");
@@ -155,7 +155,7 @@ bool lies_loose(const Dresspack& dresspack, const Component& component) {
     case Position::loose:
       return true;
     case Position::automatic:
-      return inner_radius(dresspack) && component.lay_angle == 0 && !is_wire(component);
+      return inner_radius(dresspack) && component.lay_angle <= steepest_loose_lay && !is_wire(component);
   }
   return false;
 }
@@ -254,11 +254,13 @@ void check_laying(const Dresspack& dresspack, const Component& component, bool f
                      "give them to the cable");
   for (const Component& inner : component.components) check_laying(dresspack, inner, false);
   if (!first_level || !lies_loose(dresspack, component)) return;
-  if (component.lay_angle != 0)
+  if (component.lay_angle > steepest_loose_lay)
     throw InputError(component.where,
-                     fmt::format("'{}' is loose and has a lay angle (only straight parts can lie loose)",
-                                 component.name),
-                     "set lay_angle_deg to 0, or position: held");
+                     fmt::format("'{}' is loose and has a lay angle of {:g} deg (a loose cable's path is known where it is "
+                                 "nearly along the hose, up to {:g} deg)",
+                                 component.name, std::numbers::inv_pi * 180 * component.lay_angle,
+                                 std::numbers::inv_pi * 180 * steepest_loose_lay),
+                     "give it a longer lay, or position: held");
   if (!inner_radius(dresspack) && !laying.play)
     throw InputError(component.where,
                      fmt::format("'{}' is loose (how much room it has is not known)", component.name),

@@ -1,6 +1,7 @@
 // The dresspack: the hose as a rod, and what lies in it down to the wires.
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -150,7 +151,10 @@ struct Dresspack {
 /// its parts are held by a jacket.
 std::optional<double> inner_radius(const Dresspack& dresspack);
 
-/// Whether a part of the first level lies loose: asked for, or straight in a hose.
+/// Of a loose part [rad]: W32 counts its slope R t to its square, which is cos(lay) of what it does, 0.94 here.
+constexpr double steepest_loose_lay = std::numbers::pi / 9;
+
+/// Whether a part of the first level lies loose: asked for, or in a hose and no steeper than that.
 bool lies_loose(const Dresspack& dresspack, const Component& component);
 
 /// One of dresspack.materials by its name; null: there is none.

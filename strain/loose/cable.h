@@ -1,7 +1,7 @@
 // A cable that lies loose in its hose: what it is, and its state at one sample.
 //
-// It runs along the hose at a0 + b(s), s the arc of the hose's axis: a0 is the place that the dresspack gives
-// it, b the offset to where it rests now. Both are in the hose's frame (d1, d2), so that the path of a cable
+// It runs along the hose at a0(s) + b(s), s the arc of the hose's axis: a0 is the place that the dresspack gives
+// it, on a helix where it is laid (back-twisted: it does not turn about itself), b the offset to where it rests now. Both are in the hose's frame (d1, d2), so that the path of a cable
 // that keeps its place follows the hose's twist. Per length of the axis the path gains (README W32)
 //     g = e + k1 a2 - k2 a1 + |a' + tau J a|^2 / 2,    J a = (-a2, a1),
 // with the hose's elongation e, curvatures k1, k2 and twist tau.
@@ -17,7 +17,8 @@ constexpr int no_ring = -1;
 constexpr double without_limit = std::numeric_limits<double>::infinity();
 
 struct LooseCable {
-  std::array<double, 2> place{};  ///< a0, from the hose's axis toward d1 and d2 [m]
+  std::array<double, 2> place{};  ///< a0, from the hose's axis toward d1 and d2 at the base clamp [m]
+  double lay_rate = 0;            ///< by which its place turns about the hose's axis along it [rad/m]
   double radius = 0;              ///< [m]
   double axial_stiffness = 0;     ///< E A, of its wires [N]
   double bending_stiffness = 0;  ///< E I, as its wires slide [N m2]

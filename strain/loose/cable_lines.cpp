@@ -8,9 +8,9 @@ namespace dresslife::strain {
 
 using Eigen::Vector2d;
 
-CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest)
+CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature)
     : cables_(cables),
-      rest_curvature_(rest),
+      rest_curvature_(rest_curvature),
       at_(hose.nodes()),
       bent_(hose.nodes()),
       gain_(hose.nodes() - 1),
@@ -26,9 +26,9 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
   press_.assign(batch_.nodes, batch_.lanes);
   blocks_.assign(3 * batch_.nodes, batch_.lanes);
   factors_.assign(7 * batch_.nodes, batch_.lanes);
-  place0_.assign(2, batch_.lanes);
   iterations_.assign(batch_.lanes, 0);
-  for (const LooseCable& cable : cables_) tensions_.emplace_back(cable, -rest * cable.place[0]);
+  for (std::size_t k = 0; k < batch_.lanes; ++k) lay(k);
+  for (std::size_t k = 0; k < count(); ++k) tensions_.emplace_back(cables_[k], laid_gain(k));
   for (std::size_t k = 0; k < batch_.lanes; ++k) {
     const LooseCable& cable = cables_[k < count() ? k : 0];
     const Vector2d a0(cable.place[0], cable.place[1]);
@@ -42,8 +42,7 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
     of_lane(gap, k) = cable.gap;
     of_lane(per_radius, k) = a0.norm() > 0 ? 1 / a0.norm() : 0;
     of_lane(counts, k) = k < count() ? 1 : 0;
-    for (std::size_t d = 0; d < 2; ++d) place0_[d * batch_.lanes + k] = cable.place[d];
-    for (std::size_t i = 0; i < batch_.nodes; ++i) put(path, i, k, a0);
+    for (std::size_t i = 0; i < batch_.nodes; ++i) put(path, i, k, vector(laid, i, k));
   }
   point_at_rows();
 }
@@ -58,7 +57,7 @@ void CableLines::point_at_rows() {
   batch_.free_length_rate = lanes(free_length_rate), batch_.slipped = lanes(slipped);
   batch_.least_strain = lanes(least_strain), batch_.most_strain = lanes(most_strain), batch_.counts = lanes(counts);
   batch_.strain = lanes(strain), batch_.tension = lanes(tension), batch_.stiffness = lanes(stiffness);
-  batch_.place = nodes(place_at), batch_.before = nodes(before), batch_.path = nodes(path);
+  batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before), batch_.path = nodes(path);
   batch_.slope = nodes(slope), batch_.gained = nodes(gained), batch_.step = nodes(step_to);
   batch_.soft = nodes(soft), batch_.from = nodes(from), batch_.going = nodes(going);
   batch_.press = press_.data(), batch_.blocks = blocks_.data(), batch_.factors = factors_.data();
@@ -75,13 +74,39 @@ void CableLines::put(OfNode row, std::size_t node, std::size_t k, const Vector2d
   at[batch_.lanes] = value.y();
 }
 
+/// A straight place keeps its very numbers: a turn by nothing would not.
+void CableLines::lay(std::size_t k) {
+  const LooseCable& cable = cables_[k < count() ? k : 0];
+  const Vector2d a0(cable.place[0], cable.place[1]);
+  const std::size_t last = batch_.nodes - 1;
+  const double inverse = 1 / (batch_.spacing * batch_.spacing);
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double angle = cable.lay_rate * static_cast<double>(i) * batch_.spacing;
+    put(laid, i, k, angle == 0 ? a0 : turned(a0, {std::cos(angle), std::sin(angle)}));
+  }
+  for (std::size_t i = 0; i <= last; ++i) {  // beyond a clamp lies the mirror image, as in follow()
+    const Vector2d one = vector(laid, i > 0 ? i - 1 : 1, k), other = vector(laid, i < last ? i + 1 : last - 1, k);
+    put(laid_bent, i, k, inverse * (one - 2 * vector(laid, i, k) + other));
+  }
+}
+
+/// Mean gain of cable k's place in the hose in which it was laid.
+double CableLines::laid_gain(std::size_t k) const {
+  const double inverse = 1 / (batch_.spacing * batch_.spacing);
+  double sum = 0;
+  for (std::size_t i = 1; i < batch_.nodes; ++i) {
+    const Vector2d one = vector(laid, i - 1, k), other = vector(laid, i, k);
+    sum += -rest_curvature_ * (one.x() + other.x()) / 2 + (other - one).squaredNorm() * inverse / 2;
+  }
+  return sum / static_cast<double>(batch_.nodes - 1);
+}
+
 void CableLines::feed_in(double share) {
   for (CableTension& pulled : tensions_) pulled.feed_in(share);
 }
 
 void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time, bool goes_on) {
   batch_.curvature = hose.curvature.front().data();
-  batch_.rest = hose.rest.front().data();
   batch_.pull = hose.pull.front().data();
   batch_.elongation = hose.elongation.data();
   const double ahead = goes_on ? time : 0;
@@ -95,9 +120,9 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
     of_lane(most_strain, k) = pulled.most_strain();
     of_lane(least_strain, k) = -pulled.most_strain();
     const Frame& frame = *frames[cable];
-    const Vector2d a0(place0_[k], place0_[batch_.lanes + k]);
     for (std::size_t i = 0; i <= last; ++i) {
-      const Vector2d place = turned(a0, frame[i]), at = vector(path, i, k);  // the path waits in the frame
+      put(rest, i, k, hose.rest[i] + turned(vector(laid_bent, i, k), hose.turn[i]));
+      const Vector2d place = turned(vector(laid, i, k), frame[i]), at = vector(path, i, k);  // the path waits in the frame
       put(place_at, i, k, place);
       put(before, i, k, turned(at, frame[i]));
       const bool clamped = i == 0 || i == last;
@@ -111,7 +136,9 @@ std::span<const std::int32_t> CableLines::relax(int most) {
   return {iterations_.data(), count()};
 }
 
-void CableLines::place(const Frame& frame) { loose_kernels().place(batch_, place0_.data(), frame.front().data()); }
+void CableLines::place(const Frame& frame) {
+  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data());
+}
 
 /// at_, bent_ and gain_ of cable k. Returns the mean gain.
 double CableLines::follow(const HoseLine& hose, std::size_t k) {
@@ -125,7 +152,7 @@ double CableLines::follow(const HoseLine& hose, std::size_t k) {
     behind = rate;
     const Vector2d& one = at_[i > 0 ? i - 1 : 1];  // beyond a clamp lies the mirror image
     const Vector2d& other = at_[i < last ? i + 1 : last - 1];
-    bent_[i] = hose.curvature[i] - hose.rest[i] + inverse * (one - 2 * at_[i] + other);
+    bent_[i] = hose.curvature[i] - vector(rest, i, k) + inverse * (one - 2 * at_[i] + other);
   }
   return std::accumulate(gain_.begin(), gain_.end(), 0.0) / static_cast<double>(gain_.size());
 }
@@ -155,8 +182,9 @@ void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) co
     state.press[i] = press_[i * batch_.lanes + k];
     state.curvature[2 * i] = -bends.y();
     state.curvature[2 * i + 1] = bends.x() + rest_curvature_;
-    state.offset[2 * i] = at.x() - cables_[k].place[0];
-    state.offset[2 * i + 1] = at.y() - cables_[k].place[1];
+    const Vector2d offset = at - vector(laid, i, k);
+    state.offset[2 * i] = offset.x();
+    state.offset[2 * i + 1] = offset.y();
   }
 }
 

@@ -64,6 +64,9 @@ class CableLines {
   /// asks.
   void end(const HoseLine& hose, std::span<const Frame* const> frames, double step, std::span<CableState> states);
 
+  /// What its path has more than the hose's axis where it was laid in, over that.
+  double laid_in(std::size_t k) const { return tensions_[k].laid_in(); }
+
   void feed_in(double share);  ///< see CableTension
   void shorten(std::size_t cable, double share) { tensions_[cable].shorten(share); }  ///< see CableTension
 
@@ -81,9 +84,12 @@ class CableLines {
     bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
     free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, lane_rows
   };
-  /// Of what is kept by node, each (node, 2, lane).
-  enum OfNode { path, place_at, before, velocity, slope, gained, step_to, soft, from, going, node_rows };
+  /// Of what is kept by node, each (node, 2, lane). laid: the place, and laid_bent: its second derivative, in the frame
+  /// in which it stays.
+  enum OfNode { laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, step_to, soft, from, going, node_rows };
 
+  void lay(std::size_t k);
+  double laid_gain(std::size_t k) const;
   void judge_mesh(const HoseLine& hose, std::size_t k);
   void tell(const HoseLine& hose, std::size_t k, CableState& state) const;
   double& of_lane(OfLane row, std::size_t k) { return lane_rows_[static_cast<std::size_t>(row) * batch_.lanes + k]; }
@@ -96,7 +102,7 @@ class CableLines {
   std::vector<CableTension> tensions_;
   double rest_curvature_;
   LineBatch batch_;
-  LaneRows lane_rows_, node_rows_[OfNode::node_rows], press_, blocks_, factors_, place0_;
+  LaneRows lane_rows_, node_rows_[OfNode::node_rows], press_, blocks_, factors_;
   // Of one cable where it rests: its path (node) [m], its curvature less that at rest (node) [1/m], gain (element).
   std::vector<Eigen::Vector2d> at_, bent_;
   std::vector<double> gain_;

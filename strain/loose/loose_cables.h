@@ -26,6 +26,7 @@ class LooseCables {
   std::size_t nodes() const { return hose_.nodes(); }
   std::size_t cables() const { return lines_.count(); }
   const LooseCable& cable(std::size_t k) const { return lines_.cable(k); }
+  double laid_in(std::size_t k) const { return lines_.laid_in(k); }  ///< see CableLines
 
   /// At the samples to come twist takes this share of a cable's length, if nothing pulls.
   void shorten(std::size_t cable, double share);

@@ -16,6 +16,7 @@ class CableTension {
   /// laid_in: mean gain of the path on which the cable was laid in.
   explicit CableTension(const LooseCable& cable, double laid_in = 0);
 
+  double laid_in() const { return laid_in_; }
   double free_length_rate() const { return free_length_rate_; }  ///< free length over that of the hose
   double slipped() const { return slipped_; }  ///< through the clamps, over the cable's length; > 0: let out
   double most_strain() const { return held_ ? without_limit : most_; }  ///< at the grip, pulled or pressed

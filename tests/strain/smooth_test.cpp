@@ -93,15 +93,24 @@ std::vector<Key> keys(Position position) {
       {"radial_line_load_N_per_m", 1, 100, [](Component& c, double v) { c.radial_line_load = v; }},
       {"measured_bending_stiffness_Nm2", 0.05, 0.08, [](Component& c, double v) { c.measured_bending_stiffness = v; }},
       {"radial_stiffness_N_per_m2", 1e9, 1e11, [](Component& c, double v) { c.components[0].radial_stiffness = v; }},
-      {"jacket_stiffness_N_per_m2", 1e5, 3e7, [](Component& c, double v) { c.components[0].jacket_stiffness = v; }}};
+      {"jacket_stiffness_N_per_m2", 1e5, 3e7, [](Component& c, double v) { c.components[0].jacket_stiffness = v; }},
+      {"lay_angle_rad", 0.5 * degree, 8 * degree, [](Component& c, double v) { c.lay_angle = v; }}};
   if (position == Position::loose)
     all.push_back({"play_m", 1e-3, 8e-3, [](Component& c, double v) { c.laying.play = v; }});
-  else
-    all.push_back({"lay_angle_rad", 0.5 * degree, 8 * degree, [](Component& c, double v) { c.lay_angle = v; }});
   return all;
 }
 
 }  // namespace
+
+TEST_CASE("a lay of nearly nothing is none, in a hose that says where its cables lie and in one that leaves it to them") {
+  for (const Position position : {Position::automatic, Position::held}) {
+    Dresspack dresspack = two_cables(position);
+    const double straight = largest_range(dresspack);
+    // Strains go with the turn of a place over the length, 0.002 rad here, and not with its root.
+    dresspack.components[0].lay_angle = 0.001 * degree;
+    CHECK(largest_range(dresspack) == Approx(straight).epsilon(0.01));
+  }
+}
 
 TEST_CASE("strains of wires move smoothly with every key of loose and held cables, whatever another is at") {
   constexpr double step = 0.01;

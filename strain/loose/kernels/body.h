@@ -172,24 +172,24 @@ void Lines<packs>::slopes() const {
   const double h = of.spacing, per_h = 1 / h, per_h2 = per_h * per_h;
   Pair here[packs], next[packs], bent_before[packs], bent_here[packs];
   Pack bending[packs], mass[packs], drag[packs], tension[packs];
-  const auto bent_hose = [&](std::size_t i) { return same(of.curvature, i) - same(of.rest, i); };
   for (int p = 0; p < packs; ++p) {
     const std::size_t k = lane(p);
     const Pair clamped = pair(of.path, 0, p);
     here[p] = clamped;
     next[p] = pair(of.path, 1, p);
     // A clamp holds it along the hose's end, A' = 0: beyond lies the mirror image.
-    bent_here[p] = bent_hose(0) + Pack(2 * per_h2) * (next[p] - here[p]);
+    bent_here[p] = same(of.curvature, 0) - pair(of.rest, 0, p) + Pack(2 * per_h2) * (next[p] - here[p]);
     bending[p] = at(of.bending_stiffness, k) * Pack(per_h);
     mass[p] = at(of.mass_per_length, k) * Pack(h);
     drag[p] = at(of.drag, k) * Pack(h);
     tension[p] = at(of.tension, k);
   }
   for (std::size_t i = 0; i < last; ++i) {
-    const Pair hose_bent = bent_hose(i + 1), K = Pack(h) * same(of.curvature, i), pull = same(of.pull, i);
+    const Pair hose_bends = same(of.curvature, i + 1), K = Pack(h) * same(of.curvature, i), pull = same(of.pull, i);
     for (int p = 0; p < packs; ++p) {
       const Pair after = i + 2 <= last ? pair(of.path, i + 2, p) : here[p];
-      const Pair bent_next = hose_bent + Pack(per_h2) * ((here[p] - next[p]) + (after - next[p]));
+      const Pair bent_next =
+          hose_bends - pair(of.rest, i + 1, p) + Pack(per_h2) * ((here[p] - next[p]) + (after - next[p]));
       if (i > 0) {
         const Pair A = here[p], ahead = next[p], behind = pair(of.path, i - 1, p);
         const Pair gained = Pack(per_h) * ((A - behind) - (ahead - A)) - K;
@@ -450,12 +450,11 @@ void relax(const LineBatch& batch, int most, std::int32_t* iterations) {
 
 // ---- rings ------------------------------------------------------------------------------------------------
 
-void place(const LineBatch& batch, const double* place0, const double* frame) {
+void place(const LineBatch& batch, const double* laid, const double* frame) {
   for (std::size_t k = 0; k < batch.lanes; k += pack_size) {
     const Lines<1> lines{batch, k};
-    const Pair a0{load<Pack>(place0 + k), load<Pack>(place0 + batch.lanes + k)};
     for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
-      const Pair by = Lines<1>::same(frame, i);
+      const Pair by = Lines<1>::same(frame, i), a0 = lines.pair(laid, i, 0);
       lines.put({a0.x * by.x - a0.y * by.y, a0.x * by.y + a0.y * by.x}, batch.path, i, 0);
     }
     lines.answer();

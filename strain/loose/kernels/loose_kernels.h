@@ -16,8 +16,8 @@ struct LineBatch {
   std::size_t nodes = 0, lanes = 0;
   double length = 0, spacing = 0;  ///< of the hose's axis, of its nodes [m]
 
-  // The hose, the same for all: (node, 2) K, K0 [1/m] and what pulls [m/s2]; (node) elongation.
-  const double *curvature = nullptr, *rest = nullptr, *pull = nullptr, *elongation = nullptr;
+  // The hose, the same for all: (node, 2) K [1/m] and what pulls [m/s2]; (node) elongation.
+  const double *curvature = nullptr, *pull = nullptr, *elongation = nullptr;
 
   // (lane) what the cables are, see LooseCable; no limit is infinite.
   const double *bending_stiffness = nullptr, *axial_stiffness = nullptr, *mass_per_length = nullptr;
@@ -28,6 +28,7 @@ struct LineBatch {
   const double *slipped = nullptr, *least_strain = nullptr, *most_strain = nullptr;  ///< see CableTension
   const double* counts = nullptr;            ///< 1; 0: a spare lane
 
+  const double* rest = nullptr;                      ///< (node, 2, lane) K0 and how its place bends in it [1/m]
   const double *place = nullptr, *before = nullptr;  ///< (node, 2, lane) A0, A_before [m]
   double* path = nullptr;                            ///< (node, 2, lane) A [m]
 
@@ -47,9 +48,9 @@ struct RingSystem {
 struct LooseKernels {
   /// Every cable to the minimum of its energy. iterations: (lane), at most `most` each.
   void (*relax)(const LineBatch&, int most, std::int32_t* iterations);
-  /// Every cable to its place in the ring's frame (node, 2), cosine and sine; place0: (2, lane). Then tension and slope
-  /// of all but contact.
-  void (*place)(const LineBatch&, const double* place0, const double* frame);
+  /// Every cable to its place in the ring's frame (node, 2), cosine and sine; laid: its place in that (node, 2, lane).
+  /// Then tension and slope of all but contact.
+  void (*place)(const LineBatch&, const double* laid, const double* frame);
   void (*assemble_turn)(const LineBatch&, const RingSystem&);
   /// Of the slope alone.
   void (*slope_of_turn)(const LineBatch&, double* slope);

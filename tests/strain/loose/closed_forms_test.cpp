@@ -46,6 +46,48 @@ TEST_CASE("without play a loose cable has the strain of one that is held") {
   CHECK(largest_offset(cables.state(0), 0) < 1e-6);
 }
 
+TEST_CASE("a laid cable is at ease where it was laid, bent or not") {
+  for (const double lay : {-10.0, 0.5, 20.0})
+    for (const double rest : {0.0, 0.8}) {
+      LooseCable cable = signal_cable(0.01845 * std::cos(0.3), 0.01845 * std::sin(0.3));
+      cable.lay_rate = std::tan(lay * pi / 180) / 0.01845;
+      cable.play = 0.004;
+      LooseCables cables({cable}, {2, 128, rest});
+      cables.advance(hose(128, [&](double) { return HoseNode{.curvature2 = rest}; }), step);
+      const CableState& state = cables.state(0);
+      CHECK(std::abs(state.strain) < 1e-9);
+      CHECK(std::max(largest_offset(state, 0), largest_offset(state, 1)) < 1e-9);
+      for (std::size_t i = 0; i <= 128; ++i)  // what the levels inside it feel
+        CHECK(std::hypot(state.curvature[2 * i], state.curvature[2 * i + 1] - rest) < 1e-6);
+    }
+}
+
+TEST_CASE("twist along the lay of a laid cable without play stretches it, twist against it lets it go") {
+  constexpr double radius = 0.01845, lay = 8 * pi / 180;
+  LooseCable cable = signal_cable(radius);
+  cable.lay_rate = std::tan(lay) / radius;
+  cable.play = 0;
+  cable.wall_stiffness = 1e11;
+  const LooseSettings settings{2, 256};
+  for (const double twist : {1.5, -1.5}) {
+    LooseCables cables({cable}, settings);
+    cables.advance(hose(256, [&](double) { return HoseNode{.twist = twist}; }), step);
+    const double path = std::hypot(1, radius * (cable.lay_rate + twist)) * std::cos(lay);
+    // |a'|^2 / 2 instead of the root leaves out 1/4 of |a'|^4, tan^2(lay) / 2 of the change: 1 %
+    CHECK(cables.state(0).strain == Approx(path - 1).epsilon(0.012));
+  }
+}
+
+TEST_CASE("a bend of many pitches leaves a laid cable as long as it is, and moves its wires by the bend alone") {
+  LooseCable cable = signal_cable(0.01845);
+  cable.lay_rate = 8 * 2 * pi / 2;  // eight turns in 2 m
+  cable.play = 0;
+  cable.wall_stiffness = 1e11;
+  LooseCables cables({cable}, {2, 256});
+  cables.advance(hose(256, [](double) { return HoseNode{.curvature2 = 1}; }), step);
+  CHECK(std::abs(cables.state(0).strain) < 1e-3 * 0.01845);
+}
+
 TEST_CASE("a cable on the outside of a bend moves in by its play and pulls for the rest") {
   LooseCable cable = signal_cable(-0.01845);
   cable.play = 0.005;
