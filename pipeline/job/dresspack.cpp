@@ -12,7 +12,7 @@ namespace {
 void describe(Fields& f, Laying& laying) {
   f.choice("position", laying.position,
            "in the cross-section of a hose: held at its place, loose where it rests, or auto: loose if the "
-           "part holds parts, has a lay angle of 20 deg at most, may slide, and the dresspack has an inner_diameter_mm or a "
+           "part is no wire, has a lay angle of 20 deg at most, may slide, and the dresspack has an inner_diameter_mm or a "
            "hose_corrugation");
   f.number("slack_percent", laying.slack, Need::optional, between(0, 20),
            "length of the part beyond the path on which it was laid in, when the hose had its rest shape");

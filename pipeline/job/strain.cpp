@@ -25,7 +25,7 @@ void describe(Fields& f, Strain& strain) {
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),
            "turning points of smaller strain ranges are dropped");
   f.integer("cable_elements_per_segment", strain.cable_elements, Need::optional, between(1, 16),
-            "pieces into which loose cables are cut where they are shorter waves than a segment resolves (strain.h5 tells, "
+            "pieces into which loose cables are cut, which lie in shorter waves than a segment resolves (strain.h5 tells, "
             "loose_mesh_error); twice as many cost them twice the time and leave a quarter of the error");
   const auto factor = [&](const char* key, double& value, const char* meaning) {
     f.number(key, value, Need::optional, between(1e-3, 1e3), meaning);

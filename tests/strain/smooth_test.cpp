@@ -118,8 +118,11 @@ TEST_CASE("strains of wires move smoothly with every key of loose and held cable
   // (4 E I delta / c^2), what a lay twists with that of its angle, what friction holds with a measured stiffness less
   // that of polymer (0.05 / 0.02), and friction answers to each of them. A law that switches moves them several times.
   constexpr double steepest = 3;
+  // What is too long lies in a whole number of waves: where one more just fits it may lie so or so, and bends by so much more.
+  constexpr double one_wave = 0.015;
   for (const Position position : {Position::loose, Position::held}) {
     const std::vector<Key> all = keys(position);
+    const double allowed = steepest * step + (position == Position::loose ? one_wave : 0);
     for (std::size_t a = 0; a < all.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
         for (const bool high_a : {false, true})
@@ -134,8 +137,8 @@ TEST_CASE("strains of wires move smoothly with every key of loose and held cable
             const double here = range(1, 1);
             INFO(all[a].name << " " << at_a << ", " << all[b].name << " " << at_b);
             INFO((position == Position::held ? "held" : "loose"));
-            CHECK(range(1 + step, 1) == Approx(here).epsilon(steepest * step));
-            CHECK(range(1, 1 + step) == Approx(here).epsilon(steepest * step));
+            CHECK(range(1 + step, 1) == Approx(here).epsilon(allowed));
+            CHECK(range(1, 1 + step) == Approx(here).epsilon(allowed));
           }
   }
 }
