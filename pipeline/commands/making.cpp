@@ -115,6 +115,9 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
 
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows) {
+  const auto is_rated = [](const StudyJob& job) { return job.failure.empty() && job.job && has_ratings(*job.job); };
+  if (study.keep == Keep::lives && std::any_of(study.jobs.begin(), study.jobs.end(), is_rated))
+    tell("note: no life is told in rated cycles (keep: lives leaves no damage of single places); keep: histories tells them\n");
   const RatedStudy rated = rated_study(study);
   if (rated.cables.empty()) return;
   const StudyPlaces places{of_study.folder / ".rigs", of_study.programs};

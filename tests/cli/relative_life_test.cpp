@@ -103,3 +103,14 @@ TEST_CASE("relative life: without a rating nothing is told and no rig runs") {
   CHECK(none.cable.empty());
   CHECK_FALSE(fs::exists(scratch / "runs/none/.rigs"));
 }
+
+TEST_CASE("relative life: what a study's keep leaves no file for is said") {
+  Scratch scratch;
+  scratch.write("rated.yaml", twisted(180, rating(180, "1e+6")));
+  for (const std::string keep : {"lives", "histories"}) {
+    scratch.write(keep + ".yaml", "base: rated.yaml\nkeep: " + keep + "\njobs: {only: {}}\n");
+    const Outcome outcome = run(scratch, "dresslife", "run " + keep + ".yaml");
+    CHECK((outcome.err.find("no life is told in rated cycles") != std::string::npos) == (keep == "lives"));
+    CHECK((outcome.out.find("rated cycles of lead") != std::string::npos) == (keep == "histories"));
+  }
+}
