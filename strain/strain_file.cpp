@@ -334,12 +334,13 @@ struct Evaluations {
   }
 };
 
-std::vector<Warning> mesh_warnings(double error) {
+/// pieces: of a loose cable in a segment.
+std::vector<Warning> mesh_warnings(double error, int pieces) {
   if (error <= believable_mesh_error) return {};
   return {{WarningKind::mesh, "",
-           fmt::format("pieces as long as a segment are too long for how loose cables bend: they miss {:.3g} of it (more "
-                       "than {:g}); give twice the strain.cable_elements_per_segment, or more simulation.segments",
-                       error, believable_mesh_error)}};
+           fmt::format("{} to a segment, pieces are too long for how loose cables bend: they miss {:.3g} of it (more than "
+                       "{:g}); give strain.cable_elements_per_segment: {} or more, or more simulation.segments",
+                       pieces, error, believable_mesh_error, 2 * pieces)}};
 }
 
 /// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the clamps.
@@ -382,8 +383,9 @@ class CableRows {
 };
 
 /// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns what a person
-/// should look at: segments that are too long.
-std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+/// should look at: pieces that are too long.
+std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations,
+                                  int pieces) {
   CableRows rows;
   std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
   double mesh_error = 0;
@@ -402,7 +404,7 @@ std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::uniqu
     for (const std::vector<double>* of : hose_moment) moments.push_back((*of)[t]);
   file.append("/cable_span/hose_moment", moments);
   if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
-  const std::vector<Warning> warnings = mesh_warnings(mesh_error);
+  const std::vector<Warning> warnings = mesh_warnings(mesh_error, pieces);
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
   const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(), cables.offset_samples().end());
@@ -517,7 +519,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
         if (evaluation.wants_again()) evaluation.add_again(of_span.deformation);
       });
     });
-  const std::vector<Warning> warnings = pipeline::joined(construction_warnings(job), write_cables(strain, evaluations));
+  const std::vector<Warning> warnings = pipeline::joined(construction_warnings(job), write_cables(strain, evaluations, job.strain.cable_elements));
   write_bending(strain, job);
 
   Sink sink;

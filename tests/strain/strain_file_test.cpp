@@ -1,6 +1,8 @@
 // The stage on small motion files: what strain.h5 says, that its parts agree, and what is refused.
 #include "strain/strain_file.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -236,6 +238,23 @@ TEST_CASE("of the strains of cables in the file forces follow, which are warned 
   CHECK(stuck.warnings.find("what tears a cable") != std::string::npos);
   CHECK(stuck.share > held.share);
   CHECK(std::all_of(stuck.slip.begin(), stuck.slip.end(), is_zero));
+}
+
+TEST_CASE("pieces of loose cables that miss their waves are told with how many to take") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  const std::string cable = "dresspack.components.1.";
+  for (const int pieces : {1, 3}) {
+    const pipeline::Job job = job_with({"strain.slip=free", "dresspack.inner_diameter_mm=50", cable + "position=loose",
+                                        cable + "slack_percent=3",
+                                        "strain.cable_elements_per_segment=" + std::to_string(pieces)});
+    const std::string told = evaluate(scratch / "motion.h5", scratch / "strain.h5", job);
+    const double missed = FileReader(scratch / "strain.h5", pipeline::strain_format()).number_attribute("loose_mesh_error");
+    REQUIRE(missed > 0.02);
+    CHECK_THAT(told, Catch::Contains(fmt::format("{} to a segment", pieces)) &&
+                         Catch::Contains(fmt::format("they miss {:.3g}", missed)) &&
+                         Catch::Contains(fmt::format("cable_elements_per_segment: {} or more", 2 * pieces)));
+  }
 }
 
 TEST_CASE("a strain file with a cable that its job does not have is refused") {
