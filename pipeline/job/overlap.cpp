@@ -44,9 +44,30 @@ std::string what_fits(const Component& of) {
                      std::floor(10 * largest_lay_angle(of) * 180 / pi) / 10, of.lay_angle * 180 / pi, fewer);
 }
 
+/// Turn about the parent's axis along it [rad/m].
+double turn_rate(const Component& of) {
+  if (of.helix_radius == 0) return 0;
+  return (of.hand == Hand::left ? -1 : 1) * std::tan(of.lay_angle) / of.helix_radius;
+}
+
+void add_overlaps_between(const std::vector<Component>& components, std::vector<Warning>& warnings) {
+  for (std::size_t a = 0; a < components.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const Component &one = components[b], &other = components[a];
+      const double apart = nearest_distance(one, other), needed = one.radius + other.radius;
+      if (apart >= needed * (1 - allowed)) continue;
+      const auto name = [](const Component& of) { return of.layer.empty() ? of.name : of.layer + "/" + of.name; };
+      warnings.push_back({WarningKind::overlap, other.where.text(),
+                          fmt::format("'{}' and '{}' come as near as {:.4g} mm between their axes, {:.3f} mm less than their "
+                                      "radii together; check helix_radius_mm, radius_mm, phase_deg and lay_angle_deg of both",
+                                      name(one), name(other), 1e3 * apart, 1e3 * (needed - apart))});
+    }
+}
+
 /// Gross overlap is a problem, less of it a warning where these are asked for.
 void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>* warnings) {
   for (const Component& inner : of.components) add_overlaps(inner, problems, warnings);
+  if (warnings) add_overlaps_between(of.components, *warnings);
   if (!overlaps(of)) return;
   const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
   const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
@@ -81,6 +102,21 @@ double neighbour_distance(double helix_radius, double lay_angle, int count) {
   return std::sqrt(squared((low + high) / 2));
 }
 
+double nearest_distance(const Component& one, const Component& other) {
+  constexpr double along = 1;  // [m]
+  const double apart = std::abs(one.helix_radius - other.helix_radius);
+  if (one.helix_radius == 0 || other.helix_radius == 0) return apart;
+  if (std::abs(turn_rate(one) - turn_rate(other)) * along >= 2 * pi / std::max(one.count, other.count)) return apart;
+  double nearest = one.helix_radius + other.helix_radius;
+  for (int k = 0; k < one.count; ++k)
+    for (int j = 0; j < other.count; ++j) {
+      const double between = one.phase + 2 * pi * k / one.count - other.phase - 2 * pi * j / other.count;
+      nearest = std::min(nearest, std::hypot(one.helix_radius - other.helix_radius * std::cos(between),
+                                             other.helix_radius * std::sin(between)));
+    }
+  return nearest;
+}
+
 bool overlaps(const Component& component) {
   return component.helix_radius > 0 && !fits(component, component.lay_angle, component.count, allowed);
 }
@@ -89,6 +125,7 @@ std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
   Problems problems;
   std::vector<Warning> warnings;
   for (const Component& component : dresspack.components) add_overlaps(component, problems, &warnings);
+  add_overlaps_between(dresspack.components, warnings);
   problems.finish();
   return warnings;
 }

@@ -70,3 +70,36 @@ TEST_CASE("parts that can only be a mistake are refused") {
                         Catch::Contains("15 of them fit"));
   CHECK_NOTHROW(overlap_warnings(dresspack_of(25, 1.175, 5.8, 0)));
 }
+
+TEST_CASE("parts of two components that would lie in each other are warned of, those that touch are not") {
+  Dresspack dresspack = dresspack_of(1, 1, 0, 0);
+  std::vector<Component>& parts = dresspack.components[0].components;
+  Component ring = parts[0];
+  ring.name = "ring";
+  ring.count = 3;
+  ring.helix_radius = 2e-3;  // around the one in the middle, which they touch
+  parts.push_back(ring);
+  CHECK(overlap_warnings(dresspack).empty());
+  parts[1].helix_radius = 1.9e-3;
+  REQUIRE(overlap_warnings(dresspack).size() == 1);
+  CHECK_THAT(overlap_warnings(dresspack)[0].words, Catch::Contains("'conductor' and 'ring' come as near as 1.9 mm") &&
+                                                       Catch::Contains("0.100 mm less than their radii together"));
+  // Three more in their gaps fit while they go on alike, straight or laid, and meet them where they do not.
+  parts.erase(parts.begin());
+  parts[0].helix_radius = 2e-3;
+  parts.push_back(parts[0]);
+  parts[1].name = "between";
+  parts[1].phase = std::numbers::pi / 3;
+  for (const double lay : {0.0, 10.0}) {
+    parts[0].lay_angle = parts[1].lay_angle = lay * degree;
+    CHECK(nearest_distance(parts[0], parts[1]) == Approx(2e-3));
+    CHECK(overlap_warnings(dresspack).empty());
+  }
+  parts[1].hand = Hand::left;
+  CHECK(nearest_distance(parts[0], parts[1]) == 0);
+  CHECK(overlap_warnings(dresspack).size() == 1);
+  parts[1].hand = Hand::right;
+  parts[1].phase = std::numbers::pi / 4;  // 15 deg off: 2 R sin(22.5 deg)
+  CHECK(nearest_distance(parts[0], parts[1]) == Approx(4e-3 * std::sin(22.5 * degree)));
+  CHECK(overlap_warnings(dresspack).size() == 1);
+}
