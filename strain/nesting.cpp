@@ -75,6 +75,7 @@ BundleNesting nesting_to(const Construction& construction, const std::vector<Lay
   for (const int level_part : line) {
     const Part& of = construction.parts()[level_part];
     NestingLevel step;
+    // A loose cable does not turn about itself, laid or not, so its phase is that at the clamp (W32).
     step.place = plan[of.layer].loose
                      ? make_placement(construction.kinematics(), 0.0, 0.0, 1.0,
                                       construction.phase(of.layer, of.number, of.parent, 0), order)

@@ -6,24 +6,13 @@
 
 namespace dresslife::strain {
 
-void TurningPoints::next(float strain, TurningList& out) {
+/// Until the first range as wide as the gate tells a direction.
+void TurningPoints::begin(float strain, TurningList& out) {
   const std::uint32_t now = sample_++;
   last_ = strain;
   if (now == 0) {
     out.add(strain, now);
     low_ = high_ = extreme_ = strain;
-    return;
-  }
-  if (direction_ != 0) {
-    const float beyond = static_cast<float>(direction_) * (strain - extreme_);
-    if (beyond < 0 && -beyond >= gate_) {
-      out.add(extreme_, extreme_at_);
-      direction_ = -direction_;
-    } else if (!(beyond > 0)) {
-      return;
-    }
-    extreme_ = strain;
-    extreme_at_ = now;
     return;
   }
   if (strain < low_) low_ = strain, low_at_ = now;
@@ -39,7 +28,7 @@ void TurningPoints::next(float strain, TurningList& out) {
 
 void TurningPoints::next(std::span<const float> strains, TurningList& out) {
   std::size_t k = 0;
-  while (k < strains.size() && direction_ == 0) next(strains[k++], out);
+  while (k < strains.size() && direction_ == 0) begin(strains[k++], out);
   const std::uint32_t first = sample_ - static_cast<std::uint32_t>(k);
   float direction = static_cast<float>(direction_), extreme = extreme_;  // in registers: most samples move nothing
   std::uint32_t extreme_at = extreme_at_;

@@ -23,11 +23,12 @@ class TurningPoints {
   /// gate: smallest range kept, >= 0.
   explicit TurningPoints(float gate) : gate_(gate) {}
 
-  void next(float strain, TurningList& out);
-  void next(std::span<const float> strains, TurningList& out);  ///< one after the other
-  void finish(TurningList& out) const;  ///< after the last sample
+  void next(std::span<const float> strains, TurningList& out);  ///< the next samples, one after the other
+  void finish(TurningList& out) const;                          ///< after the last sample
 
  private:
+  void begin(float strain, TurningList& out);
+
   float gate_;
   std::uint32_t sample_ = 0;  ///< of the next strain
   float last_ = 0;

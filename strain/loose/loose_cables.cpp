@@ -21,24 +21,20 @@ LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSetti
       frames_(cables.size(), &hose_.turn),
       states_(cables.size()) {
   assert(settings.elements >= 4 && settings.length > 0);
-  std::map<int, std::vector<LooseCable>> rings;
-  for (const LooseCable& cable : cables)
-    if (cable.ring != no_ring) rings[cable.ring].push_back(cable);
-  std::map<int, const CableLines::Frame*> frame_of;
-  rings_.reserve(rings.size());
-  for (const auto& [number, of_ring] : rings) {
-    rings_.emplace_back(of_ring, hose_, settings.rest_curvature);
-    frame_of[number] = &rings_.back().frame();
-  }
-  std::map<int, std::pair<Ring*, std::size_t>> next;
-  for (std::size_t k = 0; k < rings_.size(); ++k) next[std::next(rings.begin(), static_cast<long>(k))->first] = {&rings_[k], 0};
-  in_ring_.resize(cables.size());
+  std::map<int, std::vector<std::size_t>> members;  // (ring)
   for (std::size_t k = 0; k < cables.size(); ++k)
-    if (cables[k].ring != no_ring) {
-      frames_[k] = frame_of[cables[k].ring];
-      in_ring_[k] = next[cables[k].ring];
-      ++next[cables[k].ring].second;
+    if (cables[k].ring != no_ring) members[cables[k].ring].push_back(k);
+  in_ring_.resize(cables.size());
+  rings_.reserve(members.size());
+  for (const auto& [number, of_ring] : members) {
+    std::vector<LooseCable> lying;
+    for (const std::size_t k : of_ring) lying.push_back(cables[k]);
+    Ring& ring = rings_.emplace_back(lying, hose_, settings.rest_curvature);
+    for (std::size_t place = 0; place < of_ring.size(); ++place) {
+      frames_[of_ring[place]] = &ring.frame();
+      in_ring_[of_ring[place]] = {&ring, place};
     }
+  }
 }
 
 void LooseCables::shorten(std::size_t cable, double share) {

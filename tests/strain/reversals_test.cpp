@@ -29,8 +29,17 @@ Kept kept(const TurningList& list) {
 Kept filter(const std::vector<float>& history, float gate) {
   TurningPoints points(gate);
   TurningList list;
-  for (const float strain : history) points.next(strain, list);
+  points.next(history, list);
   points.finish(list);
+  for (const std::size_t piece : {1, 7}) {  // whatever comes at once
+    TurningPoints again(gate);
+    TurningList in_pieces;
+    for (std::size_t first = 0; first < history.size(); first += piece)
+      again.next(std::span(history).subspan(first, std::min(piece, history.size() - first)), in_pieces);
+    again.finish(in_pieces);
+    CHECK(kept(in_pieces).strain == kept(list).strain);
+    CHECK(kept(in_pieces).sample == kept(list).sample);
+  }
   return kept(list);
 }
 

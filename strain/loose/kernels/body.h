@@ -177,7 +177,7 @@ void Lines<packs>::slopes() const {
     const Pair clamped = pair(of.path, 0, p);
     here[p] = clamped;
     next[p] = pair(of.path, 1, p);
-    // A clamp holds it along the hose's end, A' = 0: beyond lies the mirror image.
+    // A clamp holds it as it was laid: beyond lies the mirror image, of its place in `rest` likewise.
     bent_here[p] = same(of.curvature, 0) - pair(of.rest, 0, p) + Pack(2 * per_h2) * (next[p] - here[p]);
     bending[p] = at(of.bending_stiffness, k) * Pack(per_h);
     mass[p] = at(of.mass_per_length, k) * Pack(h);
