@@ -118,11 +118,12 @@ TEST_CASE("strains of wires move smoothly with every key of loose and held cable
   // (4 E I delta / c^2), what a lay twists with that of its angle, what friction holds with a measured stiffness less
   // that of polymer (0.05 / 0.02), and friction answers to each of them. A law that switches moves them several times.
   constexpr double steepest = 3;
-  // What is too long lies in a whole number of waves: where one more just fits it may lie so or so, and bends by so much more.
-  constexpr double one_wave = 0.015;
+  // What is too long rests in one of several ways, and which hangs on little: at 8 mm of play a cable lies 3 mm elsewhere at
+  // one sample between stiffnesses 0.1 % apart. That goes to and fro and does not add up, as a law that switches would.
+  constexpr double other_way = 0.015;
   for (const Position position : {Position::loose, Position::held}) {
     const std::vector<Key> all = keys(position);
-    const double allowed = steepest * step + (position == Position::loose ? one_wave : 0);
+    const double allowed = steepest * step + (position == Position::loose ? other_way : 0);
     for (std::size_t a = 0; a < all.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
         for (const bool high_a : {false, true})
