@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; --page: #ffffff; --ink: #1b1f24; --soft: #5b6570; --rule: #d5dae0; --grid: #e6e9ed;
   --blue: #0072b2; --hot: #c94f00; --band: #eef1f5; --band-2: #d9dfe7; --arm: #c3ccd6; --arm-2: #b3bdc9; }
-@media (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e8eaed; --soft: #a0a9b4; --rule: #3a424c;
+@media screen and (prefers-color-scheme: dark) { :root { --page: #14171b; --ink: #e8eaed; --soft: #a0a9b4; --rule: #3a424c;
   --grid: #2a3037; --blue: #56b4e9; --hot: #f08c3a; --band: #242a31; --band-2: #37404a; --arm: #4a5562;
   --arm-2: #57636f; } }
 svg { display: block; width: 100%; height: auto; font: 12px system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif; }
@@ -39,7 +39,13 @@ svg .halo { stroke: var(--page); stroke-linecap: butt; }
 svg .hose { stroke: var(--blue); } svg .hose-hot { stroke: var(--hot); }
 svg .costly { fill: var(--hot); fill-opacity: .55; }
 svg .scatter { stroke: var(--hot); stroke-width: 5; }
-svg .whisker { stroke: var(--blue); stroke-width: 5; stroke-opacity: .35; stroke-linecap: round; }
+)";
+
+/// A phone scrolls a chart sideways rather than make its words too small to be read; paper shows all of it.
+constexpr std::string_view chart_rules = R"(
+.chart { overflow-x: auto; } @media screen and (max-width: 45rem) { .chart > svg { min-width: 52rem; } }
+.picture > svg { max-height: 32rem; }
+@media print { .chart, .picture { break-inside: avoid; overflow: visible; } .picture > svg { max-height: 7cm; } }
 )";
 
 /// The value that the first, light, set of colours gives a variable.
@@ -90,7 +96,11 @@ int run_converter(std::FILE* in, std::FILE* out) {
 
 }  // namespace
 
-std::string_view chart_style() { return style; }
+std::string chart_style() { return std::string(style).append(chart_rules); }
+
+std::string chart_in_page(const std::string& svg) { return "<div class=\"chart\">" + svg + "</div>\n"; }
+
+std::string picture_in_page(const std::string& svg) { return "<div class=\"picture\">" + svg + "</div>\n"; }
 
 std::string standalone(const std::string& chart) {
   constexpr std::string_view begin = "<svg viewBox=\"0 0 ";

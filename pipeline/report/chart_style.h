@@ -3,12 +3,15 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 namespace dresslife::pipeline {
 
 /// Rules for a page's style sheet, with colours for light and dark readers.
-std::string_view chart_style();
+std::string chart_style();
+
+/// A chart in a page, at a size at which its words can be read; a picture without words to read, which shrinks with the page.
+std::string chart_in_page(const std::string& svg);
+std::string picture_in_page(const std::string& svg);
 
 /// A chart, "<svg viewBox=...", as a file of its own: in the light colours, which all programs that show SVG
 /// understand, on their ground.

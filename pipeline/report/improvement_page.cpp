@@ -19,11 +19,18 @@ p { max-width: 46rem; } .soft { color: var(--soft); font-size: .9rem; } .failed 
 table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .3rem 1.2rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; } .number { text-align: right; white-space: nowrap; }
-.beside { display: grid; grid-template-columns: 1fr 1fr; gap: 1rem; } .beside iframe { width: 100%; height: 46rem;
-  border: 1px solid var(--rule); }
-.chart { max-width: 60rem; }
+.beside { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); gap: 1rem; }
+.beside iframe { width: 100%; height: 46rem; border: 1px solid var(--rule); } .wide { overflow-x: auto; }
+h1, td code { overflow-wrap: anywhere; } div.narrow { display: none; } .figure { max-width: 60rem; }
+@media screen and (max-width: 45rem) { .broad { display: none; } div.narrow { display: block; } .beside iframe { height: 32rem; } }
+@media print { body { max-width: none; padding: 0; font-size: 12px; } iframe { display: none; } .wide { overflow: visible; }
+  h2, h2 + p { break-after: avoid; } .figure, tr { break-inside: avoid; } }
 )";
 
+/// A table that scrolls where it is wider than the page.
+std::string table(const std::string& head, const std::string& rows) {
+  return fmt::format("<div class=\"wide\"><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", head, rows);
+}
 
 std::string lives_section(const ImprovementStory& story) {
   const auto row = [](const char* name, const ImprovementStory::Lives& of) {
@@ -32,11 +39,9 @@ std::string lives_section(const ImprovementStory& story) {
                        name, printed_life(of.p10), printed_life(of.p50), printed_life(of.p90), escaped(of.words));
   };
   std::string text =
-      "<h2>Lives</h2>\n<table><thead><tr><th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th>"
-      "<th class=\"number\">p90 [h]</th><th>limits</th></tr></thead><tbody>\n";
-  if (story.before) text += row("before", *story.before);
-  if (story.after) text += row("after", *story.after);
-  text += "</tbody></table>\n";
+      "<h2>Lives</h2>\n" +
+      table("<th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th><th class=\"number\">p90 [h]</th><th>limits</th>",
+            (story.before ? row("before", *story.before) : "") + (story.after ? row("after", *story.after) : ""));
   if (story.longer_in)
     text += fmt::format("<p>Over all that is not known of the dresspack, in what both have in common alike, it lives longer in "
                         "{:.0f} % of draws.</p>\n",
@@ -45,12 +50,11 @@ std::string lives_section(const ImprovementStory& story) {
 }
 
 std::string changes_section(const ImprovementStory& story) {
-  std::string text =
-      "<h2>What was changed</h2>\n<table><thead><tr><th>key</th><th>before</th><th>after</th></tr></thead><tbody>\n";
+  std::string rows;
   for (const ImprovementStory::Change& change : story.changes)
-    text += fmt::format("<tr><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n", escaped(change.key),
+    rows += fmt::format("<tr><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n", escaped(change.key),
                         escaped(change.before), escaped(change.after));
-  return text + "</tbody></table>\n";
+  return "<h2>What was changed</h2>\n" + table("<th>key</th><th>before</th><th>after</th>", rows);
 }
 
 std::string beside_section(const ImprovementStory& story) {
@@ -65,29 +69,37 @@ std::string beside_section(const ImprovementStory& story) {
 
 std::string nudges_section(const ImprovementStory& story) {
   if (story.nudges.empty()) return "";
-  std::string text =
-      "<h2>What it forgives</h2>\n<p>No clamp is set to the millimetre: the same jobs with one thing off, without what is not "
-      "known.</p>\n<table><thead><tr><th>off by</th><th class=\"number\">life</th><th>limits</th></tr></thead><tbody>\n";
+  std::string rows;
   for (const ImprovementStory::Nudge& nudge : story.nudges)
-    text += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td></tr>\n", escaped(nudge.what),
+    rows += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td></tr>\n", escaped(nudge.what),
                         nudge.ran && std::isfinite(nudge.share) ? fmt::format("× {:.2f}", nudge.share) : "–",
                         nudge.words.empty() ? "" : " class=\"failed\"",
                         nudge.words.empty() ? "kept" : escaped(nudge.words));
-  return text + "</tbody></table>\n";
+  return "<h2>What it forgives</h2>\n<p>No clamp is set to the millimetre: the same jobs with one thing off, without what is not "
+         "known.</p>\n" +
+         table("<th>off by</th><th class=\"number\">life</th><th>limits</th>", rows);
+}
+
+/// Room for the chart of a page, and for that of a phone's.
+constexpr double broad = 940, narrow = 350, chart_height = 370;
+
+/// A chart at both widths: words keep their size, so a phone's has fewer of them.
+template <typename Draw>
+std::string at_both_widths(const Draw& draw) {
+  return fmt::format("<div class=\"figure\"><div class=\"broad\">{}</div><div class=\"narrow\">{}</div></div>\n", draw(broad),
+                     draw(narrow));
+}
+
+Panel panel_of(double width, Axis x, Axis y) {
+  constexpr double left = 80, top = 10, right = 20, below = 60;
+  return {left, top, width - left - right, chart_height - top - below, std::move(x), std::move(y)};
 }
 
 /// Lives over trials: what keeps its limits, what does not, and the best so far.
-std::string history_chart(const std::vector<ImprovementStory::Look>& looks) {
-  double low = HUGE_VAL, high = 0;
-  for (const ImprovementStory::Look& look : looks)
-    if (look.ran && look.hours > 0 && std::isfinite(look.hours)) {
-      low = std::min(low, look.hours);
-      high = std::max(high, look.hours);
-    }
-  if (!(high > 0)) return "";
-  const Panel panel{80, 10, 840, 300, linear_axis("trial", 0, static_cast<double>(looks.size())),
-                    decades_axis("life of the worst job, p10 [h]", low, high)};
-  Picture picture(940, 370, "The search", "Life over trials, with those that keep all limits and the best of them so far.");
+std::string history_chart(const std::vector<ImprovementStory::Look>& looks, double low, double high, double width) {
+  const Panel panel = panel_of(width, linear_axis("trial", 0, static_cast<double>(looks.size())),
+                               decades_axis("life of the worst job, p10 [h]", low, high));
+  Picture picture(width, chart_height, "The search", "Life over trials, with those that keep all limits and the best of them so far.");
   panel.draw_axes(picture);
   double best = 0;
   std::vector<std::pair<double, double>> stairs;
@@ -104,10 +116,21 @@ std::string history_chart(const std::vector<ImprovementStory::Look>& looks) {
   }
   if (!stairs.empty()) stairs.emplace_back(panel.right(), stairs.back().second);
   picture.curve(stairs, "curve");
-  return "<div class=\"chart\">" + picture.svg() + "</div>\n";
+  return picture.svg();
 }
 
-std::string front_chart(const ImprovementStory& story) {
+std::string history_charts(const std::vector<ImprovementStory::Look>& looks) {
+  double low = HUGE_VAL, high = 0;
+  for (const ImprovementStory::Look& look : looks)
+    if (look.ran && look.hours > 0 && std::isfinite(look.hours)) {
+      low = std::min(low, look.hours);
+      high = std::max(high, look.hours);
+    }
+  if (!(high > 0)) return "";
+  return at_both_widths([&](double width) { return history_chart(looks, low, high, width); });
+}
+
+std::string front_charts(const ImprovementStory& story) {
   if (story.front.size() < 2) return "";
   double low = HUGE_VAL, high = 0, least = HUGE_VAL, most = -HUGE_VAL;
   for (const auto& [second, hours] : story.front) {
@@ -119,13 +142,15 @@ std::string front_chart(const ImprovementStory& story) {
   across.title = story.second_title;
   across.low = least;
   across.high = most;
-  const Panel panel{80, 10, 840, 300, across, decades_axis("life of the worst job, p10 [h]", low, high)};
-  Picture picture(940, 370, "The front", "Longest life for each value of the second aim.");
-  panel.draw_axes(picture);
-  for (const auto& [second, hours] : story.front)
-    picture.dot(panel.across(second), panel.down(std::min(hours, panel.y.high)), 4, "dot",
-                fmt::format("{:.4g}: {} h", second, printed_life(hours)));
-  return "<h2>Between the two aims</h2>\n<div class=\"chart\">" + picture.svg() + "</div>\n";
+  return "<h2>Between the two aims</h2>\n" + at_both_widths([&](double width) {
+           const Panel panel = panel_of(width, across, decades_axis("life of the worst job, p10 [h]", low, high));
+           Picture picture(width, chart_height, "The front", "Longest life for each value of the second aim.");
+           panel.draw_axes(picture);
+           for (const auto& [second, hours] : story.front)
+             picture.dot(panel.across(second), panel.down(std::min(hours, panel.y.high)), 4, "dot",
+                         fmt::format("{:.4g}: {} h", second, printed_life(hours)));
+           return picture.svg();
+         });
 }
 
 std::string history_section(const ImprovementStory& story) {
@@ -134,10 +159,10 @@ std::string history_section(const ImprovementStory& story) {
   const auto feasible = std::count_if(story.looks.begin(), story.looks.end(),
                                       [](const ImprovementStory::Look& look) { return look.feasible; });
   return fmt::format("<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
-                     "run. Lives are over the scatter of wires alone.</p>\n",
+                     "run; the line is the best so far. Lives are over the scatter of wires alone.</p>\n",
                      story.looks.size(), feasible, static_cast<std::ptrdiff_t>(story.looks.size()) - feasible - failed,
                      failed) +
-         history_chart(story.looks);
+         history_charts(story.looks);
 }
 
 }  // namespace
@@ -149,7 +174,7 @@ std::string improvement_page(const ImprovementStory& story) {
       "<p class=\"soft\">All trials stand in improve.csv, the last jobs in <a href=\"report.html\">their report</a>.</p>\n"
       "{3}{4}{5}{6}{7}{8}</body></html>\n",
       escaped(story.name), chart_style(), page_style, lives_section(story),
-      story.after ? changes_section(story) : "", front_chart(story), beside_section(story), nudges_section(story),
+      story.after ? changes_section(story) : "", front_charts(story), beside_section(story), nudges_section(story),
       history_section(story));
 }
 

@@ -319,10 +319,17 @@ matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
   fillTimeline();
   if (viewer) viewer.dirty = true;
 });
+// Paper is light, and what is drawn stays as it is drawn.
+function onPaper(yes) {
+  document.documentElement.classList.toggle('paper', yes);
+  fillTimeline();
+  if (viewer) viewer.draw();
+}
 window.addEventListener('beforeprint', () => {
   play(false);
-  if (viewer) viewer.draw();
+  onPaper(true);
 });
+window.addEventListener('afterprint', () => onPaper(false));
 followLink();
 window.dresslife = {
   state,

@@ -44,7 +44,8 @@ a { color: var(--blue); } .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; vertical-align: bottom; } .number { text-align: right;
-  white-space: nowrap; } th.number { white-space: normal; } .failed { color: var(--hot); font-weight: 600; }
+  white-space: nowrap; } th.number, .certainty { white-space: normal; }
+.certainty { display: block; max-width: 9rem; margin-left: auto; } #ranking td:nth-child(n + 7) { min-width: 8rem; } .failed { color: var(--hot); font-weight: 600; }
 .meter { display: inline-block; width: 8rem; height: .7rem; background: var(--band); margin-right: .5rem; }
 .meter > span { display: block; height: 100%; background: var(--hot); }
 dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .1rem 1rem; margin: .5rem 0; }
@@ -67,8 +68,9 @@ tbody th { font-weight: 400; vertical-align: top; }
   border: 1px solid var(--page); } #matrix thead th { overflow-wrap: anywhere; }
 #matrix .coloured, #matrix .coloured a { color: #111; } #ranking ul { margin: .2rem 0; padding-left: 1rem; }
 @media print { [id^=job-] { content-visibility: visible; } .tools, .pick, .sort::after { display: none; }
-  details, template { display: none; } h2 { break-before: page; } svg, tr { break-inside: avoid; }
-  h3 { break-after: avoid; }
+  details, template { display: none; } td details { display: block; } summary { list-style: none; } h2 { break-before: page; break-after: avoid; }
+  tr, dd { break-inside: avoid; } #ranking { font-size: 9px; } #ranking td { white-space: normal; }
+  #ranking td:nth-child(n + 7) { min-width: 0; } h3, h3 + p { break-after: avoid; }
   body { max-width: none; padding: 0; font-size: 12px; } thead { display: table-header-group; }
   .wide { overflow: visible; } #matrix .coloured { print-color-adjust: exact; -webkit-print-color-adjust: exact; }  }
 )";
@@ -137,7 +139,8 @@ std::string certainty_cell(const RankingRow& row) {
   if (std::isnan(row.scatter_hours[0])) return "";
   std::string text = fmt::format("<br><span class=\"soft\">p50 {}<br>p90 {}", printed_life(row.planned_hours[1]),
                                  printed_life(row.planned_hours[2]));
-  if (row.outlives_next) text += fmt::format("<br>outlives the next in {:.0f} % of draws", 100 * *row.outlives_next);
+  if (row.outlives_next)
+    text += fmt::format("<span class=\"certainty\">outlives the next in {:.0f} % of draws</span>", 100 * *row.outlives_next);
   return text + "</span>";
 }
 
@@ -273,7 +276,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       chart.empty() ? ""
                     : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the life that 10 % of such dresspacks do not "
                       "reach. Blue bar: the same stuck to free inside. Orange: what 10 to 90 % reach.</p>\n" +
-                          chart);
+                          chart_in_page(chart));
 }
 
 // ---- one job ----------------------------------------------------------------------------------------------
@@ -535,7 +538,7 @@ std::string facts(const RankingRow& row) {
 
 std::string under(const std::string& heading, const std::string& remark, const std::string& chart) {
   if (chart.empty()) return "";
-  return fmt::format("<h3>{}</h3>\n<p class=\"soft\">{}</p>\n{}", heading, remark, chart);
+  return fmt::format("<h3>{}</h3>\n<p class=\"soft\">{}</p>\n{}", heading, remark, chart_in_page(chart));
 }
 
 std::string place_remark(const LifeSummary& life) {
@@ -582,9 +585,11 @@ std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
   std::error_code ignored;
   if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
-  return under("The moment",
-               "Robot and dresspack when the most damaging cycle closes; the worst segment is marked.",
-               scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack));
+  const std::string picture = scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
+  return picture.empty() ? ""
+                         : "<h3>The moment</h3>\n<p class=\"soft\">Robot and dresspack when the most damaging cycle closes; the "
+                           "worst segment is marked.</p>\n" +
+                               picture_in_page(picture);
 }
 
 /// What a cell designer asks; none when the motion file has been cleared away.
@@ -646,7 +651,7 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: dresspack "
       "life</title>\n"
       "<style>{}</style>\n</head>\n<body>\n<h1>{}: dresspack life by motion</h1>\n",
-      escaped(study), std::string(chart_style()) + report_style, escaped(study));
+      escaped(study), chart_style() + report_style, escaped(study));
   page += summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (detailed[i]) page += job_section(rows[i], i + 1);

@@ -1,7 +1,9 @@
 // Histories over time, one panel above the other: strain, damage, shape, joints and the program. A click or drag moves the
 // time, the wheel zooms into it, two clicks show all of it.
 const jointColours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#8c6d1f', '#56b4e9', '#7b5ea7'];
-const leftMargin = 64, rightMargin = 10, panelGap = 22;
+const leftMargin = 64, rightMargin = 10, panelGap = 22, lineHeight = 15;
+
+const labelFont = '12px system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif';
 
 class Timeline {
   // duration [s]; onTime(time): the reader chose one.
@@ -67,14 +69,17 @@ class Timeline {
   }
   draw() {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    this.width = Math.max(this.place.clientWidth, 200);
-    const height = this.panels.reduce((sum, panel) => sum + panel.height + panelGap, 22);
+    if (!matchMedia('print').matches || !this.width) this.width = Math.max(this.place.clientWidth, 200);
+    const context = this.canvas.getContext('2d');
+    context.font = labelFont;
+    for (const panel of this.panels) panel.lines = Math.max(0, ...this.namesOf(context, panel, this.titleOf(context, panel)).map(name => name.line));
+    const height = this.panels.reduce((sum, panel) => sum + panel.height + panelGap + lineHeight * panel.lines, 22);
     this.canvas.style.height = `${height}px`;
     if (this.canvas.width !== Math.round(this.width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
       this.canvas.width = Math.round(this.width * ratio);
       this.canvas.height = Math.round(height * ratio);
     }
-    const context = this.canvas.getContext('2d'), style = getComputedStyle(document.documentElement);
+    const style = getComputedStyle(document.documentElement);
     const colour = name => style.getPropertyValue(name).trim();
     this.colours = {
       ink: colour('--ink'),
@@ -89,10 +94,10 @@ class Timeline {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.fillStyle = this.colours.page;
     context.fillRect(0, 0, this.width, height);
-    context.font = '12px system-ui, "Segoe UI", "DejaVu Sans", Arial, sans-serif';
+    context.font = labelFont;
     let top = panelGap - 4;
     for (const panel of this.panels) {
-      panel.top = top;
+      panel.top = top += lineHeight * panel.lines;
       this.drawPanel(context, panel);
       top += panel.height + panelGap;
     }
@@ -118,13 +123,32 @@ class Timeline {
   }
   yAt(panel, value) { return panel.top + panel.height * (1 - (value - panel.low) / (panel.high - panel.low || 1)); }
 
+  titleOf(context, panel) {
+    const fits = panel.brief === undefined || leftMargin + context.measureText(panel.title).width < this.width - rightMargin;
+    return fits ? panel.title : panel.brief;
+  }
+  // Behind the title, and where the width does not hold them in lines below it.
+  namesOf(context, panel, title) {
+    const names = [];
+    let x = leftMargin + context.measureText(title).width + 14, line = 0;
+    for (const curve of panel.curves || []) {
+      if (!curve.name) continue;
+      const wide = context.measureText(curve.name).width;
+      if (x > leftMargin && x + 13 + wide > this.width - rightMargin) {
+        x = leftMargin;
+        ++line;
+      }
+      names.push({curve, x, line});
+      x += wide + 24;
+    }
+    return names;
+  }
   drawPanel(context, panel) {
     const right = this.width - rightMargin;
     context.fillStyle = this.colours.soft;
     context.textAlign = 'left';
-    const fits = panel.brief === undefined || leftMargin + context.measureText(panel.title).width < right;
-    const title = fits ? panel.title : panel.brief;
-    context.fillText(title, leftMargin, panel.top - 5);
+    const title = this.titleOf(context, panel);
+    context.fillText(title, leftMargin, panel.top - 5 - lineHeight * panel.lines);
     context.save();
     if (panel.low !== undefined) this.drawGrid(context, panel);
     context.beginPath();
@@ -133,14 +157,12 @@ class Timeline {
     for (const curve of panel.curves || []) this.drawCurve(context, panel, curve);
     if (panel.draw) panel.draw(context, panel, this);
     context.restore();
-    let x = leftMargin + context.measureText(title).width + 14;
-    for (const curve of panel.curves || []) {
-      if (!curve.name) continue;
+    for (const {curve, x, line} of this.namesOf(context, panel, title)) {
+      const y = panel.top - 5 - lineHeight * (panel.lines - line);
       context.fillStyle = curve.colour;
-      context.fillRect(x, panel.top - 11, 10, 3);
+      context.fillRect(x, y - 6, 10, 3);
       context.fillStyle = this.colours.soft;
-      context.fillText(curve.name, x + 13, panel.top - 5);
-      x += context.measureText(curve.name).width + 24;
+      context.fillText(curve.name, x + 13, y);
     }
   }
   drawGrid(context, panel) {

@@ -68,7 +68,8 @@ async function main() {
     await send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: 'dark'}]});
   await send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: false});
   await send('Page.navigate', {url: 'file://' + page});
-  for (let k = 0; k < 300 && !(await evaluate('document.body && document.body.dataset.ready').catch(() => '')); ++k)
+  const ready = `document.readyState === 'complete' && (!document.getElementById('data') || document.body.dataset.ready)`;
+  for (let k = 0; k < 300 && !(await evaluate(ready).catch(() => '')); ++k)
     await sleep(100);
   const AsyncFunction = main.constructor;
   const result = await new AsyncFunction('evaluate', 'press', 'key', 'sleep', 'send', script)(evaluate, press, key, sleep, send);
