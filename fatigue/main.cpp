@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
       .input = "strain.h5",
       .output = "life.h5",
       .example = "dresslife-fatigue strain.h5 -o life.h5 --set fatigue.stress=elastic",
-      .part = pipeline::Part::fatigue};
+      .part = pipeline::Part::fatigue,
+      .told = [](const std::filesystem::path& life) { return pipeline::told_by(life, pipeline::life_format()); }};
   return pipeline::run_stage(
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
         const pipeline::FileReader strain(call.input, pipeline::strain_format());

@@ -173,7 +173,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
     std::filesystem::remove(flags.receipt);  // it tells of a file that is about to go
     body();
     wanted.output = told_checksum(call.output).value_or("damaged");
-    if (*call.info.part == Part::fatigue) wanted.told = told_by(call.output, life_format());
+    if (call.info.told) wanted.told = call.info.told(call.output);
   }
   check_inputs_unchanged(call);
   give_to_likes(call, flags, wanted);

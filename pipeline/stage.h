@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/files/files.h"
+#include "pipeline/files/receipt.h"
 #include "pipeline/limits.h"
 #include "pipeline/progress.h"
 #include "pipeline/warnings.h"
@@ -40,6 +41,8 @@ struct StageInfo {
   bool may_lack_output = false;  ///< without -o nothing is written
   std::vector<StageOption> options = {};
   std::optional<Part> part = {};  ///< of the job, on which the result depends; nothing: no stage of a study
+  /// What the receipt of its output tells, for who does not keep or open that; empty: nothing.
+  std::function<std::vector<Told>(const std::filesystem::path& output)> told = {};
 };
 
 /// A file that is read, as it was when the stage began.

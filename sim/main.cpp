@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/files/checks.h"
 #include "pipeline/job/job.h"
 #include "pipeline/stage.h"
 #include "sim/exercise.h"
@@ -115,7 +116,8 @@ int main(int argc, char** argv) {
                   {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by; 0"},
                   {"--seed", "NUMBER", "with --propose: of the search's chances; 1"},
                   {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about"}},
-      .part = pipeline::Part::sim};
+      .part = pipeline::Part::sim,
+      .told = pipeline::told_checks};
   return pipeline::run_stage(info, argc, argv,
                              [](const pipeline::StageCall& call, pipeline::Progress& progress) {
                                pipeline::Job job = pipeline::read_job(call.input, call.sets);

@@ -8,16 +8,13 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/errors.h"
 #include "pipeline/improve/finals.h"
 #include "pipeline/improve/improvement.h"
 #include "pipeline/improve/story.h"
 #include "pipeline/installation.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/progress.h"
 #include "pipeline/readable.h"
 #include "pipeline/study/folder_lock.h"
-#include "pipeline/study/stage_program.h"
 #include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
@@ -31,20 +28,8 @@ struct Options : RunOptions {
   double off_mm = 10;
 };
 
-/// What geometry says; nothing where the program refuses the job.
-ScreenedList screened(const Job& job, const std::string& candidates, bool in_runs, const fs::path& folder) {
-  const fs::path draft = folder / "screened.yaml", list = folder / "candidates.yaml";
-  write_text_if_changed(draft, job_text(job), Sync::never);
-  write_text_if_changed(list, candidates, Sync::never);
-  const PassingFile told("screening.h5");
-  std::vector<std::string> arguments{draft.string(), "--screen", list.string(), "-o", told.path().string(), "--quiet"};
-  if (in_runs) arguments.push_back("--rehearse");
-  const int status = run_stage_program("dresslife-sim", arguments);
-  return status == 0 ? read_screening(told.path()) : ScreenedList{};
-}
-
 int improve_study(Options options) {
-  options.request.file = named_file(options.study, "studies");
+  options.request.file = named_study(options.study);
   options.request.sets = options.sets;
   const std::string name = study_name(options.request.file);
   const StudyPlaces places{fs::path(options.out) / (name + "_improve"), program_folder()};
@@ -54,9 +39,6 @@ int improve_study(Options options) {
   Progress progress(name, options.quiet);
   const TrialMakers makers{
       [&](const Study& study) { return made_rows(study, places, quiet); },
-      [&](const Job& job, const std::string& candidates, bool in_runs) {
-        return screened(job, candidates, in_runs, places.folder);
-      },
       [&](const Improvement& so_far) {
         const std::optional<std::size_t> best = so_far.best();
         progress.show(fmt::format("{}/{}  best {}", so_far.trials.size(), options.request.trials,

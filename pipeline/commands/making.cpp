@@ -107,7 +107,11 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
   share_stages(study, places, states);
   Progress progress(study.name, options.quiet);
   std::size_t left = 0;
-  for (std::size_t k = 0; k < states.size(); ++k) left += study.jobs[k].failure.empty() && !states[k].done();
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    if (!study.jobs[k].failure.empty()) continue;
+    left += !states[k].done();
+    remove_unkept(states[k], places.job(study.jobs[k].name));
+  }
   write_build_graph(study, places, states, options.limits, options.launcher);
   if (left > 0) build_rest(study, places, options, left, states, progress);
   return ranking_of(study, places, states);

@@ -46,19 +46,31 @@ void add_launcher(CLI::App& command, RunOptions& options) {
       });
 }
 
-fs::path named_file(const std::string& name, const char* shelf) {
+namespace {
+
+/// shelves: the first that has one counts.
+fs::path file_or_entry(const std::string& name, const std::vector<std::string>& shelves) {
   std::error_code failure;
   const bool is_name = fs::path(name).parent_path().empty() && fs::path(name).extension() != ".yaml";
   if (!is_name || fs::is_regular_file(name, failure)) return name;
-  const fs::path shipped = shipped_catalogue() / shelf / (name + ".yaml");
-  if (fs::is_regular_file(shipped, failure)) return fs::proximate(shipped);
-  throw InputError({name},
-                   fmt::format("is no file, and {} holds no {}.yaml", shipped.parent_path().string(), name),
+  std::string looked_for;
+  for (const std::string& shelf : shelves) {
+    const fs::path entry = fs::path(shelf) / (name + ".yaml"), shipped = shipped_catalogue() / entry;
+    if (fs::is_regular_file(shipped, failure)) return fs::proximate(shipped);
+    looked_for += (looked_for.empty() ? "" : " or ") + entry.string();
+  }
+  throw InputError({name}, fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
                    "write the path of a YAML file");
 }
 
+}  // namespace
+
+fs::path named_file(const std::string& name, const std::string& shelf) { return file_or_entry(name, {shelf}); }
+
+fs::path named_study(const std::string& name) { return file_or_entry(name, {"studies", "jobs"}); }
+
 StudyRequest request_of(const StudyOptions& options) {
-  return {named_file(options.study, "studies"), options.sets, options.out, program_folder()};
+  return {named_study(options.study), options.sets, options.out, program_folder()};
 }
 
 void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }

@@ -40,7 +40,10 @@ void add_launcher(CLI::App& command, RunOptions& options);
 
 /// What a user names: a file, or an entry of the catalogue ("two_robots" of studies). Errors: InputError,
 /// neither.
-std::filesystem::path named_file(const std::string& name, const char* shelf);
+std::filesystem::path named_file(const std::string& name, const std::string& shelf);
+
+/// Likewise a study, or a job, which is a study of one.
+std::filesystem::path named_study(const std::string& name);
 
 StudyRequest request_of(const StudyOptions& options);
 

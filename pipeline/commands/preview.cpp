@@ -9,6 +9,7 @@
 #include "pipeline/files/digest.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
+#include "pipeline/study/stage_program.h"
 #include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {

@@ -119,7 +119,7 @@ std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job,
 
 int reprogram(const Options& options) {
   ImproveRequest request;
-  request.file = named_file(options.study, "studies");
+  request.file = named_study(options.study);
   request.sets = options.sets;
   const std::string name = study_name(request.file);
   const StudyPlaces places{fs::path(options.out) / (name + "_reprogram"), program_folder()};

@@ -1,7 +1,6 @@
 #include "pipeline/commands/results.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "pipeline/errors.h"
 #include "pipeline/files/digest.h"
@@ -15,14 +14,6 @@
 namespace dresslife::pipeline {
 
 namespace fs = std::filesystem;
-
-PassingFile::PassingFile(const std::string& name)
-    : file_(fs::temp_directory_path() / fmt::format("dresslife-{}-{}", ::getpid(), name)) {}
-
-PassingFile::~PassingFile() {
-  std::error_code ignored;
-  fs::remove(file_, ignored);
-}
 
 int tell_preview(const fs::path& job, const std::vector<std::string>& sets, const StageLimits& limits,
                  const fs::path& told) {

@@ -20,19 +20,6 @@ void write_results(const Study& study, const StudyPlaces& places, const std::vec
 std::vector<std::filesystem::path> refresh_previews(const Study& study, const StudyPlaces& places,
                                                     const std::vector<JobState>& states);
 
-/// A file that lives as long as this.
-class PassingFile {
- public:
-  explicit PassingFile(const std::string& name);
-  ~PassingFile();
-  PassingFile(const PassingFile&) = delete;
-  PassingFile& operator=(const PassingFile&) = delete;
-  const std::filesystem::path& path() const { return file_; }
-
- private:
-  std::filesystem::path file_;
-};
-
 /// Lets dresslife-sim tell into a file what stands where. Returns its exit status.
 int tell_preview(const std::filesystem::path& job, const std::vector<std::string>& sets,
                  const StageLimits& limits, const std::filesystem::path& told);

@@ -11,7 +11,8 @@
 //   (FileState), if the file system's clock had moved on between the output and its receipt. Both times are
 //   the file system's own, which nobody can set. Where the receipt is not the younger one, the bytes are
 //   compared;
-//   told:   what the output's root says of the result, so that ten thousand are gathered without opening them;
+//   told:   what the root of life.h5 says of the result, so that ten thousand are gathered without opening them, and
+//           the checks of motion.h5 (checks.h);
 //   with:   digests of the program and of each file, one by one: which of them changed.
 //
 // The receipt ends with a digest of all that stands before.

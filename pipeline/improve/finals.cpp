@@ -42,11 +42,11 @@ const RankingRow* Finals::worst_row(const Final& one) const {
 }
 
 Finals finals_of(const Improvement& found, const ImproveRequest& request, const MakeRows& make_rows) {
-  Finals finals{{found.name, {}}, {}, {}};
+  Finals finals{{found.name, {}, found.keep_finals}, {}, {}};
   std::vector<std::size_t> trials = finalists_of(found);
   trials.insert(trials.begin(), 0);
   for (const std::size_t trial : trials) {
-    const std::string prefix = trial == 0 ? "before" : fmt::format("trial_{:04}", trial);
+    const std::string prefix = trial == 0 ? "before" : fmt::format("final_{:04}", trial);
     Final of{{}, HUGE_VAL, trial};
     for (StudyJob& job : changed_jobs(request, found.trials[trial].sets, prefix)) {
       of.jobs.push_back(job.name);

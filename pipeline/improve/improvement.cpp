@@ -72,7 +72,9 @@ class Improver {
       : request_(request), places_(places), makers_(makers) {
     const Node document = read_document(request.file);
     done_.limits = limits_of(document);
-    for (const StudyJob& job : read_study(request.file, request.sets).jobs) {
+    const Study study = read_study(request.file, request.sets);
+    if (document.find("keep")) done_.keep_trials = done_.keep_finals = study.keep;
+    for (const StudyJob& job : study.jobs) {
       if (!job.failure.empty())
         throw InputError({request.file.string()}, fmt::format("job '{}' cannot be run: {}", job.name, job.failure), "mend it");
       done_.jobs.push_back(job.name);
@@ -139,7 +141,7 @@ class Improver {
   /// Jobs whose routing geometry can look at, one of those that are alike in it.
   void find_screened() {
     for (const auto& job : jobs_) {
-      const ScreenedList list = makers_.screen(*job, "[{}]\n", false);
+      const ScreenedList list = screening_of(*job, "[{}]\n", ScreenedBy::geometry, places_.folder);
       if (!list.candidates.empty() && list.candidates.front().refusal.empty()) screened_.push_back(job);
     }
   }
@@ -155,7 +157,7 @@ class Improver {
     const std::string candidates = list_of_changes(sets);
     std::vector<Screened> worst(sets.size());
     for (const auto& job : screened_) {
-      const ScreenedList list = makers_.screen(*job, candidates, false);
+      const ScreenedList list = screening_of(*job, candidates, ScreenedBy::geometry, places_.folder);
       for (std::size_t k = 0; k < list.candidates.size() && k < sets.size(); ++k) {
         constexpr double no_job = 10;  // beyond every geometry that is one
         const ScreenedCandidate& of = list.candidates[k];
@@ -182,7 +184,7 @@ class Improver {
     std::vector<Look> looks;
     for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
     for (const auto& job : screened_) {
-      const ScreenedList list = makers_.screen(*job, candidates, true);
+      const ScreenedList list = screening_of(*job, candidates, ScreenedBy::short_runs, places_.folder);
       for (std::size_t k = 0; k < places.size(); ++k) {
         if (k >= list.candidates.size()) throw std::logic_error("a list of short runs is not whole");
         add_rehearsal(looks[k], list, list.candidates[k]);
@@ -213,7 +215,7 @@ class Improver {
 
   std::vector<Trial> tried(const std::vector<std::vector<std::string>>& sets) {
     std::vector<Trial> trials(sets.size());
-    Study study{done_.name, {}};
+    Study study{done_.name, {}, done_.keep_trials};
     std::map<std::string, std::pair<std::size_t, std::size_t>> trial_of;  // job: trial, and which of its jobs
     for (std::size_t k = 0; k < sets.size(); ++k) {
       Trial& trial = trials[k];

@@ -75,6 +75,8 @@ struct Improvement {
   std::vector<std::string> freed;    ///< key paths
   std::vector<std::string> own;      ///< (freed) the jobs' value; empty: they name none, or not the same
   AskedLimits limits;                ///< that the study asks besides the checks
+  /// Unless the study says: of hundreds of trials what their receipts tell, of the few that are told at length all.
+  Keep keep_trials = Keep::lives, keep_finals = Keep::all;
   std::vector<Trial> trials;         ///< in their order, the jobs as they are first
   std::vector<std::size_t> front;    ///< of the feasible, longest life first; with one aim one
   int rehearsals = 0;                ///< short runs besides
@@ -84,9 +86,6 @@ struct Improvement {
 
 struct TrialMakers {
   std::function<std::vector<RankingRow>(const Study&)> make_rows;
-  /// (candidate) what geometry, or a short run of each, says of a job changed so (YAML lists of maps); empty: it cannot
-  /// be asked.
-  std::function<ScreenedList(const Job&, const std::string& candidates, bool in_runs)> screen;
   std::function<void(const Improvement&)> tell;  ///< after every few trials
 };
 

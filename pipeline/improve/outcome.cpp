@@ -8,9 +8,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "pipeline/errors.h"
 #include "pipeline/files/check_names.h"
-#include "pipeline/files/files.h"
+#include "pipeline/files/checks.h"
+#include "pipeline/files/receipt.h"
 #include "pipeline/job/believable.h"
 #include "pipeline/job/fields.h"
 
@@ -36,7 +36,8 @@ void see_slack(Outcome& outcome, const std::string& name, double slack, double l
   if (name == check_name::too_long) see(outcome, too_long, most_share * (slack - limit) / limit);
 }
 
-void see_check(Outcome& outcome, const std::string& name, double value, double limit, const AskedLimits& asked) {
+void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& asked) {
+  const auto& [name, value, limit] = check;
   if (std::find(check_name::all.begin(), check_name::all.end(), name) == check_name::all.end())
     throw std::logic_error(fmt::format("'{}' is a check that no search knows (check_names.h)", name));
   see_slack(outcome, name, value, limit);
@@ -48,14 +49,6 @@ void see_check(Outcome& outcome, const std::string& name, double value, double l
     see(outcome, contact, log_ratio(value, *asked.contact_force));
   constexpr double at_its_end = 1e-9;  // a unit that is pulled out wholly holds no more
   if (name == check_name::travel) see(outcome, stroke, value / limit - 1 + at_its_end);
-}
-
-void see_checks(Outcome& outcome, const std::filesystem::path& motion_file, const AskedLimits& asked) {
-  const FileReader file(motion_file, motion_format());
-  if (!file.has("/check/name")) return;
-  const auto names = file.read<std::string>("/check/name");
-  const auto values = file.read<double>("/check/value"), limits = file.read<double>("/check/limit");
-  for (std::size_t k = 0; k < names.size(); ++k) see_check(outcome, names[k], values[k], limits[k], asked);
 }
 
 }  // namespace
@@ -106,11 +99,12 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   outcome.hours = row.headline_hours();
   const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
   see(outcome, believable, log_ratio(share, believable_share));
-  try {
-    see_checks(outcome, folder / "motion.h5", asked);
-  } catch (const InputError& problem) {
-    outcome.failure = problem.what();
-  }
+  constexpr std::size_t simulation = 0;
+  const std::filesystem::path receipt = folder / files_of_stage(simulation).receipt;
+  if (const std::optional<Receipt> made = read_receipt(receipt))
+    for (const CheckedValue& check : checks_in(made->told)) see_check(outcome, check, asked);
+  else
+    outcome.failure = fmt::format("{} cannot be read; run again", receipt.string());
   return outcome;
 }
 

@@ -38,7 +38,7 @@ struct Outcome {
   std::string words() const;
 };
 
-/// Of a job that ran in `folder`: its checks from motion.h5, its life from the row. A file that
+/// Of a job that ran in `folder`: its checks from the simulation's receipt, its life from the row. A receipt that
 /// cannot be read is a failure, a check that nobody knows our fault (std::logic_error).
 Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked = {});
 

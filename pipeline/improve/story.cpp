@@ -21,7 +21,7 @@ std::vector<ImprovementStory::Nudge> nudged(const Improvement& found, std::size_
   if (off == 0) return told;
   const std::vector<std::string>& sets = found.trials[trial].sets;
   const std::vector<Nudge> nudges = nudges_of(trial_jobs(request, sets, "place"), off);
-  Study study{found.name, {}};
+  Study study{found.name, {}, found.keep_trials};
   std::vector<std::vector<std::string>> jobs;
   for (std::size_t k = 0; k < nudges.size(); ++k) {
     std::vector<std::string> all = sets;

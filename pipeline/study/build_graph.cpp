@@ -91,7 +91,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     }
     if (!removed && (now != receipt->state || !receipt->state_suffices())) state.compared.push_back(state.next);
     if (state.next + 1 < stage_count) state.inputs[state.next + 1] = receipt->output;
-    state.told = std::move(receipt->told);
+    if (state.next + 1 == stage_count) state.told = std::move(receipt->told);
   }
 }
 

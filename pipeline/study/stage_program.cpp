@@ -39,4 +39,12 @@ int run_stage_program(const std::string& program, const std::vector<std::string>
       "install dresslife's programs into one folder, and look for what kills them");
 }
 
+PassingFile::PassingFile(const std::string& name)
+    : file_(std::filesystem::temp_directory_path() / fmt::format("dresslife-{}-{}", ::getpid(), name)) {}
+
+PassingFile::~PassingFile() {
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
 }  // namespace dresslife::pipeline

@@ -1,6 +1,7 @@
-// One of the stages' programs, started and waited for.
+// One of the stages' programs, started and waited for, and the file that it tells into.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,5 +10,18 @@ namespace dresslife::pipeline {
 /// Runs the program of this name, which lies beside this one; it says what it says and ends with this one.
 /// Returns its exit status. Errors: InputError when it cannot be started or is killed.
 int run_stage_program(const std::string& program, const std::vector<std::string>& arguments);
+
+/// A file that lives as long as this, for what a program is to tell.
+class PassingFile {
+ public:
+  explicit PassingFile(const std::string& name);
+  ~PassingFile();
+  PassingFile(const PassingFile&) = delete;
+  PassingFile& operator=(const PassingFile&) = delete;
+  const std::filesystem::path& path() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
 
 }  // namespace dresslife::pipeline

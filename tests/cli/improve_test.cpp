@@ -1,5 +1,6 @@
 // dresslife improve: jobs that live longer, and a search that is killed.
 #include <catch2/catch.hpp>
+#include <map>
 
 #include "tests/cli/process.h"
 
@@ -27,6 +28,23 @@ std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// When each stage of a search's jobs was last noted as made.
+std::map<fs::path, fs::file_time_type> notes_of(const fs::path& folder) {
+  std::map<fs::path, fs::file_time_type> notes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".receipt") notes[entry.path()] = fs::last_write_time(entry.path());
+  return notes;
+}
+
+/// Names of files "life.h5" and the like in the folders of a search's jobs whose names begin so.
+std::vector<std::string> results_of(const fs::path& folder, const std::string& jobs) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".h5" && entry.path().parent_path().filename().string().starts_with(jobs))
+      names.push_back(entry.path().filename().string());
+  return names;
+}
+
 }  // namespace
 
 TEST_CASE("improve finds a job that lives longer, and says by what") {
@@ -50,9 +68,16 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(page.find("<td><code>routing.free_length_m</code></td><td>0.9</td><td>0.9") != std::string::npos);
   CHECK(page.find("<tr><td>length, + 10 mm</td><td class=\"number\">× ") != std::string::npos);
 
+  // Of a trial only what its receipts tell stays, of what is told at length all.
+  CHECK(results_of(scratch / "runs/better_improve", "trial_").empty());
+  CHECK(results_of(scratch / "runs/better_improve", "off_").empty());
+  CHECK(results_of(scratch / "runs/better_improve", "before").size() == 3);
+
   // The same again runs nothing; the study itself does not look at what is free.
+  const auto notes = notes_of(scratch / "runs/better_improve");
   const Outcome again = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");
   CHECK(again.out == told.out);
+  CHECK(notes_of(scratch / "runs/better_improve") == notes);
   CHECK(run(scratch, "dresslife", "run better.yaml --quiet").status == 0);
   const Outcome chance = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet --method random -o chance");
   CHECK(chance.status == 0);
@@ -68,7 +93,7 @@ TEST_CASE("a search that is killed ends where it would have ended") {
   const Outcome killed = run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line +
                                                 "killed & pid=$!\n"
                                                 "for k in $(seq 600); do\n"
-                                                "  [ -e killed/better_improve/trial_0006/life.h5 ] && break\n"
+                                                "  [ -e killed/better_improve/trial_0006/.stage/fatigue.receipt ] && break\n"
                                                 "  sleep 0.1\n"
                                                 "done\n"
                                                 "kill -9 $pid; wait $pid; echo $?");
@@ -76,6 +101,26 @@ TEST_CASE("a search that is killed ends where it would have ended") {
   REQUIRE_FALSE(fs::exists(scratch / "killed/better_improve/improve.csv"));
   REQUIRE(run(scratch, "dresslife", line + "killed").status == 0);
   CHECK(content(scratch / "killed/better_improve/improve.csv") == content(scratch / "whole/better_improve/improve.csv"));
+}
+
+TEST_CASE("improve keeps trials whole where the study says so") {
+  Scratch scratch;
+  write_small_study(scratch);
+  scratch.write("whole.yaml", content(scratch / "better.yaml") + "keep: all\n");
+  REQUIRE(run(scratch, "dresslife", "improve whole.yaml --trials 3 --rehearsals 0 --off 0 --quiet").status == 0);
+  CHECK(results_of(scratch / "runs/whole_improve", "trial_").size() == 9);
+}
+
+TEST_CASE("improve takes a job, and names of shipped ones") {
+  Scratch scratch;
+  write_small_job(scratch);
+  // One that is moved by a recording has only its length to change.
+  const Outcome job = run(scratch, "dresslife", "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet");
+  INFO(job.out << job.err);
+  CHECK(content(scratch / "runs/job_improve/improve.csv").find(",routing.free_length_m\n") != std::string::npos);
+  const Outcome shipped = run(scratch, "dresslife", "improve irb6640_spot_welding --free nonsense");
+  CHECK(shipped.err.find("--free nonsense: error: ") == 0);
+  CHECK(run(scratch, "dresslife", "status irb6640_spot_welding").out.find("irb6640_spot_welding") != std::string::npos);
 }
 
 TEST_CASE("improve refuses what it cannot search") {

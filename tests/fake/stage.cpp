@@ -56,6 +56,9 @@ int main(int argc, char** argv) {
                        .input_is_job = stage == "sim",
                        .part = stage == "sim"      ? Part::sim
                                : stage == "strain" ? Part::strain
-                                                   : Part::fatigue};
+                                                   : Part::fatigue,
+                       .told = [&](const fs::path& output) {
+                         return stage == "fatigue" ? told_by(output, life_format()) : std::vector<Told>();
+                       }};
   return run_stage(info, argc, argv, [&](const StageCall& call, Progress&) { make(call, stage); });
 }

@@ -1,0 +1,24 @@
+// The checks of a motion (/check/*) beside it: its receipt tells them, so that they are known where motion.h5 is not kept.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/files/receipt.h"
+
+namespace dresslife::pipeline {
+
+struct CheckedValue {
+  std::string name;             ///< check_names.h
+  double value = 0, limit = 0;  ///< in the unit of the check; infinite: no bend at all, no limit
+  bool operator==(const CheckedValue&) const = default;
+};
+
+/// For the receipt of a motion; nothing of a motion without checks. Errors: InputError when it cannot be read.
+std::vector<Told> told_checks(const std::filesystem::path& motion_file);
+
+/// What told_checks() told.
+std::vector<CheckedValue> checks_in(const std::vector<Told>& told);
+
+}  // namespace dresslife::pipeline
