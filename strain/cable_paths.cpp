@@ -98,7 +98,8 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     fit_in_hose(loose, construction.section());
     const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
     loose_.emplace(loose, LooseSettings{length, std::max<std::size_t>(segments, 8) * job.elements_per_segment,
-                                        construction.rest_curvature()});
+                                        construction.rest_curvature(),
+                                        std::ranges::any_of(cables_, &Cable::rubs)});
     nodes_.resize(loose_->nodes());
     curvature_.emplace(segments, 2 * loosened_.size(), samples, scratch);
   }
@@ -116,7 +117,24 @@ int CablePaths::component(std::size_t cable) const {
 }
 
 void CablePaths::add(const SpanBlock& block) {
-  if (!any()) return;
+  CablePaths* const alone = this;
+  add({&alone, 1}, block);
+}
+
+void CablePaths::add(std::span<CablePaths* const> all, const SpanBlock& block) {
+  std::vector<CablePaths*> loose;
+  for (CablePaths* const of : all) {
+    if (!of->any()) continue;
+    of->add_hose(block);
+    if (of->rates_) of->add_held(block);
+    if (of->loose_) loose.push_back(of);
+  }
+  if (!loose.empty()) add_loose(loose, block);
+  for (CablePaths* const of : all)
+    if (of->any()) of->next_ += block.deformation.samples();
+}
+
+void CablePaths::add_hose(const SpanBlock& block) {
   assert(next_ + block.deformation.samples() <= all_);
   const std::size_t last = lengths_.size() - 1;
   for (int clamp = 0; clamp < 2; ++clamp) {
@@ -134,9 +152,6 @@ void CablePaths::add(const SpanBlock& block) {
     }
     hose_twist_[next_ + t] = turned / length;
   }
-  if (rates_) add_held(block);
-  if (loose_) add_loose(block);
-  next_ += block.deformation.samples();
 }
 
 void CablePaths::add_held(const SpanBlock& block) {
@@ -196,47 +211,69 @@ void CablePaths::add_stuck(Cable& cable, std::size_t segment, const double* twis
   }
 }
 
-void CablePaths::add_loose(const SpanBlock& block) {
+void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& block) {
+  std::vector<LooseCables*> cables;
+  for (CablePaths* const of : all) {
+    cables.push_back(&*of->loose_);
+    of->curvature_->begin(block.deformation.samples());
+  }
+  CablePaths& first = *all.front();
+  for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
+    first.find_nodes(block, t);
+    for (CablePaths* const of : all) of->shorten_loose(t);
+    LooseCables::advance(cables, first.nodes_, block.step);
+    for (CablePaths* const of : all) of->put_loose(t);
+  }
+  for (CablePaths* const of : all) of->curvature_->end();
+}
+
+/// Of the hose at sample t of the block.
+void CablePaths::find_nodes(const SpanBlock& block, std::size_t t) {
   const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
   const DeformationHistory& deformation = block.deformation;
-  const std::size_t every = std::max<std::size_t>(1, all_ / most_offset_samples);
-  curvature_->begin(deformation.samples());
-  for (std::size_t t = 0; t < deformation.samples(); ++t) {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      // between the centres of two segments, and on in a line beyond the last ones
-      const double along = static_cast<double>(i) / static_cast<double>(elements) * segments - 0.5;
-      const auto low = segments < 2 ? 0
-                                    : std::min(static_cast<std::size_t>(std::max(0.0, std::floor(along))),
-                                               segments - 2);
-      const std::size_t high = std::min(low + 1, segments - 1);
-      const double share = along - static_cast<double>(low);
-      const DeformationColumns a = deformation.columns(low), b = deformation.columns(high);
-      const auto between = [&](const double* x, const double* y) { return x[t] + share * (y[t] - x[t]); };
-      HoseNode& node = nodes_[i];
-      node = {between(a.curvature1, b.curvature1), between(a.curvature2, b.curvature2),
-              between(a.twist, b.twist), between(a.elongation, b.elongation), {}};
-      if (block.pull.empty()) continue;
-      const double* pull_a = block.pull.data() + (t * segments + low) * 2;
-      const double* pull_b = block.pull.data() + (t * segments + high) * 2;
-      for (int d = 0; d < 2; ++d) node.pull[d] = pull_a[d] + share * (pull_b[d] - pull_a[d]);
-    }
-    for (std::size_t k = 0; k < loosened_.size(); ++k)
-      loose_->shorten(k, pulled_by_twist(cables_[loosened_[k]], hose_twist_[next_ + t]));
-    loose_->advance(nodes_, block.step);
-    for (std::size_t k = 0; k < loosened_.size(); ++k) put_loose(loosened_[k], k, next_ + t, t);
-    if ((next_ + t) % every != 0) continue;
-    offset_samples_.push_back(next_ + t);
-    offsets_.resize(offset_samples_.size() * cables_.size() * segments * 2, 0.0);
-    double* const of_sample = offsets_.data() + (offset_samples_.size() - 1) * cables_.size() * segments * 2;
-    for (std::size_t k = 0; k < loosened_.size(); ++k)
-      for (std::size_t i = 0; i < segments; ++i)
-        for (std::size_t d = 0; d < 2; ++d) {
-          const std::vector<double>& offset = loose_->state(k).offset;
-          of_sample[(loosened_[k] * segments + i) * 2 + d] =
-              (offset[2 * (i * elements / segments) + d] + offset[2 * ((i + 1) * elements / segments) + d]) / 2;
-        }
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    // between the centres of two segments, and on in a line beyond the last ones
+    const double along = static_cast<double>(i) / static_cast<double>(elements) * segments - 0.5;
+    const auto low = segments < 2 ? 0
+                                  : std::min(static_cast<std::size_t>(std::max(0.0, std::floor(along))),
+                                             segments - 2);
+    const std::size_t high = std::min(low + 1, segments - 1);
+    const double share = along - static_cast<double>(low);
+    const DeformationColumns a = deformation.columns(low), b = deformation.columns(high);
+    const auto between = [&](const double* x, const double* y) { return x[t] + share * (y[t] - x[t]); };
+    HoseNode& node = nodes_[i];
+    node = {between(a.curvature1, b.curvature1), between(a.curvature2, b.curvature2),
+            between(a.twist, b.twist), between(a.elongation, b.elongation), {}};
+    if (block.pull.empty()) continue;
+    const double* pull_a = block.pull.data() + (t * segments + low) * 2;
+    const double* pull_b = block.pull.data() + (t * segments + high) * 2;
+    for (int d = 0; d < 2; ++d) node.pull[d] = pull_a[d] + share * (pull_b[d] - pull_a[d]);
   }
-  curvature_->end();
+}
+
+/// t: sample of the block at hand.
+void CablePaths::shorten_loose(std::size_t t) {
+  for (std::size_t k = 0; k < loosened_.size(); ++k)
+    loose_->shorten(k, pulled_by_twist(cables_[loosened_[k]], hose_twist_[next_ + t]));
+}
+
+void CablePaths::put_loose(std::size_t t) {
+  for (std::size_t k = 0; k < loosened_.size(); ++k) put_loose(loosened_[k], k, next_ + t, t);
+  if ((next_ + t) % std::max<std::size_t>(1, all_ / most_offset_samples) == 0) put_offsets(next_ + t);
+}
+
+void CablePaths::put_offsets(std::size_t sample) {
+  const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
+  offset_samples_.push_back(sample);
+  offsets_.resize(offset_samples_.size() * cables_.size() * segments * 2, 0.0);
+  double* const of_sample = offsets_.data() + (offset_samples_.size() - 1) * cables_.size() * segments * 2;
+  for (std::size_t k = 0; k < loosened_.size(); ++k)
+    for (std::size_t i = 0; i < segments; ++i)
+      for (std::size_t d = 0; d < 2; ++d) {
+        const std::vector<double>& offset = loose_->state(k).offset;
+        of_sample[(loosened_[k] * segments + i) * 2 + d] =
+            (offset[2 * (i * elements / segments) + d] + offset[2 * ((i + 1) * elements / segments) + d]) / 2;
+      }
 }
 
 void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size_t sample, std::size_t of_block) {

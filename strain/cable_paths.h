@@ -53,6 +53,8 @@ class CablePaths {
   bool remembers() const;
 
   void add(const SpanBlock& block);  ///< in order of time
+  /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone.
+  static void add(std::span<CablePaths* const> all, const SpanBlock& block);
   void finish();                     ///< all samples are there; again: changes nothing
 
   // ---- after finish() --------------------------------------------------------------------------------------
@@ -102,9 +104,14 @@ class CablePaths {
     std::vector<float> pressing{}; ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
   };
 
+  void add_hose(const SpanBlock& block);
   void add_held(const SpanBlock& block);
-  void add_loose(const SpanBlock& block);
+  static void add_loose(std::span<CablePaths* const> all, const SpanBlock& block);
+  void find_nodes(const SpanBlock& block, std::size_t sample);
+  void shorten_loose(std::size_t of_block);
+  void put_loose(std::size_t of_block);
   void put_loose(std::size_t cable, std::size_t state, std::size_t sample, std::size_t of_block);
+  void put_offsets(std::size_t sample);
   void add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path, double rest);
   /// Of its strain, beside what its axis has, that makes force: what twist would take from its length if it could.
   double pulled_by_twist(const Cable& cable, double twist) const;

@@ -161,8 +161,16 @@ std::string Evaluation::summary(std::size_t sites) const {
 }
 
 void Evaluation::add(const SpanBlock& block) {
-  cables_.add(block);
-  if (!cables_.remembers()) add_means(block.deformation);
+  Evaluation* const alone = this;
+  add({&alone, 1}, block);
+}
+
+void Evaluation::add(std::span<Evaluation* const> all, const SpanBlock& block) {
+  std::vector<CablePaths*> cables;
+  for (Evaluation* const of : all) cables.push_back(&of->cables_);
+  CablePaths::add(cables, block);
+  for (Evaluation* const of : all)
+    if (!of->cables_.remembers()) of->add_means(block.deformation);
 }
 
 void Evaluation::add_again(const DeformationHistory& block) {

@@ -496,7 +496,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       std::vector<Evaluation*> together = variations.placed(k);
       together.insert(together.begin(), evaluations[k].get());
       pipeline::in_parallel(threads, [&](std::size_t part) {
-        for (std::size_t e = part; e < together.size(); e += threads) use(*together[e], span_block);
+        std::vector<Evaluation*> own;
+        for (std::size_t e = part; e < together.size(); e += threads) own.push_back(together[e]);
+        if (!own.empty()) use(own, span_block);
       });
     }
   };
@@ -504,7 +506,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
   reader.run(loose, [&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
-    each_span(block, [](Evaluation& evaluation, const SpanBlock& of_span) { evaluation.add(of_span); });
+    each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) { Evaluation::add(own, of_span); });
     keep(0, block.first, block.deformation);
     progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
              static_cast<double>(samples));
@@ -515,8 +517,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   }
   if (any([](const auto& evaluation) { return evaluation->wants_again(); }))
     reader.run(false, [&](const MotionBlock& block) {
-      each_span(block, [](Evaluation& evaluation, const SpanBlock& of_span) {
-        if (evaluation.wants_again()) evaluation.add_again(of_span.deformation);
+      each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
+        for (Evaluation* const evaluation : own)
+          if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
       });
     });
   const std::vector<Warning> warnings = pipeline::joined(construction_warnings(job), write_cables(strain, evaluations, job.strain.cable_elements));

@@ -8,7 +8,8 @@ namespace dresslife::strain {
 
 using Eigen::Vector2d;
 
-CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature)
+CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature,
+                       bool presses)
     : cables_(cables),
       rest_curvature_(rest_curvature),
       at_(hose.nodes()),
@@ -23,10 +24,8 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
   batch_.spacing = hose.spacing;
   lane_rows_.assign(OfLane::lane_rows, batch_.lanes);
   for (LaneRows& rows : node_rows_) rows.assign(2 * batch_.nodes, batch_.lanes);
-  press_.assign(batch_.nodes, batch_.lanes);
-  blocks_.assign(3 * batch_.nodes, batch_.lanes);
-  factors_.assign(7 * batch_.nodes, batch_.lanes);
-  iterations_.assign(batch_.lanes, 0);
+  if (presses) press_.assign(batch_.nodes, batch_.lanes);
+  iterations_.assign(count(), 0);
   for (std::size_t k = 0; k < batch_.lanes; ++k) lay(k);
   for (std::size_t k = 0; k < count(); ++k) tensions_.emplace_back(cables_[k], laid_gain(k));
   for (std::size_t k = 0; k < batch_.lanes; ++k) {
@@ -58,9 +57,7 @@ void CableLines::point_at_rows() {
   batch_.least_strain = lanes(least_strain), batch_.most_strain = lanes(most_strain), batch_.counts = lanes(counts);
   batch_.strain = lanes(strain), batch_.tension = lanes(tension), batch_.stiffness = lanes(stiffness);
   batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before), batch_.path = nodes(path);
-  batch_.slope = nodes(slope), batch_.gained = nodes(gained), batch_.step = nodes(step_to);
-  batch_.soft = nodes(soft), batch_.from = nodes(from), batch_.going = nodes(going);
-  batch_.press = press_.data(), batch_.blocks = blocks_.data(), batch_.factors = factors_.data();
+  batch_.slope = nodes(slope), batch_.gained = nodes(gained), batch_.press = press_.data();
 }
 
 Vector2d CableLines::vector(OfNode row, std::size_t node, std::size_t k) const {
@@ -119,21 +116,17 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
     of_lane(slipped, k) = pulled.slipped();
     of_lane(most_strain, k) = pulled.most_strain();
     of_lane(least_strain, k) = -pulled.most_strain();
-    const Frame& frame = *frames[cable];
-    for (std::size_t i = 0; i <= last; ++i) {
-      put(rest, i, k, hose.rest[i] + turned(vector(laid_bent, i, k), hose.turn[i]));
-      const Vector2d place = turned(vector(laid, i, k), frame[i]), at = vector(path, i, k);  // the path waits in the frame
-      put(place_at, i, k, place);
-      put(before, i, k, turned(at, frame[i]));
-      const bool clamped = i == 0 || i == last;
-      put(path, i, k, clamped ? place : turned(Vector2d(at + ahead * vector(velocity, i, k)), frame[i]));
-    }
   }
-}
-
-std::span<const std::int32_t> CableLines::relax(int most) {
-  loose_kernels().relax(batch_, most, iterations_.data());
-  return {iterations_.data(), count()};
+  for (std::size_t i = 0; i <= last; ++i)
+    for (std::size_t k = 0; k < count(); ++k) {
+      const Vector2d& frame = (*frames[k])[i];
+      put(rest, i, k, hose.rest[i] + turned(vector(laid_bent, i, k), hose.turn[i]));
+      const Vector2d place = turned(vector(laid, i, k), frame), at = vector(path, i, k);  // the path waits in the frame
+      put(place_at, i, k, place);
+      put(before, i, k, turned(at, frame));
+      const bool clamped = i == 0 || i == last;
+      put(path, i, k, clamped ? place : turned(Vector2d(at + ahead * vector(velocity, i, k)), frame));
+    }
 }
 
 void CableLines::place(const Frame& frame) {
@@ -174,12 +167,12 @@ void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) co
   const std::size_t nodes = hose.nodes();
   state.gain = gain_;
   state.tension.assign(nodes - 1, cables_[k].axial_stiffness * state.strain);
-  state.press.resize(nodes);
+  state.press.resize(batch_.press ? nodes : 0);
   state.offset.resize(2 * nodes);
   state.curvature.resize(2 * nodes);
   for (std::size_t i = 0; i < nodes; ++i) {
     const Vector2d bends = turned_back(bent_[i], hose.turn[i]), at = turned_back(at_[i], hose.turn[i]);
-    state.press[i] = press_[i * batch_.lanes + k];
+    if (batch_.press) state.press[i] = press_[i * batch_.lanes + k];
     state.curvature[2 * i] = -bends.y();
     state.curvature[2 * i + 1] = bends.x() + rest_curvature_;
     const Vector2d offset = at - vector(laid, i, k);

@@ -9,7 +9,7 @@
 //
 // Newton's method: bending and tension tie a node to the two next ones, so the matrix has two bands of 2 x 2
 // blocks, and the stretch of the free length adds a matrix of rank one (Sherman and Morrison). No cable knows of
-// another, so they go side by side in the lanes of a register (strain/loose/kernels).
+// another, so they go side by side in the lanes of a register (strain/loose/line_bench.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -19,31 +19,15 @@
 
 #include "strain/loose/cable.h"
 #include "strain/loose/hose_line.h"
-#include "strain/loose/kernels/loose_kernels.h"
+#include "strain/loose/lane_rows.h"
 #include "strain/loose/tension.h"
 
 namespace dresslife::strain {
 
-/// Numbers of cables side by side, at the start of a cache line.
-class LaneRows {
- public:
-  void assign(std::size_t rows, std::size_t in_row) { blocks_.assign(rows * in_row / most_lanes, {}); }
-  double* data() { return blocks_.empty() ? nullptr : blocks_.front().of; }
-  const double* data() const { return blocks_.empty() ? nullptr : blocks_.front().of; }
-  double& operator[](std::size_t k) { return data()[k]; }
-  double operator[](std::size_t k) const { return data()[k]; }
-
- private:
-  struct alignas(64) Block {
-    double of[most_lanes] = {};
-  };
-  std::vector<Block> blocks_;
-};
-
 class CableLines {
  public:
-  /// hose: of so many nodes; it is read again in every call.
-  CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature);
+  /// hose: of so many nodes; it is read again in every call. presses: whether end() tells how they press.
+  CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature, bool presses);
   CableLines(CableLines&&) = default;  // rows stay where they are
 
   std::size_t count() const { return cables_.size(); }
@@ -56,8 +40,8 @@ class CableLines {
   /// The next sample. frames: (cable). step: since the sample before [s]. goes_on: moves in the frame as it did then,
   /// else it stays as it was there.
   void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on);
-  /// Moves to the minimum of the energy. Returns the iterations (cable), at most `most`.
-  std::span<const std::int32_t> relax(int most);
+  /// (cable) that they took to rest, of LineBench.
+  std::span<std::int32_t> iterations() { return iterations_; }
   /// Cables of a ring (strain/loose/ring.h) to their places in a frame.
   void place(const Frame& frame);
   /// The sample is over. frames, step: as in begin(); step 0: there was none before. states: (cable), or empty: nobody
@@ -86,7 +70,7 @@ class CableLines {
   };
   /// Of what is kept by node, each (node, 2, lane). laid: the place, and laid_bent: its second derivative, in the frame
   /// in which it stays.
-  enum OfNode { laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, step_to, soft, from, going, node_rows };
+  enum OfNode { laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, node_rows };
 
   void lay(std::size_t k);
   double laid_gain(std::size_t k) const;
@@ -102,7 +86,7 @@ class CableLines {
   std::vector<CableTension> tensions_;
   double rest_curvature_;
   LineBatch batch_;
-  LaneRows lane_rows_, node_rows_[OfNode::node_rows], press_, blocks_, factors_;
+  LaneRows lane_rows_, node_rows_[OfNode::node_rows], press_;
   // Of one cable where it rests: its path (node) [m], its curvature less that at rest (node) [1/m], gain (element).
   std::vector<Eigen::Vector2d> at_, bent_;
   std::vector<double> gain_;

@@ -17,7 +17,8 @@ constexpr double settled = 1e-7;   // change of strain in a round: 0.1 N of a ca
 LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings)
     : settings_(settings),
       hose_(settings.length, settings.elements),
-      lines_(cables, hose_, settings.rest_curvature),
+      lines_(cables, hose_, settings.rest_curvature, settings.presses),
+      bench_(hose_, settings.presses),
       frames_(cables.size(), &hose_.turn),
       states_(cables.size()) {
   assert(settings.elements >= 4 && settings.length > 0);
@@ -43,9 +44,20 @@ void LooseCables::shorten(std::size_t cable, double share) {
 }
 
 void LooseCables::advance(std::span<const HoseNode> hose, double step) {
-  hose_.take(hose, settings_.rest_curvature);
-  if (!started_) settle(step);
-  restless_ += !relax(step);
+  LooseCables* const alone = this;
+  advance({&alone, 1}, hose, step);
+}
+
+void LooseCables::advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step) {
+  HoseLine& first = all.front()->hose_;
+  first.take(hose, all.front()->settings_.rest_curvature);
+  for (LooseCables* const of : all) {
+    assert(of->settings_ == all.front()->settings_ && of->started_ == all.front()->started_);
+    if (of != all.front()) of->hose_ = first;
+    if (!of->started_) of->settle(step);
+  }
+  relax(all, step);
+  for (LooseCables* const of : all) of->restless_ += !of->rests_;
 }
 
 /// From their places to rest at the first sample. What is too long for its place can lie in many ways; the one
@@ -56,7 +68,8 @@ void LooseCables::settle(double step) {
     const double share = std::min(1.0, static_cast<double>(round) / feeding_rounds);
     for (Ring& ring : rings_) ring.feed_in(share);
     lines_.feed_in(share);
-    relax(step);
+    LooseCables* const alone = this;
+    relax({&alone, 1}, step);
     started_ = false;  // nothing goes on moving from one round to the next
     double sum = 0;
     for (const CableState& state : states_) sum += std::abs(state.strain);
@@ -65,18 +78,31 @@ void LooseCables::settle(double step) {
   }
 }
 
-bool LooseCables::relax(double step) {
-  const int most = started_ ? CableLines::most_iterations : CableLines::most_iterations_at_start;
-  bool rest = true;
-  for (Ring& ring : rings_) rest &= ring.advance(hose_, step, started_);
+void LooseCables::relax(std::span<LooseCables* const> all, double step) {
+  std::vector<CableLines*> lines;
+  for (LooseCables* const of : all) {
+    of->begin(step);
+    lines.push_back(&of->lines_);
+  }
+  const bool started = all.front()->started_;
+  const int most = started ? CableLines::most_iterations : CableLines::most_iterations_at_start;
+  all.front()->bench_.relax(lines, most);
+  for (LooseCables* const of : all) of->end(step, most);
+}
+
+void LooseCables::begin(double step) {
+  rests_ = true;
+  for (Ring& ring : rings_) rests_ &= ring.advance(hose_, step, started_);
   lines_.begin(hose_, frames_, step, started_);
-  for (const std::int32_t took : lines_.relax(most)) {
+}
+
+void LooseCables::end(double step, int most) {
+  for (const std::int32_t took : lines_.iterations()) {
     iterations_ += static_cast<std::size_t>(took);
-    rest &= took < most;
+    rests_ &= took < most;
   }
   lines_.end(hose_, frames_, started_ ? step : 0, states_);
   started_ = true;
-  return rest;
 }
 
 double LooseCables::mesh_error() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "strain/loose/cable_lines.h"
+#include "strain/loose/line_bench.h"
 #include "strain/loose/ring.h"
 
 namespace dresslife::strain {
@@ -15,6 +16,9 @@ struct LooseSettings {
   double length = 0;          ///< of the hose's axis between the clamps [m]
   std::size_t elements = 64;  ///< of equal length
   double rest_curvature = 0;  ///< about d2, of the hose in which the cables were laid [1/m]
+  bool presses = true;        ///< tells how they press on what they lie against
+
+  bool operator==(const LooseSettings&) const = default;
 };
 
 class LooseCables {
@@ -32,6 +36,9 @@ class LooseCables {
   void shorten(std::size_t cable, double share);
   /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].
   void advance(std::span<const HoseNode> hose, double step);
+  /// The same for several that share nothing but the hose and its samples: side by side they take less time, and lie as they would
+  /// alone.
+  static void advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step);
 
   /// The next sample follows on none: cables start from where they are, at rest.
   void start_again() { started_ = false; }
@@ -46,17 +53,20 @@ class LooseCables {
 
  private:
   void settle(double step);
-  bool relax(double step);
+  static void relax(std::span<LooseCables* const> all, double step);
+  void begin(double step);
+  void end(double step, int most);
 
   LooseSettings settings_;
   HoseLine hose_;
   CableLines lines_;
+  LineBench bench_;
   std::vector<Ring> rings_;
   std::vector<const CableLines::Frame*> frames_;  ///< (cable)
   std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and number there; null: in none
   std::vector<CableState> states_;
   std::size_t restless_ = 0, iterations_ = 0;
-  bool started_ = false;
+  bool started_ = false, rests_ = true;
 };
 
 }  // namespace dresslife::strain

@@ -43,7 +43,7 @@ void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::Vecto
 }  // namespace
 
 Ring::Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature)
-    : lines_(cables, hose, rest_curvature),
+    : lines_(cables, hose, rest_curvature, false),
       psi_(hose.nodes(), 0.0),
       velocity_(psi_),
       frame_(hose.turn),

@@ -2,7 +2,7 @@
 // it (pipeline/simd.h).
 //
 // The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill that
-// wait.
+// wait. Cables take from 2 to 60 iterations: one that rests leaves its lane to the next.
 #include "pipeline/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/loose/kernels/loose_kernels.h"
@@ -36,6 +36,23 @@ inline Pair select(const DoubleMask& mask, const Pair& yes, const Pair& no) {
   return {simd::select(mask, yes.x, no.x), simd::select(mask, yes.y, no.y)};
 }
 
+/// How far the cables of a pack are on their way to rest, (lane).
+struct Progress {
+  double busy[pack_size] = {};    // 1: there is one that does not rest yet
+  double trying[pack_size] = {};  // 1: it has a step of Newton's, of which a share is tried
+  double share[pack_size] = {}, tries[pack_size] = {};
+  double down[pack_size] = {}, largest[pack_size] = {};  // of the step: the slope along it, its way of a node [m]
+  double shift[pack_size] = {}, shifts[pack_size] = {};  // of stiffness per length [N/m2], and how often it grew
+  double took[pack_size] = {};                           // iterations
+
+  void begin(int lane) {
+    busy[lane] = 1;
+    trying[lane] = shift[lane] = shifts[lane] = took[lane] = 0;
+  }
+};
+
+inline DoubleMask set(const double* of) { return greater(load<Pack>(of), Pack(0.0)); }
+
 /// `packs` packs of cables from lane `first` on.
 template <int packs>
 struct Lines {
@@ -61,17 +78,13 @@ struct Lines {
   void slopes() const;
   struct Touch;
   void contacts(std::size_t node, int p, Touch& touch) const;
-  void factor(const Pack* shift, Pack* negative) const;
+  void factor(const Progress* progress, Pack* negative) const;
   void substitute() const;
-  void newton_step(const Pack* active, Pack* down, Pack* largest) const;
-  void go(const Pack* share, const Pack* active) const;
-  void keep_from() const;
+  void judge(int most, Progress* progress) const;
+  void newton_step(Progress* progress) const;
+  void go(Progress* progress) const;
   Pack along_way(int p) const;
-  void evaluate() const {
-    answer();
-    slopes<true>();
-  }
-  void relax(int most, std::int32_t* iterations) const;
+  void round(int most, Progress* progress) const;
 };
 
 /// Strain and tension from the gain of the path (README W33), and what the tension gains with it.
@@ -200,7 +213,7 @@ void Lines<packs>::slopes() const {
           Touch touch;
           contacts(i, p, touch);
           slope = slope + Pack(h) * touch.slope;
-          store(touch.press, of.press + i * lanes + lane(p));
+          if (of.press) store(touch.press, of.press + i * lanes + lane(p));
           double* const block = of.blocks + 3 * i * lanes + lane(p);
           store(touch.xx, block);
           store(touch.xy, block + lanes);
@@ -219,7 +232,7 @@ void Lines<packs>::slopes() const {
 /// L D L^T of bending, tension, drag and contact: of each node the inverse of its pivot, and that times what ties it to
 /// the next one. negative: how many pivots are, which is how many eigenvalues are (Sylvester).
 template <int packs>
-void Lines<packs>::factor(const Pack* shift, Pack* negative) const {
+void Lines<packs>::factor(const Progress* progress, Pack* negative) const {
   const std::size_t last = of.nodes - 1, lanes = of.lanes;
   const double h = of.spacing;
   Pack tied2[packs], tie[packs], diagonal[packs];
@@ -231,7 +244,7 @@ void Lines<packs>::factor(const Pack* shift, Pack* negative) const {
     tied2[p] = at(of.bending_stiffness, k) * Pack(1 / (h * h * h));
     const Pack pulled = at(of.tension, k) * Pack(1 / h);
     tie[p] = -4.0 * tied2[p] - pulled;
-    diagonal[p] = 6.0 * tied2[p] + 2.0 * pulled + Pack(h) * (at(of.drag, k) + shift[p]);
+    diagonal[p] = 6.0 * tied2[p] + 2.0 * pulled + Pack(h) * (at(of.drag, k) + load<Pack>(progress[p].shift));
     negative[p] = here_xx[p] = here_xy[p] = here_yy[p] = next_xx[p] = next_xy[p] = next_yy[p] = Pack(0.0);
     xx[p] = xy[p] = yx[p] = yy[p] = Pack(0.0);
   }
@@ -268,7 +281,7 @@ template <int packs>
 void Lines<packs>::substitute() const {
   const std::size_t last = of.nodes - 1, lanes = of.lanes;
   constexpr int sides = 2;
-  double* const solution[sides] = {of.step, of.soft};
+  double* const solution[sides] = {of.solved, of.soft};
   Pack tied2[packs];
   Pair here[packs][sides], next[packs][sides];  // what is taken off the right-hand sides of this node and the next
   for (int p = 0; p < packs; ++p) {
@@ -310,68 +323,102 @@ void Lines<packs>::substitute() const {
     }
 }
 
-/// step: to the minimum of the quadratic at hand, shifted by as much stiffness as makes that positive; 0 where not
-/// active. down: the slope along it. largest: way of a node.
+/// Of cables that try a step: whether they take its share, try a shorter one, or rest.
 template <int packs>
-void Lines<packs>::newton_step(const Pack* active, Pack* down, Pack* largest) const {
-  const std::size_t last = of.nodes - 1;
-  Pack shift[packs], negative[packs], back[packs];
-  for (Pack& of_pack : shift) of_pack = Pack(0.0);
-  for (int tries = 0; tries < most_shifts; ++tries) {
-    factor(shift, negative);
-    substitute();
-    unsigned failed = 0;
-    Pack along[packs], soft[packs];
-    for (int p = 0; p < packs; ++p) along[p] = soft[p] = Pack(0.0);
-    for (std::size_t i = 1; i < last; ++i)
-      for (int p = 0; p < packs; ++p) {
-        const Pair gained = pair(of.gained, i, p);
-        along[p] += dot(gained, pair(of.step, i, p));
-        soft[p] += dot(gained, pair(of.soft, i, p));
-      }
-    for (int p = 0; p < packs; ++p) {
-      const Pack spring = at(of.stiffness, lane(p)) / Pack(of.length), whole = 1.0 + spring * soft[p];
-      // The whole matrix is positive if its eigenvalues with and without the rank one say so (Haynsworth).
-      const Pack zero(0.0);
-      const DoubleMask positive = (equal(negative[p], zero) & greater(whole, zero)) |
-                                  (equal(negative[p], Pack(1.0)) & at_least(zero, whole));
-      const DoubleMask good = positive | equal(active[p], zero);
-      failed |= (~bits(good) & ((1u << pack_size) - 1));
-      const Pack larger_shift = simd::select(equal(shift[p], zero), Pack(first_shift), 4.0 * shift[p]);
-      shift[p] = simd::select(good, shift[p], larger_shift);
-      back[p] = spring * along[p] / whole;
-    }
-    if (!failed) break;
+void Lines<packs>::judge(int most, Progress* progress) const {
+  const Pack zero(0.0);
+  for (int p = 0; p < packs; ++p) {
+    Progress& at_p = progress[p];
+    const Pack there = along_way(p), down = load<Pack>(at_p.down), share = load<Pack>(at_p.share);
+    const Pack tries = load<Pack>(at_p.tries);
+    const DoubleMask trying = set(at_p.trying), near = greater(Pack(at_rest), load<Pack>(at_p.largest));
+    const DoubleMask good =
+        near | at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
+    const DoubleMask ends = near | at_least(load<Pack>(at_p.took), Pack(static_cast<double>(most)));
+    const Pack shorter = smaller(larger(-down / (there - down), Pack(0.1)), Pack(0.7));
+    store(simd::select(good, share, share * shorter), at_p.share);
+    store(tries + 1.0, at_p.tries);
+    store(simd::select(trying & good & ends, zero, load<Pack>(at_p.busy)), at_p.busy);
+    store(simd::select(good, zero, load<Pack>(at_p.trying)), at_p.trying);
   }
-  for (int p = 0; p < packs; ++p) down[p] = largest[p] = Pack(0.0);
+}
+
+/// step: to the minimum of the quadratic at hand, of those that do not try one. Where it is not positive the next one has more
+/// stiffness.
+template <int packs>
+void Lines<packs>::newton_step(Progress* progress) const {
+  const std::size_t last = of.nodes - 1;
+  const Pack zero(0.0), one(1.0);
+  Pack negative[packs], back[packs], along[packs], soft[packs], down[packs], largest[packs];
+  DoubleMask steps[packs];
+  factor(progress, negative);
+  substitute();
+  for (int p = 0; p < packs; ++p) along[p] = soft[p] = down[p] = largest[p] = zero;
   for (std::size_t i = 1; i < last; ++i)
     for (int p = 0; p < packs; ++p) {
-      const Pair none{Pack(0.0), Pack(0.0)};
-      const Pair way = pair(of.step, i, p) - back[p] * pair(of.soft, i, p);
-      const Pair step = select(greater(active[p], Pack(0.0)), way, none);
-      put(step, of.step, i, p);
-      down[p] += dot(pair(of.slope, i, p), step);
-      largest[p] = larger(dot(step, step), largest[p]);
+      const Pair gained = pair(of.gained, i, p);
+      along[p] += dot(gained, pair(of.solved, i, p));
+      soft[p] += dot(gained, pair(of.soft, i, p));
     }
-  for (int p = 0; p < packs; ++p) largest[p] = square_root(largest[p]);
+  for (int p = 0; p < packs; ++p) {
+    Progress& at_p = progress[p];
+    const Pack shift = load<Pack>(at_p.shift), shifts = load<Pack>(at_p.shifts);
+    const Pack spring = at(of.stiffness, lane(p)) / Pack(of.length), whole = 1.0 + spring * soft[p];
+    // The whole matrix is positive if its eigenvalues with and without the rank one say so (Haynsworth).
+    const DoubleMask positive =
+        (equal(negative[p], zero) & greater(whole, zero)) | (equal(negative[p], one) & at_least(zero, whole));
+    const DoubleMask wants = set(at_p.busy) & equal(load<Pack>(at_p.trying), zero);
+    steps[p] = wants & (positive | at_least(shifts, Pack(static_cast<double>(most_shifts - 1))));
+    const Pack larger_shift = simd::select(equal(shift, zero), Pack(first_shift), 4.0 * shift);
+    store(simd::select(steps[p], zero, simd::select(wants, larger_shift, shift)), at_p.shift);
+    store(simd::select(steps[p], zero, simd::select(wants, shifts + 1.0, shifts)), at_p.shifts);
+    back[p] = spring * along[p] / whole;
+  }
+  for (std::size_t i = 1; i < last; ++i)
+    for (int p = 0; p < packs; ++p) {
+      const Pair way = pair(of.solved, i, p) - back[p] * pair(of.soft, i, p);
+      put(select(steps[p], way, pair(of.step, i, p)), of.step, i, p);
+      put(select(steps[p], pair(of.path, i, p), pair(of.from, i, p)), of.from, i, p);
+      down[p] += dot(pair(of.slope, i, p), way);
+      largest[p] = larger(dot(way, way), largest[p]);
+    }
+  for (int p = 0; p < packs; ++p) {
+    Progress& at_p = progress[p];
+    const auto begin = [&](const Pack& value, double* of_lanes) {
+      store(simd::select(steps[p], value, load<Pack>(of_lanes)), of_lanes);
+    };
+    largest[p] = square_root(largest[p]);
+    begin(down[p], at_p.down);
+    begin(largest[p], at_p.largest);
+    begin(smaller(Pack(longest_step) / largest[p], one), at_p.share);
+    begin(one, at_p.trying);
+    begin(one, at_p.tries);
+    begin(load<Pack>(at_p.took) + one, at_p.took);
+  }
 }
 
 /// path: `share` of the step on from `from`. A node that lies against a round wall goes along it: in polar coordinates
 /// about its centre, since a straight way would press it in by the square of its length. going: where each node is
 /// heading there.
 template <int packs>
-void Lines<packs>::go(const Pack* share, const Pack* active) const {
+void Lines<packs>::go(Progress* progress) const {
+  Pack share[packs];
+  DoubleMask moves[packs];
+  for (int p = 0; p < packs; ++p) {
+    share[p] = load<Pack>(progress[p].share);
+    moves[p] = set(progress[p].trying);
+  }
   for (std::size_t i = 1; i + 1 < of.nodes; ++i)
     for (int p = 0; p < packs; ++p) {
       const std::size_t k = lane(p);
       const Pack zero(0.0), play = at(of.play, k), far = at(of.farthest, k), near = at(of.nearest, k);
       const Pair from = pair(of.from, i, p), step = pair(of.step, i, p), place = pair(of.place, i, p);
       const Pair offset = from - place;
-      const DoubleMask moves = greater(active[p], zero), on_play = greater(dot(offset, offset), play * play);
+      const DoubleMask on_play = greater(dot(offset, offset), play * play);
       const Pair centre = select(on_play, place, {zero, zero}), arm = from - centre;
       const Pack reach2 = dot(arm, arm);
-      const DoubleMask round =
-          (on_play | at_least(reach2, far * far) | at_least(near * near, reach2)) & greater(reach2, zero) & moves;
+      const DoubleMask round = (on_play | at_least(reach2, far * far) | at_least(near * near, reach2)) &
+                               greater(reach2, zero) & moves[p];
       Pair path = from + share[p] * step, going = step;
       if (bits(round)) {
         const Pack reach = square_root(reach2), per_reach = 1.0 / reach;
@@ -386,15 +433,14 @@ void Lines<packs>::go(const Pack* share, const Pack* active) const {
         path = select(round, centre + far_out * now, path);
         going = select(round, rise * now + (far_out * turn * scale) * turned, going);
       }
-      put(select(moves, path, from), of.path, i, p);
+      put(select(moves[p], path, pair(of.path, i, p)), of.path, i, p);
       put(going, of.going, i, p);
     }
-}
-
-template <int packs>
-void Lines<packs>::keep_from() const {
-  for (std::size_t i = 1; i + 1 < of.nodes; ++i)
-    for (int p = 0; p < packs; ++p) put(pair(of.path, i, p), of.from, i, p);
+  if (of.press) return;  // there they rest after another look
+  for (int p = 0; p < packs; ++p) {
+    const DoubleMask near = greater(Pack(at_rest), load<Pack>(progress[p].largest));
+    store(simd::select(moves[p] & near, Pack(0.0), load<Pack>(progress[p].busy)), progress[p].busy);
+  }
 }
 
 template <int packs>
@@ -404,48 +450,68 @@ Pack Lines<packs>::along_way(int p) const {
   return sum;
 }
 
-/// Cables that rest wait for the others: what they do hangs on none of them.
+/// Of each cable the energy's slope where it is, then a step of Newton's or a shorter share of the last one.
 template <int packs>
-__attribute__((flatten)) void Lines<packs>::relax(int most, std::int32_t* iterations) const {
-  Pack active[packs], share[packs], down[packs], largest[packs];
-  double took[packs * pack_size] = {};
-  for (int p = 0; p < packs; ++p) active[p] = at(of.counts, lane(p));
-  evaluate();
-  for (int iteration = 1; iteration <= most; ++iteration) {
-    newton_step(active, down, largest);
-    for (int p = 0; p < packs; ++p) {
-      share[p] = smaller(Pack(longest_step) / largest[p], Pack(1.0));
-      store(Pack(load<Pack>(took + p * pack_size) + active[p]), took + p * pack_size);
-    }
-    keep_from();
-    for (int tries = 0; tries < most_tries; ++tries) {
-      go(share, active);
-      evaluate();
-      unsigned left = 0;
-      for (int p = 0; p < packs; ++p) {
-        const Pack there = along_way(p);
-        const DoubleMask near = greater(Pack(at_rest), largest[p]), down_enough = at_least(-0.5 * down[p], there);
-        const DoubleMask good = near | down_enough | equal(active[p], Pack(0.0));
-        left |= ~bits(good) & ((1u << pack_size) - 1);
-        const Pack shorter = smaller(larger(-down[p] / (there - down[p]), Pack(0.1)), Pack(0.7));
-        share[p] = simd::select(good, share[p], share[p] * shorter);
-      }
-      if (!left) break;
-    }
-    unsigned moving = 0;
-    for (int p = 0; p < packs; ++p) {
-      active[p] = simd::select(greater(Pack(at_rest), largest[p]), Pack(0.0), active[p]);
-      moving |= bits(greater(active[p], Pack(0.0)));
-    }
-    if (!moving) break;
-  }
-  for (int k = 0; k < packs * pack_size; ++k) iterations[first + k] = static_cast<std::int32_t>(took[k]);
+__attribute__((flatten)) void Lines<packs>::round(int most, Progress* progress) const {
+  answer();
+  slopes<true>();
+  judge(most, progress);
+  newton_step(progress);
+  go(progress);
 }
 
-void relax(const LineBatch& batch, int most, std::int32_t* iterations) {
-  std::size_t lane = 0;
-  for (; lane + 2 * pack_size <= batch.lanes; lane += 2 * pack_size) Lines<2>{batch, lane}.relax(most, iterations);
-  for (; lane < batch.lanes; lane += pack_size) Lines<1>{batch, lane}.relax(most, iterations);
+/// `rows` numbers of a cable from one batch to another.
+void copy(const double* from, std::size_t from_lanes, double* to, std::size_t to_lanes, std::size_t rows) {
+  for (std::size_t i = 0; i < rows; ++i) to[i * to_lanes] = from[i * from_lanes];
+}
+
+void to_bench(const WaitingCable& cable, const LineBatch& bench, std::size_t lane) {
+  const LineBatch& kept = *cable.kept;
+  for (const auto row : what_cables_are) (bench.*row)[lane] = (kept.*row)[cable.lane];
+  for (const auto row : where_cables_are)
+    copy(kept.*row + cable.lane, kept.lanes, bench.*row + lane, bench.lanes, 2 * bench.nodes);
+}
+
+void from_bench(const LineBatch& bench, std::size_t lane, const WaitingCable& cable) {
+  const LineBatch& kept = *cable.kept;
+  copy(bench.path + lane, bench.lanes, kept.path + cable.lane, kept.lanes, 2 * bench.nodes);
+  if (bench.press) copy(bench.press + lane, bench.lanes, kept.press + cable.lane, kept.lanes, bench.nodes);
+}
+
+/// What a cable does hangs on none of the others.
+void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count, int most) {
+  constexpr int packs = 2;
+  LineBatch bench = room;
+  bench.lanes = packs * pack_size;
+  Progress progress[packs];
+  const WaitingCable* in_lane[packs * pack_size] = {};
+  std::size_t next = 0;
+  const auto take = [&](std::size_t lane) {
+    in_lane[lane] = next < count ? &cables[next++] : nullptr;
+    if (!in_lane[lane]) return;
+    to_bench(*in_lane[lane], bench, lane);
+    progress[lane / pack_size].begin(static_cast<int>(lane % pack_size));
+  };
+  for (std::size_t lane = 0; lane < packs * pack_size; ++lane) {
+    to_bench(cables[0], bench, lane);  // numbers for a spare lane
+    take(lane);
+  }
+  const auto busy = [&](int p) { return bits(set(progress[p].busy)) != 0; };
+  while (busy(0) || busy(1)) {
+    if (!busy(1))
+      Lines<1>{bench, 0}.round(most, progress);
+    else if (!busy(0))
+      Lines<1>{bench, pack_size}.round(most, progress + 1);
+    else
+      Lines<packs>{bench, 0}.round(most, progress);
+    for (std::size_t lane = 0; lane < packs * pack_size; ++lane) {
+      const Progress& at_lane = progress[lane / pack_size];
+      if (!in_lane[lane] || at_lane.busy[lane % pack_size] > 0) continue;
+      *in_lane[lane]->iterations = static_cast<std::int32_t>(at_lane.took[lane % pack_size]);
+      from_bench(bench, lane, *in_lane[lane]);
+      take(lane);
+    }
+  }
 }
 
 // ---- rings ------------------------------------------------------------------------------------------------

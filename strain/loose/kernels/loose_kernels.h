@@ -11,7 +11,7 @@ namespace dresslife::strain {
 constexpr std::size_t most_lanes = 8;  ///< of any register, in double precision: cables are padded to a multiple of it
 
 /// Cables of one hose. Number i of cable k at [i * lanes + k], component d of a node's vector at
-/// [(2 * node + d) * lanes + k].
+/// [(2 * node + d) * lanes + k]. Where they are kept from sample to sample, or where they come to rest.
 struct LineBatch {
   std::size_t nodes = 0, lanes = 0;
   double length = 0, spacing = 0;  ///< of the hose's axis, of its nodes [m]
@@ -20,24 +20,43 @@ struct LineBatch {
   const double *curvature = nullptr, *pull = nullptr, *elongation = nullptr;
 
   // (lane) what the cables are, see LooseCable; no limit is infinite.
-  const double *bending_stiffness = nullptr, *axial_stiffness = nullptr, *mass_per_length = nullptr;
-  const double *wall_stiffness = nullptr, *play = nullptr, *farthest = nullptr, *nearest = nullptr, *gap = nullptr;
-  const double* per_radius = nullptr;        ///< 1 / |a0|, 0 on the hose's axis [1/m]
-  const double* drag = nullptr;              ///< eta of this sample [N/m2]
-  const double* free_length_rate = nullptr;  ///< free length over that of the hose
-  const double *slipped = nullptr, *least_strain = nullptr, *most_strain = nullptr;  ///< see CableTension
-  const double* counts = nullptr;            ///< 1; 0: a spare lane
+  double *bending_stiffness = nullptr, *axial_stiffness = nullptr, *mass_per_length = nullptr;
+  double *wall_stiffness = nullptr, *play = nullptr, *farthest = nullptr, *nearest = nullptr, *gap = nullptr;
+  double* per_radius = nullptr;        ///< 1 / |a0|, 0 on the hose's axis [1/m]
+  double* drag = nullptr;              ///< eta of this sample [N/m2]
+  double* free_length_rate = nullptr;  ///< free length over that of the hose
+  double *slipped = nullptr, *least_strain = nullptr, *most_strain = nullptr;  ///< see CableTension
+  double* counts = nullptr;            ///< 1; 0: a spare lane
 
-  const double* rest = nullptr;                      ///< (node, 2, lane) K0 and how its place bends in it [1/m]
-  const double *place = nullptr, *before = nullptr;  ///< (node, 2, lane) A0, A_before [m]
-  double* path = nullptr;                            ///< (node, 2, lane) A [m]
+  double* rest = nullptr;                      ///< (node, 2, lane) K0 and how its place bends in it [1/m]
+  double *place = nullptr, *before = nullptr;  ///< (node, 2, lane) A0, A_before [m]
+  double* path = nullptr;                      ///< (node, 2, lane) A [m]
 
   double *strain = nullptr, *tension = nullptr, *stiffness = nullptr;  ///< (lane) [1], [N], [N]
-  double* press = nullptr;                                             ///< (node, lane) [N/m]
+  double* press = nullptr;                                             ///< (node, lane) [N/m]; null: nobody asks
   double *slope = nullptr, *gained = nullptr;                          ///< (node, 2, lane)
-  double *step = nullptr, *soft = nullptr, *from = nullptr, *going = nullptr;  ///< (node, 2, lane), scratch
-  double *blocks = nullptr, *factors = nullptr;  ///< (node, 3, lane), (node, 7, lane), scratch
+
+  // Scratch, of where they come to rest alone.
+  double *solved = nullptr, *soft = nullptr, *step = nullptr, *from = nullptr, *going = nullptr;  ///< (node, 2, lane)
+  double *blocks = nullptr, *factors = nullptr;  ///< (node, 3, lane), (node, 7, lane)
 };
+
+// What a cable takes along to where it comes to rest: what it is (lane), and where (node, 2, lane).
+constexpr double* LineBatch::*what_cables_are[] = {
+    &LineBatch::bending_stiffness, &LineBatch::axial_stiffness, &LineBatch::mass_per_length, &LineBatch::wall_stiffness,
+    &LineBatch::play, &LineBatch::farthest, &LineBatch::nearest, &LineBatch::gap, &LineBatch::per_radius, &LineBatch::drag,
+    &LineBatch::free_length_rate, &LineBatch::slipped, &LineBatch::least_strain, &LineBatch::most_strain};
+constexpr double* LineBatch::*where_cables_are[] = {&LineBatch::rest, &LineBatch::place, &LineBatch::before,
+                                                    &LineBatch::path};
+
+/// A cable that is to come to rest.
+struct WaitingCable {
+  const LineBatch* kept;
+  std::size_t lane;
+  std::int32_t* iterations;  ///< gets those that it takes
+};
+
+constexpr std::size_t bench_lanes = 2 * most_lanes;  ///< room for cables on their way to rest
 
 /// What turns the cables of a ring: bands (row, 3), what each cable gains (row, lane) and the slope (row); row: a node
 /// inside.
@@ -46,8 +65,10 @@ struct RingSystem {
 };
 
 struct LooseKernels {
-  /// Every cable to the minimum of its energy. iterations: (lane), at most `most` each.
-  void (*relax)(const LineBatch&, int most, std::int32_t* iterations);
+  /// Every cable to the minimum of its energy, in at most `most` iterations. They may be kept in several batches of one hose at one
+  /// sample; the first ones take the lanes of the bench, and as one rests the next takes its place. Their paths are told, and how
+  /// they press where their batch asks.
+  void (*relax)(const LineBatch& bench, const WaitingCable* cables, std::size_t count, int most);
   /// Every cable to its place in the ring's frame (node, 2), cosine and sine; laid: its place in that (node, 2, lane).
   /// Then tension and slope of all but contact.
   void (*place)(const LineBatch&, const double* laid, const double* frame);

@@ -260,6 +260,31 @@ TEST_CASE("spare lanes and the cables beside it change no digit of a cable") {
   }
 }
 
+TEST_CASE("cables laid in several ways side by side lie as they would alone, to the last digit") {
+  const LooseSettings settings{2.035, 64};
+  std::vector<std::unique_ptr<LooseCables>> together, alone;
+  std::vector<LooseCables*> all;
+  for (const double slack : {0.0, 0.002, 0.02}) {  // that pull, that hardly do, that lie in waves: unlike in iterations
+    together.push_back(std::make_unique<LooseCables>(ring_of_ten(slack), settings));
+    alone.push_back(std::make_unique<LooseCables>(ring_of_ten(slack), settings));
+    all.push_back(together.back().get());
+  }
+  for (int t = 0; t <= 20; ++t) {
+    const std::vector<HoseNode> nodes = hose(64, [&](double z) { return arm(z, t / 40.0); });
+    LooseCables::advance(all, nodes, step);
+    for (std::size_t way = 0; way < alone.size(); ++way) {
+      alone[way]->advance(nodes, step);
+      for (std::size_t k = 0; k < alone[way]->cables(); ++k) {
+        CAPTURE(t, way, k);
+        const CableState &one = alone[way]->state(k), &other = together[way]->state(k);
+        REQUIRE(one.strain == other.strain);
+        REQUIRE(one.offset == other.offset);
+        REQUIRE(one.press == other.press);
+      }
+    }
+  }
+}
+
 TEST_CASE("whatever a hose does, every number is finite") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(0, 1);
