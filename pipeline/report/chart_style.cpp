@@ -44,8 +44,11 @@ svg .scatter { stroke: var(--hot); stroke-width: 5; }
 /// A phone scrolls a chart sideways rather than make its words too small to be read; paper shows all of it.
 constexpr std::string_view chart_rules = R"(
 .chart { overflow-x: auto; } @media screen and (max-width: 45rem) { .chart > svg { min-width: 52rem; } }
-.picture > svg { max-height: 32rem; }
-@media print { .chart, .picture { break-inside: avoid; overflow: visible; } .picture > svg { max-height: 7cm; } }
+.picture > svg { max-height: 32rem; } .metered { white-space: nowrap; }
+.meter { display: inline-block; width: 6rem; height: .7rem; background: var(--band); margin-right: .5rem; }
+.meter > span { display: block; height: 100%; background: var(--hot); }
+@media print { .chart, .picture { break-inside: avoid; overflow: visible; } .picture > svg { max-height: 7cm; }
+  .meter { width: 3rem; } .meter > span { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )";
 
 /// The value that the first, light, set of colours gives a variable.

@@ -104,13 +104,15 @@ constexpr std::string_view style =
 
 class Drawing {
  public:
-  Drawing(const Dresspack& dresspack, const std::string& marked)
+  Drawing(const Dresspack& dresspack, const std::string& marked, LayerLines layers)
       : dresspack_(dresspack),
+        layers_(layers),
         marked_(place_of_part(dresspack, marked)),
         scale_((picture - 2 * margin) / dresspack.diameter) {}
 
   std::string svg() {
-    for (const Component& component : dresspack_.components) list(component, 0);
+    if (layers_ == LayerLines::drawn)
+      for (const Component& component : dresspack_.components) list(component, 0);
     const double height = picture + line_height * (static_cast<double>(lines_.size()) + 1);
     std::string body = fmt::format("<g transform=\"translate({0:.4g} {0:.4g})\">\n{1}{2}</g>\n", picture / 2,
                                    hose(), inside(dresspack_.components) + mark());
@@ -209,6 +211,7 @@ class Drawing {
   }
 
   const Dresspack& dresspack_;
+  LayerLines layers_;
   std::optional<PartPlace> marked_;
   double scale_;  // [px/m]
   std::string definitions_;
@@ -237,6 +240,15 @@ std::optional<PartPlace> place_in(const std::vector<Component>& components, std:
   return std::nullopt;
 }
 
+void list_wires(const std::vector<Component>& components, const std::string& before, std::vector<std::string>& paths) {
+  for (const Component& component : components)
+    for (int k = 0; k < component.count; ++k) {
+      const std::string path = before + own_name(component, k + 1);
+      if (is_wire(component)) paths.push_back(path);
+      list_wires(component.components, path + "/", paths);
+    }
+}
+
 void list_layer(const Component& of, int level, std::string& text) {
   text += fmt::format("{:{}}{:4} {:<{}} {:>7.4g} mm", "", 2 * level, of.count, name_of(of), 24 - 2 * level,
                       millimetres(2 * of.radius));
@@ -256,8 +268,20 @@ Component whole(const Dresspack& dresspack) {
 
 }  // namespace
 
-std::string cross_section_picture(const Dresspack& dresspack, const std::string& marked) {
-  return Drawing(dresspack, marked).svg();
+std::string cross_section_picture(const Dresspack& dresspack, const std::string& marked, LayerLines layers) {
+  return Drawing(dresspack, marked, layers).svg();
+}
+
+std::vector<std::string> wire_paths(const Dresspack& dresspack) {
+  std::vector<std::string> paths;
+  list_wires(dresspack.components, "", paths);
+  return paths;
+}
+
+std::string layers_text(const Dresspack& dresspack) {
+  std::string text;
+  for (const Component& component : dresspack.components) list_layer(component, 0, text);
+  return text;
 }
 
 std::optional<PartPlace> place_of_part(const Dresspack& dresspack, std::string_view path) {

@@ -83,8 +83,7 @@ function cycleMatrix() {
 let loopPoint = null;
 function hysteresis() {
   const {loops} = life, time = floats(loops.time);
-  const numbers = (of, factor) => Float64Array.from(wholeNumbers(of.numbers), steps => factor * (of.low + of.step * steps));
-  const strain = numbers(loops.strain, 100), stress = numbers(loops.stress, 1e-6);
+  const strain = unpacked(loops.strain, 100), stress = unpacked(loops.stress, 1e-6);
   const x = around(strain), y = around(stress, 0);
   const place = k => [chartX((strain[k] - x.low) / (x.high - x.low)), chartY((stress[k] - y.low) / (y.high - y.low))];
   let path = '';

@@ -15,6 +15,7 @@
 #include "pipeline/job/stiffness.h"
 #include "pipeline/readable.h"
 #include "pipeline/report/cross_section.h"
+#include "pipeline/report/damage_tables.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/life_data.h"
 #include "pipeline/report/motion_checks.h"
@@ -22,6 +23,7 @@
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene_data.h"
+#include "pipeline/report/section_data.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/whole_file.h"
 #include "pipeline/study/row_warnings.h"
@@ -161,22 +163,11 @@ std::string broken_limits(const FileReader& motion) {
              : fmt::format("Limits of the motion are broken: {} (see below)", fmt::join(broken, ", "));
 }
 
-/// Of the dresspack with the worst wire, that wire marked.
-std::string cross_section(const RankingRow& row, const Setup& setup) {
-  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) {
-    const std::string name = name_among(setup, d);
-    if (name != row.worst_dresspack) continue;
-    std::string wire = row.worst_component;
-    if (!name.empty() && wire.starts_with(name + "/")) wire = wire.substr(name.size() + 1);
-    const Dresspack& dresspack = setup.dresspacks[d].dresspack;
-    return fmt::format(
-        "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption "
-        "class=\"soft\">"
-        "Cross-section at the base clamp{2}.</figcaption></figure>\n",
-        escaped(dresspack.name), base64(cross_section_picture(dresspack, wire)),
-        place_of_part(dresspack, wire) ? ", ringed the wire that breaks first: " + escaped(wire) : "");
-  }
-  return "";
+/// What lies in each dresspack, in words.
+std::string layers(const Setup& setup) {
+  std::string text;
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) text += construction_text(setup.dresspacks[d].dresspack);
+  return text;
 }
 
 std::string folded(const std::string& summary, const std::string& text) {
@@ -211,7 +202,8 @@ class Page {
     std::string text =
         fmt::format("{{\"title\":{},\"life\":{}", json(files_.name), life_data(life_, strain_.get()));
     if (setup_) {
-      const std::string scene = scene_data(*setup_, notes_);
+      const std::string scene = scene_data(*setup_, notes_), section = section_data(life_, *setup_);
+      if (!section.empty()) text += ",\"section\":" + section;
       text +=
           fmt::format(",\"scene\":{},\"motion\":{}", scene, motion_data(*motion_, strain_.get(), *setup_));
     }
@@ -227,13 +219,17 @@ class Page {
     std::string text = headline(row_);
     for (const std::string& note : notes_) text += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
     text +=
-        "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div>\n<div "
-        "id=\"place\"></div>\n";
-    if (setup_) text += cross_section(row_, *setup_);
-    text += "</div></div>\n<div id=\"wire\"></div>\n<h2>What the numbers rest on</h2>\n" +
+        "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div id=\"place\"></div></div>\n"
+        "<div id=\"section\"></div>\n<div id=\"wire\"></div>\n";
+    if (damaged(row_)) {
+      const LifeSummary life = read_life(files_.life());
+      text += "<h2>Where the damage comes from</h2>\n" + damage_along(life, row_) + damage_tables(life, row_);
+    }
+    text += "<h2>What the numbers rest on</h2>\n" +
             assumptions(row_, job(), motion_.get(), strain_.get(), setup_ ? &*setup_ : nullptr);
     if (motion_) text += check_table(files_.motion());
     text += "<p class=\"soft\" id=\"shown\"></p>\n";
+    if (setup_) text += folded("What the dresspack is made of", layers(*setup_));
     return text + folded("Settings", life_.text_attribute("job")) +
            folded("How it was run", life_.text_attribute("history"));
   }

@@ -18,7 +18,8 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr std::uint32_t no_site = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t most_strains = 450'000;  // of two bytes each
+constexpr std::size_t most_strains = 200'000;  // whole histories, of two bytes each
+constexpr std::size_t most_turns = 30'000;     // of other places, of six bytes each
 constexpr std::size_t most_samples = 20'000;
 constexpr std::size_t most_closings = 300;  // of each segment
 constexpr double least_closing = 1e-4;      // of a segment's damage: 0.01 %
@@ -158,38 +159,55 @@ class Data {
         json(curvature), json(when), json(least), json(most));
   }
 
-  /// (site) row of /probe/strain.
-  std::map<std::uint32_t, std::size_t> probes() const {
-    std::map<std::uint32_t, std::size_t> of;
+  /// A wire whose whole history strain.h5 holds.
+  struct Probe {
+    std::size_t row;     ///< of /probe/strain
+    std::uint32_t site;
+    double damage;
+  };
+
+  /// (segment) of its probed wires the one that is damaged most.
+  std::map<std::size_t, Probe> probes() const {
+    std::map<std::size_t, Probe> of;
     if (!strain_) return of;
     const auto sites = strain_->read<std::uint32_t>("/probe/site");
-    for (std::size_t k = 0; k < sites.size(); ++k) of.emplace(sites[k], k);
+    std::vector<std::int32_t> segment;
+    std::vector<double> damage;
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+      life_.read_rows("/site/segment", sites[k], 1, segment);
+      life_.read_rows("/damage", sites[k], 1, damage);
+      const Probe probe{k, sites[k], damage.front()};
+      const auto [known, first] = of.emplace(static_cast<std::size_t>(segment.front()), probe);
+      if (!first && probe.damage > known->second.damage) known->second = probe;
+    }
     return of;
   }
 
   /// /worst/strain is a whole history where its site was probed or judged by planes.
-  bool worst_is_sampled(const std::map<std::uint32_t, std::size_t>& probed) const {
+  bool worst_is_sampled() const {
     if (!worst_ || !strain_) return false;
-    if (probed.contains(*worst_)) return true;
-    if (!strain_->has("/plane/site")) return false;
-    const auto planes = strain_->read<std::uint32_t>("/plane/site");
-    return std::find(planes.begin(), planes.end(), *worst_) != planes.end();
+    for (const char* whole : {"/probe/site", "/plane/site"}) {
+      if (!strain_->has(whole)) continue;
+      const auto sites = strain_->read<std::uint32_t>(whole);
+      if (std::find(sites.begin(), sites.end(), *worst_) != sites.end()) return true;
+    }
+    return false;
   }
 
-  /// One history: (time, strain) where it has times of its own, else at those of all.
+  /// One history, at its own times or at those of all. sampled: whole, else straight between turning points. site: of the
+  /// wire; the segment's worst where it is not told.
   std::string strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
-                         const std::vector<float>& own_times) const {
-    const auto [low, high] = std::minmax_element(strain.begin(), strain.end());
-    const Steps steps(*low, *high);
-    std::vector<std::uint16_t> numbers;
-    for (const double value : strain) numbers.push_back(steps.of(value));
-    const std::string times = own_times.empty() ? "" : ",\"time\":" + base64_of(own_times);
-    return fmt::format("{{\"segment\":{},\"sampled\":{},\"low\":{},\"step\":{}{},\"numbers\":{}}}", segment,
-                       sampled, json(steps.low), json(steps.step), times, base64_of(numbers));
+                         const std::vector<float>& own_times = {}, const Probe* of = nullptr) const {
+    const bool other = of && of->site != worst_site_[segment];
+    std::vector<std::string> path{""};
+    if (other) life_.read_rows("/site/component", of->site, 1, path);
+    return fmt::format("{{\"segment\":{},\"sampled\":{},{}{}\"numbers\":{}}}", segment, sampled,
+                       other ? fmt::format("\"wire\":{},\"damage\":{},", json(path.front()), json(of->damage)) : "",
+                       own_times.empty() ? "" : "\"time\":" + base64_of(own_times) + ",", packed(strain));
   }
 
-  /// Of a site that was not probed.
-  std::string turning_points(std::size_t segment, std::size_t& kept) const {
+  /// Of a segment's worst wire: times after the first sample [s], strains.
+  std::pair<std::vector<float>, std::vector<double>> turning_points(std::size_t segment) const {
     std::vector<std::uint64_t> range;
     std::vector<double> strain;
     std::vector<std::uint32_t> sample;
@@ -199,36 +217,46 @@ class Data {
     std::vector<float> times;
     for (const std::uint32_t at : sample)
       times.push_back(static_cast<float>(time_.at(std::min<std::size_t>(at, time_.size() - 1)) - time_[0]));
-    kept += 3 * strain.size();
-    return strain.empty() ? "" : strain_row(segment, false, strain, times);
+    return {times, strain};
   }
 
+  /// The history of one wire of each segment: of the worst that is known whole; of the job's worst wire its turning points
+  /// beside it. Where none is known whole the worst, straight between its turning points.
   std::string strains() const {
     const auto probed = probes();
     const int worst = worst_segment();
     std::string rows;
     std::size_t kept = 0;
-    const auto add = [&](const std::string& row) { rows += row.empty() || rows.empty() ? row : "," + row; };
-    if (worst >= 0) {
-      add(strain_row(static_cast<std::size_t>(worst), worst_is_sampled(probed),
-                     thinning_.of(life_.read<double>("/worst/strain")), {}));
-      kept += thinning_.length();
-    }
+    const auto add = [&](const std::string& row) { rows += rows.empty() ? row : "," + row; };
+    const bool worst_known = worst_is_sampled();
+    std::size_t turns = 0;
     for (const std::size_t segment : most_damaged_first(damage_)) {
-      if (!strain_ || static_cast<int>(segment) == worst || worst_site_[segment] == no_site) continue;
-      if (kept + thinning_.length() > most_strains) break;
-      const auto probe = probed.find(worst_site_[segment]);
-      if (probe == probed.end()) {
-        add(turning_points(segment, kept));
+      const bool worst_one = static_cast<int>(segment) == worst;
+      if (worst_site_[segment] == no_site || (!strain_ && !worst_one)) continue;
+      const auto probe = probed.find(segment);
+      const bool room = kept + thinning_.length() <= most_strains || worst_one;
+      if (worst_one && (worst_known || probe == probed.end())) {
+        add(strain_row(segment, worst_known, thinning_.of(life_.read<double>("/worst/strain"))));
+      } else if (room && probe != probed.end()) {
+        std::vector<double> history;
+        strain_->read_rows("/probe/strain", probe->second.row, 1, history);
+        add(strain_row(segment, true, thinning_.of(history), {}, &probe->second));
+      } else {
+        const auto [times, strain] = turning_points(segment);
+        if (!strain.empty() && (turns += strain.size()) <= most_turns) add(strain_row(segment, false, strain, times));
         continue;
       }
-      std::vector<double> history;
-      strain_->read_rows("/probe/strain", probe->second, 1, history);
-      add(strain_row(segment, true, thinning_.of(history), {}));
       kept += thinning_.length();
     }
-    return fmt::format("{{\"thinned\":{},\"time\":{},\"rows\":[{}]}}", thinning_.thins(),
-                       base64_of(thinning_.times(time_)), rows);
+    return fmt::format("{{\"thinned\":{},\"time\":{},\"rows\":[{}]{}}}", thinning_.thins(), base64_of(thinning_.times(time_)), rows,
+                       worst_turns(worst, worst_known));
+  }
+
+  /// Of the worst wire, where its history is not known whole.
+  std::string worst_turns(int worst, bool known) const {
+    if (worst < 0 || known || !strain_) return "";
+    const auto [times, strain] = turning_points(static_cast<std::size_t>(worst));
+    return strain.empty() ? "" : fmt::format(",\"turns\":{{\"time\":{},\"strain\":{}}}", base64_of(times), packed(strain));
   }
 
   /// Where cycles close: per segment the sum, then times and damages of the largest.

@@ -14,7 +14,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_bytes = 2'300'000;     // of the page, before base64 adds a third
+constexpr std::size_t most_bytes = 2'150'000;     // of the page, before base64 adds a third
 constexpr std::size_t most_samples = 20'000;      // looked at; of longer motions every second, third, ...
 constexpr double first_miss = 0.5e-3;             // allowed of a place [m]
 constexpr double shape_miss = 0.01 / first_miss;  // of largest curvature and twist, per metre of that

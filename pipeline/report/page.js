@@ -186,6 +186,7 @@ function choose(segment) {
   if (viewer) viewer.mark(viewer.chosen, segment === life?.worst_segment ? -1 : segment);
   document.body.dataset.segment = segment;
   showPlace();
+  showSection();
   fillTimeline();
 }
 function setColour(colour) {
@@ -317,14 +318,17 @@ document.addEventListener('keydown', onKey);
 window.addEventListener('hashchange', followLink);
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
   fillTimeline();
+  redrawSection();
   if (viewer) viewer.dirty = true;
 });
 // Paper is light, and what is drawn stays as it is drawn.
 function onPaper(yes) {
   document.documentElement.classList.toggle('paper', yes);
   fillTimeline();
+  redrawSection();
   if (viewer) viewer.draw();
 }
+window.addEventListener('resize', redrawSection);
 window.addEventListener('beforeprint', () => {
   play(false);
   onPaper(true);

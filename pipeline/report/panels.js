@@ -1,9 +1,10 @@
 // The timeline's panels: strain and damage of the chosen place, its shape, the joints, the program; of a preview, how far the
 // clamps are apart.
+const unpacked = (of, factor) => Float64Array.from(wholeNumbers(of.numbers), steps => factor * (of.low + of.step * steps));
 function strainOf(segment) {
   const row = life.strains.rows.find(one => one.segment === segment);
   if (!row) return null;
-  row.values = row.values || Float64Array.from(wholeNumbers(row.numbers), steps => 100 * (row.low + row.step * steps));
+  row.values = row.values || unpacked(row.numbers, 100);
   row.at = row.at || (row.time ? floats(row.time) : strainTime);
   return row;
 }
@@ -16,18 +17,34 @@ function around(values, ...more) {
   const room = (high - low) * .05 || 1e-6;
   return {low: low - room, high: high + room};
 }
+// The worst wire's own turning points, where another wire's history is shown.
+function drawTurns(context, panel, line, colour) {
+  const turns = life.strains.turns;
+  turns.values = turns.values || unpacked(turns.strain, 100);
+  turns.at = turns.at || floats(turns.time);
+  context.fillStyle = colour;
+  for (let k = 0; k < turns.at.length; ++k) {
+    context.beginPath();
+    context.arc(line.xAt(turns.at[k]), line.yAt(panel, turns.values[k]), 1.6, 0, 2 * Math.PI);
+    context.fill();
+  }
+}
 function strainPanel(colours) {
-  const row = strainOf(state.segment), title = 'strain [%]', of = `${wireWords(state.segment)}, ${placeWords(state.segment)}`;
+  const row = strainOf(state.segment), title = 'strain [%]';
   if (!row) return {title: 'strain: no history of this place is in the page', height: 12};
+  const turns = row.wire && state.segment === life.worst_segment && life.strains.turns;
   const how = !row.sampled ? ', straight between its turning points' :
       life.strains.thinned ? ', extremes of short stretches' :
                              '';
+  const other = row.wire ? ` (${readable(100 * row.damage / life.segments.damage[state.segment])} % of the worst wire\u2019s damage` +
+          `${turns ? '; dots: where the worst turns' : ''})` : '';
   return {
-    title: `${title} of ${of}${how}`,
-    brief: `${title}${how}`,
+    title: `${title} of ${row.wire || wireWords(state.segment)}${other}${how}`,
+    brief: `${title}${other}${how}`,
     height: 120,
     ...around(row.values),
     curves: [{time: row.at, values: row.values, colour: colours.blue}],
+    draw: (context, panel, line) => turns && drawTurns(context, panel, line, colours.hot),
     words: time => `strain ${valueAt(row.at, row.values, time).toFixed(4)} %`
   };
 }

@@ -225,9 +225,11 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
       "id=\"timeline\"></div>\n<div>\n";
   for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
     body += fmt::format(
-        "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"></figure>\n",
+        "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption><pre>{2}</pre></figcaption>"
+        "</figure>\n",
         escaped(setup.dresspacks[d].dresspack.name),
-        base64(cross_section_picture(setup.dresspacks[d].dresspack)));
+        base64(cross_section_picture(setup.dresspacks[d].dresspack, "", LayerLines::left_out)),
+        escaped(layers_text(setup.dresspacks[d].dresspack)));
   body += "</div></div>\n" + well + scan_table(spans);
   body += "<p class=\"soft\" id=\"shown\"></p>\n<details><summary>Settings</summary>\n<pre>" +
           escaped(file.text_attribute("job")) + "</pre></details>\n";

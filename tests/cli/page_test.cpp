@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "pipeline/files/files.h"
+#include "pipeline/job/units.h"
+#include "pipeline/report/plot.h"
 #include "pipeline/report/report.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
@@ -47,10 +49,16 @@ const char* what_a_reader_does = R"(
   const coloured = await evaluate('dresslife.state.colour');
   const shapes = await evaluate(`document.querySelectorAll('#cycles rect').length > 0 && document.querySelectorAll('#loops path').length === 1`);
   const cycles = await evaluate('dresslife.life.cycles.rows.reduce((sum, row) => sum + row[3], 0)');
+  // The cross-section of the chosen place: drawn, its worst wire that of the numbers beside it; of the worst place at last.
+  const across = await evaluate(`[...document.querySelectorAll('#section canvas')].every(c => { const data = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+    return new Set(data.filter((_, k) => k % 4 < 3)).size > 50; }) && document.querySelectorAll('#section canvas').length === 2`);
+  await evaluate('dresslife.choose(dresslife.life.worst_segment)');
+  const row = await evaluate(`(() => { const row = document.querySelector('#section tbody tr'); return row.cells[0].textContent.replace(/ /g, '_') + ' ' + row.cells[1].dataset.value; })()`);
+  const sampled = await evaluate('dresslife.life.strains.rows.every(row => row.sampled)');
   await evaluate('dresslife.setTime(0)');
   const life = await evaluate('dresslife.life.life_hours');
   const rows = await evaluate('dresslife.life.strains.rows.length');
-  return [colours > 50, segment, Math.abs(clicked - .25) < .01, playing, moved, stopped, rows > 0, damage, life, frame, coloured, shapes, cycles].join(' ');
+  return [colours > 50, segment, Math.abs(clicked - .25) < .01, playing, moved, stopped, rows > 0, damage, life, frame, coloured, shapes, cycles, across, row, sampled].join(' ');
 )";
 
 }  // namespace
@@ -127,7 +135,9 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   std::string colours, segment, jumped, playing, moved, stopped, histories;
   std::string frame, coloured, shapes;
   double damage = 0, hours = 0, of_cycles = 0;
-  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours >> frame >> coloured >> shapes >> of_cycles;
+  std::string across, worst, sampled;
+  double of_worst = 0;
+  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours >> frame >> coloured >> shapes >> of_cycles >> across >> worst >> of_worst >> sampled;
   WARN("a frame took " << frame << " ms");
   CHECK(colours == "true");
   CHECK(segment == "3");
@@ -143,6 +153,56 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   CHECK(coloured == "rate");
   CHECK(shapes == "true");
   CHECK(of_cycles == Approx(life.number_attribute("damage_per_repeat")));
+  CHECK(across == "true");
+  std::string component = life.text_attribute("worst_component");
+  std::replace(component.begin(), component.end(), ' ', '_');
+  CHECK(worst == component);
+  CHECK(of_worst == life.number_attribute("damage_per_repeat"));
+  CHECK(sampled == "true");  // no history is made up of its turning points
+}
+
+TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws") {
+  using dresslife::pipeline::FileReader;
+  using dresslife::pipeline::printed;
+  using dresslife::pipeline::printed_hours;
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("lengths.yaml", "base: job.yaml\nvary: {routing.free_length_m: [0.88, 0.92]}\n");
+  REQUIRE(run(scratch, "dresslife", "run lengths.yaml --quiet").status == 0);
+  const std::string report = content(scratch / "runs/lengths/report.html"), table = content(scratch / "runs/lengths/ranking.csv");
+  const auto holds = [](const std::string& page, const std::string& words) {
+    INFO(words);
+    CHECK(page.find(words) != std::string::npos);
+  };
+  for (const std::string job : {"free_length_m=0.88", "free_length_m=0.92"}) {
+    const FileReader life(scratch / "runs/lengths" / job / "life.h5", dresslife::pipeline::life_format());
+    const std::string page = content(scratch / "runs/lengths" / job / "page.html");
+    const double hours = life.number_attribute("life_hours_p10");
+    holds(page, fmt::format("<p><b>{}</b>", printed_hours(hours)));
+    holds(page, fmt::format("{} until half have", printed_hours(life.number_attribute("life_hours_p50"))));
+    holds(page, fmt::format("worst wire's own median is {} h", printed(life.number_attribute("life_hours"))));
+    holds(report, fmt::format("data-value=\"{}\"><b>{}</b>", dresslife::pipeline::shortest_text(hours), printed(hours)));
+    // Shares of what clamps and layers have of the damage.
+    const auto clamps = life.read<double>("/clamp/damage"), layers = life.read<double>("/layer/damage");
+    const auto names = life.read<std::string>("/clamp/name");
+    for (std::size_t k = 0; k < clamps.size(); ++k)
+      for (const std::string& text : {page, report})
+        holds(text, fmt::format("{} {:.0f} %", names[k], 100 * clamps[k] / (clamps[0] + clamps[1])));
+    for (const double damage : layers)
+      if (damage > 0) holds(page, fmt::format("<td class=\"number\">{}</td>", printed(damage)));
+  }
+  // The best job's share of draws, as the table has it.
+  const std::size_t header = table.find("outlives_next"), line = table.find('\n') + 1;
+  REQUIRE(header != std::string::npos);
+  const auto column = std::count(table.begin(), table.begin() + static_cast<std::ptrdiff_t>(header), ',');
+  std::istringstream cells(table.substr(line, table.find('\n', line) - line));
+  std::string cell;
+  bool quoted = false;
+  for (std::ptrdiff_t k = 0; k <= column; ++k) {
+    cell.clear();
+    for (char c = 0; cells.get(c) && (c != ',' || quoted); cell += c) quoted ^= c == '"';
+  }
+  holds(report, fmt::format("outlives the next in {:.0f} % of draws", 100 * std::stod(cell)));
 }
 
 TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by side with what differs") {

@@ -1,0 +1,187 @@
+#include "pipeline/report/damage_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "pipeline/report/chart_style.h"
+#include "pipeline/report/plot.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr std::size_t listed_lines = 10, listed_layers = 12;
+
+/// A share with a bar beside it, whose full length is the largest share of the table.
+std::string meter(double share, double largest) {
+  return fmt::format("<span class=\"metered\"><span class=\"meter\"><span style=\"width:{:.1f}%\"></span></span>{:.1f} %</span>",
+                     100 * share / largest, 100 * share);
+}
+
+std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] > values[b]; });
+  std::erase_if(order, [&](std::size_t i) { return !(values[i] > 0); });
+  if (order.size() > most) order.resize(most);
+  return order;
+}
+
+/// The joints that cost most of a line's damage, "joint 5 60 %, joint 6 31 %".
+std::string main_causes(const LifeSummary& life, std::size_t line) {
+  constexpr std::size_t most_named = 2;
+  constexpr double least_named = 0.1;
+  const std::size_t causes = life.cause.size();
+  if (causes == 0 || !(life.step_damage[line] > 0)) return "";
+  const auto first = life.line_cause_damage.begin() + static_cast<std::ptrdiff_t>(line * causes);
+  const std::vector<double> of_line(first, first + static_cast<std::ptrdiff_t>(causes));
+  std::string text;
+  for (const std::size_t cause : largest_first(of_line, most_named)) {
+    const double share = of_line[cause] / life.step_damage[line];
+    if (share < least_named && !text.empty()) break;
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", escaped(life.cause[cause]), 100 * share);
+  }
+  return text;
+}
+
+/// What moved between opening and closing of the worst wire's cycles.
+std::string cause_table(const LifeSummary& life) {
+  const double total = std::accumulate(life.cause_damage.begin(), life.cause_damage.end(), 0.0);
+  if (!(total > 0)) return "";
+  const double largest = *std::max_element(life.cause_damage.begin(), life.cause_damage.end());
+  std::string rows;
+  for (std::size_t cause = 0; cause < life.cause.size(); ++cause) {
+    const double damage = life.cause_damage[cause];
+    const bool last = cause + 1 == life.cause.size();
+    if (damage == 0 && !last) continue;
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td></tr>\n",
+        last ? "carrying: gravity, swinging, and what the joints do not explain" : escaped(life.cause[cause]),
+        damage < 0 ? fmt::format("{:.1f} %{}", 100 * damage / total,
+                                 last ? "" : ": moves against the others, relieves")
+                   : meter(damage / total, largest / total));
+  }
+  return fmt::format(
+      "<h3>What moved when the damage was done</h3>\n<p class=\"soft\">Damage of the worst wire by the "
+      "joints "
+      "that move the two clamps against each other, by how much each changed the wire's strain while a cycle "
+      "ran. {} % of the strain's variance follows from these joints{}.</p>\n<div "
+      "class=\"wide\"><table>\n<thead><tr><th>moved</th><th>share of the "
+      "damage</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+      printed(100 * life.explained), life.explained < 0.8 ? ": the shares are rough" : "", rows);
+}
+
+/// (line) half of the damage of the cycles that a line opens and half of those that it completes.
+std::vector<double> damage_of_lines(const LifeSummary& life) {
+  std::vector<double> damage = life.step_damage;
+  for (std::size_t line = 0; line < life.step_opened.size(); ++line)
+    damage[line] = (damage[line] + life.step_opened[line]) / 2;
+  return damage;
+}
+
+/// When a line runs, and its run in which most damage is completed.
+struct LineRuns {
+  std::size_t times = 0;
+  const ProgramRun* costliest = nullptr;
+};
+
+LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs) {
+  LineRuns of;
+  for (const ProgramRun& run : runs) {
+    if (run.step != static_cast<std::int32_t>(line)) continue;
+    ++of.times;
+    if (!of.costliest || run.damage > of.costliest->damage) of.costliest = &run;
+  }
+  return of;
+}
+
+std::string program_table(const LifeSummary& life) {
+  constexpr double least_listed = 5e-4;  // of the damage: 0.1 % when rounded
+  const std::vector<double> damage = damage_of_lines(life);
+  const double total = std::accumulate(damage.begin(), damage.end(), 0.0);
+  const std::vector<ProgramRun> runs = program_runs(life);
+  const auto share = [&](const std::vector<double>& of, std::size_t line) {
+    return of.empty() ? "" : fmt::format("{:.1f} %", 100 * of[line] / total);
+  };
+  std::string rows;
+  double largest = 0;
+  for (const std::size_t line : largest_first(damage, listed_lines)) {
+    largest = std::max(largest, damage[line]);
+    if (damage[line] < least_listed * total) break;
+    const LineRuns of = runs_of(line, runs);
+    rows += fmt::format(
+        "<tr><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td "
+        "class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
+        line + 1, escaped(life.step_text[line]), of.times,
+        of.costliest ? fmt::format("{:.1f} .. {:.1f}&nbsp;s", of.costliest->begin, of.costliest->end) : "",
+        meter(damage[line] / total, largest / total), share(life.step_opened, line),
+        share(life.step_damage, line), main_causes(life, line), printed(damage[line]));
+  }
+  if (rows.empty()) return "";
+  return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">It takes two lines to make a cycle of "
+         "strain: "
+         "one in which it opens and one in which its range is reached. Each is blamed for half of its "
+         "damage.</p>\n<div "
+         "class=\"wide\"><table>\n<thead><tr><th "
+         "class=\"number\">line</th><th>program</th>"
+         "<th class=\"number\">runs</th><th>costliest at</th><th>share of the damage</th><th "
+         "class=\"number\">opened here</th><th class=\"number\">reached here</th><th>reached mostly "
+         "by</th><th "
+         "class=\"number\">damage per repeat</th></tr>"
+         "</thead>\n<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string layer_table(const LifeSummary& life, const RankingRow& row) {
+  std::string rows;
+  for (const std::size_t i : largest_first(life.layer_damage, listed_layers)) {
+    const double repeats = 1 / life.layer_damage[i];
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+        "class=\"number\">{}</td></tr>\n",
+        escaped(life.layer[i]), printed(row.hours_of(repeats)), printed(repeats),
+        printed(life.layer_damage[i]));
+  }
+  if (rows.empty()) return "";
+  return "<h3>Life by layer of wires</h3>\n<div class=\"wide\"><table>\n<thead><tr><th>layer</th><th "
+         "class=\"number\">life [h]</th>"
+         "<th class=\"number\">repeats</th><th class=\"number\">damage per "
+         "repeat</th></tr></thead>\n<tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string place_remark(const LifeSummary& life) {
+  std::string text = "Of the worst wire in each segment; 1 means broken after one repeat.";
+  const double share = nearly_worst_share(life);
+  if (share > 0.5)
+    text += fmt::format(
+        " On {:.0f} % of the length it is within a fifth of the worst, as when cables slip freely from clamp "
+        "to clamp: "
+        "do not expect the break in one place.",
+        100 * share);
+  const double total = std::accumulate(life.clamp_damage.begin(), life.clamp_damage.end(), 0.0);
+  std::string shares;
+  for (std::size_t k = 0; total > 0 && k < life.clamps.size(); ++k)
+    shares += fmt::format("{}{} {:.0f} %", shares.empty() ? " By the nearest clamp: " : "; ",
+                          escaped(life.clamps[k]), 100 * life.clamp_damage[k] / total);
+  return shares.empty() ? text : text + shares + ".";
+}
+
+}  // namespace
+
+std::string chart_section(const std::string& heading, const std::string& remark, const std::string& chart) {
+  if (chart.empty()) return "";
+  return fmt::format("<h3>{}</h3>\n<p class=\"soft\">{}</p>\n{}", heading, remark, chart_in_page(chart));
+}
+
+std::string damage_along(const LifeSummary& life, const RankingRow& row) {
+  const std::string along = row.worst_dresspack.empty() ? "the dresspack" : "the " + escaped(row.worst_dresspack);
+  return chart_section("Damage along " + along, place_remark(life), segment_chart(life, row.worst_segment_from_tool));
+}
+
+std::string damage_tables(const LifeSummary& life, const RankingRow& row) {
+  return program_table(life) + cause_table(life) + layer_table(life, row);
+}
+
+}  // namespace dresslife::pipeline

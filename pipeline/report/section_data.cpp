@@ -1,0 +1,128 @@
+#include "pipeline/report/section_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job_text.h"
+#include "pipeline/report/cross_section.h"
+#include "pipeline/report/json.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr int steps = 15;                         // four bits, and none
+constexpr double least_share = 1e-4;              // of the largest damage
+constexpr std::size_t most_bytes = 260'000;       // a third more as base64
+constexpr std::size_t listed_wires = 5;           // of each segment
+constexpr std::size_t no_wire = static_cast<std::size_t>(-1);
+
+std::string parts_json(const std::vector<Component>& components) {
+  std::string list;
+  for (const Component& part : components)
+    list += fmt::format("{}{{\"name\":{},\"layer\":{},\"count\":{},\"radius\":{},\"at\":{},\"phase\":{},\"plain\":{},\"parts\":{}}}",
+                        list.empty() ? "" : ",", json(part.name), json(part.layer), part.count, json(part.radius),
+                        json(part.helix_radius), json(part.phase), part.plain ? "true" : "false",
+                        parts_json(part.components));
+  return '[' + list + ']';
+}
+
+std::string dresspack_json(const Setup& setup, std::size_t d) {
+  const Dresspack& dresspack = setup.dresspacks[d].dresspack;
+  const double outer = dresspack.diameter / 2;
+  return fmt::format("{{\"name\":{},\"radius\":{},\"inner\":{},\"core\":{},\"parts\":{}}}", json(name_among(setup, d)), json(outer),
+                     json(inner_radius(dresspack).value_or(outer)), json(dresspack.core_diameter / 2),
+                     parts_json(dresspack.components));
+}
+
+/// Sites of a segment lie together, those of one dresspack's segments alike.
+struct Wires {
+  std::vector<std::size_t> of_site;  ///< (site of a segment) wire; no_wire: of the hose's wall
+  std::size_t count = 0;
+};
+
+/// By the sites of one of its segments; without wires where they are not those of the dresspack.
+Wires wires_of(const FileReader& life, const Setup& setup, std::size_t d, std::size_t first_site, std::size_t sites) {
+  const std::string name = name_among(setup, d), before = name.empty() ? "" : name + "/";
+  std::unordered_map<std::string, std::size_t> number;
+  for (const std::string& path : wire_paths(setup.dresspacks[d].dresspack)) number.emplace(before + path, number.size());
+  std::vector<std::string> paths;
+  life.read_rows("/site/component", first_site, sites, paths);
+  Wires wires{std::vector<std::size_t>(sites, no_wire), number.size()};
+  std::size_t known = 0;
+  for (std::size_t k = 0; k < sites; ++k)
+    if (const auto found = number.find(paths[k]); found != number.end()) {
+      wires.of_site[k] = found->second;
+      ++known;
+    }
+  return known < number.size() ? Wires{} : wires;  // each has a fibre at least
+}
+
+/// (wire) of its most damaged fibre.
+std::vector<double> damage_of_wires(const Wires& wires, const double* damage) {
+  std::vector<double> most(wires.count, 0.0);
+  for (std::size_t k = 0; k < wires.of_site.size(); ++k)
+    if (wires.of_site[k] != no_wire) most[wires.of_site[k]] = std::max(most[wires.of_site[k]], damage[k]);
+  return most;
+}
+
+std::string levels_of(const std::vector<double>& damage, double most) {
+  std::string bytes((damage.size() + 1) / 2, '\0');
+  for (std::size_t k = 0; k < damage.size(); ++k) {
+    const double share = damage[k] / most;
+    if (!(share >= least_share)) continue;
+    const int level = 1 + static_cast<int>(std::lround((steps - 1) * (1 - std::log(share) / std::log(least_share))));
+    bytes[k / 2] = static_cast<char>(bytes[k / 2] | std::min(level, steps) << (k % 2 * 4));
+  }
+  return bytes;
+}
+
+std::string worst_json(const std::vector<double>& damage) {
+  std::vector<std::size_t> order(damage.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(listed_wires, order.size()));
+  std::partial_sort(order.begin(), end, order.end(), [&](auto a, auto b) { return damage[a] > damage[b]; });
+  std::string list;
+  for (auto wire = order.begin(); wire != end && damage[*wire] > 0; ++wire)
+    list += fmt::format("{}[{},{}]", list.empty() ? "" : ",", *wire, json(damage[*wire]));
+  return '[' + list + ']';
+}
+
+}  // namespace
+
+std::string section_data(const FileReader& life, const Setup& setup) {
+  const auto segment = life.read<std::int32_t>("/site/segment");
+  const auto damage = life.read<double>("/damage"), of_segment = life.read<double>("/segment/damage");
+  const double most = life.number_attribute("damage_per_repeat");
+  const std::vector<std::size_t> dresspack = dresspack_of_segments(life);
+  if (!(most > 0) || dresspack.size() != of_segment.size() || !std::is_sorted(segment.begin(), segment.end())) return "";
+  std::vector<std::size_t> order(of_segment.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return of_segment[a] > of_segment[b]; });
+  std::vector<Wires> wires(setup.dresspacks.size());
+  std::string rows;
+  std::size_t bytes = 0;
+  for (const std::size_t at : order) {
+    const std::size_t d = dresspack[at];
+    if (!(of_segment[at] > 0) || d >= wires.size()) break;
+    const auto [first, end] = std::equal_range(segment.begin(), segment.end(), static_cast<std::int32_t>(at));
+    const auto first_site = static_cast<std::size_t>(first - segment.begin()), sites = static_cast<std::size_t>(end - first);
+    if (wires[d].count == 0) wires[d] = wires_of(life, setup, d, first_site, sites);
+    if (wires[d].count == 0 || wires[d].of_site.size() != sites) return "";
+    if ((bytes += wires[d].count / 2) > most_bytes) break;
+    const std::vector<double> here = damage_of_wires(wires[d], &damage[first_site]);
+    rows += fmt::format("{}{{\"segment\":{},\"dresspack\":{},\"worst\":{},\"levels\":\"{}\"}}", rows.empty() ? "" : ",", at, d,
+                        worst_json(here), base64(levels_of(here, most)));
+  }
+  std::string dresspacks;
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
+    dresspacks += (d > 0 ? "," : "") + dresspack_json(setup, d);
+  return fmt::format("{{\"steps\":{},\"low\":{},\"high\":{},\"dresspacks\":[{}],\"rows\":[{}]}}", steps, json(least_share * most),
+                     json(most), dresspacks, rows);
+}
+
+}  // namespace dresslife::pipeline
