@@ -16,6 +16,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double wire_density = 8900;           // [kg/m3], of copper
 constexpr double torsion_of_core = 0.8;         // ESTIMATE, as of a solid round bar
+constexpr double gravity = 9.81;                // [m/s2]
+constexpr double believable_stretch = 1e-3;     // by its own weight; hoses of polyamide: 1e-4 and less
 constexpr double believable = 2;                // a life moves by up to a factor of five with twice the E I (README)
 
 /// Of a round of polymer.
@@ -205,19 +207,40 @@ void take_from_construction(Dresspack& dresspack) {
   take(dresspack.axial_from_construction, "axial_stiffness_N", taken.axial, dresspack.axial_stiffness);
 }
 
+namespace {
+
+/// Of stiffnesses from a construction of which something is not known; empty: none is taken from it.
+std::string too_little_words(const Dresspack& dresspack, const std::vector<std::string>& missing) {
+  std::vector<std::string> taken;
+  const auto take = [&](bool from_construction, const char* key, double value) {
+    if (from_construction) taken.push_back(fmt::format("{} {:.3g}", key, value));
+  };
+  take(dresspack.bending_from_construction, "bending_stiffness_Nm2", dresspack.bending_stiffness);
+  take(dresspack.torsional_from_construction, "torsional_stiffness_Nm2", dresspack.torsional_stiffness);
+  take(dresspack.axial_from_construction, "axial_stiffness_N", dresspack.axial_stiffness);
+  if (taken.empty() || missing.empty()) return "";
+  const double stretch = gravity * dresspack.mass_per_length / dresspack.axial_stiffness;
+  const std::string soft = dresspack.axial_from_construction && stretch > believable_stretch
+                               ? fmt::format("; it would stretch by {:.2g} % under a metre of its own weight", 100 * stretch)
+                               : "";
+  const bool wall = is_hose(dresspack) && dresspack.hose_material.empty();
+  return fmt::format("too little is from_construction: {}, without {}{} ({}give {} as measured)", fmt::join(taken, ", "),
+                     fmt::join(missing, " and "), soft,
+                     wall ? "name the wall's, as hose_material: hose_polyamide, or " : "give that, or ",
+                     taken.size() == 1 ? "it" : "them");
+}
+
+}  // namespace
+
 std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   const double given = dresspack.bending_stiffness, curvature = dresspack.construction_curvature;
   if (dresspack.components.empty() || given <= 0) return {};
   const auto missing = missing_in_construction(dresspack);
+  std::vector<Warning> warnings;
+  const auto warn = [&](std::string words) { warnings.push_back({WarningKind::material, "", std::move(words)}); };
+  if (const std::string words = too_little_words(dresspack, missing); !words.empty()) warn(words);
+  if (dresspack.bending_from_construction) return warnings;
   const std::string without = missing.empty() ? "" : fmt::format(" without {}", fmt::join(missing, " and "));
-  const auto warning = [](std::string words) {
-    return std::vector<Warning>{{WarningKind::material, "", std::move(words)}};
-  };
-  if (dresspack.bending_from_construction)
-    return missing.empty() ? std::vector<Warning>{}
-                           : warning(fmt::format("bending_stiffness_Nm2 is from_construction: {:.3g}{} (give that, or a "
-                                                 "measured stiffness)",
-                                                 given, without));
   const Wires wires(dresspack);
   const auto bending = [&](SlipState state) { return stiffness_with(wires, dresspack, state, curvature).bending; };
   const double sliding = bending(SlipState::sliding), friction = bending(SlipState::friction),
@@ -225,11 +248,12 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   // How solid a jacket is that holds parts, and how it holds them, is not known of a cable.
   const double least = is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
   const double most = !missing.empty() ? HUGE_VAL : is_hose(dresspack) ? std::min(friction * believable, stuck) : stuck;
-  if (given >= least && given <= most) return {};
-  return warning(fmt::format(
+  if (given >= least && given <= most) return warnings;
+  warn(fmt::format(
       "bending_stiffness_Nm2 is {:.3g}, {:.2g} times what the dresspack's parts{} have by their friction and pressures at {:.3g} "
       "1/m: {:.3g}, {:.3g} sliding, {:.3g} glued (measure it by the sag of a hanging length, or write from_construction)",
       given, given / friction, without, curvature, friction, sliding, stuck));
+  return warnings;
 }
 
 std::string stiffness_text(const Dresspack& dresspack) {

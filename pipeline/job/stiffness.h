@@ -53,7 +53,8 @@ void take_from_construction(Dresspack& dresspack);
 
 /// Of a hose: a given E I that is not within a factor of two of what its parts have with the friction and pressures that
 /// are given, or below what they have without any; above is judged where nothing of it is missing. Of a cable in its
-/// jacket, whose stiffness by itself nobody knows: one below that of its sliding wires or above glued ones.
+/// jacket, whose stiffness by itself nobody knows: one below that of its sliding wires or above glued ones. And stiffnesses
+/// that are taken from a construction of which something is not known: a hose without its wall has next to no E A.
 std::vector<Warning> stiffness_warnings(const Dresspack& dresspack);
 
 /// For people: "E I 8.23 N m2 from construction (friction at 1 1/m); ...", one line for each of the three, before them one

@@ -98,16 +98,15 @@ constexpr std::string_view style =
     "text{font:13px sans-serif;fill:#222}.wall{fill:none;stroke:#777}.room{fill:#f4f4f2}.core{fill:#ddd}"
     ".part{fill:#cfe0ee;stroke:#5a7d99}.plain{fill:#b9b4aa;stroke:#77726a}.air{fill:#fff}.water{fill:#9fc6e8}"
     ".wire{fill:#c0733d}.over{fill:#e23b3b}.scale{stroke:#222;stroke-width:"
-    "2}.halo{fill:none;stroke:#fff;stroke-width:6}.worst{fill:none;stroke:#d00;stroke-width:3}"
+    "2}"
     "@media(prefers-color-scheme:dark){text{fill:#ddd}.room{fill:#1c1c1e}.core{fill:#444}"
     ".part{fill:#2c4356;stroke:#7fa6c4}.plain{fill:#57534c;stroke:#a39d92}.air{fill:#1c1c1e}.water{fill:#2f5f86}.scale{stroke:#ddd}}";
 
 class Drawing {
  public:
-  Drawing(const Dresspack& dresspack, const std::string& marked, LayerLines layers)
+  Drawing(const Dresspack& dresspack, LayerLines layers)
       : dresspack_(dresspack),
         layers_(layers),
-        marked_(place_of_part(dresspack, marked)),
         scale_((picture - 2 * margin) / dresspack.diameter) {}
 
   std::string svg() {
@@ -115,7 +114,7 @@ class Drawing {
       for (const Component& component : dresspack_.components) list(component, 0);
     const double height = picture + line_height * (static_cast<double>(lines_.size()) + 1);
     std::string body = fmt::format("<g transform=\"translate({0:.4g} {0:.4g})\">\n{1}{2}</g>\n", picture / 2,
-                                   hose(), inside(dresspack_.components) + mark());
+                                   hose(), inside(dresspack_.components));
     body += scale_bar();
     double y = picture + line_height;
     for (const std::string& line : lines_) {
@@ -144,18 +143,6 @@ class Drawing {
                         scale_ * outer - wall / 2, wall);
     if (dresspack_.core_diameter > 0) text += circle("core", dresspack_.core_diameter / 2);
     return text;
-  }
-
-  /// Wide enough to be seen around a single wire.
-  std::string mark() const {
-    constexpr double least_radius = 9;  // [px]
-    if (!marked_) return "";
-    std::string rings;
-    for (const char* what : {"halo", "worst"})
-      rings += fmt::format("<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.5g}\"/>\n", what,
-                           scale_ * marked_->x, -scale_ * marked_->y,
-                           std::max(scale_ * marked_->radius + 3, least_radius));
-    return rings;
   }
 
   /// Layers of equal parts: each part is drawn once and shown K times.
@@ -212,7 +199,6 @@ class Drawing {
 
   const Dresspack& dresspack_;
   LayerLines layers_;
-  std::optional<PartPlace> marked_;
   double scale_;  // [px/m]
   std::string definitions_;
   std::vector<std::string> lines_;
@@ -222,22 +208,6 @@ class Drawing {
 /// "layer 2/wire 17": the layer's name where it has one, then part 17 of so many.
 std::string own_name(const Component& component, int number) {
   return fmt::format("{}{}{} {}", component.layer, component.layer.empty() ? "" : "/", component.name, number);
-}
-
-std::optional<PartPlace> place_in(const std::vector<Component>& components, std::string_view path) {
-  for (const Component& component : components)
-    for (int k = 0; k < component.count; ++k) {
-      const std::string name = own_name(component, k + 1);
-      if (!path.starts_with(name)) continue;
-      const double angle = component.phase + 2 * pi * k / component.count;
-      const PartPlace here{component.helix_radius * std::cos(angle), component.helix_radius * std::sin(angle),
-                           component.radius};
-      if (path.size() == name.size()) return here;
-      if (path[name.size()] != '/') continue;
-      const auto inner = place_in(component.components, path.substr(name.size() + 1));
-      if (inner) return PartPlace{here.x + inner->x, here.y + inner->y, inner->radius};
-    }
-  return std::nullopt;
 }
 
 void list_wires(const std::vector<Component>& components, const std::string& before, std::vector<std::string>& paths) {
@@ -268,24 +238,14 @@ Component whole(const Dresspack& dresspack) {
 
 }  // namespace
 
-std::string cross_section_picture(const Dresspack& dresspack, const std::string& marked, LayerLines layers) {
-  return Drawing(dresspack, marked, layers).svg();
+std::string cross_section_picture(const Dresspack& dresspack, LayerLines layers) {
+  return Drawing(dresspack, layers).svg();
 }
 
 std::vector<std::string> wire_paths(const Dresspack& dresspack) {
   std::vector<std::string> paths;
   list_wires(dresspack.components, "", paths);
   return paths;
-}
-
-std::string layers_text(const Dresspack& dresspack) {
-  std::string text;
-  for (const Component& component : dresspack.components) list_layer(component, 0, text);
-  return text;
-}
-
-std::optional<PartPlace> place_of_part(const Dresspack& dresspack, std::string_view path) {
-  return place_in(dresspack.components, path);
 }
 
 std::vector<double> bending_stiffnesses(const Dresspack& dresspack) {

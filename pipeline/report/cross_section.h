@@ -2,9 +2,7 @@
 // they add up to.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "pipeline/job/dresspack.h"
@@ -13,18 +11,9 @@ namespace dresslife::pipeline {
 
 /// A whole SVG file: hose, cables, cores, every wire; parts that overlap their neighbours in the colour of a
 /// warning; a scale, and a line for each layer. Follows the reader's light or dark scheme.
-/// marked: path of a part as strain.h5 and life.h5 name it ("signal cable 3/conductor 2/layer 1/wire 17"), which gets a
-/// ring around it; what names no part marks nothing.
 /// layers: whether the lines are there; a page has them as text, which is never too small to be read.
 enum class LayerLines { drawn, left_out };
-std::string cross_section_picture(const Dresspack& dresspack, const std::string& marked = "",
-                                  LayerLines layers = LayerLines::drawn);
-
-/// Middle of such a part at the base clamp, from the dresspack's axis [m], and its radius [m].
-struct PartPlace {
-  double x = 0, y = 0, radius = 0;
-};
-std::optional<PartPlace> place_of_part(const Dresspack& dresspack, std::string_view path);
+std::string cross_section_picture(const Dresspack& dresspack, LayerLines layers = LayerLines::drawn);
 
 /// Paths of all wires, layer after layer and part after part, as the layers are listed.
 std::vector<std::string> wire_paths(const Dresspack& dresspack);
@@ -37,10 +26,8 @@ std::vector<std::string> wire_paths(const Dresspack& dresspack);
 /// nothing.
 std::vector<double> bending_stiffnesses(const Dresspack& dresspack);
 
-/// The layers with widths, lays and hands; lines end with a line feed.
-std::string layers_text(const Dresspack& dresspack);
-
-/// The same below what the dresspack has in all, then wires, metal and stiffnesses.
+/// What the dresspack has in all, its layers with widths, lays and hands, then wires, metal and stiffnesses; lines end with a
+/// line feed.
 std::string construction_text(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

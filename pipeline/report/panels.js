@@ -138,7 +138,7 @@ function wayPanel(colours) {
   return {
     title: 'clamps apart [m], dashed: the length',
     height: 130,
-    ...around(all, 0),
+    ...around(all),
     curves: spans.map((span, k) => ({time, values: span.ways, colour: jointColours[k % jointColours.length], name: span.name})),
     draw: (context, panel, line) => {
       context.setLineDash([6, 4]);

@@ -112,8 +112,9 @@ std::string words(const SpanPreview& span) {
       "apart){}",
       span.subject, span.length, span.least_way, span.most_way,
       span.works()                    ? "neither too short nor too long"
-      : span.length < span.program[0] ? "too short"
-                                      : "too long",
+      : span.length < span.most_way   ? "too short"
+      : span.length < span.program[0] ? "hardly any slack"
+                                      : "long",
       span.here[0], span.here[1], span.program[0], span.program[1], bend_words(span));
 }
 
@@ -125,12 +126,13 @@ std::string scan_table(const std::vector<SpanPreview>& spans) {
           "<tr><td>{}</td><td class=\"number\">{:.2f} m</td><td class=\"number{}\">{}</td><td "
           "class=\"number\">{:.0f} mm</td></tr>\n",
           escaped(span.subject), tried.length, tried.bend_radius < span.least_bend_radius ? " failed" : "",
-          tried.bend_radius > 0 ? fmt::format("{:.0f} mm", 1e3 * tried.bend_radius) : "not found",
+          tried.bend_radius > 0 ? fmt::format("{:.0f} mm", 1e3 * tried.bend_radius) : "no rest found",
           1e3 * span.least_bend_radius);
   if (rows.empty()) return "";
   return "<h2>Other lengths at rest</h2>\n<p class=\"soft\">Least bend radius in eight poses of the program, "
          "with the dresspack's "
-         "weight, free of twist, without contact and speed.</p>\n<div "
+         "weight, free of twist, without contact and speed. Where no rest was found in one of them this quick look tells nothing: "
+         "a run may find one.</p>\n<div "
          "class=\"wide\"><table>\n<thead><tr><th>what</th><th "
          "class=\"number\">length</th><th class=\"number\">least bend radius</th><th "
          "class=\"number\">allowed</th></tr></thead>\n"
@@ -223,14 +225,16 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
       "between its clamps, as the "
       "search for its rest begins with: it does not sag, swing or touch yet.</p>\n<div class=\"beside\"><div "
       "id=\"timeline\"></div>\n<div>\n";
-  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
+  std::string layers;
+  for (const MountedDresspack& mounted : setup.dresspacks) {
+    const Dresspack& dresspack = mounted.dresspack;
     body += fmt::format(
-        "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption><pre>{2}</pre></figcaption>"
+        "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption class=\"soft\">{0}</figcaption>"
         "</figure>\n",
-        escaped(setup.dresspacks[d].dresspack.name),
-        base64(cross_section_picture(setup.dresspacks[d].dresspack, "", LayerLines::left_out)),
-        escaped(layers_text(setup.dresspacks[d].dresspack)));
-  body += "</div></div>\n" + well + scan_table(spans);
+        escaped(dresspack.name), base64(cross_section_picture(dresspack, LayerLines::left_out)));
+    layers += fmt::format("<h2>{}</h2>\n<pre>{}</pre>\n", escaped(dresspack.name), escaped(construction_text(dresspack)));
+  }
+  body += "</div></div>\n" + well + scan_table(spans) + layers;
   body += "<p class=\"soft\" id=\"shown\"></p>\n<details><summary>Settings</summary>\n<pre>" +
           escaped(file.text_attribute("job")) + "</pre></details>\n";
   return whole_page(name + ": before the run", made_from, body, data);

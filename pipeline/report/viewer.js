@@ -157,9 +157,9 @@ class Viewer {
     this.worst = this.addMark(0xd32f00, 'worst');
     this.chosen = this.addMark(0x111111, '');
     this.findBox();
+    this.resize();
     this.look('overview');
     new ResizeObserver(() => this.resize()).observe(place);
-    this.resize();
   }
   addLights() {
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8a92, .75));
@@ -175,6 +175,8 @@ class Viewer {
       addShapes(group, link.shapes, greys[k % 2]);
       const axes = new THREE.AxesHelper(.25);
       axes.visible = false;
+      axes.material.depthTest = false;  // they begin inside of their links
+      axes.renderOrder = 1;
       group.add(axes);
       this.scene.add(group);
       this.addLabel(link.name, group, 'link');
@@ -273,18 +275,26 @@ class Viewer {
       if (mark.visible) this.mark(mark, mark.segment);
     this.dirty = true;
   }
+  // Places of the dresspacks over the motion, and corners around the links as they stand at first; the box around them.
   findBox() {
     this.box = new THREE.Box3();
+    this.found = [];
+    const find = point => this.box.expandByPoint(this.found[this.found.push(point) - 1]);
     const times = this.motion.time, step = Math.max(1, Math.floor(times.length / 50)), points = this.motion.group('points');
     for (let k = 0; k < times.length; k += step) {
       const row = this.motion.goTo(times[k]);
       for (let i = points.begin; i < points.begin + points.size; i += 3)
-        this.box.expandByPoint(new THREE.Vector3(row[i], row[i + 1], row[i + 2]));
+        find(new THREE.Vector3(row[i], row[i + 1], row[i + 2]));
       this.pose(row, () => noAmount);
       this.scene.updateMatrixWorld(true);
       if (k === 0)
         for (const link of this.links)
-          if (link.children.length > 1) this.box.expandByObject(link);
+          for (const part of link.children) {
+            if (!part.isMesh) continue;
+            const around = new THREE.Box3().setFromObject(part);
+            for (let corner = 0; corner < 8; ++corner)
+              find(new THREE.Vector3(...['x', 'y', 'z'].map((axis, k) => (corner >> k & 1 ? around.max : around.min)[axis])));
+          }
     }
   }
   // The camera to a side of everything, or near the worst or the chosen place.
@@ -293,13 +303,26 @@ class Viewer {
     const mark = [this.chosen, this.worst].find(one => one.visible);
     const near = where === 'place' ? mark || {position: this.tubes[0].centres[this.tubes[0].rings >> 1]} : null;
     const direction = near ? this.camera.position.clone().sub(this.controls.target) : new THREE.Vector3(...directions[where]);
-    const ball = this.box.getBoundingSphere(new THREE.Sphere());
-    const narrow = Math.min(1, this.camera.aspect);
-    const distance = near ? (mark ? .9 : 3) / narrow : ball.radius / Math.sin(Math.PI / 180 * this.camera.fov / 2) / narrow * .8;
-    this.controls.target.copy(near ? near.position : ball.center);
+    const narrow = Math.min(1, this.camera.aspect), center = near ? near.position : this.box.getCenter(new THREE.Vector3());
+    const distance = near ? (mark ? .9 : 3) / narrow : this.distanceOfAll(direction, center);
+    this.controls.target.copy(center);
     this.camera.position.copy(this.controls.target).addScaledVector(direction.normalize(), distance);
     this.controls.update();
     this.dirty = true;
+  }
+  // From where all that was found lies in the picture, seen along `direction` at the centre.
+  distanceOfAll(direction, center) {
+    const out = direction.clone().normalize(), right = new THREE.Vector3().crossVectors(this.camera.up, out);
+    if (right.lengthSq() < 1e-6) right.set(1, 0, 0);
+    right.normalize();
+    const up = new THREE.Vector3().crossVectors(out, right), high = Math.tan(Math.PI / 360 * this.camera.fov) / 1.08;
+    let distance = .5;
+    for (const point of this.found) {
+      const at = point.clone().sub(center);
+      const wide = Math.max(Math.abs(at.dot(up)) / high, Math.abs(at.dot(right)) / (high * this.camera.aspect));
+      distance = Math.max(distance, at.dot(out) + wide);
+    }
+    return distance;
   }
   turn(azimuth, elevation, closer) {
     const from = this.camera.position.clone().sub(this.controls.target), ball = new THREE.Spherical();

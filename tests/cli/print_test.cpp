@@ -87,12 +87,13 @@ void check_page(const Scratch& scratch, const std::string& page) {
 TEST_CASE("pages of a job, a study and a preview can be printed and read on a phone") {
   Scratch scratch;
   write_small_job(scratch);
+  scratch.write("a_job_whose_name_does_not_fit_on_a_phone.yaml", content(scratch / "job.yaml"));
   scratch.write("lengths.yaml", "base: job.yaml\nvary: {routing.free_length_m: [0.88, 0.9]}\n");
   REQUIRE(run(scratch, "dresslife", "run lengths.yaml --quiet").status == 0);
-  REQUIRE(run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=0.75").status == 0);
+  REQUIRE(run(scratch, "dresslife", "preview a_job_whose_name_does_not_fit_on_a_phone.yaml --set routing.free_length_m=0.75").status == 0);
   check_page(scratch, "runs/lengths/free_length_m=0.9/page.html");
   check_page(scratch, "runs/lengths/report.html");
-  check_page(scratch, "job_preview.html");
+  check_page(scratch, "a_job_whose_name_does_not_fit_on_a_phone_preview.html");
 }
 
 TEST_CASE("the page of an improvement can be printed and read on a phone, its charts at two widths") {

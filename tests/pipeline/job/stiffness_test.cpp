@@ -241,5 +241,23 @@ TEST_CASE("stiffness: a given one that its construction cannot have is warned of
   CHECK_THAT(told(), Contains("without what fills its core of 26 mm"));
   dresspack.bending_from_construction = true;
   take_from_construction(dresspack);
-  CHECK_THAT(told(), Contains("from_construction: 3.41 without what fills its core"));
+  CHECK_THAT(told(), Contains("from_construction: bending_stiffness_Nm2 3.41, without what fills its core"));
+}
+
+TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it has and what to write") {
+  Dresspack dresspack = shipped();
+  dresspack.bending_stiffness = 12;
+  dresspack.axial_from_construction = true;
+  take_from_construction(dresspack);
+  CHECK(stiffness_warnings(dresspack).empty());
+  dresspack.hose_material.clear();
+  dresspack.core_axial_stiffness = 300;  // a filler that hardly pulls
+  take_from_construction(dresspack);
+  const std::vector<Warning> warnings = stiffness_warnings(dresspack);
+  REQUIRE(warnings.size() == 1);
+  // 9.81 m/s2 of the filled hose's mass per metre over 300 N.
+  CHECK_THAT(warnings[0].words,
+             Contains("too little is from_construction: axial_stiffness_N 300, without its wall (hose_material); it would stretch by " +
+                      fmt::format("{:.2g} %", 100 * 9.81 * dresspack.mass_per_length / 300)) &&
+                 Contains("hose_material: hose_polyamide, or give it as measured"));
 }

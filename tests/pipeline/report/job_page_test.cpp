@@ -108,28 +108,20 @@ TEST_CASE("simple mesh: few triangles stay, many become few near the surface") {
   CHECK(area == Approx(4 * M_PI).epsilon(0.15));  // flat triangles of that size cut the ball
 }
 
-TEST_CASE("cross-section: a wire's place is the sum of its helices'") {
+TEST_CASE("cross-section: wires are told by the paths that the files have, layer after layer and part after part") {
   Dresspack dresspack;
-  Component wire, cable;
+  Component wire, cable, tube;
   wire.name = "wire";
   wire.layer = "layer 1";
-  wire.count = 4;
-  wire.radius = 1e-4;
-  wire.helix_radius = 1e-3;
+  wire.count = 2;
   cable.name = "cable";
-  cable.count = 12;
-  cable.radius = 2e-3;
-  cable.helix_radius = 0.01;
+  cable.count = 2;
   cable.components = {wire};
-  dresspack.components = {cable};
-  const auto place = place_of_part(dresspack, "cable 4/layer 1/wire 3");
-  REQUIRE(place);
-  CHECK(place->x == Approx(-1e-3));  // a quarter turn of the cables, half a turn of the wires
-  CHECK(place->y == Approx(0.01));
-  CHECK(place->radius == 1e-4);
-  CHECK(place_of_part(dresspack, "cable 12")->x == Approx(0.01 * std::cos(M_PI / 6)));
-  for (const char* none : {"cable 13", "cable 4/wire 3", "cable 4/layer 1/wire 3/", "", "cable"})
-    CHECK_FALSE(place_of_part(dresspack, none));
+  tube.name = "tube";
+  tube.plain = PlainPart{};
+  dresspack.components = {tube, cable, wire};
+  CHECK(wire_paths(dresspack) == std::vector<std::string>{"cable 1/layer 1/wire 1", "cable 1/layer 1/wire 2", "cable 2/layer 1/wire 1",
+                                                          "cable 2/layer 1/wire 2", "layer 1/wire 1", "layer 1/wire 2"});
 }
 
 TEST_CASE("scene data: shapes in their frames, and a mesh that is lost is told") {
