@@ -95,7 +95,7 @@ Command add_improve(CLI::App& program) {
       ->capture_default_str();
   words
       ->add_option("--rehearsals", options->request.rehearsals,
-                   "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 25 for each variable")
+                   "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each variable")
       ->check(CLI::Range(-1, 100'000))
       ->type_name("COUNT")
       ->capture_default_str();

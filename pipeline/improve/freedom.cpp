@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "pipeline/improve/set_text.h"
 #include "pipeline/job/catalogue.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/units.h"
@@ -322,12 +323,10 @@ class Reader {
   const std::vector<std::shared_ptr<const Job>>& jobs_;
 };
 
-std::string flow(const Node& value) {
-  if (value.is_scalar()) return value.text;
-  std::string text;
-  for (const Node& item : value.items) text += (text.empty() ? "" : ", ") + flow(item);
-  for (const Entry& entry : value.entries) text += (text.empty() ? "" : ", ") + entry.key + ": " + flow(entry.value);
-  return value.is_map() ? "{" + text + "}" : "[" + text + "]";
+/// As far as a bracket of another make reaches.
+void free_place(Node& free, const std::string& path) {
+  free[path + "position_m"] = scalar("0.15 around");
+  free[path + "direction"] = scalar("45 deg around");
 }
 
 }  // namespace
@@ -342,7 +341,7 @@ Freedom Freedom::from(const Node& free, const std::vector<std::shared_ptr<const 
   for (const Entry& entry : free.entries) {
     const Node* own = common_value(documents, entry.key);
     freedom.keys_.push_back(
-        {entry.key, Reader(entry.key, entry.value, documents, jobs).key(), own ? flow(*own) : ""});
+        {entry.key, Reader(entry.key, entry.value, documents, jobs).key(), own ? set_text(*own) : ""});
     places.push_back(own ? freedom.keys_.back().key->place_of(*own) : VectorXd());
   }
   if (std::all_of(places.begin(), places.end(), [](const VectorXd& place) { return place.size() > 0; })) {
@@ -368,8 +367,17 @@ Node Freedom::usual(const Job& job) {
     for (const char* clamp : {"base_clamp", "tool_clamp"}) {
       const std::optional<Clamp>& of = std::string_view(clamp) == "base_clamp" ? routing.base_clamp : routing.tool_clamp;
       if (!of) continue;
-      free[path + clamp + ".position_m"] = scalar("0.15 around");
-      free[path + clamp + ".direction"] = scalar("45 deg around");
+      free_place(free, path + clamp + ".");
+    }
+    for (std::size_t i = 0; i < routing.clamps.size(); ++i) {
+      const std::string of = fmt::format("{}clamps.{}.", path, i + 1);
+      free_place(free, of);
+      free[of + "at_length_m"] = scalar("0.1 around");
+    }
+    for (std::size_t i = 0; i < routing.rings.size(); ++i) {
+      const std::string of = fmt::format("{}rings.{}.", path, i + 1);
+      free_place(free, of);
+      if (routing.rings[i].at_length) free[of + "at_length_m"] = scalar("0.1 around");
     }
     if (routing.tool_clamp) free[path + "pre_twist_deg"] = scalar("-180 .. 180");
   }
@@ -405,7 +413,7 @@ std::vector<std::string> Freedom::sets_at(const VectorXd& place) const {
   Index at = 0;
   for (const Freed& freed : keys_) {
     const Index size = freed.key->variables();
-    sets.push_back(freed.path + "=" + flow(freed.key->value_at(place.segment(at, size))));
+    sets.push_back(freed.path + "=" + set_text(freed.key->value_at(place.segment(at, size))));
     at += size;
   }
   return sets;

@@ -47,8 +47,8 @@ class Freedom {
   /// about its own value, the value must be given. Errors: InputError.
   static Freedom from(const Node& free, const std::vector<std::shared_ptr<const Job>>& jobs);
 
-  /// What is freed of a job when nobody says: the length by a tenth shorter to a third longer, both clamps by 150 mm
-  /// and 45 deg, a turn of the tool clamp by half a turn. Errors: InputError for a job without clamps on a robot.
+  /// What is freed of a job when nobody says: the length by a tenth shorter to a third longer, all clamps and rings
+  /// by 150 mm and 45 deg, a turn of the tool clamp by half a turn. Errors: InputError for a job without clamps on a robot.
   static Node usual(const Job& job);
 
   Eigen::Index variables() const;

@@ -54,7 +54,7 @@ struct ImproveRequest {
   std::uint64_t seed = 1;
   SearchMethod method = SearchMethod::surrogate;
   SecondAim second = SecondAim::none;
-  int rehearsals = -1;  ///< short runs before the first trial, at most; 0: none; -1: 25 times as many as variables
+  int rehearsals = -1;  ///< short runs before the first trial, at most; 0: none; -1: 40 times as many as variables
 };
 
 /// What was tried.

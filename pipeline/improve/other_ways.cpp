@@ -12,6 +12,9 @@
 #include <optional>
 
 #include "pipeline/errors.h"
+#include "pipeline/improve/other_arms.h"
+#include "pipeline/improve/set_text.h"
+#include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
 
 namespace dresslife::pipeline {
@@ -23,46 +26,51 @@ constexpr double degree = std::numbers::pi / 180;
 struct Line {
   const MotionStep* step;
   std::string path, name;
+  const MotionStep* from = nullptr;  ///< the move before it, of a block's first line the block's last; null: none
 };
 
-void add_lines(std::vector<Line>& lines, const std::vector<MotionStep>& steps, const std::string& path, const std::string& block) {
+bool leads_joints(const MotionStep& step) { return step.repeat == 0 && !step.joints.empty(); }
+
+void add_lines(std::vector<Line>& lines, const std::vector<MotionStep>& steps, const std::string& path,
+               const std::string& block, const MotionStep* from) {
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const MotionStep& step = steps[k];
     const std::string here = fmt::format("{}.{}", path, k + 1);
     if (step.repeat > 0) {
-      add_lines(lines, step.steps, here + ".steps", step.text.empty() ? block : block + step.text + ": ");
+      const auto last = std::find_if(step.steps.rbegin(), step.steps.rend(), leads_joints);
+      const MotionStep* const end = last == step.steps.rend() ? from : &*last;
+      add_lines(lines, step.steps, here + ".steps", step.text.empty() ? block : block + step.text + ": ",
+                step.repeat > 1 ? end : from);
+      from = end;
       continue;
     }
     const std::string file = std::filesystem::path(step.where.file).filename().string();
-    lines.push_back({&step, here, fmt::format("{}:{} '{}{}'", file, step.where.line, block, step.text)});
+    lines.push_back({&step, here, fmt::format("{}:{} '{}{}'", file, step.where.line, block, step.text), from});
+    if (leads_joints(step)) from = &step;
   }
 }
 
-/// Whether its last three axes cross in one point, the outer two along each other.
-bool has_wrist(const Robot& robot) {
-  constexpr double exact = 1e-6;
-  if (robot.joints.size() != 6 || robot.axes() != 6) return false;
-  const Joint &four = robot.joints[3], &five = robot.joints[4], &six = robot.joints[5];
-  const Vector3d axis = four.axis.normalized();
-  const auto along = [&](const Vector3d& v) { return v.cross(axis).norm() < exact; };
-  return five.orientation.norm() < exact && six.orientation.norm() < exact && along(six.axis) &&
-         std::abs(five.axis.dot(axis)) < exact && along(five.origin) && along(six.origin);
-}
-
-using Turn = std::function<std::vector<double>(std::vector<double>)>;
+/// Other joint angles for those of a target; absent: there are none.
+using Turn = std::function<std::optional<std::vector<double>>(const std::vector<double>&)>;
 struct NamedTurn {
   std::string name;
   Turn turn;
 };
 
-std::vector<NamedTurn> turns_of_wrist() {
+bool within_limits(const Robot& robot, const std::vector<double>& joints) {
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (joints[k] < robot.joints[k].lower || joints[k] > robot.joints[k].upper) return false;
+  return true;
+}
+
+std::vector<NamedTurn> turns_of_wrist(const Robot& robot) {
   std::vector<NamedTurn> turns;
   const auto add = [&](std::string name, double four, bool flipped, double six) {
-    turns.push_back({std::move(name), [=](std::vector<double> joints) {
+    turns.push_back({std::move(name), [=, &robot](std::vector<double> joints) {
                        joints[3] += four * degree;
                        joints[4] *= flipped ? -1 : 1;
                        joints[5] += six * degree;
-                       return joints;
+                       return within_limits(robot, joints) ? std::optional(joints) : std::nullopt;
                      }});
   };
   for (const double four : {-180.0, 180.0})
@@ -73,10 +81,15 @@ std::vector<NamedTurn> turns_of_wrist() {
   return turns;
 }
 
-bool within_limits(const Robot& robot, const std::vector<double>& joints) {
-  for (std::size_t k = 0; k < joints.size(); ++k)
-    if (joints[k] < robot.joints[k].lower || joints[k] > robot.joints[k].upper) return false;
-  return true;
+std::vector<NamedTurn> configurations_of_arm(const Robot& robot) {
+  std::vector<NamedTurn> turns;
+  for (const std::string_view name : arm_configurations)
+    turns.push_back({fmt::format("other arm: {}", name), [&robot, name](const std::vector<double>& joints) {
+                       const std::vector<OtherArm> arms = other_arms(robot, joints);
+                       const auto found = std::find_if(arms.begin(), arms.end(), [&](const OtherArm& arm) { return arm.what == name; });
+                       return found == arms.end() ? std::nullopt : std::optional(found->joints);
+                     }});
+  return turns;
 }
 
 std::string joints_set(const Line& line, const std::vector<double>& joints) {
@@ -86,13 +99,13 @@ std::string joints_set(const Line& line, const std::vector<double>& joints) {
 }
 
 /// Absent: a line has no such way.
-std::optional<std::vector<std::string>> turned(const Robot& robot, const std::vector<Line>& lines, const Turn& turn) {
+std::optional<std::vector<std::string>> turned(const std::vector<Line>& lines, const Turn& turn) {
   std::vector<std::string> sets;
   for (const Line& line : lines) {
     if (line.step->joints.size() != 6) continue;
-    const std::vector<double> joints = turn(line.step->joints);
-    if (!within_limits(robot, joints)) return std::nullopt;
-    sets.push_back(joints_set(line, joints));
+    const std::optional<std::vector<double>> joints = turn(line.step->joints);
+    if (!joints) return std::nullopt;
+    sets.push_back(joints_set(line, *joints));
   }
   return sets.empty() ? std::nullopt : std::optional(sets);
 }
@@ -104,26 +117,73 @@ std::optional<std::string> slower(const Job& job, const Line& line, double facto
   return fmt::format("{}.speed_percent={:.6g}", line.path, step.speed_percent.value_or(job.motion.speed_percent) * factor);
 }
 
+/// Where a line's move may go by: arm and wrist one after the other. The line becomes a block of two.
+std::vector<OtherWay> by_a_point(const Robot& robot, const Line& line) {
+  std::vector<OtherWay> ways;
+  const MotionStep& step = *line.step;
+  if (!line.from || line.from->joints.size() != 6 || step.joints.size() != 6 || step.duration) return ways;
+  constexpr double none = degree, rounded = 30;  // a part that moves less has no way of its own; [deg] of the corner
+  for (const bool arm_first : {true, false}) {
+    std::vector<double> point = arm_first ? step.joints : line.from->joints;
+    const std::vector<double>& wrist = arm_first ? line.from->joints : step.joints;
+    std::copy(wrist.begin() + 3, wrist.end(), point.begin() + 3);
+    const auto far = [&](const std::vector<double>& from) {
+      double most = 0;
+      for (std::size_t k = 0; k < from.size(); ++k) most = std::max(most, std::abs(from[k] - point[k]));
+      return most > none;
+    };
+    if (!far(step.joints) || !far(line.from->joints) || !within_limits(robot, point)) continue;
+    MotionStep on_the_way = step;
+    on_the_way.joints = point;
+    on_the_way.text += " (on the way)";
+    on_the_way.zone = rounded * degree;
+    on_the_way.tool_zone.reset();
+    on_the_way.stop_zone.reset();
+    ways.push_back({fmt::format("by a point: {} first", arm_first ? "axes 1 to 3" : "axes 4 to 6"),
+                    {line.name},
+                    {fmt::format("{}={{repeat: 1, steps: [{}, {}]}}", line.path, set_text(echo_fields(on_the_way)),
+                                 set_text(echo_fields(step)))}});
+  }
+  return ways;
+}
+
+/// (line) What happens while the robot stands was set going by the move before.
+std::vector<double> cost_of_moves(const std::vector<Line>& lines, const std::vector<double>& line_damage) {
+  std::vector<double> cost(lines.size(), 0.0);
+  std::size_t move = 0;
+  for (std::size_t k = 0; k < std::min(lines.size(), line_damage.size()); ++k) {
+    if (lines[k].step->is_move()) move = k;
+    cost[move] += line_damage[k];
+  }
+  return cost;
+}
+
 }  // namespace
 
 std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage, std::size_t most_lines) {
   std::vector<Line> lines;
-  add_lines(lines, job.motion.steps, "motion.steps", "");
+  add_lines(lines, job.motion.steps, "motion.steps", "", nullptr);
   if (std::none_of(lines.begin(), lines.end(), [](const Line& line) { return !line.step->joints.empty(); }))
     throw InputError(job.motion.where, "the motion has no steps with joint targets",
                      "read the program into steps first: dresslife import PROGRAM");
-  std::vector<std::size_t> costly(std::min(lines.size(), line_damage.size()));
+  const std::vector<double> cost = cost_of_moves(lines, line_damage);
+  std::vector<std::size_t> costly(lines.size());
   std::iota(costly.begin(), costly.end(), 0);
-  std::stable_sort(costly.begin(), costly.end(), [&](auto a, auto b) { return line_damage[a] > line_damage[b]; });
+  std::stable_sort(costly.begin(), costly.end(), [&](auto a, auto b) { return cost[a] > cost[b]; });
   std::vector<OtherWay> ways;
-  const std::vector<NamedTurn> turns = has_wrist(job.robot) ? turns_of_wrist() : std::vector<NamedTurn>();
+  std::vector<NamedTurn> turns;
+  if (has_wrist(job.robot)) {
+    turns = turns_of_wrist(job.robot);
+    for (NamedTurn& turn : configurations_of_arm(job.robot)) turns.push_back(std::move(turn));
+  }
   for (const NamedTurn& turn : turns)
-    if (const auto sets = turned(job.robot, lines, turn.turn)) ways.push_back({turn.name, {}, *sets});
+    if (const auto sets = turned(lines, turn.turn)) ways.push_back({turn.name, {}, *sets});
   for (std::size_t k = 0; k < std::min(costly.size(), most_lines); ++k) {
     const Line& line = lines[costly[k]];
-    if (!(line_damage[costly[k]] > 0)) break;
+    if (!(cost[costly[k]] > 0)) break;
     for (const NamedTurn& turn : turns)
-      if (const auto sets = turned(job.robot, {line}, turn.turn)) ways.push_back({turn.name, {line.name}, *sets});
+      if (const auto sets = turned({line}, turn.turn)) ways.push_back({turn.name, {line.name}, *sets});
+    for (OtherWay& way : by_a_point(job.robot, line)) ways.push_back(std::move(way));
     for (const double factor : {0.7, 0.5})
       if (const auto set = slower(job, line, factor))
         ways.push_back({fmt::format("at {:.0f} % of its speed", 100 * factor), {line.name}, {*set}});

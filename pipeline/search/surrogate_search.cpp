@@ -22,10 +22,11 @@ constexpr double moved_at_once = 6;  // variables of a candidate that differ fro
 constexpr std::size_t screened_at_once = 24;
 constexpr std::size_t rehearsed_for_a_look = 4;
 constexpr int rehearsed_together = 8;
-constexpr int rehearsed_again = 8;   // for a look, while none keeps its limits
+constexpr int rehearsed_again = 24;  // for a look, while none keeps its limits: a look costs about as much
 constexpr int spread_share = 4;      // of the first looks: places that keep their limits are spread by chance, too
 constexpr double cautious = 1;       // deviations of limits, while none is known to be kept
-constexpr double least_ahead = 0.01; // width, then the search ahead begins anew
+constexpr double least_ahead = 0.02; // width, then the search ahead begins anew elsewhere
+constexpr double least_gain = 1e-3;  // of a limit, by which a place is nearer
 constexpr double much_more = 1.3;    // rehearsals than shapes were found from
 
 const Look& best_of(const std::vector<Look>& looks) {
@@ -38,6 +39,9 @@ using Merit = std::pair<double, double>;
 /// To keeping all limits: by what is believed, then by what is feared.
 Merit nearness(const LookModels& models, const VectorXd& place) {
   return {models.excess(place, 0), models.excess(place, cautious)};
+}
+bool clearly_less(const Merit& a, const Merit& b) {
+  return a.first < b.first - least_gain || (a.first <= b.first && a.second < b.second - least_gain);
 }
 
 bool any_ran(const std::vector<Look>& looks) {
@@ -58,7 +62,7 @@ SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& setti
       numbers_(settings.seed),
       ahead_width_(first_width) {
   if (settings_.first_looks == 0) settings_.first_looks = static_cast<int>(2 * variables + 2);
-  if (settings_.rehearsals == 0) settings_.rehearsals = static_cast<int>(25 * variables);
+  if (settings_.rehearsals == 0) settings_.rehearsals = static_cast<int>(40 * variables);
   if (settings_.aims == 1)
     regions_ = {{1, first_width}};
   else
@@ -201,11 +205,12 @@ std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const
   return places;
 }
 
-/// That runs and that the models find least beyond its limits. Precondition: one ran.
-VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models) const {
+/// That runs and that the models find least beyond its limits, of those from `first` on. Precondition: one ran.
+VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models, std::size_t first) const {
   Merit least;
   const Look* nearest = nullptr;
-  for (const Look& rehearsal : rehearsals_) {
+  for (std::size_t k = first; k < rehearsals_.size(); ++k) {
+    const Look& rehearsal = rehearsals_[k];
     if (!rehearsal.ran) continue;
     const Merit merit = nearness(models, rehearsal.place);
     if (!nearest || merit < least) least = merit, nearest = &rehearsal;
@@ -213,8 +218,10 @@ VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models) const {
   return nearest->place;
 }
 
-/// So many, far from each other and from all looks.
+/// So many, far from each other and from all looks; about the nearest of them the search ahead begins.
 void SurrogateSearch::rehearse_spread(int count) {
+  ahead_from_ = rehearsals_.size();
+  ahead_width_ = first_width;
   std::vector<VectorXd> spread;
   while (static_cast<int>(spread.size()) < count) {
     spread.push_back(first_look());
@@ -241,20 +248,24 @@ std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const
 /// (Q6)
 void SurrogateSearch::rehearse_ahead(int wanted) {
   int left = asked_ == 0 ? settings_.rehearsals : rehearsed_again * wanted;
-  if (asked_ == 0) {
-    const int spread = std::min(settings_.first_looks, left);
-    rehearse_spread(spread);
-    left -= spread;
-  }
+  const auto spread = [&] {
+    const int count = std::min(settings_.first_looks, left);
+    rehearse_spread(count);
+    left -= count;
+  };
+  if (asked_ == 0) spread();
   std::optional<Merit> nearest;
   while (left > 0 && any_ran(rehearsals_)) {
-    LookModels models = models_of(looks_);
+    if (ahead_width_ < least_ahead || !any_ran({rehearsals_.begin() + static_cast<std::ptrdiff_t>(ahead_from_), rehearsals_.end()})) {
+      spread();
+      nearest.reset();
+      continue;
+    }
+    LookModels models = models_of(looks_, ahead_from_);
     if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
-    const VectorXd centre = nearest_rehearsal(models);
+    const VectorXd centre = nearest_rehearsal(models, ahead_from_);
     const Merit now = nearness(models, centre);
-    if (nearest)
-      ahead_width_ = now < *nearest ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
-    if (ahead_width_ < least_ahead) ahead_width_ = first_width;
+    if (nearest) ahead_width_ = clearly_less(now, *nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     nearest = now;
     const int count = std::min(rehearsed_together, left);
     rehearse(next_rehearsals(models, centre, static_cast<std::size_t>(count)));
@@ -284,11 +295,12 @@ std::vector<Look> SurrogateSearch::by_weight(double weight) const {
   return looks;
 }
 
-/// Of looks, and of rehearsals near the best that is known; of shapes that are looked for when there is much more to
+/// Of looks, and of rehearsals near the best that is known, of rehearsals from `first` on; of shapes that are looked for when there is much more to
 /// find them from.
-LookModels SurrogateSearch::models_of(const std::vector<Look>& looks) {
+LookModels SurrogateSearch::models_of(const std::vector<Look>& looks, std::size_t first) {
   const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
-  const std::vector<Look>& those = by_looks ? looks : rehearsals_;
+  const std::vector<Look> those =
+      by_looks ? looks : std::vector<Look>(rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end());
   LookModels models(looks, rehearsals_, best_of(those).place, shapes_);
   const auto known = static_cast<double>(looks.size() + rehearsals_.size());
   if (looks.size() != shapes_of_looks_ || known > much_more * shapes_of_) {

@@ -16,7 +16,7 @@ struct SurrogateSettings {
   std::uint64_t seed = 1;
   int first_looks = 0;   ///< spread over the box before a model is made; 0: twice as many as variables, and 2
   std::size_t aims = 1;  ///< 2: places along the front between both
-  int rehearsals = 0;    ///< most before the first look is asked for; 0: 25 times as many as variables
+  int rehearsals = 0;    ///< most before the first look is asked for; 0: 40 times as many as variables
 };
 
 class SurrogateSearch : public Search {
@@ -44,14 +44,14 @@ class SurrogateSearch : public Search {
 
   Eigen::VectorXd first_look();
   double distance_to_known(const Eigen::VectorXd& place) const;
-  LookModels models_of(const std::vector<Look>& looks);
+  LookModels models_of(const std::vector<Look>& looks, std::size_t first = 0);
   std::vector<Eigen::VectorXd> ranked(const LookModels& models, const Eigen::VectorXd& best, double width,
                                       const Trust& trust);
   std::vector<Eigen::VectorXd> promising(const LookModels& models) const;
   std::optional<Eigen::VectorXd> spread_look(const LookModels& models) const;
   Eigen::VectorXd rehearsed_pick(LookModels& models, const std::vector<Eigen::VectorXd>& by_merit,
                                  const Trust& trust);
-  Eigen::VectorXd nearest_rehearsal(const LookModels& models) const;
+  Eigen::VectorXd nearest_rehearsal(const LookModels& models, std::size_t first = 0) const;
   void rehearse_spread(int count);
   std::vector<Eigen::VectorXd> next_rehearsals(LookModels& models, const Eigen::VectorXd& centre, std::size_t count);
   void rehearse_ahead(int wanted);
@@ -76,7 +76,8 @@ class SurrogateSearch : public Search {
   double shapes_of_ = 0;                        // likewise, with rehearsals
   std::vector<Region> regions_;
   std::size_t region_ = 0;  // of the last places asked for
-  double ahead_width_;      // of the region about the rehearsal that is nearest to keeping its limits
+  double ahead_width_;      // of the region about the rehearsal that is nearest to keeping its limits ...
+  std::size_t ahead_from_ = 0;  // ... of those from here on
   int asked_ = 0, picks_ = 0;
 };
 

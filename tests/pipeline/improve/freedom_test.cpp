@@ -44,6 +44,13 @@ TEST_CASE("a range is gone through from end to end, in round numbers") {
   CHECK_FALSE(freed("routing.free_length_m: 3 .. 4").place_of_job());
 }
 
+TEST_CASE("of a job that says nothing its length and all its clamps and rings are free, about where they are") {
+  const auto job = std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
+  const Freedom freedom = Freedom::from(Freedom::usual(*job), {job});
+  CHECK(freedom.variables() == 1 + 4 * 5 + 2 + 1);  // length, two clamps, one between and a ring, their lengths, twist
+  CHECK(freedom.place_of_job());
+}
+
 TEST_CASE("ends of what is free are told where a place stands at them") {
   const Freedom freedom = freed(
       "routing.free_length_m: 1.9 .. 2.6\nrouting.tool_clamp.position_m: 0.1 around [0, 0.2, 0.3]\n"

@@ -5,6 +5,7 @@
 
 #include "pipeline/errors.h"
 #include "pipeline/improve/nudges.h"
+#include "pipeline/improve/other_arms.h"
 #include "pipeline/improve/other_ways.h"
 #include "pipeline/job/job.h"
 
@@ -56,6 +57,7 @@ TEST_CASE("other ways reach the same poses within the limits") {
         return sets;
       }());
       for (const std::string& set : way.sets) {
+        if (set.find("={repeat: 1, ") != std::string::npos) continue;  // by a point
         const std::string path = set.substr(0, set.rfind('.', set.find('=')));
         const MotionStep &before = *step_at(job, path), &after = *step_at(changed, path);
         if (before.joints.empty()) continue;
@@ -68,7 +70,7 @@ TEST_CASE("other ways reach the same poses within the limits") {
       }
     }
   }
-  CHECK(kinds == std::set<std::string>{"at 50 ", "at 70 ", "axis 4", "axis 6", "wrist "});
+  CHECK(kinds == std::set<std::string>{"at 50 ", "at 70 ", "axis 4", "axis 6", "by a p", "other ", "wrist "});
 }
 
 TEST_CASE("lines that cost most come first, with their numbers") {
@@ -76,10 +78,65 @@ TEST_CASE("lines that cost most come first, with their numbers") {
   std::vector<double> damage(14, 0.0);
   damage[5] = 2;  // roll the gun over
   damage[1] = 1;
+  damage[8] = 0.5;  // the check after 'roll it over again'
   std::vector<std::string> lines;
   for (const OtherWay& way : other_ways(job, damage, 4))
     if (!way.lines.empty() && (lines.empty() || lines.back() != way.lines.front())) lines.push_back(way.lines.front());
-  CHECK(lines == std::vector<std::string>{"hard.yaml:17 'round: roll the gun over'", "hard.yaml:13 'round: gun out to the left'"});
+  CHECK(lines == std::vector<std::string>{"hard.yaml:17 'round: roll the gun over'", "hard.yaml:13 'round: gun out to the left'",
+                                          "hard.yaml:19 'round: roll it over again'"});
+}
+
+TEST_CASE("a line goes by a point: arm and wrist one after the other, then the line as it was") {
+  const Job job = shipped("abb_irb6640_185_280", "hard");
+  std::vector<double> damage(14, 0.0);
+  damage[1] = 1;  // the block's first line, before which its last one ends
+  std::vector<OtherWay> points;
+  for (const OtherWay& way : other_ways(job, damage, 1))
+    if (way.what.starts_with("by a point")) points.push_back(way);
+  REQUIRE(points.size() == 2);
+  for (const OtherWay& way : points) {
+    const bool arm_first = way.what == "by a point: axes 1 to 3 first";
+    const Job changed = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", {"motion=hard", way.sets.front()});
+    const MotionStep &before = *step_at(job, "motion.steps.2.steps.1"), &block = *step_at(changed, "motion.steps.2.steps.1");
+    const MotionStep& from = *step_at(job, "motion.steps.2.steps.12");  // 'drawn back and rolled'
+    REQUIRE(block.steps.size() == 2);
+    CHECK(block.steps[1].joints == before.joints);
+    CHECK(block.steps[1].text == before.text);
+    for (std::size_t k = 0; k < 6; ++k)
+      CHECK(block.steps[0].joints[k] == Approx(((k < 3) == arm_first ? before : from).joints[k]).margin(1e-12));
+  }
+}
+
+TEST_CASE("other configurations of the arm: the same pose of the flange, and all that there are") {
+  Job job = shipped("abb_irb6640_185_280", "hard");
+  Robot& robot = job.robot;
+  REQUIRE(has_wrist(robot));
+  // Without limits an elbow arm with an offset shoulder has four where it reaches back, two where it does not.
+  constexpr double half_a_turn = 3.14159265;
+  for (Joint& joint : robot.joints) joint.lower = -half_a_turn, joint.upper = half_a_turn;
+  struct Case {
+    std::vector<double> joints;
+    std::size_t others;
+  };
+  std::set<std::string_view> kinds;
+  for (const auto& [joints, others] : {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3}, Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1}, Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
+    const std::vector<OtherArm> arms = other_arms(robot, joints);
+    CHECK(arms.size() == others);
+    for (const OtherArm& arm : arms) {
+      kinds.insert(arm.what);
+      constexpr double reached = 1e-8;  // the wrist's centre to a millionth of a millimetre
+      CHECK(pose(robot, arm.joints).isApprox(pose(robot, joints), reached));
+      CHECK((Vector3d(arm.joints.data()) - Vector3d(joints.data())).norm() > 0.1);
+    }
+  }
+  CHECK(kinds.size() == 3);
+  // Within the limits fewer remain, and none beyond.
+  robot = shipped("abb_irb6640_185_280", "hard").robot;
+  for (const OtherArm& arm : other_arms(robot, {-0.4, 0.1, -0.9, -1, -0.5, 1.2}))
+    for (std::size_t k = 0; k < 6; ++k) {
+      CHECK(arm.joints[k] >= robot.joints[k].lower);
+      CHECK(arm.joints[k] <= robot.joints[k].upper);
+    }
 }
 
 TEST_CASE("programs without joint targets are refused") {
