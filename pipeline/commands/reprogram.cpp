@@ -149,7 +149,7 @@ int reprogram(const Options& options) {
 Command add_reprogram(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* words = program.add_subcommand(
-      "reprogram", "tell what the program could do instead: the lines that cost most by other turns of the wrist, or slower");
+      "reprogram", "tell what the program could do instead: the lines that cost most by other turns of wrist and arm, by a point, or slower");
   words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")->required()->type_name("");
   words->add_option("--lines", options->lines, "of the program that are tried, those first that cost most")
       ->check(CLI::Range(0, 1000))

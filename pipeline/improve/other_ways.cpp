@@ -86,7 +86,8 @@ std::vector<NamedTurn> configurations_of_arm(const Robot& robot) {
   for (const std::string_view name : arm_configurations)
     turns.push_back({fmt::format("other arm: {}", name), [&robot, name](const std::vector<double>& joints) {
                        const std::vector<OtherArm> arms = other_arms(robot, joints);
-                       const auto found = std::find_if(arms.begin(), arms.end(), [&](const OtherArm& arm) { return arm.what == name; });
+                       const auto is_it = [&](const OtherArm& arm) { return arm.what == name; };
+                       const auto found = std::find_if(arms.begin(), arms.end(), is_it);
                        return found == arms.end() ? std::nullopt : std::optional(found->joints);
                      }});
   return turns;

@@ -218,6 +218,10 @@ VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models, std::size_
   return nearest->place;
 }
 
+std::vector<Look> SurrogateSearch::rehearsals_from(std::size_t first) const {
+  return {rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end()};
+}
+
 /// So many, far from each other and from all looks; about the nearest of them the search ahead begins.
 void SurrogateSearch::rehearse_spread(int count) {
   ahead_from_ = rehearsals_.size();
@@ -256,7 +260,7 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
   if (asked_ == 0) spread();
   std::optional<Merit> nearest;
   while (left > 0 && any_ran(rehearsals_)) {
-    if (ahead_width_ < least_ahead || !any_ran({rehearsals_.begin() + static_cast<std::ptrdiff_t>(ahead_from_), rehearsals_.end()})) {
+    if (ahead_width_ < least_ahead || !any_ran(rehearsals_from(ahead_from_))) {
       spread();
       nearest.reset();
       continue;
@@ -265,7 +269,8 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
     if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
     const VectorXd centre = nearest_rehearsal(models, ahead_from_);
     const Merit now = nearness(models, centre);
-    if (nearest) ahead_width_ = clearly_less(now, *nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
+    if (nearest)
+      ahead_width_ = clearly_less(now, *nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     nearest = now;
     const int count = std::min(rehearsed_together, left);
     rehearse(next_rehearsals(models, centre, static_cast<std::size_t>(count)));
@@ -299,8 +304,7 @@ std::vector<Look> SurrogateSearch::by_weight(double weight) const {
 /// find them from.
 LookModels SurrogateSearch::models_of(const std::vector<Look>& looks, std::size_t first) {
   const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
-  const std::vector<Look> those =
-      by_looks ? looks : std::vector<Look>(rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end());
+  const std::vector<Look> those = by_looks ? looks : rehearsals_from(first);
   LookModels models(looks, rehearsals_, best_of(those).place, shapes_);
   const auto known = static_cast<double>(looks.size() + rehearsals_.size());
   if (looks.size() != shapes_of_looks_ || known > much_more * shapes_of_) {

@@ -52,6 +52,7 @@ class SurrogateSearch : public Search {
   Eigen::VectorXd rehearsed_pick(LookModels& models, const std::vector<Eigen::VectorXd>& by_merit,
                                  const Trust& trust);
   Eigen::VectorXd nearest_rehearsal(const LookModels& models, std::size_t first = 0) const;
+  std::vector<Look> rehearsals_from(std::size_t first) const;
   void rehearse_spread(int count);
   std::vector<Eigen::VectorXd> next_rehearsals(LookModels& models, const Eigen::VectorXd& centre, std::size_t count);
   void rehearse_ahead(int wanted);

@@ -119,7 +119,8 @@ TEST_CASE("other configurations of the arm: the same pose of the flange, and all
     std::size_t others;
   };
   std::set<std::string_view> kinds;
-  for (const auto& [joints, others] : {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3}, Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1}, Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
+  for (const auto& [joints, others] :
+       {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3}, Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1}, Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
     const std::vector<OtherArm> arms = other_arms(robot, joints);
     CHECK(arms.size() == others);
     for (const OtherArm& arm : arms) {
