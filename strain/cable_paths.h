@@ -36,7 +36,7 @@ struct CablesInJob {
   bool stick = false;  ///< to the hose, each segment with its own strain: they slide in a bound only
   /// The hose ends freely at its tool end: nothing holds its cables there but a tool_grip_N that is given.
   bool free_tool_end = false;
-  std::size_t elements_per_segment = 1;  ///< of loose cables
+  std::size_t elements_per_segment = 0;  ///< of loose cables; 0: as many as their waves ask for
 };
 
 class CablePaths {
@@ -85,6 +85,8 @@ class CablePaths {
   /// Where loose cables lie at some samples: offset from their places (cable, segment, 2) [m].
   const std::vector<std::size_t>& offset_samples() const { return offset_samples_; }
   const std::vector<double>& offsets() const { return offsets_; }  ///< (sample, cable, segment, 2)
+  /// Into which loose cables are cut in each segment; 0: none lies loose.
+  std::size_t elements_per_segment() const { return loose_ ? (nodes_.size() - 1) / node_segments() : 0; }
   /// Share of the curvature of loose cables that the distance of their nodes leaves out; 0: none lies loose.
   double mesh_error() const { return loose_ ? loose_->mesh_error() : 0; }
   /// Samples at which a loose cable had not come to rest.
@@ -104,6 +106,8 @@ class CablePaths {
     std::vector<float> pressing{}; ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
   };
 
+  /// Loose cables lie in at least so many segments: a hose of fewer is cut as if it had them.
+  std::size_t node_segments() const { return std::max<std::size_t>(lengths_.size(), 8); }
   void add_hose(const SpanBlock& block);
   void add_held(const SpanBlock& block);
   static void add_loose(std::span<CablePaths* const> all, const SpanBlock& block);

@@ -335,7 +335,7 @@ struct Evaluations {
 };
 
 /// pieces: of a loose cable in a segment.
-std::vector<Warning> mesh_warnings(double error, int pieces) {
+std::vector<Warning> mesh_warnings(double error, std::size_t pieces) {
   if (error <= believable_mesh_error) return {};
   return {{WarningKind::mesh, "",
            fmt::format("{} to a segment, pieces are too long for how loose cables bend: they miss {:.3g} of it (more than "
@@ -384,16 +384,17 @@ class CableRows {
 
 /// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns what a person
 /// should look at: pieces that are too long.
-std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations,
-                                  int pieces) {
+std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   CableRows rows;
   std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
   double mesh_error = 0;
+  std::size_t pieces = 0;
   for (const auto& evaluation : evaluations) {
     if (!evaluation->any_cables()) continue;
     rows.add(static_cast<std::int32_t>(hose_moment.size()), *evaluation);
     hose_moment.push_back(&evaluation->cables().hose_moment());
-    mesh_error = std::max(mesh_error, evaluation->cables().mesh_error());
+    if (const double error = evaluation->cables().mesh_error(); error > mesh_error)
+      mesh_error = error, pieces = evaluation->cables().elements_per_segment();
   }
   if (hose_moment.empty()) return {};
   const std::size_t samples = hose_moment.front()->size();
@@ -522,7 +523,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
           if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
       });
     });
-  const std::vector<Warning> warnings = pipeline::joined(construction_warnings(job), write_cables(strain, evaluations, job.strain.cable_elements));
+  const std::vector<Warning> warnings = pipeline::joined(construction_warnings(job), write_cables(strain, evaluations));
   write_bending(strain, job);
 
   Sink sink;

@@ -124,7 +124,7 @@ struct Strain {
   Equivalent equivalent = Equivalent::axial;  ///< which strain of a fibre is counted
   int surface_fibres = 1;                     ///< per wire; 0: the wire's axis
   double gate = 5e-4;                         ///< turning points of a smaller strain range are dropped
-  int cable_elements = 2;                     ///< pieces of a loose cable per segment
+  int cable_elements = 0;                     ///< pieces of a loose cable per segment; 0: as its waves ask
   std::vector<Probe> probes;
   StrainFactors factors;
 };

@@ -66,17 +66,15 @@ std::string headline(const RankingRow& row) {
             ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
             : "the worst wire breaks (median)",
         printed(row.headline_repeats()), row.repeat_seconds, calendar_words(row.headline_months()));
-  text += fmt::format("; {} if all inside the cables stuck, {} if all slid",
-                      printed_hours(row.headline_hours_of(row.life_repeats_all_stick)),
-                      printed_hours(row.headline_hours_of(row.life_repeats_all_free)));
   if (row.planned() && std::isfinite(row.planned_hours[2]))
     text += fmt::format("; {} until half have, {} until 90 %", printed_hours(row.planned_hours[1]),
                         printed_hours(row.planned_hours[2]));
   if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
     text += fmt::format("; a first wire breaks after {} .. {} h in 10 .. 90 %",
                         printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
-  if (row.planned() && std::isfinite(row.life_hours))
-    text += fmt::format("; the worst wire's own median is {} h", printed(row.life_hours));
+  text += fmt::format("; the worst wire's own median is {}, {} if all inside the cables stuck, {} if all slid",
+                      printed_hours(row.life_hours), printed_hours(row.hours_of(row.life_repeats_all_stick)),
+                      printed_hours(row.hours_of(row.life_repeats_all_free)));
   text += ".</p>\n";
   if (damaged(row))
     text += fmt::format(

@@ -177,8 +177,8 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
                   (row.worst_joint.empty()
                        ? ""
                        : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
-    const auto bounds = std::pair(row.headline_hours_of(row.life_repeats_all_stick),
-                                  row.headline_hours_of(row.life_repeats_all_free));
+    const auto bounds = std::pair(row.hours_of(row.life_repeats_all_stick),
+                                  row.hours_of(row.life_repeats_all_free));
     const auto count = static_cast<double>(warnings_of(row).size());
     text += fmt::format("{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
                         number_cell(static_cast<double>(i + 1), row.stale ? "-" : std::to_string(i + 1)),
@@ -205,8 +205,8 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
   for (const RankingRow& row : rows) {
     if (!row.done() || !damaged(row) || shown.size() == most_compared) continue;
     shown.push_back(&row);
-    for (const double hours : {row.headline_hours(), row.headline_hours_of(row.life_repeats_all_stick),
-                               row.headline_hours_of(row.life_repeats_all_free), spread_of(row)[0], spread_of(row)[2]}) {
+    for (const double hours : {row.headline_hours(), row.hours_of(row.life_repeats_all_stick),
+                               row.hours_of(row.life_repeats_all_free), spread_of(row)[0], spread_of(row)[2]}) {
       if (!(hours > 0) || std::isinf(hours)) continue;
       low = std::min(low, hours);
       high = std::max(high, hours);
@@ -233,7 +233,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
     const RankingRow& row = *shown[i];
     const double y = panel.top + row_height * (static_cast<double>(i) + 0.5);
     picture.text(names - 10, y + 4, shortened(row.job, 32), "name", Picture::Anchor::end);
-    const auto x = [&](double repeats) { return panel.across(row.headline_hours_of(repeats)); };
+    const auto x = [&](double repeats) { return panel.across(row.hours_of(repeats)); };
     picture.line(x(row.life_repeats_all_stick), y, x(row.life_repeats_all_free), y, "whisker");
     const std::array<double, 3>& spread = spread_of(row);
     if (spread[0] > 0 && std::isfinite(spread[2]))
@@ -259,7 +259,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
   });
   return fmt::format(
       "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">p10 life [h]</th>"
-      "<th class=\"number\">inside stuck .. free [h]</th><th class=\"number\">first break in 10 .. 90 % "
+      "<th class=\"number\">worst wire, inside stuck .. free [h]</th><th class=\"number\">first break in 10 .. 90 % "
       "[h]</th><th "
       "class=\"number\">calendar</th>"
       "<th>breaks first</th><th>what moved then</th><th>warnings</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}{}{}"
@@ -267,13 +267,13 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "conductor that has lost its share of wires (fatigue.failed_wires_percent) at one place; the calendar counts the "
       "job's operating hours per week. "
       "Parts inside a cable rub on each other: glued together (stuck) they live shorter, slipping "
-      "freely longer, and the truth lies between; these bounds are told by the ratio of the worst wires' lives. "
+      "freely longer, and the truth lies between: told is the median life of the wire that would then be the worst. "
       "Wires scatter, and a dresspack has thousands: its first break comes earlier, in 10 to 90 % of such dresspacks "
       "between the hours given. Material constants are medians.</p>\n",
       ranking_rows(rows, detailed, 0, rows_at_once), more_rows(rows, detailed), matrix,
       chart.empty() ? ""
                     : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the life that 10 % of such dresspacks do not "
-                      "reach. Blue bar: the same stuck to free inside. Orange: what 10 to 90 % reach.</p>\n" +
+                      "reach. Blue bar: the worst wire's, stuck to free inside. Orange: what 10 to 90 % reach.</p>\n" +
                           chart_in_page(chart));
 }
 
@@ -336,9 +336,9 @@ std::string facts(const RankingRow& row) {
   if (const std::string certainty = certainty_words(row); !certainty.empty()) fact("how sure", escaped(certainty));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
   fact("bounds",
-       fmt::format("{} (inside of the cables stuck) .. {} (free)",
-                   printed_hours(row.headline_hours_of(row.life_repeats_all_stick)),
-                   printed_hours(row.headline_hours_of(row.life_repeats_all_free))));
+       fmt::format("worst wire {} (inside of the cables stuck) .. {} (free)",
+                   printed_hours(row.hours_of(row.life_repeats_all_stick)),
+                   printed_hours(row.hours_of(row.life_repeats_all_free))));
   if (row.hours_mean_stress_kept)
     fact("mean stress", fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
                                     printed_hours(*row.hours_mean_stress_kept),
@@ -360,15 +360,10 @@ std::string facts(const RankingRow& row) {
   if (row.loose_mesh_error)
     fact("mesh of loose cables", fmt::format("{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
                                              100 * *row.loose_mesh_error));
-  const double stuck = row.life_repeats_all_stick / row.life_repeats;
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;
-    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks{}",
-                           printed_hours(lives[0]), printed_hours(lives[1]), printed_hours(lives[2]),
-                           std::isfinite(lives[0]) && stuck < 1
-                               ? fmt::format("; if all in the cables stuck, roughly from {} on",
-                                             printed_hours(lives[0] * stuck))
-                               : ""));
+    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks", printed_hours(lives[0]),
+                           printed_hours(lives[1]), printed_hours(lives[2])));
   };
   scatter("first broken wire", row.first_wire_hours);
   scatter("first failed conductor", row.conductor_hours);

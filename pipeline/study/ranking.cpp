@@ -220,8 +220,8 @@ struct Column {
 };
 
 std::string bounds_text(const RankingRow& row) {
-  return fmt::format("{} .. {}", life_text(row.headline_hours_of(row.life_repeats_all_stick)),
-                     life_text(row.headline_hours_of(row.life_repeats_all_free)));
+  return fmt::format("{} .. {}", life_text(row.hours_of(row.life_repeats_all_stick)),
+                     life_text(row.hours_of(row.life_repeats_all_free)));
 }
 
 std::string segment_text(const RankingRow& row) {
@@ -352,7 +352,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
       "conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,hose_segment_from_tool,"
       "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack,settings,largest_force_share,"
       "clamp_moment_share,force_ok,life_hours_mean_stress_kept,life_hours_without_mean_stress,"
-      "life_months_p10,life_hours_p10_all_stick,life_hours_p10_all_free,first_wire_life_hours_p10,"
+      "life_months_p10,life_hours_all_stick,life_hours_all_free,first_wire_life_hours_p10,"
       "first_wire_life_hours_p50,first_wire_life_hours_p90,failing_conductor,failing_position_from_tool_m,"
       "rated_cycles_per_hour,relative_life_hours,rated_cable,scatter_life_hours_p10,scatter_life_hours_p50,"
       "scatter_life_hours_p90,outlives_next,life_shares,measure_next,measure_next_share" +
@@ -394,9 +394,9 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
     cells.push_back(!row.clamp_moment_share ? "" : row.force_ok() ? "yes" : "no");
     for (const auto& hours : {row.hours_mean_stress_kept, row.hours_without_mean_stress})
       cells.push_back(hours ? shortest_text(*hours) : "");
-    for (const double planned : {row.planned_months, row.headline_hours_of(row.life_repeats_all_stick),
-                                 row.headline_hours_of(row.life_repeats_all_free)})
-      cells.push_back(row.planned() ? shortest_text(planned) : "");
+    cells.push_back(row.planned() ? shortest_text(row.planned_months) : "");
+    for (const double bound : {row.life_repeats_all_stick, row.life_repeats_all_free})
+      cells.push_back(shortest_text(row.hours_of(bound)));
     for (const double life : row.first_wire_hours) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
     cells.push_back(row.failing_conductor);
     cells.push_back(row.failing_conductor.empty() ? "" : shortest_text(row.failing_position_from_tool));
@@ -421,7 +421,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   std::array<Column, 7> columns{{{"", true, {}},
                                  {"job", false, {}},
                                  {"p10 life [h]", true, {}},
-                                 {"inside stuck .. free [h]", true, {}},
+                                 {"wire stuck .. free [h]", true, {}},
                                  {"calendar", true, {}},
                                  {"repeats", true, {}},
                                  {"segment from tool", true, {}}}};

@@ -112,12 +112,6 @@ struct RankingRow {
   double headline_hours() const { return planned() ? planned_hours[0] : life_hours; }
   double headline_months() const { return planned() ? planned_months : life_months; }
   double headline_repeats() const { return planned() ? planned_hours[0] * 3600 / repeat_seconds : life_repeats; }
-  /// The same had the worst wire lived so many repeats: a bound, by the ratio of the worst wires' lives.
-  double headline_hours_of(double repeats) const {
-    const double planner = by_scatter()[0];
-    const bool comparable = planned() && std::isfinite(life_repeats) && std::isfinite(planner);
-    return comparable ? planner * (repeats / life_repeats) : hours_of(repeats);
-  }
 };
 
 /// One row per job, best life first, equal lives by name, failed jobs last. A life file that is missing or

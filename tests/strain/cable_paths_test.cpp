@@ -502,8 +502,8 @@ TEST_CASE("the same cables come out in blocks of any size") {
   dresspack.components[0].radial_line_load = 5;
   const Run whole(dresspack, Slip::friction, 30, 30);
   const Construction construction(dresspack, Kinematics::exact);
-  CablePaths paths(construction, plan_slip(construction, {Slip::friction, Slip::free}, length), {.rub = true},
-                   whole.lengths, whole.arcs, 30);
+  CablePaths paths(construction, plan_slip(construction, {Slip::friction, Slip::free}, length),
+                   {.rub = true, .elements_per_segment = 1}, whole.lengths, whole.arcs, 30);
   for (std::size_t first = 0; first < 30; first += 10) {
     DeformationHistory part(segments, 10);
     for (std::size_t t = 0; t < 10; ++t)

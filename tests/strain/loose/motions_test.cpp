@@ -93,6 +93,31 @@ TEST_CASE("what the mesh misses of a cable's waves is told, and falls with the s
   }
 }
 
+TEST_CASE("as many pieces as waves ask for see them, whatever the slack and the room") {
+  constexpr double length = 2.035, warned_of = 0.02;
+  for (const auto& [slack, lay] : {std::pair(0.0, 0.0), {0.0025, 0.0}, {0.01, 0.0}, {0.03, 0.0}, {0.0, 15.0}, {0.01, 20.0}})
+    for (const double play : {0.002, 0.005, 0.012, without_limit}) {
+      LooseCable cable = signal_cable(0.01845);
+      cable.play = play, cable.slack = slack, cable.lay_rate = std::tan(lay * pi / 180) / 0.01845;
+      std::vector<LooseCable> cables{cable};
+      fit_in_hose(cables, {0.0255, 0.013});
+      const std::size_t elements = elements_of_waves(cables, length);
+      INFO(slack << " of slack, " << lay << " deg, " << play << " m of play: " << elements);
+      CHECK(elements >= 64);
+      LooseCables loose(cables, {length, elements});
+      for (int t = 0; t <= 50; ++t) loose.advance(hose(elements, [&](double z) { return arm(z, t / 50.0); }), step);
+      CHECK(loose.mesh_error() < warned_of);
+    }
+  LooseCables ring(ring_of_ten(0.01), {length, 64});  // turns as one, in long waves
+  for (int t = 0; t <= 50; ++t) ring.advance(hose(64, [&](double z) { return arm(z, t / 50.0); }), step);
+  CHECK(elements_of_waves(ring_of_ten(0.01), length) == 64);
+  CHECK(ring.mesh_error() < warned_of);
+  // k c = sqrt(2 s), (k h)^2 / 12 = 0.5 %.
+  LooseCable cable = signal_cable(0.01845);
+  cable.play = 0.004, cable.slack = 0.02;
+  CHECK(elements_of_waves({cable}, length) == std::ceil(length / (std::sqrt(0.06) * 0.004 / 0.2)));
+}
+
 TEST_CASE("a clamp that lets go keeps what it has let through, and takes energy") {
   LooseCable cable = signal_cable(0.01845);
   cable.play = 0.003;
