@@ -221,10 +221,10 @@ struct Layers {
   std::vector<std::size_t> of_component;
 };
 
-Layers layers_of(const Context& c) {
+Layers layers_of(const Context& c, const TextColumn& components) {
   Layers result;
   auto& [layers, layer_of_component] = result;
-  for (const std::string& component : c.component.values) {
+  for (const std::string& component : components.values) {
     const PathInJob place = path_in_job(c.job, component);
     const pipeline::Dresspack& dresspack = c.job.dresspacks[place.dresspack].dresspack;
     if (pipeline::is_hose_wall(dresspack, place.inside)) {
@@ -241,7 +241,7 @@ Layers layers_of(const Context& c) {
 }
 
 void write_layers(const Context& c) {
-  const Layers layers = layers_of(c);
+  const Layers layers = layers_of(c, c.component);
   const auto worst = worst_by_group(c.damage, layers.name.size(), [&](std::size_t site) {
     return layers.of_component[c.component.index[site]];
   });
@@ -249,6 +249,21 @@ void write_layers(const Context& c) {
   put(c.life, "/layer/worst_site", as_index(worst));
   put(c.life, "/layer/damage", damage_at(c, worst));
 }
+
+/// One layer of wires in one segment is a group: what relaxes of the worst of them tells what does of the others (F24).
+struct SettledGroups {
+  Layers layers;
+  std::size_t count;
+  const SiteSet& sites;
+  const TextColumn& component;
+
+  SettledGroups(const Context& c, const SiteSet& of_sites, const TextColumn& components)
+      : layers(layers_of(c, components)), count(layers.name.size() * c.segment_length.size()), sites(of_sites), component(components) {}
+  std::size_t operator()(std::size_t site) const {
+    const std::size_t layer = layers.of_component[component.index[site]];
+    return layer == no_site ? no_site : static_cast<std::size_t>(sites.segment(site)) * layers.name.size() + layer;
+  }
+};
 
 /// The worst wire of a conductor, when its neighbours have left it their load.
 std::vector<double> sharing_rates_of(const Context& c, std::size_t worst, std::size_t wires) {
@@ -524,9 +539,9 @@ SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextCol
                            const std::function<void(double)>& progress) {
   const SiteCounters counters(sites, component, c.job);
   SiteDamage damage = damage_of(sites, counters, c.threads, progress);
+  const SettledGroups group_of(c, sites, component);
   settle(
-      damage, counters, c.segment_length.size(),
-      [&](std::size_t site) { return static_cast<std::size_t>(sites.segment(site)); },
+      damage, counters, group_of.count, group_of,
       [&](std::size_t site) {
         std::vector<float> strains;
         for (const Reversal& reversal : sites.reversals_of(site)) strains.push_back(static_cast<float>(reversal.strain));
@@ -634,15 +649,10 @@ pipeline::DrawnLives write_response(const Context& c, const Conductors& conducto
 /// relax over each site's life.
 void judge(Context& c) {
   c.planes.emplace(c.strain, c.sites, c.counters, c.job, c.threads);
-  const Layers layers = layers_of(c);
-  const std::size_t of_segment = layers.name.size(), groups = of_segment * c.segment_length.size();
-  const auto group_of = [&](std::size_t site) {
-    const std::size_t layer = layers.of_component[c.component.index[site]];
-    return layer == no_site ? no_site : static_cast<std::size_t>(c.sites.segment(site)) * of_segment + layer;
-  };
-  if (!c.planes->empty()) c.planes->apply(c.damage, groups, group_of);
+  const SettledGroups group_of(c, c.sites, c.component);
+  if (!c.planes->empty()) c.planes->apply(c.damage, group_of.count, group_of);
   settle(
-      c.damage, c.counters, groups, group_of, [&](std::size_t site) { return c.strains_of(site); }, c.threads);
+      c.damage, c.counters, group_of.count, group_of, [&](std::size_t site) { return c.strains_of(site); }, c.threads);
 }
 
 /// Where the job goes beyond the tests from which its calibration was learned.
