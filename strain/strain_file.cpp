@@ -303,8 +303,9 @@ struct Evaluations {
   std::vector<std::unique_ptr<Evaluation>> of_span;  // refer to them
   int levels = 0;                                    // of the deepest wire
 
+  /// as_told: the same dresspacks without further factors, with whose cables these lie side by side, in as many pieces.
   Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads,
-              const pipeline::StrainFactors& factors, const Scratch& scratch) {
+              const pipeline::StrainFactors& factors, const Scratch& scratch, const Evaluations* as_told = nullptr) {
     for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
       constructions.emplace_back(mounted.dresspack, job.strain.kinematics, factors);
       levels = std::max(levels, constructions.back().levels());
@@ -327,8 +328,10 @@ struct Evaluations {
       place.first_segment = spans[k].first_segment - place.segments_before;
       place.free_tool_end = reader.ends_freely(job, k);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
-      of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings_of(job, d), lengths,
-                                                     reader.samples(), threads, place, scratch));
+      pipeline::Strain settings = settings_of(job, d);
+      if (as_told) settings.cable_elements = static_cast<int>(as_told->of_span[k]->cables().elements_per_segment());
+      of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings, lengths, reader.samples(), threads, place,
+                                                     scratch));
       place.first_arc += std::accumulate(lengths.begin(), lengths.end(), 0.0);
     }
   }
@@ -459,7 +462,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const auto& evaluations = all.of_span;
   std::list<Evaluations> otherwise_laid;
   const Variations variations(job, evaluations, [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
-    return otherwise_laid.emplace_back(job, reader, threads, factors, scratch).of_span;
+    return otherwise_laid.emplace_back(job, reader, threads, factors, scratch, &all).of_span;
   });
   strain.set_axis("segment", segments);
   strain.set_axis("level", all.levels);
