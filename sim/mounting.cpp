@@ -29,6 +29,8 @@ struct Held {
   double roll = 0;   // of its far end
   double depth = 0;  // largest overlap with an obstacle or another dresspack [m]
   int through = -1;  // that dresspack, if it is the deepest; -1: robot, cell or floor
+  int obstacle = floor_obstacle;  // else, as Contact names it
+  double place = 0;               // of the deepest overlap along the piece [m]
   bool found = false;
 };
 
@@ -97,11 +99,28 @@ class Mounting {
  private:
   const pipeline::Routing& routing(int dresspack) const { return setup_.dresspacks[dresspack].routing; }
 
-  [[noreturn]] void fail(int dresspack, const std::string& what) const {
-    throw InputError(routing(dresspack).where,
-                     fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
-                     "check the free length and the clamps' places and directions in the mounting pose (dresslife preview "
-                     "shows them)");
+  [[noreturn]] void fail(int dresspack, const std::string& what,
+                         const std::string& remedy =
+                             "check the free length and the clamps' places and directions in the mounting pose") const {
+    throw InputError(routing(dresspack).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
+                     remedy + " (dresslife preview shows them)");
+  }
+
+  [[noreturn]] void fail_in_the_way(const Piece& piece, const Held& held) const {
+    const std::string what = held.through >= 0                     ? pipeline::dresspack_words(setup_, held.through)
+                             : held.obstacle >= 0                  ? setup_.robot.links[held.obstacle].name
+                             : held.obstacle == cell_obstacle      ? "what stands in its cell"
+                                                                   : "the floor";
+    double before = 0;  // along the dresspack
+    for (const Piece& hung : hung_pieces_)
+      if (hung.dresspack == piece.dresspack) before += hung.properties.length;
+    const double deep = 1e3 * held.depth;
+    fail(piece.dresspack,
+         fmt::format("runs {:.0f} mm deep through {} in the mounting pose, {:.2f} m from its base clamp", deep, what,
+                     before + held.place),
+         fmt::format("bring a clamp {:.0f} mm and more out of its way, turn the clamps' directions away from it, or change the free "
+                     "length",
+                     deep));
   }
 
   Pose mounting_pose() const { return robot_ ? robot_->pose(robot_->mounting_pose()) : path_.at(0); }
@@ -281,11 +300,7 @@ class Mounting {
       if (best.depth == 0) break;
     }
     if (!best.found) fail(piece.dresspack, "finds no equilibrium between its clamps");
-    if (best.depth > overlap_share * piece.properties.diameter)
-      fail(piece.dresspack,
-           fmt::format("runs {:.0f} mm deep through {} in the mounting pose", 1e3 * best.depth,
-                       best.through < 0 ? "the robot or the floor"
-                                        : pipeline::dresspack_words(setup_, best.through)));
+    if (best.depth > overlap_share * piece.properties.diameter) fail_in_the_way(piece, best);
     return best;
   }
 
@@ -312,8 +327,18 @@ class Mounting {
     settings.base_link = piece.begin_link, settings.tool_link = piece.end_link;
     World world(rod, settings, found.state, pose.links);
     add_obstacles(world, setup_, robot_);
-    Held held{found.state, clamped.roll + piece.pre_twist, 0, -1, true};
+    Held held;
+    held.state = found.state;
+    held.roll = clamped.roll + piece.pre_twist;
+    held.found = true;
     held.depth = world.advance(found.state.clamps, pose.links).max_depth;
+    const double segment_length = properties.length / properties.segments;
+    const auto shallower = [](const Contact& a, const Contact& b) { return a.depth < b.depth; };
+    if (const auto& contacts = world.contacts(); !contacts.empty()) {
+      const Contact& deepest = *std::max_element(contacts.begin(), contacts.end(), shallower);
+      held.obstacle = deepest.obstacle;
+      held.place = (deepest.segment + 0.5) * segment_length;
+    }
     if (properties.tool_end == End::free)
       held.state.clamps.tool = rod.tip_frame(held.state, rod.spans().front());
     find_other_dresspacks(piece, held);
@@ -335,6 +360,7 @@ class Mounting {
         continue;
       held.depth = contact.depth;
       held.through = other;
+      held.place = (contact.other - last.first_segment + 0.5) * last.segment_length;
     }
   }
 

@@ -289,6 +289,8 @@ function openPreview() {
   const named = data.scene.links.map(
       link => new RegExp(`\\b${link.name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')}\\b`).test(data.preview.refusal));
   viewer.warnOf(named);
+  const [tube, more] = viewer.tubes, share = data.preview.refusal_share;
+  if (share !== null && !more) viewer.mark(viewer.worst, Math.min(Math.floor(share * tube.segments), tube.segments - 1));
   if (data.preview.refusal) viewer.look('place');
 }
 

@@ -180,6 +180,20 @@ double time_in(const std::string& failure) {
   return time;
 }
 
+double length_of(const std::vector<SpanPreview>& spans) {
+  double length = 0;
+  for (const SpanPreview& span : spans) length += span.length;
+  return length;
+}
+
+/// Of "... 0.42 m from its base clamp", as the simulation words a place along a dresspack [m]; not a number: it names none.
+double place_in(const std::string& refusal) {
+  const std::size_t end = refusal.find(" m from its base clamp"), begin = end == std::string::npos ? end : refusal.rfind(' ', end - 1);
+  double place = std::numeric_limits<double>::quiet_NaN();
+  if (begin != std::string::npos) std::from_chars(refusal.data() + begin + 1, refusal.data() + end, place);
+  return place;
+}
+
 }  // namespace
 
 std::vector<std::string> length_words(const std::filesystem::path& preview_file) {
@@ -209,9 +223,9 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
   const std::string scene = scene_data(setup, notes);
   const std::string data = fmt::format(
       "{{\"title\":{},\"scene\":{},\"motion\":{},\"program\":{},\"preview\":{{\"refusal\":{},\"refusal_"
-      "time\":{},\"ways\":{}}}}}",
+      "time\":{},\"refusal_share\":{},\"ways\":{}}}}}",
       json(name), scene, motion_data(file, nullptr, setup), program_data(file), json(refusal),
-      json(refusal_time), ways_data(file, spans));
+      json(refusal_time), json(place_in(refusal) / length_of(spans)), ways_data(file, spans));
   std::string body = fmt::format("<h1>{}: before the run</h1>\n", escaped(name));
   body += refusal.empty() ? "<p>The simulation takes this job.</p>\n"
                           : fmt::format("<p class=\"failed\" id=\"refusal\">{}</p>\n", escaped(refusal));

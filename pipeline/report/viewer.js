@@ -154,7 +154,7 @@ class Viewer {
     this.addRobot();
     this.addHoses();
     this.dirty = true;
-    this.worst = this.addMark(0xd32f00, 'worst');
+    this.worst = this.addMark(0xd32f00, data.preview ? 'here' : 'worst');
     this.chosen = this.addMark(0x111111, '');
     this.findBox();
     this.resize();

@@ -53,6 +53,33 @@ TEST_CASE("preview opens a job that is refused where it is refused") {
   CHECK(result_of(seen) == "0.000 true true");
 }
 
+TEST_CASE("preview names what a dresspack runs through, tells where, and opens there") {
+  Scratch scratch;
+  scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
+motion: easy
+dresspack: spot_welding
+routing:
+  base_clamp: {link: link_3, position_m: [0.1, 0, 0], direction: [1, 0, 0]}
+  tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
+  free_length_m: 1.9
+)");
+  const Outcome told = run(scratch, "dresslife", "preview job.yaml");
+  INFO(told.out << told.err);
+  REQUIRE(told.status == 0);
+  CHECK(told.out.find("mm deep through link_") != std::string::npos);
+  CHECK(told.out.find("bring a clamp ") != std::string::npos);
+  const std::size_t end = told.out.find(" m from its base clamp"), begin = told.out.rfind(' ', end - 1);
+  REQUIRE(end != std::string::npos);
+  const double place = std::stod(told.out.substr(begin, end - begin));
+  const std::string seen = in_browser(scratch, "job_preview.html", R"(
+    return await evaluate(`(() => { const {worst, tubes} = dresslife.viewer(); return (worst.visible ? (worst.segment + .5) / tubes[0].segments * 1.9 : -1) + ' ' +
+        [...document.querySelectorAll('.label.mark')].map(label => label.textContent).join(); })()`);)");
+  if (seen.empty()) return;
+  INFO(seen);
+  CHECK(std::stod(result_of(seen)) == Approx(place).margin(1.9 / 30));  // a segment
+  CHECK(seen.find(" here\"") != std::string::npos);
+}
+
 TEST_CASE("a run shows the jobs that the simulation refuses, until they are mended") {
   Scratch scratch;
   write_small_job(scratch);

@@ -238,7 +238,8 @@ TEST_CASE("simulate: a clamp inside the robot is refused") {
   job.robot.links[0].capsules = {{{0.3, 0, 1}, {0.6, 0, 1}, 0.3}};
   CHECK_THROWS_WITH(Simulation(job), Catch::Matchers::StartsWith("job.yaml:8:3: error: dresspack runs ") &&
                                          Catch::Matchers::Contains(
-                                             " mm deep through the robot or the floor in the mounting pose"));
+                                             " mm deep through " + job.robot.links[0].name +
+                                             " in the mounting pose, 0."));
 }
 
 }  // namespace
