@@ -304,7 +304,7 @@ class Viewer {
     const near = where === 'place' ? mark || {position: this.tubes[0].centres[this.tubes[0].rings >> 1]} : null;
     const direction = near ? this.camera.position.clone().sub(this.controls.target) : new THREE.Vector3(...directions[where]);
     const narrow = Math.min(1, this.camera.aspect), center = near ? near.position : this.box.getCenter(new THREE.Vector3());
-    const distance = near ? (mark ? .9 : 3) / narrow : this.distanceOfAll(direction, center);
+    const distance = near ? (mark && !data.preview ? .9 : mark ? 1.8 : 3) / narrow : this.distanceOfAll(direction, center);
     this.controls.target.copy(center);
     this.camera.position.copy(this.controls.target).addScaledVector(direction.normalize(), distance);
     this.controls.update();
@@ -361,7 +361,8 @@ class Viewer {
     this.dirty = true;
   }
   warnOf(links) {
-    const material = new THREE.MeshLambertMaterial({color: 0xd97a3a});
+    // What lies in them is seen.
+    const material = new THREE.MeshLambertMaterial({color: 0xd97a3a, transparent: true, opacity: .4, depthWrite: false});
     this.links.forEach((link, k) => {
       if (links[k])
         for (const part of link.children)
