@@ -56,7 +56,8 @@ int improve_study(Options options) {
   print(shown(improvement_words(found, finals, story, options.request.second, off, places)));
   print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
                           (places.folder / "improve.html").string())));
-  return finals.of.size() > 1 ? 0 : 1;
+  const int failed = say_failures(options.study, finals.rows);
+  return failed != 0 || finals.of.size() == 1 ? 1 : 0;
 }
 
 template <class Enum>

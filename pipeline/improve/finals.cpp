@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t finalists = 6;  // whose lives are told over what is not known, too
 
-/// The best of what was tried; the front of two aims whole.
+/// The best of what was tried; the front of two aims whole, but for the jobs as they are, which are told anyhow.
 std::vector<std::size_t> finalists_of(const Improvement& found) {
-  if (found.front.size() > 1) return found.front;
   std::vector<std::size_t> best;
+  if (found.front.size() > 1) {
+    std::copy_if(found.front.begin(), found.front.end(), std::back_inserter(best), [](std::size_t k) { return k > 0; });
+    return best;
+  }
   for (std::size_t k = 1; k < found.trials.size(); ++k)
     if (found.trials[k].worst.feasible()) best.push_back(k);
   std::stable_sort(best.begin(), best.end(), [&](std::size_t a, std::size_t b) {

@@ -123,10 +123,11 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   }
   if (found.front.size() > 1) {
     text += fmt::format("Longest lives for their {}:\n", word(second));
-    for (std::size_t k = 1; k < finals.of.size(); ++k) {
-      const Trial& trial = found.trials[finals.of[k].trial];
-      text += fmt::format("  trial {:4}  {:>12}  {:.3f} m  {:.1f} s\n", finals.of[k].trial,
-                          hours_text(finals.of[k].hours), trial.hose_length, trial.cycle_seconds);
+    for (const std::size_t k : found.front) {
+      const Trial& trial = found.trials[k];
+      const auto of = std::find_if(finals.of.begin(), finals.of.end(), [&](const Final& one) { return one.trial == k; });
+      text += fmt::format("  {:>10}  {:>12}  {:.3f} m  {:.1f} s\n", k == 0 ? "as it is" : fmt::format("trial {:4}", k),
+                          hours_text(of->hours), trial.hose_length, trial.cycle_seconds);
     }
     return text;
   }

@@ -103,6 +103,17 @@ TEST_CASE("a search that is killed ends where it would have ended") {
   CHECK(content(scratch / "killed/better_improve/improve.csv") == content(scratch / "whole/better_improve/improve.csv"));
 }
 
+TEST_CASE("improve tells the front of two aims, of which the jobs as they are may be one") {
+  Scratch scratch;
+  write_small_study(scratch);
+  const Outcome told = run(scratch, "dresslife", "improve better.yaml --trials 6 --rehearsals 0 --second hose_length --off 0 --quiet");
+  INFO(told.out << told.err);
+  REQUIRE(told.status == 0);
+  CHECK(told.out.find("\nLongest lives for their hose_length:\n") != std::string::npos);
+  CHECK(told.out.find("\n    as it is  ") != std::string::npos);
+  CHECK(told.out.find(" 0 h ") == std::string::npos);
+}
+
 TEST_CASE("improve keeps trials whole where the study says so") {
   Scratch scratch;
   write_small_study(scratch);
