@@ -13,7 +13,8 @@ struct StageLimits {
 };
 
 /// Opens what of standard input, output and error is closed: a file opened later would take its number, and
-/// what is said would go into it. A file that may not grow any more fails its write instead of ending the
+/// what is said would go into it. Lines of standard output leave whole, so that none of standard error lands within
+/// one where both go into one file. A file that may not grow any more fails its write instead of ending the
 /// program.
 void settle_streams();
 
