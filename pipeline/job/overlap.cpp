@@ -50,24 +50,35 @@ double turn_rate(const Component& of) {
   return (of.hand == Hand::left ? -1 : 1) * std::tan(of.lay_angle) / of.helix_radius;
 }
 
-void add_overlaps_between(const std::vector<Component>& components, std::vector<Warning>& warnings) {
+/// Side by side all along, or crossing each other within a metre.
+bool go_on_alike(const Component& one, const Component& other) {
+  constexpr double along = 1;  // [m]
+  if (one.helix_radius == 0 || other.helix_radius == 0) return true;
+  return std::abs(turn_rate(one) - turn_rate(other)) * along < 2 * pi / std::max(one.count, other.count);
+}
+
+void add_overlaps_between(const std::vector<Component>& components, Problems& problems, std::vector<Warning>* warnings) {
   for (std::size_t a = 0; a < components.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
       const Component &one = components[b], &other = components[a];
+      if (!overlap_each_other(one, other)) continue;
       const double apart = nearest_distance(one, other), needed = one.radius + other.radius;
-      if (apart >= needed * (1 - allowed)) continue;
       const auto name = [](const Component& of) { return of.layer.empty() ? of.name : of.layer + "/" + of.name; };
-      warnings.push_back({WarningKind::overlap, other.where.text(),
-                          fmt::format("'{}' and '{}' come as near as {:.4g} mm between their axes, {:.3f} mm less than their "
-                                      "radii together; check helix_radius_mm, radius_mm, phase_deg and lay_angle_deg of both",
-                                      name(one), name(other), 1e3 * apart, 1e3 * (needed - apart))});
+      const std::string what = fmt::format("'{}' and '{}' come as near as {:.4g} mm between their axes, {:.3f} mm less than their "
+                                           "radii together",
+                                           name(one), name(other), 1e3 * apart, 1e3 * (needed - apart));
+      const std::string remedy = "check helix_radius_mm, radius_mm, phase_deg and lay_angle_deg of both";
+      if (apart < hopeless * needed && go_on_alike(one, other))
+        problems.add(other.where, what + " (nearer than half of these)", remedy);
+      else if (warnings)
+        warnings->push_back({WarningKind::overlap, other.where.text(), what + "; " + remedy});
     }
 }
 
 /// Gross overlap is a problem, less of it a warning where these are asked for.
 void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>* warnings) {
   for (const Component& inner : of.components) add_overlaps(inner, problems, warnings);
-  if (warnings) add_overlaps_between(of.components, *warnings);
+  add_overlaps_between(of.components, problems, warnings);
   if (!overlaps(of)) return;
   const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
   const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
@@ -103,10 +114,8 @@ double neighbour_distance(double helix_radius, double lay_angle, int count) {
 }
 
 double nearest_distance(const Component& one, const Component& other) {
-  constexpr double along = 1;  // [m]
-  const double apart = std::abs(one.helix_radius - other.helix_radius);
-  if (one.helix_radius == 0 || other.helix_radius == 0) return apart;
-  if (std::abs(turn_rate(one) - turn_rate(other)) * along >= 2 * pi / std::max(one.count, other.count)) return apart;
+  if (one.helix_radius == 0 || other.helix_radius == 0 || !go_on_alike(one, other))
+    return std::abs(one.helix_radius - other.helix_radius);
   double nearest = one.helix_radius + other.helix_radius;
   for (int k = 0; k < one.count; ++k)
     for (int j = 0; j < other.count; ++j) {
@@ -121,11 +130,15 @@ bool overlaps(const Component& component) {
   return component.helix_radius > 0 && !fits(component, component.lay_angle, component.count, allowed);
 }
 
+bool overlap_each_other(const Component& one, const Component& other) {
+  return nearest_distance(one, other) < (one.radius + other.radius) * (1 - allowed);
+}
+
 std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
   Problems problems;
   std::vector<Warning> warnings;
   for (const Component& component : dresspack.components) add_overlaps(component, problems, &warnings);
-  add_overlaps_between(dresspack.components, warnings);
+  add_overlaps_between(dresspack.components, problems, &warnings);
   problems.finish();
   return warnings;
 }
@@ -133,6 +146,7 @@ std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
 void refuse_gross_overlap(const Dresspack& dresspack) {
   Problems problems;
   for (const Component& component : dresspack.components) add_overlaps(component, problems, nullptr);
+  add_overlaps_between(dresspack.components, problems, nullptr);
   problems.finish();
 }
 

@@ -22,12 +22,14 @@ double nearest_distance(const Component& one, const Component& other);
 
 /// Whether the parts of a component overlap by more than overlap_warnings() allows.
 bool overlaps(const Component& component);
+/// Likewise those of two components of one parent.
+bool overlap_each_other(const Component& one, const Component& other);
 
 /// A warning for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
 /// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit. Likewise for each two
 /// components of one parent.
-/// Errors: InputError for parts nearer than half of their diameter. Insulation gives, but two such parts
-/// would share over a third of their sections.
+/// Errors: InputError for parts nearer than half of their diameter, of two components where they go on alike, as cables at
+/// one angle. Insulation gives, but two such parts would share over a third of their sections.
 std::vector<Warning> overlap_warnings(const Dresspack& dresspack);
 
 /// The errors alone, in a hundredth of the time: nobody asks what would fit.

@@ -111,7 +111,7 @@ class Drawing {
 
   std::string svg() {
     if (layers_ == LayerLines::drawn)
-      for (const Component& component : dresspack_.components) list(component, 0);
+      list(dresspack_.components, 0);
     const double height = picture + line_height * (static_cast<double>(lines_.size()) + 1);
     std::string body = fmt::format("<g transform=\"translate({0:.4g} {0:.4g})\">\n{1}{2}</g>\n", picture / 2,
                                    hose(), inside(dresspack_.components));
@@ -149,7 +149,7 @@ class Drawing {
   std::string inside(const std::vector<Component>& components) {
     std::string text;
     for (const Component& component : components) {
-      const std::string id = define(component);
+      const std::string id = define(component, overlap(component, components));
       for (int k = 0; k < component.count; ++k) {
         const double angle = component.phase + 2 * pi * k / component.count,
                      R = scale_ * component.helix_radius;
@@ -160,9 +160,16 @@ class Drawing {
     return text;
   }
 
-  std::string define(const Component& component) {
+  /// Parts of one component each other, or those of another of the same parent.
+  static bool overlap(const Component& component, const std::vector<Component>& among) {
+    return overlaps(component) || std::any_of(among.begin(), among.end(), [&](const Component& other) {
+             return &other != &component && overlap_each_other(component, other);
+           });
+  }
+
+  std::string define(const Component& component, bool over) {
     const char* const own = component.plain ? "plain" : is_wire(component) ? "wire" : "part";
-    std::string shape = circle(overlaps(component) ? "over" : own, component.radius);
+    std::string shape = circle(over ? "over" : own, component.radius);
     if (component.plain && component.plain->kind == PlainKind::hose)
       shape += circle(component.plain->medium == Medium::water ? "water" : "air",
                       properties_of(*component.plain, component.radius).bore);
@@ -172,15 +179,17 @@ class Drawing {
     return id;
   }
 
-  void list(const Component& of, int level) {
-    std::string line = fmt::format("{:{}}{} x {}: {:.4g} mm", "", 4 * level, of.count, name_of(of),
-                                   millimetres(2 * of.radius));
-    if (of.helix_radius > 0)
-      line += fmt::format(", {:.4g} mm off the axis, {}", millimetres(of.helix_radius), lay_words(of));
-    if (of.plain) line += ", " + kind_words(of);
-    if (overlaps(of)) line += " (they overlap: red)";
-    lines_.push_back(line);
-    for (const Component& inner : of.components) list(inner, level + 1);
+  void list(const std::vector<Component>& components, int level) {
+    for (const Component& of : components) {
+      std::string line = fmt::format("{:{}}{} x {}: {:.4g} mm", "", 4 * level, of.count, name_of(of),
+                                     millimetres(2 * of.radius));
+      if (of.helix_radius > 0)
+        line += fmt::format(", {:.4g} mm off the axis, {}", millimetres(of.helix_radius), lay_words(of));
+      if (of.plain) line += ", " + kind_words(of);
+      if (overlap(of, components)) line += " (overlap: red)";
+      lines_.push_back(line);
+      list(of.components, level + 1);
+    }
   }
 
   std::string scale_bar() const {

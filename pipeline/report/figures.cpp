@@ -9,6 +9,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/chart_style.h"
+#include "pipeline/report/known_history.h"
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
@@ -130,7 +131,8 @@ std::string deformation_figure(const JobFiles& files, std::optional<double> time
 std::string curvature_figure(const JobFiles& files) {
   const Worst worst = worst_of(files.life);
   const FileReader strain_file(files.strain, strain_format()), life(files.life, life_format());
-  const std::vector<double> strain = life.read<double>("/worst/strain");
+  const KnownHistory history = known_history(life, &strain_file);
+  const std::vector<double>& strain = history.strain;
   const std::vector<double> all = strain_file.read<double>("/deformation/curvature");
   const std::size_t segments = strain_file.rows("/segment/length");
   if (all.size() != 2 * segments * strain.size())
@@ -149,10 +151,11 @@ std::string curvature_figure(const JobFiles& files) {
                     panel_width,
                     420,
                     linear_axis("curvature of the segment [1/m]", std::min(straightest, 0.0), most, 9),
-                    linear_axis("strain of the worst wire [%]", percent * low, percent * high)};
-  Picture picture(width, panel.bottom() + axis_height, "Strain of the worst wire over curvature",
-                  fmt::format("{} in segment {} from the tool.", worst.component, worst.from_tool));
+                    linear_axis("strain [%]", percent * low, percent * high)};
+  const std::string words = fmt::format("{}, segment {} from the tool", history.words(), worst.from_tool);
+  Picture picture(width, panel.bottom() + axis_height, "Strain of the worst wire over curvature", words);
   panel.draw_axes(picture);
+  picture.text(panel.left + 6, panel.top + 12, words, "note");
   std::vector<std::pair<double, double>> points;
   for (std::size_t k = 0; k < strain.size(); ++k)
     points.emplace_back(panel.across(curvature[k]), panel.down(percent * strain[k]));
@@ -170,7 +173,7 @@ std::string scene_figure(const JobFiles& files, std::optional<double> time) {
 std::string chart(Figure what, const JobFiles& files, std::optional<double> time) {
   switch (what) {
     case Figure::strain:
-      return needed(strain_chart(read_life(files.life)), files.life);
+      return needed(strain_chart(read_life(files.life, files.strain)), files.life);
     case Figure::cycles:
       return needed(cycle_chart(read_life(files.life)), files.life);
     case Figure::damage:

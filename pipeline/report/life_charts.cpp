@@ -6,10 +6,12 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/readable.h"
+#include "pipeline/report/known_history.h"
 #include "pipeline/report/plot.h"
 
 namespace dresslife::pipeline {
@@ -221,11 +223,16 @@ PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
 
 }  // namespace
 
-LifeSummary read_life(const std::filesystem::path& life_file) {
+LifeSummary read_life(const std::filesystem::path& life_file, const std::filesystem::path& strain_file) {
   const FileReader file(life_file, life_format());
   LifeSummary life;
+  std::error_code ignored;
+  std::optional<FileReader> strain;
+  if (std::filesystem::is_regular_file(strain_file, ignored)) strain.emplace(strain_file, strain_format());
+  const KnownHistory history = known_history(file, strain ? &*strain : nullptr);
+  life.strain = history.strain;
+  life.strain_of = history.words();
   life.time = file.read<double>("/time");
-  life.strain = file.read<double>("/worst/strain");
   life.step = file.read<std::int32_t>("/program/step");
   life.step_text = file.read<std::string>("/program/text");
   life.step_damage = file.read<double>("/program/damage");
@@ -296,6 +303,7 @@ std::string strain_chart(const LifeSummary& life) {
     y = strain.down(percent * y);
   }
   picture.curve(points, "curve");
+  picture.text(strain.left + 6, strain.bottom() - 7, life.strain_of, "note");
   draw_program(picture, life, runs, strain, strip, strip_height);
   if (damaged) {
     share.draw_axes(picture);

@@ -17,7 +17,8 @@ struct WorstCycle {
 /// The part of a life file that a reader looks at; sizes do not depend on the number of wires.
 struct LifeSummary {
   std::vector<double> time;            ///< (sample) [s]
-  std::vector<double> strain;          ///< (sample) of the worst wire
+  std::vector<double> strain;          ///< (sample) of the worst wire, see known_history.h
+  std::string strain_of;               ///< which wire that is, in words
   std::vector<double> damage_rate;     ///< (sample) of the worst segment; empty: no wire was evaluated
   std::vector<std::int32_t> step;      ///< (sample) program line, -1: none
   std::vector<std::string> step_text;  ///< (line)
@@ -39,8 +40,8 @@ struct LifeSummary {
   std::string job, history;
 };
 
-/// Errors: InputError when the file cannot be read.
-LifeSummary read_life(const std::filesystem::path& life_file);
+/// strain_file: of the same job, for a history without gaps; may be missing. Errors: InputError when a file cannot be read.
+LifeSummary read_life(const std::filesystem::path& life_file, const std::filesystem::path& strain_file = {});
 
 /// A stretch of time in which one program line runs.
 struct ProgramRun {

@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "pipeline/files/motion_layout.h"
-#include "pipeline/files/motion_layout.h"
 #include "pipeline/job/document.h"
 #include "pipeline/report/json.h"
+#include "pipeline/report/known_history.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -183,17 +183,6 @@ class Data {
     return of;
   }
 
-  /// /worst/strain is a whole history where its site was probed or judged by planes.
-  bool worst_is_sampled() const {
-    if (!worst_ || !strain_) return false;
-    for (const char* whole : {"/probe/site", "/plane/site"}) {
-      if (!strain_->has(whole)) continue;
-      const auto sites = strain_->read<std::uint32_t>(whole);
-      if (std::find(sites.begin(), sites.end(), *worst_) != sites.end()) return true;
-    }
-    return false;
-  }
-
   /// One history, at its own times or at those of all. sampled: whole, else straight between turning points. site: of the
   /// wire; the segment's worst where it is not told.
   std::string strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
@@ -228,7 +217,7 @@ class Data {
     std::string rows;
     std::size_t kept = 0;
     const auto add = [&](const std::string& row) { rows += rows.empty() ? row : "," + row; };
-    const bool worst_known = worst_is_sampled();
+    const bool worst_known = worst_ && strain_ && known_whole(*strain_, *worst_);
     std::size_t turns = 0;
     for (const std::size_t segment : most_damaged_first(damage_)) {
       const bool worst_one = static_cast<int>(segment) == worst;

@@ -392,12 +392,12 @@ std::string facts(const RankingRow& row) {
 }
 
 std::string charts(const RankingRow& row) {
-  const LifeSummary life = read_life(row.life_file);
+  // A stage that ran again since may have left other strains beside the last result.
+  const LifeSummary life = read_life(row.life_file, row.stale ? "" : row.life_file.parent_path() / "strain.h5");
   return dresspack_table(life, row) +
          chart_section("Strain of the worst wire over time",
-               "Below the strain, the lines of the program (rest the pointer on one for its text); those "
-               "that cost most are "
-               "marked and named.",
+               "Where its history was not kept whole, of a wire of that segment of which it was. Below the strain, the lines of "
+               "the program (rest the pointer on one for its text); those that cost most are marked and named.",
                strain_chart(life)) +
          damage_along(life, row) +
          chart_section("Cycles of the worst wire",

@@ -1,4 +1,6 @@
 // dresslife draw: a dresspack as a list and as a picture.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "tests/cli/process.h"
@@ -48,6 +50,29 @@ TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has 
   CHECK(count_of(picture, "class=\"plain\"") == 3);
   CHECK(count_of(picture, "class=\"water\"") == 1);
   CHECK(count_of(picture, "class=\"air\"") == 1);
+}
+
+TEST_CASE("draw shows two cables that lie in each other in the colour of a warning, and refuses two in one place") {
+  Scratch scratch;
+  const auto hose = [&](int angle) {
+    std::string text = "name: hose\nsource: made up\ndiameter_mm: 40\ninner_diameter_mm: 34\nhose_material: hose_polyamide\ncomponents:\n";
+    for (const auto& [name, phase] : {std::pair("a", 0), std::pair("b", angle)})
+      text += fmt::format("  - {{name: {}, radius_mm: 5, helix_radius_mm: 10, phase_deg: {}, components: [{{name: wire, count: 6, radius_mm: "
+                          "0.3, helix_radius_mm: 2, lay_angle_deg: 15, material: copper}}]}}\n",
+                          name, phase);
+    scratch.write("hose.yaml", text);
+    return run(scratch, "dresslife", "draw hose.yaml -o hose.svg");
+  };
+  const Outcome near = hose(40);  // 2 * 10 mm * sin(20 deg)
+  CHECK(near.status == 0);
+  CHECK(near.err.find("'a' and 'b' come as near as 6.84 mm") != std::string::npos);
+  CHECK(count_of(content(scratch / "hose.svg"), "class=\"over\"") == 2);
+  CHECK(count_of(content(scratch / "hose.svg"), "(overlap: red)") == 2);
+  const Outcome same = hose(0);
+  CHECK(same.status == 1);
+  CHECK(same.err.find("hose.yaml:8:5: error: 'a' and 'b' come as near as 0 mm") == 0);
+  CHECK(hose(180).err.empty());
+  CHECK(count_of(content(scratch / "hose.svg"), "class=\"over\"") == 0);
 }
 
 TEST_CASE("a cable needs no more than its data sheet's line, and is as wide as that says") {

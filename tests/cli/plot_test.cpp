@@ -23,6 +23,13 @@ TEST_CASE("plot draws each figure of a job into a file that needs no page") {
     CHECK(picture.find("var(") == std::string::npos);  // programs other than browsers know no variables
     CHECK(picture.find(draws) != std::string::npos);
   }
+  // No history is made up of its turning points where strain.h5 is there.
+  CHECK(content(scratch / "strain.svg").find("straight between") == std::string::npos);
+  CHECK(content(scratch / "strain.svg").find(">cable ") != std::string::npos);
+  fs::rename(scratch / "runs/job/job/strain.h5", scratch / "away.h5");
+  REQUIRE(run(scratch, "dresslife", "plot " + job + " --what strain -o gone.svg").status == 0);
+  CHECK(content(scratch / "gone.svg").find(", straight between its turning points") != std::string::npos);
+  fs::rename(scratch / "away.h5", scratch / "runs/job/job/strain.h5");
   // Any of a job's files stands for the folder it lies in.
   CHECK(
       run(scratch, "dresslife", "plot " + job + "/strain.h5 --what deformation --time 0.5 -o d.svg").status ==

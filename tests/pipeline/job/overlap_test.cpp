@@ -99,6 +99,10 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK(nearest_distance(parts[0], parts[1]) == 0);
   CHECK(overlap_warnings(dresspack).size() == 1);
   parts[1].hand = Hand::right;
+  parts[1].phase = 5 * degree;  // nearly in the same place: only a mistake
+  CHECK_THROWS_WITH(overlap_warnings(dresspack), Catch::Contains("'ring' and 'between' come as near as 0.1745 mm") &&
+                                                     Catch::Contains("nearer than half of these"));
+  CHECK_THROWS(refuse_gross_overlap(dresspack));
   parts[1].phase = std::numbers::pi / 4;  // 15 deg off: 2 R sin(22.5 deg)
   CHECK(nearest_distance(parts[0], parts[1]) == Approx(4e-3 * std::sin(22.5 * degree)));
   CHECK(overlap_warnings(dresspack).size() == 1);
