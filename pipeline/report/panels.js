@@ -36,7 +36,7 @@ function strainPanel(colours) {
   const how = !row.sampled ? ', straight between its turning points' :
       life.strains.thinned ? ', extremes of short stretches' :
                              '';
-  const other = row.wire ? ` (${readable(100 * row.damage / life.segments.damage[state.segment])} % of the worst wire\u2019s damage` +
+  const other = row.wire ? ` (${readable(100 * row.damage / life.segments.damage[state.segment])} % of the damage of the worst wire there` +
           `${turns ? '; dots: where the worst turns' : ''})` : '';
   return {
     title: `${title} of ${row.wire || wireWords(state.segment)}${other}${how}`,
