@@ -40,7 +40,7 @@ function strainPanel(colours) {
           `${turns ? '; dots: where the worst turns' : ''})` : '';
   return {
     title: `${title} of ${row.wire || wireWords(state.segment)}${other}${how}`,
-    brief: `${title}${other}${how}`,
+    brief: row.wire ? `${title}, ${readable(100 * row.damage / life.segments.damage[state.segment])} % of the worst\u2019s damage` : `${title}${how}`,
     height: 120,
     ...around(row.values),
     curves: [{time: row.at, values: row.values, colour: colours.blue}],
