@@ -14,8 +14,6 @@ using Eigen::Index;
 
 constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in its deviations
 
-std::string life_words(double life) { return std::isfinite(life) ? readable(life, 2) : "no damage"; }
-
 /// How many of its deviations a prediction lies short of what was seen, or beyond it; 0 where it agrees.
 double surprise(const LearnedTest& test) {
   const Observation& observation = test.observation;
@@ -65,7 +63,7 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
 }
 
 std::string words_of(const Foretold& told) {
-  return fmt::format("{} ({} .. {})", life_words(told[1]), life_words(told[0]), life_words(told[2]));
+  return fmt::format("{} ({} .. {})", life_text(told[1], 2), life_text(told[0], 2), life_text(told[2], 2));
 }
 
 void add_doubts(Learned& learned, const Axes& axes) {

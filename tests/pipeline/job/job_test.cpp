@@ -480,7 +480,7 @@ TEST_CASE("job: strains depend on a metal's stiffness, and on its cyclic curve w
   }
   CHECK(parts(one, "")[0] != parts(one, "", {}, "118")[0]);
   // Up to which strain a grip holds follows from the curve, given or implied: n' is b / c, here 0.2 of both.
-  for (const std::string& at : {"base", "tool"}) {
+  for (const std::string at : {"base", "tool"}) {
     const std::vector<std::string> grip{"dresspack.components.1." + at + "_grip_N=10"};
     CHECK(parts(one, curve, grip)[0] == parts(other, curve, grip)[0]);
     CHECK(parts(one, "", grip)[0] != parts(other, "", grip)[0]);
