@@ -95,12 +95,15 @@ LookModels::LookModels(const std::vector<Look>& looks, const std::vector<Look>& 
   build_all();
 }
 
+bool LookModels::holds(const VectorXd& place) const {
+  for (Index k = 0; k < failed_.places.rows(); ++k)
+    if ((failed_.places.row(k).transpose() - place).cwiseAbs().maxCoeff() < same) return true;
+  return false;
+}
+
 /// Whether it runs is told by a look where there was one.
 void LookModels::add_rehearsal(const Look& rehearsal) {
-  bool looked_at = false;
-  for (Index k = 0; k < failed_.places.rows() && !looked_at; ++k)
-    looked_at = (failed_.places.row(k).transpose() - rehearsal.place).cwiseAbs().maxCoeff() < same;
-  if (!looked_at) {
+  if (!holds(rehearsal.place)) {
     failed_.add(rehearsal.place, failure_of(rehearsal));
     any_failed_ = any_failed_ || !rehearsal.ran;
   }

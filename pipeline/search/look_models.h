@@ -37,6 +37,8 @@ class LookModels {
   void learn(const std::vector<Look>& rehearsals);
 
   bool any_feasible() const { return any_feasible_; }  ///< among the looks
+  /// Whether a place that was looked at or rehearsed is among those that count: elsewhere the models guess.
+  bool holds(const Eigen::VectorXd& place) const;
   bool knows_aim() const { return aim_.model.has_value(); }
 
   /// (limit that is not everywhere the same) mean + deviations x deviation, tamed; last whether it runs, <= 0: it does.

@@ -187,7 +187,7 @@ VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<V
   Merit least;
   const Look* best = nullptr;
   for (const Look& rehearsal : rehearsals_) {
-    if (is_known(rehearsal.place) || !rehearsal.ran) continue;
+    if (is_known(rehearsal.place) || !rehearsal.ran || !models.holds(rehearsal.place)) continue;
     const Merit merit = models.any_feasible() ? Merit{models.excess(rehearsal.place, trust.of_limits),
                                                       models.aim_at(rehearsal.place, trust.of_aim)}
                                               : nearness(models, rehearsal.place);
@@ -200,7 +200,8 @@ VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<V
 std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const {
   std::vector<VectorXd> places;
   for (const Look& rehearsal : rehearsals_)
-    if (rehearsal.ran && !is_known(rehearsal.place) && models.excess(rehearsal.place, cautious) == 0)
+    if (rehearsal.ran && !is_known(rehearsal.place) && models.holds(rehearsal.place) &&
+        models.excess(rehearsal.place, cautious) == 0)
       places.push_back(rehearsal.place);
   return places;
 }
@@ -211,7 +212,7 @@ VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models, std::size_
   const Look* nearest = nullptr;
   for (std::size_t k = first; k < rehearsals_.size(); ++k) {
     const Look& rehearsal = rehearsals_[k];
-    if (!rehearsal.ran) continue;
+    if (!rehearsal.ran || !models.holds(rehearsal.place)) continue;
     const Merit merit = nearness(models, rehearsal.place);
     if (!nearest || merit < least) least = merit, nearest = &rehearsal;
   }

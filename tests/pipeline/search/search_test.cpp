@@ -261,6 +261,24 @@ TEST_CASE("a search that rehearses goes on where it was killed, too") {
   }
 }
 
+TEST_CASE("of many rehearsals of which none keeps its limits the nearest are looked at, and none that the models forgot") {
+  // A narrow valley about one corner of a box of six variables, not deep enough; rehearsals are right.
+  const auto beyond = [](const VectorXd& place) {
+    return 0.1 + std::abs(std::log(((place.array() - 0.2).abs().maxCoeff() + 0.05) / 0.3));
+  };
+  const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
+    std::vector<Look> told;
+    for (const VectorXd& place : places) told.push_back({place, true, {}, {beyond(place)}});
+    return told;
+  };
+  SurrogateSettings settings;
+  settings.rehearsals = 480;  // twice as many as the models take
+  SurrogateSearch search(6, settings, nothing_rejected, rehearse);
+  const std::vector<VectorXd> asked = search.ask(4);
+  CHECK(search.rehearsals().size() >= 480);
+  for (const VectorXd& place : asked) CHECK(beyond(place) < 0.15);  // 0.1 is the valley's floor, 1.9 its rim
+}
+
 TEST_CASE("rehearsals that do not run, or tell nothing, do not lead astray") {
   // Runs where x0 > 0.5 alone; of limits nothing is told there.
   const Problem problem = g24();
