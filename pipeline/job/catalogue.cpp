@@ -310,8 +310,12 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
     place_at(entry, named_at);
     return entry;
   }
-  if (name.ends_with(".yaml") || name.find('/') != std::string::npos)
-    return read_document((folder_of(named_at) / name).lexically_normal());
+  const fs::path beside = (folder_of(named_at) / name).lexically_normal();
+  const bool is_path = name.ends_with(".yaml") || name.find('/') != std::string::npos;
+  if (is_path && fs::exists(beside)) return read_document(beside);
+  if (is_path)
+    throw InputError(named_at, fmt::format("there is no file '{}'", beside.string()),
+                     "check the path; it counts from the folder of the file that names it");
   std::vector<std::string> names;
   const auto found_in = [&](const fs::path& place) {
     std::error_code failure;
@@ -327,7 +331,10 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   if (const fs::path file = found_in(shipped_catalogue() / folder); !file.empty()) return read_document(file);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  throw InputError(named_at, fmt::format("'{}' is not in the catalogue (config/{})", name, folder),
+  const bool may_be_file = folder == "programs" && fs::path(name).has_extension();
+  throw InputError(named_at,
+                   fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,
+                               may_be_file ? fmt::format(", and there is no file '{}'", beside.string()) : ""),
                    names.empty() ? "write the entry itself or a path to a .yaml file"
                                  : fmt::format("one of: {}", fmt::join(names, ", ")));
 }

@@ -50,11 +50,12 @@ TEST_CASE("catalogue: an entry may be a file, named relative to who names it") {
   const auto job =
       scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: ../other/my.yaml\n"));
   CHECK(read_job(job).motion.name == "nod");
-  const auto lost =
-      scratch.write("jobs/lost.yaml", edited(sample_job, motion_block, "motion: absent.yaml\n"));
+  const std::string text = edited(sample_job, motion_block, "motion: absent.yaml\n");
+  const auto lost = scratch.write("jobs/lost.yaml", text);
   CHECK(message_of([&] { read_job(lost); }) ==
-        (scratch / "jobs/absent.yaml").string() +
-            ": error: cannot be read (No such file or directory); check the path");
+        place_of(text, "absent", lost.string()) + ": error: there is no file '" +
+            (scratch / "jobs/absent.yaml").string() +
+            "'; check the path; it counts from the folder of the file that names it");
 }
 
 TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
@@ -63,7 +64,8 @@ TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
   const auto job = scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nod.csv\n"));
   CHECK(read_job(job).motion.program == scratch / "jobs/nod.csv");
   scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nid.csv\n"));
-  CHECK(message_of([&] { read_job(job); }).find("'nid.csv' is not in the catalogue") != std::string::npos);
+  CHECK(message_of([&] { read_job(job); }).find("'nid.csv' is not in the catalogue (config/programs), and there is no file '" +
+                                                  (scratch / "jobs/nid.csv").string() + "'") != std::string::npos);
 }
 
 TEST_CASE("catalogue: the shipped entries are always there") {
