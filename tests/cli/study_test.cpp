@@ -207,7 +207,7 @@ TEST_CASE("a study that cannot be read is refused with its place") {
           "study.yaml:2:1: error: unknown key 'very' of a study; did you mean 'vary'?");
   refused("base: job.yaml\nvary: {simulation.segments: 8}\n",
           "study.yaml:2:29: error: vary.simulation.segments must be a list of values");
-  refused("base: none.yaml\n", "none.yaml: error: cannot be read");
+  refused("base: none.yaml\n", "study.yaml:1:7: error: there is no file 'none.yaml'");
 }
 
 TEST_CASE("clean removes what a study does not keep and jobs that it has no more, and nothing of others") {
