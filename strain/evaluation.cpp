@@ -556,14 +556,18 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
       worst_segment_ = segment;
     }
   }
-  // The wire that is damaged most is likelier that of the largest sum over cycles.
-  const auto of_cycles = std::max_element(worst.begin(), worst.end(), [&](const Worst& a, const Worst& b) {
-    return (wire_range(a) < 0 ? -1 : a.value[Worst::cycles]) <
-           (wire_range(b) < 0 ? -1 : b.value[Worst::cycles]);
-  });
-  if (of_cycles != worst.end() && wire_range(*of_cycles) >= 0 && of_cycles->value[Worst::cycles] > 0 &&
-      of_cycles->site[Worst::cycles] != of_all->site[Worst::range])
-    to_probe.push_back(of_cycles->site[Worst::cycles]);
+  // The wire that is damaged most is likelier among those of the largest sums: first by either in the four shipped programs,
+  // or second, but for one in which it is the 19th.
+  constexpr std::size_t by_sum = 2;
+  for (std::size_t sum = 0; sum < Worst::sums.size(); ++sum) {
+    std::vector<std::pair<float, Site>> most;
+    for (const Worst& layer : worst)
+      if (wire_range(layer) >= 0)
+        for (const auto& wire : std::span(layer.by_sum[sum]).first(std::min(by_sum, layer.by_sum[sum].size()))) most.push_back(wire);
+    std::ranges::stable_sort(most, std::greater(), &std::pair<float, Site>::first);
+    for (std::size_t k = 0; k < std::min(by_sum, most.size()); ++k)
+      if (most[k].first > 0 && std::ranges::find(to_probe, most[k].second) == to_probe.end()) to_probe.push_back(most[k].second);
+  }
   for (const auto& [at, site] : probes_)
     if (at == segment) to_probe.push_back(site);
   put_probes(to_probe, segment, motion, sink);

@@ -165,9 +165,9 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
 
   const auto probe = file.read<std::uint32_t>("/probe/site");
   const auto history = file.read<double>("/probe/strain");
-  REQUIRE(probe.size() > segments);  // one or two of each segment and one of the job's
+  REQUIRE(probe.size() > segments);  // one to five of each segment and one of the job's
   constexpr double single = 1e-6;    // waves and turning points are single precision
-  REQUIRE(probe.size() <= 2 * segments + 1);
+  REQUIRE(probe.size() <= 5 * segments + 1);
   for (std::size_t p = 0; p < probe.size(); ++p)
     for (std::uint64_t k = offset[probe[p]]; k < offset[probe[p] + 1]; ++k)
       CHECK(std::abs(strain[k] - history[p * samples + sample[k]]) < single);
