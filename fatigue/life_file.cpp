@@ -258,7 +258,10 @@ struct SettledGroups {
   const TextColumn& component;
 
   SettledGroups(const Context& c, const SiteSet& of_sites, const TextColumn& components)
-      : layers(layers_of(c, components)), count(layers.name.size() * c.segment_length.size()), sites(of_sites), component(components) {}
+      : layers(layers_of(c, components)),
+        count(layers.name.size() * c.segment_length.size()),
+        sites(of_sites),
+        component(components) {}
   std::size_t operator()(std::size_t site) const {
     const std::size_t layer = layers.of_component[component.index[site]];
     return layer == no_site ? no_site : static_cast<std::size_t>(sites.segment(site)) * layers.name.size() + layer;

@@ -6,14 +6,14 @@
 #include <numeric>
 
 #include "pipeline/helices/shares.h"
+#include "pipeline/job/strain.h"
 
 namespace dresslife::strain {
 namespace {
 
 constexpr std::size_t most_offset_samples = 64;  // pictures of where cables lie
-// Of loose cables in a segment. Two: a segment's curvature is their mean, and one piece is bent at its ends alone. The
-// most that a user may ask for, too: beyond, segments are too long to tell what a cable does within them.
-constexpr std::size_t least_elements = 2, most_elements = 16;
+// Of loose cables in a segment: its curvature is their mean, and one piece is bent at its ends alone.
+constexpr std::size_t least_elements = 2;
 // Beyond the forces of any cable: what is limited by no less is glued. Not infinite, so that limits add up.
 constexpr double no_force_reaches = 1e7;  // [N]
 
@@ -101,8 +101,10 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     fit_in_hose(loose, construction.section());
     const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
     const std::size_t of_waves = (elements_of_waves(loose, length) + node_segments() - 1) / node_segments();
-    const std::size_t per_segment = job.elements_per_segment > 0 ? job.elements_per_segment
-                                                                 : std::clamp(of_waves, least_elements, most_elements);
+    const std::size_t per_segment =
+        job.elements_per_segment > 0
+            ? job.elements_per_segment
+            : std::clamp<std::size_t>(of_waves, least_elements, pipeline::most_cable_elements);
     loose_.emplace(loose, LooseSettings{length, node_segments() * per_segment, construction.rest_curvature(),
                                         std::ranges::any_of(cables_, &Cable::rubs)});
     nodes_.resize(loose_->nodes());

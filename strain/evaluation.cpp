@@ -516,6 +516,60 @@ std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const C
   return worst;
 }
 
+std::vector<const Evaluation::Worst*> Evaluation::of_wires(const std::vector<Worst>& worst) const {
+  std::vector<const Worst*> wires;
+  for (std::size_t layer = 0; layer < worst.size(); ++layer)
+    if (!construction_.layers()[layer].is_hose && worst[layer].value[Worst::range] >= 0) wires.push_back(&worst[layer]);
+  return wires;
+}
+
+void Evaluation::find_likely(const std::vector<const Worst*>& wires) {
+  likely_.clear();
+  float most = 0;
+  for (const Worst* const layer : wires) most = std::max(most, layer->value[Worst::cycles]);
+  constexpr float near = 1e-2f;  // of a sum of sixth powers: a layer that sees less than half as much stays behind
+  for (const Worst* const layer : wires) {
+    if (layer->value[Worst::cycles] < near * most) continue;
+    for (const Worst::By by : {Worst::range, Worst::range_times_tension}) likely_.push_back(layer->site[by]);
+    constexpr std::size_t by_cycles = 2;
+    const auto& list = layer->by_sum.front();
+    for (std::size_t k = 0; k < std::min(by_cycles, list.size()); ++k) likely_.push_back(list[k].second);
+  }
+  std::sort(likely_.begin(), likely_.end());
+  likely_.erase(std::unique(likely_.begin(), likely_.end()), likely_.end());
+}
+
+std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const Worst*>& wires, std::size_t segment) {
+  std::vector<Site> sites;
+  const auto of_range = std::ranges::max_element(wires, {}, [](const Worst* layer) { return layer->value[Worst::range]; });
+  if (of_range != wires.end()) {
+    const Worst& widest = **of_range;
+    sites.push_back(widest.site[Worst::range]);
+    if (widest.value[Worst::range] > worst_range_) {
+      worst_range_ = widest.value[Worst::range];
+      worst_ = widest.site[Worst::range];
+      worst_segment_ = segment;
+    }
+  }
+  // Two of either: in three of the four shipped programs the wire that is damaged most of all is among them, in the fourth
+  // it is the 19th by cycles.
+  constexpr std::size_t by_sum = 2;
+  for (std::size_t sum = 0; sum < Worst::sums.size(); ++sum) {
+    std::vector<std::pair<float, Site>> most;
+    for (const Worst* const layer : wires) {
+      const auto& list = layer->by_sum[sum];
+      most.insert(most.end(), list.begin(), list.begin() + static_cast<std::ptrdiff_t>(std::min(by_sum, list.size())));
+    }
+    std::ranges::stable_sort(most, std::greater(), &std::pair<float, Site>::first);
+    most.resize(std::min(by_sum, most.size()));
+    for (const auto& [value, site] : most)
+      if (value > 0 && std::ranges::find(sites, site) == sites.end()) sites.push_back(site);
+  }
+  for (const auto& [at, site] : probes_)
+    if (at == segment) sites.push_back(site);
+  return sites;
+}
+
 void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
                           const Sink& sink) {
   cables_.finish();
@@ -527,58 +581,17 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
     const std::vector<Site> sites = sites_of_bound(same ? worst : worst_of(segment, bound->means, motion, {}), *bound);
     put_bound(sites, bound->means, segment, motion, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
-  std::vector<Site> to_probe;
-  const auto wire_range = [&](const Worst& of) {  // the hose's wall is no wire
-    return construction_.layers()[&of - worst.data()].is_hose ? -1 : of.value[Worst::range];
-  };
-  const auto of_all = std::max_element(worst.begin(), worst.end(), [&](const Worst& a, const Worst& b) {
-    return wire_range(a) < wire_range(b);
-  });
-  likely_.clear();
-  float most = 0;
-  for (const Worst& layer : worst)
-    if (wire_range(layer) >= 0) most = std::max(most, layer.value[Worst::cycles]);
-  constexpr float near = 1e-2f;  // of a sum of sixth powers: a layer that sees less than half as much stays behind
-  for (const Worst& layer : worst) {
-    if (wire_range(layer) < 0 || layer.value[Worst::cycles] < near * most) continue;
-    for (const Worst::By by : {Worst::range, Worst::range_times_tension}) likely_.push_back(layer.site[by]);
-    constexpr std::size_t by_cycles = 2;
-    const auto& list = layer.by_sum.front();
-    for (std::size_t k = 0; k < std::min(by_cycles, list.size()); ++k) likely_.push_back(list[k].second);
-  }
-  std::sort(likely_.begin(), likely_.end());
-  likely_.erase(std::unique(likely_.begin(), likely_.end()), likely_.end());
-  if (of_all != worst.end() && wire_range(*of_all) >= 0) {
-    to_probe.push_back(of_all->site[Worst::range]);
-    if (of_all->value[Worst::range] > worst_range_) {
-      worst_range_ = of_all->value[Worst::range];
-      worst_ = of_all->site[Worst::range];
-      worst_segment_ = segment;
-    }
-  }
-  // The wire that is damaged most is likelier among those of the largest sums: first by either in the four shipped programs,
-  // or second, but for one in which it is the 19th.
-  constexpr std::size_t by_sum = 2;
-  for (std::size_t sum = 0; sum < Worst::sums.size(); ++sum) {
-    std::vector<std::pair<float, Site>> most;
-    for (const Worst& layer : worst)
-      if (wire_range(layer) >= 0)
-        for (const auto& wire : std::span(layer.by_sum[sum]).first(std::min(by_sum, layer.by_sum[sum].size()))) most.push_back(wire);
-    std::ranges::stable_sort(most, std::greater(), &std::pair<float, Site>::first);
-    for (std::size_t k = 0; k < std::min(by_sum, most.size()); ++k)
-      if (most[k].first > 0 && std::ranges::find(to_probe, most[k].second) == to_probe.end()) to_probe.push_back(most[k].second);
-  }
-  for (const auto& [at, site] : probes_)
-    if (at == segment) to_probe.push_back(site);
-  put_probes(to_probe, segment, motion, sink);
+  const std::vector<const Worst*> wires = of_wires(worst);
+  find_likely(wires);
+  put_probes(sites_to_probe(wires, segment), segment, motion, sink);
   if (sink.progress)
     sink.progress(static_cast<double>(place_.first_segment + segment + 1) /
                   static_cast<double>(place_.segments_in_all));
   if (!with_planes_) return;
   std::set<Site> likely;
-  for (const Worst& layer : worst)
+  for (const Worst* const layer : wires)
     for (int by = 0; by < Worst::measures; ++by)
-      if (layer.value[by] >= 0 && wire_range(layer) >= 0) likely.insert(layer.site[by]);
+      if (layer->value[by] >= 0) likely.insert(layer->site[by]);
   const std::vector<Site> list(likely.begin(), likely.end());
   std::vector<FibreHistory> found(workers_.size());
   pipeline::in_order(

@@ -236,6 +236,12 @@ class Evaluation {
   void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;
   static std::span<const float> append_points(SiteRows& rows, std::span<const TurningPoint> points);
   static Seen seen(Site site, const StrainMeasures& of);
+  /// Layers of which any wire was seen; the hose's wall is no wire.
+  std::vector<const Worst*> of_wires(const std::vector<Worst>& worst) const;
+  void find_likely(const std::vector<const Worst*>& wires);
+  /// Of the largest range, which is the job's if none before was larger, and of the largest sums; then those that the job
+  /// names.
+  std::vector<Site> sites_to_probe(const std::vector<const Worst*>& wires, std::size_t segment);
   /// The worst sites of every wire layer. sink: where all sites go; may be empty.
   std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
                               const std::function<void(const SiteRows&)>& sink);

@@ -18,9 +18,7 @@ constexpr double pi = std::numbers::pi;
 Isometry3d step_of(const Joint& joint, double angle) {
   Isometry3d step = Isometry3d::Identity();
   step.translate(joint.origin);
-  step.rotate(Eigen::AngleAxisd(joint.orientation.z(), Vector3d::UnitZ()) *
-              Eigen::AngleAxisd(joint.orientation.y(), Vector3d::UnitY()) *
-              Eigen::AngleAxisd(joint.orientation.x(), Vector3d::UnitX()));
+  step.rotate(from_roll_pitch_yaw(joint.orientation));
   step.rotate(Eigen::AngleAxisd(angle, joint.axis.normalized()));
   return step;
 }

@@ -312,7 +312,8 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   }
   const fs::path beside = (folder_of(named_at) / name).lexically_normal();
   const bool is_path = name.ends_with(".yaml") || name.find('/') != std::string::npos;
-  if (is_path && fs::exists(beside)) return read_document(beside);
+  std::error_code failure;
+  if (is_path && fs::status(beside, failure).type() != fs::file_type::not_found) return read_document(beside);
   if (is_path)
     throw InputError(named_at, fmt::format("there is no file '{}'", beside.string()),
                      "check the path; it counts from the folder of the file that names it");

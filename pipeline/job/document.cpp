@@ -304,7 +304,8 @@ std::filesystem::path folder_of(const Where& where) {
 
 std::string read_text(const std::filesystem::path& file) {
   constexpr std::uintmax_t longest = 256 << 20;  // [bytes]; a day of recorded poses takes 100 MB
-  const std::filesystem::file_status status = std::filesystem::status(file);
+  std::error_code failure;  // opening tells it
+  const std::filesystem::file_status status = std::filesystem::status(file, failure);
   if (std::filesystem::is_directory(status))
     throw InputError({file.string()}, "is a folder, not a file", "name a file");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))

@@ -4,6 +4,11 @@
 
 namespace dresslife::pipeline {
 
+Eigen::Quaterniond from_roll_pitch_yaw(const Vector3d& angles) {
+  return Eigen::AngleAxisd(angles.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(angles.y(), Vector3d::UnitY()) *
+         Eigen::AngleAxisd(angles.x(), Vector3d::UnitX());
+}
+
 void describe(Fields& f, Capsule& capsule) {
   f.vector("from_m", capsule.from, Need::required, "one end of the capsule's axis, in the link's frame");
   f.vector("to_m", capsule.to, Need::required, "the other end");

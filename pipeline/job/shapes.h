@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace dresslife::pipeline {
 class Fields;
 
 using Eigen::Vector3d;
+
+/// Of roll, pitch, yaw about the fixed axes x, y, z [rad]: yaw after pitch after roll.
+Eigen::Quaterniond from_roll_pitch_yaw(const Vector3d& angles);
 
 struct Capsule {
   Vector3d from = Vector3d::Zero(), to = Vector3d::Zero();  ///< ends of its axis, in the link's frame [m]

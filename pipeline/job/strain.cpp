@@ -24,7 +24,7 @@ void describe(Fields& f, Strain& strain) {
             "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),
            "turning points of smaller strain ranges are dropped");
-  f.integer("cable_elements_per_segment", strain.cable_elements, Need::optional, between(0, 16),
+  f.integer("cable_elements_per_segment", strain.cable_elements, Need::optional, between(0, most_cable_elements),
             "pieces into which loose cables are cut, which lie in shorter waves than a segment resolves; 0: as many as their "
             "slack and room ask for, at least 2, and 64 in all. Twice as many cost them twice the time and leave a quarter of "
             "the error (loose_mesh_error of strain.h5)");

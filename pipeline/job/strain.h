@@ -117,6 +117,9 @@ struct StrainFactors {
   bool operator==(const StrainFactors&) const = default;
 };
 
+/// Beyond, a segment is too long to tell what a cable does within it.
+constexpr int most_cable_elements = 16;
+
 struct Strain {
   DeformationMeasure deformation = DeformationMeasure::rotation_vector;
   Kinematics kinematics = Kinematics::exact;

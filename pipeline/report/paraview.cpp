@@ -137,9 +137,7 @@ class Shapes {
   }
 
   void add_box(std::size_t link, const Box& box) {
-    const Eigen::Quaterniond turn = Eigen::AngleAxisd(box.orientation.z(), Vector3d::UnitZ()) *
-                                    Eigen::AngleAxisd(box.orientation.y(), Vector3d::UnitY()) *
-                                    Eigen::AngleAxisd(box.orientation.x(), Vector3d::UnitX());
+    const Eigen::Quaterniond turn = from_roll_pitch_yaw(box.orientation);
     cells_ += "9 ";  // a hexahedron: around the lower face, then around the upper
     for (int corner = 0; corner < 8; ++corner)
       cells_ += fmt::format("{} ", points_.size() + static_cast<std::size_t>(corner));

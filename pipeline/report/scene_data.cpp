@@ -16,9 +16,7 @@ namespace {
 constexpr std::size_t most_triangles = 30'000;
 
 std::string pose(const Vector3d& position, const Vector3d& roll_pitch_yaw) {
-  const Eigen::Quaterniond turn = Eigen::AngleAxisd(roll_pitch_yaw.z(), Vector3d::UnitZ()) *
-                                  Eigen::AngleAxisd(roll_pitch_yaw.y(), Vector3d::UnitY()) *
-                                  Eigen::AngleAxisd(roll_pitch_yaw.x(), Vector3d::UnitX());
+  const Eigen::Quaterniond turn = from_roll_pitch_yaw(roll_pitch_yaw);
   return fmt::format("\"position\":{},\"quaternion\":{}", json(position),
                      json(std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()}));
 }

@@ -22,9 +22,10 @@ struct LooseSettings {
 };
 
 /// Pieces into which cables as fit_in_hose() leaves them are to be cut for their waves to be seen. What is too long by a
-/// share s winds in a room of radius c with k c = sqrt(2 s), about a place that its lay turns, and second differences miss (k h)^2/12 of its curvature: 0.5 % at
-/// most, so that waves half as long, between a core and a wall that leave less room, still miss no more than the 2 % that are warned of. At least 64: with 32 the worst wire of
-/// `side_panel` was wrong by decades. length: of the axis [m].
+/// share s winds in a room of radius c with k c = sqrt(2 s), about a place that its lay turns, and second differences miss
+/// (k h)^2/12 of its curvature: 0.5 % at most, so that waves half as long, between a core and a wall that leave less room,
+/// still miss no more than the 2 % that are warned of. At least 64: with 32 the worst wire of `side_panel` was wrong by
+/// decades. length: of the axis [m].
 std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double length);
 
 class LooseCables {

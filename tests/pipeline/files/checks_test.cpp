@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "pipeline/files/files.h"
+#include "tests/pipeline/files/still_motion.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
@@ -12,16 +12,6 @@ namespace {
 
 /// A motion of no samples, with checks if there are any.
 void write_motion(const std::filesystem::path& name, const std::vector<CheckedValue>& checks) {
-  FileWriter file(name, motion_format());
-  file.set_axis("segment", 1);
-  file.set_axis("clamp", 2);
-  for (const char* dataset : {"/time", "/segment/position", "/segment/orientation", "/clamp/position",
-                              "/clamp/orientation", "/contact/max_depth", "/energy", "/tension"})
-    file.append(dataset, std::span<const double>());
-  for (const char* dataset : {"/program/step", "/contact/count"})
-    file.append(dataset, std::span<const std::int32_t>());
-  file.append("/program/text", std::vector<std::string>{"home"});
-  file.append("/segment/length", std::vector<double>{0.1});
   std::vector<std::string> names;
   std::vector<double> values, limits;
   for (const CheckedValue& check : checks) {
@@ -29,13 +19,12 @@ void write_motion(const std::filesystem::path& name, const std::vector<CheckedVa
     values.push_back(check.value);
     limits.push_back(check.limit);
   }
-  if (!checks.empty()) {
+  write_still_motion(name, 1, 2, [&](FileWriter& file) {
+    if (checks.empty()) return;
     file.append("/check/name", names);
     file.append("/check/value", values);
     file.append("/check/limit", limits);
-  }
-  for (const char* attribute : {"job", "history", "input_sha256"}) file.attribute(attribute, "");
-  file.commit();
+  });
 }
 
 }  // namespace

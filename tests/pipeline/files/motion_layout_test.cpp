@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/pipeline/files/still_motion.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
@@ -12,24 +13,13 @@ namespace {
 void write_motion(const std::filesystem::path& name, std::size_t segments, std::size_t clamps,
                   const std::vector<std::int32_t>& clamp_segment, const std::vector<std::int32_t>& dresspack,
                   const std::vector<std::string>& names) {
-  FileWriter file(name, motion_format());
-  file.set_axis("segment", segments);
-  file.set_axis("clamp", clamps);
-  for (const char* dataset : {"/time", "/segment/position", "/segment/orientation", "/clamp/position",
-                              "/clamp/orientation", "/contact/max_depth", "/energy", "/tension"})
-    file.append(dataset, std::span<const double>());
-  for (const char* dataset : {"/program/step", "/contact/count"})
-    file.append(dataset, std::span<const std::int32_t>());
-  file.append("/program/text", std::vector<std::string>{"home"});
-  file.append("/segment/length", std::vector<double>(segments, 0.1));
-  if (!clamp_segment.empty()) file.append("/clamp/segment", clamp_segment);
-  if (!names.empty()) {
+  write_still_motion(name, segments, clamps, [&](FileWriter& file) {
+    if (!clamp_segment.empty()) file.append("/clamp/segment", clamp_segment);
+    if (names.empty()) return;
     file.set_axis("dresspack", names.size());
     file.append("/segment/dresspack", dresspack);
     file.append("/dresspack/name", names);
-  }
-  for (const char* attribute : {"job", "history", "input_sha256"}) file.attribute(attribute, "");
-  file.commit();
+  });
 }
 
 std::string layout(const std::filesystem::path& name) {

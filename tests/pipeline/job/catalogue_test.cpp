@@ -58,6 +58,12 @@ TEST_CASE("catalogue: an entry may be a file, named relative to who names it") {
             "'; check the path; it counts from the folder of the file that names it");
 }
 
+TEST_CASE("catalogue: a path that no system takes is refused like any other") {
+  const Scratch scratch;
+  const auto job = scratch.write("job.yaml", edited(sample_job, motion_block, "motion: " + std::string(300, 'x') + ".yaml\n"));
+  CHECK(message_of([&] { read_job(job); }).find("cannot be read (File name too long)") != std::string::npos);
+}
+
 TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
   const Scratch scratch;
   scratch.write("jobs/nod.csv", "t_s,joint_1_deg,joint_2_deg\n0,0,0\n1,10,5\n");
