@@ -83,4 +83,6 @@ std::size_t Passes::kept(std::size_t wanted) const {
   return first;
 }
 
+std::string passes_text(long passes) { return passes == 1 ? "one pass" : fmt::format("{} passes", passes); }
+
 }  // namespace dresslife::sim

@@ -44,4 +44,7 @@ class Passes {
   std::vector<std::uint64_t> states_;
 };
 
+/// "one pass", "3 passes".
+std::string passes_text(long passes);
+
 }  // namespace dresslife::sim
