@@ -1,0 +1,101 @@
+// What writing and reading of HDF5 files have in common: identifiers that close themselves, the library's silence and
+// its memory, types and axes.
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "pipeline/files/files.h"
+#include "pipeline/limits.h"
+
+namespace dresslife::pipeline {
+
+/// An HDF5 identifier that closes itself.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle() = default;
+  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Handle() { reset(); }
+  herr_t reset() {
+    const herr_t status = id_ >= 0 && close_ ? close_(id_) : 0;
+    id_ = -1;
+    return status;
+  }
+  operator hid_t() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+inline void silence_library() {
+  H5dont_atexit();  // nothing is left open, and a library out of memory stumbles over itself
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// Before each call that lets the library take memory of its own: where that fails halfway, it frees what it never
+/// had and takes the program along. It takes a node of a tree, a chunk on its way and a chunk's cache, 1 MB each.
+inline void check_library_memory() {
+  constexpr std::uint64_t megabytes = 8;
+  check_memory(megabytes);
+}
+
+/// The library says of everything that it failed; too little memory is another matter than a damaged file.
+inline void throw_if_out_of_memory() {
+  const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
+    if (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) *static_cast<bool*>(found) = true;
+    return 0;
+  };
+  bool found = false;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &found);
+  if (found) throw std::bad_alloc();
+}
+
+inline hid_t memory_type(Type type) {
+  switch (type) {
+    case Type::f64:
+      return H5T_NATIVE_DOUBLE;
+    case Type::f32:
+      return H5T_NATIVE_FLOAT;
+    case Type::i32:
+      return H5T_NATIVE_INT32;
+    case Type::u32:
+      return H5T_NATIVE_UINT32;
+    case Type::u64:
+      return H5T_NATIVE_UINT64;
+    case Type::text:
+      break;
+  }
+  return -1;
+}
+
+/// The length that an axis name stands for: a number itself, or "name" and "name+1" through `lengths`.
+struct Axis {
+  std::string name;
+  std::size_t plus = 0;
+  std::size_t fixed = 0;
+  explicit Axis(const std::string& text) {
+    if (text.find_first_not_of("0123456789") == std::string::npos)
+      fixed = std::stoul(text);
+    else if (text.ends_with("+1")) {
+      name = text.substr(0, text.size() - 2);
+      plus = 1;
+    } else
+      name = text;
+  }
+};
+
+}  // namespace dresslife::pipeline
