@@ -28,10 +28,11 @@ const pipeline::Component& component_of(const pipeline::FileReader& strain, cons
     const auto& components = job.dresspacks[dresspack].dresspack.components;
     if (component < components.size()) return components[component];
   }
-  throw pipeline::InputError(strain.where(),
-                             fmt::format("has a cable of component {} of dresspack {}, which its job does not have",
-                                         component + 1, dresspack + 1),
-                             "make the file anew with dresslife-strain");
+  throw pipeline::InputError(
+      strain.where(),
+      fmt::format("has a cable of component {} of dresspack {}, which its job does not have", component + 1,
+                  dresspack + 1),
+      "make the file anew with dresslife-strain");
 }
 
 /// Its strains leave what they are taken from.
@@ -47,12 +48,13 @@ Cables cables_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
   const auto place = strain.read<double>("/cable/clamp_place");
   const auto strains = strain.read<double>("/cable/strain");
   const std::size_t count = dresspack.size();
-  Cables cables{{}, strain.read<std::int32_t>("/cable/span"), strain.length("sample"), strain.length("cable_span")};
+  Cables cables{
+      {}, strain.read<std::int32_t>("/cable/span"), strain.length("sample"), strain.length("cable_span")};
   for (std::size_t k = 0; k < count; ++k) {
     if (cables.span[k] < 0 || static_cast<std::size_t>(cables.span[k]) >= cables.spans)
-      throw pipeline::InputError(strain.where(),
-                                 fmt::format("has a cable of span {} of {}", cables.span[k] + 1, cables.spans),
-                                 "make the file anew with dresslife-strain");
+      throw pipeline::InputError(
+          strain.where(), fmt::format("has a cable of span {} of {}", cables.span[k] + 1, cables.spans),
+          "make the file anew with dresslife-strain");
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const pipeline::Component& of = component_of(strain, job, in, static_cast<std::size_t>(component[k]));
     PulledCable& cable = cables.all.emplace_back(pipeline::CableForce(job.dresspacks[in].dresspack, of));
@@ -69,10 +71,11 @@ std::vector<pipeline::Warning> force_warnings(double force_share, double moment_
   std::vector<pipeline::Warning> warnings;
   const auto warn = [&](double share, const char* what) {
     if (share > pipeline::believable_share)
-      warnings.push_back({pipeline::WarningKind::force, "",
-                          fmt::format("{:.2g} times {} (more than {:g}: strains rest on forces that nobody sees in a "
-                                      "dresspack); check slack, play, grips and position of its cables",
-                                      share, what, pipeline::believable_share)});
+      warnings.push_back(
+          {pipeline::WarningKind::force, "",
+           fmt::format("{:.2g} times {} (more than {:g}: strains rest on forces that nobody sees in a "
+                       "dresspack); check slack, play, grips and position of its cables",
+                       share, what, pipeline::believable_share)});
   };
   warn(force_share, "what tears a cable pulls at one");
   warn(moment_share, "the hose's own moment is what all cables put on a clamp");
@@ -93,8 +96,8 @@ void write_tensions(pipeline::FileWriter& life, const std::vector<std::string>& 
 
 }  // namespace
 
-std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job,
-                                                  pipeline::FileWriter& life) {
+std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain,
+                                                  const pipeline::Job& job, pipeline::FileWriter& life) {
   if (!strain.has("/cable/strain")) {
     for (const char* name : {"largest_force_share", "clamp_moment_share"})
       if (strain.has_attribute(name)) life.attribute(name, strain.number_attribute(name));

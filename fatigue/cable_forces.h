@@ -1,5 +1,5 @@
-// What the strains of cables ask of them and of their clamps, by the metals of the job (strain/README.md, W37):
-// told, and warned of, beside the lives that rest on them.
+// What the strains of cables ask of them and of their clamps, by the metals of the job (strain/README.md,
+// W37): told, and warned of, beside the lives that rest on them.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace dresslife::fatigue {
 
-/// Writes tensions, moments and their shares into the life file. Of a file that has no strains of cables what it tells
-/// itself is handed on. Errors: InputError when the file names a cable that the job does not have.
-std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job,
-                                                  pipeline::FileWriter& life);
+/// Writes tensions, moments and their shares into the life file. Of a file that has no strains of cables what
+/// it tells itself is handed on. Errors: InputError when the file names a cable that the job does not have.
+std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& strain,
+                                                  const pipeline::Job& job, pipeline::FileWriter& life);
 
 }  // namespace dresslife::fatigue

@@ -55,8 +55,8 @@ Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
   return result;
 }
 
-std::vector<PlacesOfConductor> places_of(const SiteDamage& all, const TextColumn& component, const Conductors& conductors,
-                                         std::size_t segments,
+std::vector<PlacesOfConductor> places_of(const SiteDamage& all, const TextColumn& component,
+                                         const Conductors& conductors, std::size_t segments,
                                          const std::function<std::size_t(std::size_t)>& segment_of) {
   std::vector<PlacesOfConductor> places;
   for (const Bundle& bundle : conductors.bundle)
@@ -92,11 +92,12 @@ LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesO
     its.insert(its.end(), bundle.damage.begin(), bundle.damage.end());
   }
   result.first_wire = first_wire_lives(wires, scatter);
-  result.first_place = first_place_lives(places, conductors.bundle, segments, settings.failed_wires_percent, scatter,
-                                         sharing_draws);
+  result.first_place = first_place_lives(places, conductors.bundle, segments, settings.failed_wires_percent,
+                                         scatter, sharing_draws);
   result.place = median_place_lives(places, conductors.bundle, segments, settings.failed_wires_percent);
   if (settings.load_sharing) {
-    SharedLives shared = shared_lives(conductors.bundle, settings.failed_wires_percent, scatter, sharing_draws);
+    SharedLives shared =
+        shared_lives(conductors.bundle, settings.failed_wires_percent, scatter, sharing_draws);
     result.conductor = std::move(shared.conductor);
     result.first_conductor = shared.first_conductor;
     return result;

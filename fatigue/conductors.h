@@ -21,7 +21,8 @@ struct Conductors {
   std::vector<std::string> path;   ///< (conductor) in order of appearance
   std::vector<Bundle> bundle;      ///< (conductor)
   std::vector<std::size_t> worst;  ///< (conductor) its site with the largest damage
-  /// (component) the conductor that a wire lies in, no_site for the hose's wall; and which of its wires it is.
+  /// (component) the conductor that a wire lies in, no_site for the hose's wall; and which of its wires it
+  /// is.
   std::vector<std::size_t> of_component, wire_of_component;
 };
 
@@ -31,8 +32,8 @@ Conductors conductors_of(const SiteDamage& all, const TextColumn& component,
                          const std::vector<std::string>& layer_names);
 
 /// Damage of all wires everywhere, (conductor). segment_of(site) < segments.
-std::vector<PlacesOfConductor> places_of(const SiteDamage& all, const TextColumn& component, const Conductors& conductors,
-                                         std::size_t segments,
+std::vector<PlacesOfConductor> places_of(const SiteDamage& all, const TextColumn& component,
+                                         const Conductors& conductors, std::size_t segments,
                                          const std::function<std::size_t(std::size_t)>& segment_of);
 
 /// (F16) With k of n wires broken the rest strain n/(n-k) times as much; rate[k] is the damage then, over the

@@ -28,8 +28,8 @@ std::vector<Reversal> numbered(std::span<const Reversal> path) {
   return result;
 }
 
-/// What goes from the stress of a whole history when `share` of its offset is left (F22): the middle of its outermost
-/// loop, whose tips are its largest and its smallest strain.
+/// What goes from the stress of a whole history when `share` of its offset is left (F22): the middle of its
+/// outermost loop, whose tips are its largest and its smallest strain.
 double relaxed_by(std::span<const Reversal> path, std::span<const double> stress, double share) {
   const auto [low, high] = std::minmax_element(
       path.begin(), path.end(), [](const Reversal& a, const Reversal& b) { return a.strain < b.strain; });
@@ -97,7 +97,9 @@ std::vector<double> stress_along(std::span<const double> strain, const pipeline:
   const auto smaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
   const std::size_t samples = strain.size();
   const std::size_t first =
-      repeating ? static_cast<std::size_t>(std::max_element(strain.begin(), strain.end(), smaller) - strain.begin()) : 0;
+      repeating
+          ? static_cast<std::size_t>(std::max_element(strain.begin(), strain.end(), smaller) - strain.begin())
+          : 0;
   std::vector<double> stress(samples);
   std::vector<Reversal> path(samples);
   for (std::size_t i = 0; i < samples; ++i) {
@@ -468,8 +470,8 @@ double DamageCounter::Tables::first_stress(double largest, double range, double 
   return relaxed + share * (kept - relaxed);
 }
 
-/// Of a life that the outermost loop alone would have, once in every repeat. Other loops shorten it, by a tenth or by
-/// ten; the share changes by that to the power r.
+/// Of a life that the outermost loop alone would have, once in every repeat. Other loops shorten it, by a
+/// tenth or by ten; the share changes by that to the power r.
 template <class Rule>
 double DamageCounter::Tables::expected_share(double largest, double range, const OuterLoop& loop) const {
   if (relaxation.complete()) return 0;
@@ -477,9 +479,10 @@ double DamageCounter::Tables::expected_share(double largest, double range, const
   if (exponent == 0) return 1;
   if (range / 2 <= settings.endurance_strain) return 0;
   const double offset = std::copysign(loop.offset, largest);
-  const double life = rough_relaxing_life(std::exp(exponent * std::log(10)), std::exp(exponent * std::log(5.5)), [&](double share) {
-    return Rule::damage(*metal, range / 2, loop.half_range + share * offset, share * offset);
-  });
+  const double life = rough_relaxing_life(
+      std::exp(exponent * std::log(10)), std::exp(exponent * std::log(5.5)), [&](double share) {
+        return Rule::damage(*metal, range / 2, loop.half_range + share * offset, share * offset);
+      });
   return mean_share(life, exponent);
 }
 

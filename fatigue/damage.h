@@ -3,8 +3,8 @@
 // Two evaluations of the same model: evaluate_cycles() lists every cycle with its stress and damage, exact;
 // DamageCounter sums a history's damage from tables, for the millions of histories of a dresspack.
 // Assumptions: damage adds up linearly, in any order; the repeated history starts from the largest |strain|
-// on the cyclic curve (README.md, F4), and from there the stress that it is off centre by may relax (relaxation.h),
-// so that each repeat is nearly like the one before.
+// on the cyclic curve (README.md, F4), and from there the stress that it is off centre by may relax
+// (relaxation.h), so that each repeat is nearly like the one before.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
                                            const pipeline::Material& material,
                                            const pipeline::Fatigue& settings, double share = 1);
 
-/// Stress [Pa] along a history (sample) as evaluate_cycles() has it at the reversals: of a repeat that began at its largest
-/// |strain|, where it is counted as repeated. Same arguments.
+/// Stress [Pa] along a history (sample) as evaluate_cycles() has it at the reversals: of a repeat that began
+/// at its largest |strain|, where it is counted as repeated. Same arguments.
 std::vector<double> stress_along(std::span<const double> strain, const pipeline::Material& material,
                                  const pipeline::Fatigue& settings, double share = 1);
 
@@ -71,9 +71,9 @@ class DamageCounter {
     std::vector<std::uint32_t> open;
     std::vector<LockstepLine> lines;
   };
-  /// Damage per repeat of the history with these reversal strains; where its mean stress relaxes, with the share of the
-  /// offset that is expected over its life, or with the `share` that is given. Relative difference from the sum over
-  /// evaluate_cycles(): below `table_error` for b <= -0.05.
+  /// Damage per repeat of the history with these reversal strains; where its mean stress relaxes, with the
+  /// share of the offset that is expected over its life, or with the `share` that is given. Relative
+  /// difference from the sum over evaluate_cycles(): below `table_error` for b <= -0.05.
   double operator()(std::span<const float> strains, Workspace& workspace,
                     double share = StrainList::expected_share) const;
   static constexpr double table_error = 1e-5;
@@ -82,7 +82,8 @@ class DamageCounter {
   void operator()(std::span<const StrainList> histories, std::span<double> damage,
                   Workspace& workspace) const;
 
-  /// Whether the mean over a life is another than operator() gives: where the offset falls from repeat to repeat.
+  /// Whether the mean over a life is another than operator() gives: where the offset falls from repeat to
+  /// repeat.
   bool settles() const;
   /// 1 / life (F23): what operator() gives but where the offset falls.
   double settled_damage(std::span<const float> strains, Workspace& workspace) const;

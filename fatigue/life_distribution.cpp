@@ -29,8 +29,8 @@ double bisect(double low, double high, double share, const Probability& probabil
   return (low + high) / 2;
 }
 
-/// Cubics with the values and slopes at the ends of each of 128 cells of a deviation: wrong by h^4/384 times the fourth derivative,
-/// at most 1.4.
+/// Cubics with the values and slopes at the ends of each of 128 cells of a deviation: wrong by h^4/384 times
+/// the fourth derivative, at most 1.4.
 class NormalTable {
  public:
   static constexpr double reach = 8;
@@ -88,8 +88,8 @@ LifeDistribution::LifeDistribution(Probability own, double low, double high, dou
   if (common_ > 0 && low_ < high_) tabulate();
 }
 
-// With s the common deviation, P(x) = integral of F(u) phi((x - u)/s) du/s; F straight between points, so its slope m of a
-// piece counts m [I(x - u0) - I(x - u1)], I(y) = s G(y/s), G' = Phi.
+// With s the common deviation, P(x) = integral of F(u) phi((x - u)/s) du/s; F straight between points, so its
+// slope m of a piece counts m [I(x - u0) - I(x - u1)], I(y) = s G(y/s), G' = Phi.
 double LifeDistribution::operator()(double log_life) const {
   if (low_ == high_) {
     if (common_ == 0) return log_life >= low_ ? 1 : 0;
@@ -105,8 +105,8 @@ double LifeDistribution::operator()(double log_life) const {
   return sum * common_ / width_;
 }
 
-// Straight pieces of width h add h^2/6 to the variance: 0.35 % of what the own and the common part have, whose own part is about
-// a tenth of the way from one end to the other wide.
+// Straight pieces of width h add h^2/6 to the variance: 0.35 % of what the own and the common part have,
+// whose own part is about a tenth of the way from one end to the other wide.
 void LifeDistribution::tabulate() {
   constexpr double negligible = 1e-6, piece = 0.145;  // piece^2/6 = 0.0035
   const double accuracy = std::max(1e-4 * (high_ - low_), 0.02 * common_);
@@ -134,7 +134,8 @@ void LifeDistribution::tabulate() {
 double life_of_share(const std::vector<LifeDistribution>& distributions, double share) {
   if (distributions.empty()) return infinity;
   double low = infinity, high = infinity;
-  for (const LifeDistribution& one : distributions) low = std::min(low, one.low()), high = std::min(high, one.high());
+  for (const LifeDistribution& one : distributions)
+    low = std::min(low, one.low()), high = std::min(high, one.high());
   return std::exp(bisect(low, high, share, [&](double log_life) {
     double none = 1;
     for (const LifeDistribution& one : distributions) none *= 1 - one(log_life);
@@ -172,7 +173,8 @@ LifeDistribution distribution_of(std::shared_ptr<const Wires> wires, std::size_t
   return {[wires, count, own, memory = std::vector<double>()](double log_time) mutable {
             return wires->failed(log_time, count, own, memory);
           },
-          wires->log_life(own > 0 ? 0 : count - 1) - LifeDistribution::farthest * own, wires->log_life(count - 1) + LifeDistribution::farthest * own,
+          wires->log_life(own > 0 ? 0 : count - 1) - LifeDistribution::farthest * own,
+          wires->log_life(count - 1) + LifeDistribution::farthest * own,
           scatter.common() * std::numbers::ln10};
 }
 

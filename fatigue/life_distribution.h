@@ -1,4 +1,5 @@
-// How the life of some wires together is distributed: k of n broken, with a part of the scatter that all have in common.
+// How the life of some wires together is distributed: k of n broken, with a part of the scatter that all have
+// in common.
 //
 // Equations (F14), (F15), (F25) of README.md. Time is ln of a number of repeats throughout.
 #pragma once
@@ -15,8 +16,8 @@ namespace dresslife::fatigue {
 constexpr std::array<double, 3> percentiles{0.1, 0.5, 0.9};
 using Percentiles = std::array<double, percentiles.size()>;
 
-/// Standard deviation of log10 of a wire's life, and the share of its variance that all wires of a dresspack have in
-/// common. A number alone: nothing in common.
+/// Standard deviation of log10 of a wire's life, and the share of its variance that all wires of a dresspack
+/// have in common. A number alone: nothing in common.
 struct Scatter {
   double log10 = 0, shared = 0;
   Scatter(double of_log10, double common_share = 0) : log10(of_log10), shared(common_share) {}
@@ -35,8 +36,8 @@ class LifeDistribution {
  public:
   using Probability = std::function<double(double log_life)>;
 
-  /// own: by the wires' own scatter; 0 at low, 1 at high but for 1e-18. low == high: a step there. common: deviation of ln of
-  /// the factor that is common.
+  /// own: by the wires' own scatter; 0 at low, 1 at high but for 1e-18. low == high: a step there. common:
+  /// deviation of ln of the factor that is common.
   LifeDistribution(Probability own, double low, double high, double common);
 
   double operator()(double log_life) const;

@@ -98,7 +98,8 @@ struct Context {
   }
   std::vector<float> strains_of(std::size_t site) const {
     std::vector<float> strains;
-    for (const Reversal& reversal : reversals_of(site)) strains.push_back(static_cast<float>(reversal.strain));
+    for (const Reversal& reversal : reversals_of(site))
+      strains.push_back(static_cast<float>(reversal.strain));
     return strains;
   }
   /// Of the strain that the site was judged by.
@@ -250,7 +251,8 @@ void write_layers(const Context& c) {
   put(c.life, "/layer/damage", damage_at(c, worst));
 }
 
-/// One layer of wires in one segment is a group: what relaxes of the worst of them tells what does of the others (F24).
+/// One layer of wires in one segment is a group: what relaxes of the worst of them tells what does of the
+/// others (F24).
 struct SettledGroups {
   Layers layers;
   std::size_t count;
@@ -264,7 +266,8 @@ struct SettledGroups {
         component(components) {}
   std::size_t operator()(std::size_t site) const {
     const std::size_t layer = layers.of_component[component.index[site]];
-    return layer == no_site ? no_site : static_cast<std::size_t>(sites.segment(site)) * layers.name.size() + layer;
+    return layer == no_site ? no_site
+                            : static_cast<std::size_t>(sites.segment(site)) * layers.name.size() + layer;
   }
 };
 
@@ -289,7 +292,8 @@ Conductors loaded_conductors(const Context& c) {
   for (std::size_t k = 0; k < conductors.path.size(); ++k) {
     Bundle& bundle = conductors.bundle[k];
     bundle.dresspack = c.dresspack_of(conductors.worst[k]);
-    if (c.job.fatigue.load_sharing) bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
+    if (c.job.fatigue.load_sharing)
+      bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
   }
   return conductors;
 }
@@ -312,7 +316,8 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   const std::array<const char*, percentiles.size()> ends{"p10", "p50", "p90"};
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const double by_scatter = hours(scatter.first_place.lives[i], c.repeat_seconds());
-    c.life.attribute(fmt::format("life_hours_{}", ends[i]), drawn ? hours(drawn->percentiles[i], c.repeat_seconds()) : by_scatter);
+    c.life.attribute(fmt::format("life_hours_{}", ends[i]),
+                     drawn ? hours(drawn->percentiles[i], c.repeat_seconds()) : by_scatter);
     if (drawn) c.life.attribute(fmt::format("scatter_life_hours_{}", ends[i]), by_scatter);
     c.life.attribute(fmt::format("first_wire_life_hours_{}", ends[i]),
                      hours(scatter.first_wire[i], c.repeat_seconds()));
@@ -322,7 +327,8 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
 }
 
 /// The planner's place beside the lives; where no conductor can fail it has no name. p10 [repeats]
-void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first, double p10_repeats) {
+void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first,
+                       double p10_repeats) {
   const double p10 = hours(p10_repeats, c.repeat_seconds());
   c.life.attribute("life_months_p10", months(p10, c.job.fatigue.operating_hours_per_week));
   const bool known = first.conductor < conductors.path.size();
@@ -346,7 +352,8 @@ void put_worst(const Context& c, const std::vector<double>& strain) {
   put(c.life, "/worst/strain", strain);
   if (c.worst != no_site)
     put(c.life, "/worst/stress",
-        stress_along(strain, pipeline::material_of(c.job, c.sites.material()[c.worst]), c.job.fatigue, c.offset_share(c.worst)));
+        stress_along(strain, pipeline::material_of(c.job, c.sites.material()[c.worst]), c.job.fatigue,
+                     c.offset_share(c.worst)));
 }
 
 /// Writes it; straight between the turning points where there is none. Returns what is known of it.
@@ -498,10 +505,11 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
       "repeats) until {} breaks, {:.2f} m from the tool{}",
       std::isinf(p10) ? "for ever" : pipeline::readable(p10) + " h",
       pipeline::readable(months(p10, c.job.fatigue.operating_hours_per_week)),
-      c.job.fatigue.failed_wires_percent > 0 ? fmt::format("without {:g} % of its wires", c.job.fatigue.failed_wires_percent)
-                                             : "with a broken wire",
-      pipeline::readable(worst.life_hours), pipeline::readable(worst.repeats), worst.component, worst.position_from_tool,
-      worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
+      c.job.fatigue.failed_wires_percent > 0
+          ? fmt::format("without {:g} % of its wires", c.job.fatigue.failed_wires_percent)
+          : "with a broken wire",
+      pipeline::readable(worst.life_hours), pipeline::readable(worst.repeats), worst.component,
+      worst.position_from_tool, worst.step.empty() ? "" : ", worst during '" + worst.step + "'");
 }
 
 /// The hose's wall beside the wires. Returns what the terminal is told; nothing without a wall.
@@ -524,16 +532,15 @@ std::string write_hose(const Context& c) {
   return fmt::format("; the hose's wall lasts {} h", pipeline::readable(worst.life_hours));
 }
 
-/// Whether the job itself lets every level slip this way, but for its cables, which slide in a bound as they do
-/// in the job: then its own sites, which are all wires and not only the likely worst ones, are the bound.
+/// Whether the job itself lets every level slip this way, but for its cables, which slide in a bound as they
+/// do in the job: then its own sites, which are all wires and not only the likely worst ones, are the bound.
 bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
   const auto holds_wires = [](const pipeline::MountedDresspack& mounted) {
     return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(),
                        [](const pipeline::Component& part) { return is_wire(part); });
   };
-  const bool cables_only =
-      pipeline::slides(job.strain.slip.front()) && job.strain.slip.size() > 1 &&
-      std::none_of(job.dresspacks.begin(), job.dresspacks.end(), holds_wires);
+  const bool cables_only = pipeline::slides(job.strain.slip.front()) && job.strain.slip.size() > 1 &&
+                           std::none_of(job.dresspacks.begin(), job.dresspacks.end(), holds_wires);
   return std::all_of(job.strain.slip.begin() + (cables_only ? 1 : 0), job.strain.slip.end(),
                      [&](pipeline::Slip own) { return own == slip; });
 }
@@ -547,7 +554,8 @@ SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextCol
       damage, counters, group_of.count, group_of,
       [&](std::size_t site) {
         std::vector<float> strains;
-        for (const Reversal& reversal : sites.reversals_of(site)) strains.push_back(static_cast<float>(reversal.strain));
+        for (const Reversal& reversal : sites.reversals_of(site))
+          strains.push_back(static_cast<float>(reversal.strain));
         return strains;
       },
       c.threads);
@@ -562,7 +570,8 @@ void write_bound(const Context& c, const std::string& name, pipeline::Slip slip,
                                "make the file anew with dresslife-strain");
   }
   const TextColumn component = read_column(c.strain, "/bound_" + name + "/site/component");
-  const SiteDamage damage = is_own_slip(c.job, slip) ? c.damage : damage_of_bound(c, sites, component, progress);
+  const SiteDamage damage =
+      is_own_slip(c.job, slip) ? c.damage : damage_of_bound(c, sites, component, progress);
   const std::size_t worst = damage.worst_wire();
   const double repeats = life_in_repeats(worst == no_site ? 0 : damage.damage[worst]);
   c.life.attribute("life_repeats_all_" + name, repeats);
@@ -616,8 +625,8 @@ std::array<double, percentiles.size()> log_planned(const Percentiles& lives) {
 }
 
 /// (F27) What the life hangs on, and lives over all of it.
-pipeline::DrawnLives write_response(const Context& c, const Conductors& conductors, const std::vector<PlacesOfConductor>& places,
-                                    const FirstPlace& planned) {
+pipeline::DrawnLives write_response(const Context& c, const Conductors& conductors,
+                                    const std::vector<PlacesOfConductor>& places, const FirstPlace& planned) {
   pipeline::LifeResponse response;
   response.knowledge = pipeline::knowledge_of(c.job);
   if (c.job.calibration)  // z counts from the job as it stands, in whose keys are the calibration's medians
@@ -627,35 +636,42 @@ pipeline::DrawnLives write_response(const Context& c, const Conductors& conducto
           response.knowledge.mean(static_cast<Eigen::Index>(p)) -= learned.median;
   response.construction = c.job.dresspacks[c.dresspack_of(c.worst)].dresspack.name;
   if (c.worst != no_site) response.material = pipeline::material_of(c.job, c.sites.material()[c.worst]).name;
-  fill_response(response, likely_worst(c), read_variations(c.strain, c.sites.size()), c.sites, c.component, c.job, c.threads);
+  fill_response(response, likely_worst(c), read_variations(c.strain, c.sites.size()), c.sites, c.component,
+                c.job, c.threads);
   response.planned = {log_planned(planned.lives)};
   if (!c.job.fatigue.load_sharing && std::isfinite(planned.lives[0])) {
     response.scatter = {-1.5, 0, 1.5};
     const auto with = [&](double z) {
       const double factor = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::scatter)].value(z);
-      const Scatter scatter{c.job.fatigue.scatter_log10 * c.job.fatigue.scatter_factor * factor, c.job.fatigue.scatter_shared};
+      const Scatter scatter{c.job.fatigue.scatter_log10 * c.job.fatigue.scatter_factor * factor,
+                            c.job.fatigue.scatter_shared};
       return log_planned(first_place_lives(places, conductors.bundle, c.segment_length.size(),
-                                           c.job.fatigue.failed_wires_percent, scatter, 0).lives);
+                                           c.job.fatigue.failed_wires_percent, scatter, 0)
+                             .lives);
     };
-    response.planned = {with(response.scatter.front()), response.planned.front(), with(response.scatter.back())};
+    response.planned = {with(response.scatter.front()), response.planned.front(),
+                        with(response.scatter.back())};
   }
   const pipeline::DrawnLives drawn = pipeline::drawn_lives(response, "");
   const std::size_t most = pipeline::largest_share(drawn.share);
   c.life.attribute("life_response", response.text());
   c.life.attribute("life_shares", pipeline::share_words(drawn.share));
-  c.life.attribute("measure_next", most < pipeline::uncertain_count ? std::string(pipeline::uncertain_parameters()[most].name) : "");
+  c.life.attribute("measure_next", most < pipeline::uncertain_count
+                                       ? std::string(pipeline::uncertain_parameters()[most].name)
+                                       : "");
   c.life.attribute("measure_next_share", drawn.share[most]);
   return drawn;
 }
 
-/// Judges the planes, where the strain file asks for it, in the place of the equivalent strain; then lets mean stress
-/// relax over each site's life.
+/// Judges the planes, where the strain file asks for it, in the place of the equivalent strain; then lets
+/// mean stress relax over each site's life.
 void judge(Context& c) {
   c.planes.emplace(c.strain, c.sites, c.counters, c.job, c.threads);
   const SettledGroups group_of(c, c.sites, c.component);
   if (!c.planes->empty()) c.planes->apply(c.damage, group_of.count, group_of);
   settle(
-      c.damage, c.counters, group_of.count, group_of, [&](std::size_t site) { return c.strains_of(site); }, c.threads);
+      c.damage, c.counters, group_of.count, group_of, [&](std::size_t site) { return c.strains_of(site); },
+      c.threads);
 }
 
 /// Where the job goes beyond the tests from which its calibration was learned.
@@ -671,7 +687,8 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
   experience.materials = {pipeline::material_of(c.job, c.sites.material()[c.worst]).name};
   std::vector<pipeline::Warning> warnings;
   for (const std::string& words : pipeline::beyond(c.job.calibration->within, experience))
-    warnings.push_back({pipeline::WarningKind::calibration, "", "beyond what its calibration was learned from: " + words});
+    warnings.push_back(
+        {pipeline::WarningKind::calibration, "", "beyond what its calibration was learned from: " + words});
   return warnings;
 }
 
@@ -692,12 +709,14 @@ std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<D
     return d.damage >= d.cycle.count * 2 / fewest_reversals;
   });
   std::vector<pipeline::Warning> warnings;
-  for (const std::string& words : contradictions) warnings.push_back({pipeline::WarningKind::material, "", words});
+  for (const std::string& words : contradictions)
+    warnings.push_back({pipeline::WarningKind::material, "", words});
   if (torn > 0)
-    warnings.push_back({pipeline::WarningKind::strain, "",
-                        fmt::format("{} of the worst wire's cycles tear it on their first reversal (strain up to "
-                                    "{:.3g}); check slip, lay angles and bend radii, no wire is meant for this",
-                                    torn, c.damage.range[c.worst])});
+    warnings.push_back(
+        {pipeline::WarningKind::strain, "",
+         fmt::format("{} of the worst wire's cycles tear it on their first reversal (strain up to "
+                     "{:.3g}); check slip, lay angles and bend radii, no wire is meant for this",
+                     torn, c.damage.range[c.worst])});
   return pipeline::joined(warnings, beyond_calibration(c));
 }
 
@@ -718,8 +737,8 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   const std::vector<PlacesOfConductor> places =
       places_of(c.damage, c.component, conductors, segments,
                 [&](std::size_t site) { return static_cast<std::size_t>(c.sites.segment(site)); });
-  std::future<LifeScatter> scatter =
-      pipeline::beside<LifeScatter>([&] { return life_scatter(conductors, places, segments, c.job.fatigue); });
+  std::future<LifeScatter> scatter = pipeline::beside<LifeScatter>(
+      [&] { return life_scatter(conductors, places, segments, c.job.fatigue); });
   write_bound(c, "stick", pipeline::Slip::stick, [&](double share) { progress((1 + share) / 3); });
   write_bound(c, "free", pipeline::Slip::free, [&](double share) { progress((2 + share) / 3); });
   const auto cycles = c.cycles_of(c.worst);

@@ -14,7 +14,9 @@ int main(int argc, char** argv) {
       .output = "life.h5",
       .example = "dresslife-fatigue strain.h5 -o life.h5 --set fatigue.stress=elastic",
       .part = pipeline::Part::fatigue,
-      .told = [](const std::filesystem::path& life) { return pipeline::told_by(life, pipeline::life_format()); }};
+      .told = [](const std::filesystem::path& life) {
+        return pipeline::told_by(life, pipeline::life_format());
+      }};
   return pipeline::run_stage(
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
         const pipeline::FileReader strain(call.input, pipeline::strain_format());

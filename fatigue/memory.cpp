@@ -28,11 +28,13 @@ double longest_site(const pipeline::FileReader& file, const std::string& group) 
 
 pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t threads) {
   constexpr double program = 20 << 20;  // itself, its libraries, a job and the tables of its materials
-  // Segment, offset and two indices of texts; damage, range and what each site is; its life on the way to the file.
+  // Segment, offset and two indices of texts; damage, range and what each site is; its life on the way to the
+  // file.
   constexpr double of_a_site = 4 + 8 + 2 * 4 + 3 * 8 + 8;
   constexpr double of_a_bound_site = 4 + 8 + 2 * 4 + 2 * 8;
-  constexpr double of_a_turn = 2 * sizeof(float);          // a block, and the next one being read
-  constexpr double of_a_listed_turn = 2 * sizeof(Reversal) + 4 * sizeof(double);  // of one site, followed exactly
+  constexpr double of_a_turn = 2 * sizeof(float);  // a block, and the next one being read
+  constexpr double of_a_listed_turn =
+      2 * sizeof(Reversal) + 4 * sizeof(double);  // of one site, followed exactly
   const std::string bytes_of_sites = "fewer simulation.segments or strain.surface_fibres";
   const std::string sampling = "a lower simulation.sample_rate_Hz, or split the motion";
   const auto rows = [&](const char* dataset) {
@@ -49,15 +51,19 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t t
   }
   pipeline::MemoryNeed need;
   need.add(program, "the program");
-  need.add(of_a_site * sites + of_a_bound_site * bound, fmt::format("{:.0f} sites", sites + bound), bytes_of_sites);
-  need.add(of_a_turn * block + of_a_listed_turn * longest * static_cast<double>(threads), "turning points being counted",
-           sampling);
+  need.add(of_a_site * sites + of_a_bound_site * bound, fmt::format("{:.0f} sites", sites + bound),
+           bytes_of_sites);
+  need.add(of_a_turn * block + of_a_listed_turn * longest * static_cast<double>(threads),
+           "turning points being counted", sampling);
   const std::size_t samples = strain.rows("/time");
-  const double joints = strain.has("/robot/joint_position") ? static_cast<double>(strain.row_size("/robot/joint_position")) : 0;
-  // Of a cable as they are read and by themselves its three strains, its force, and both on their way to the file.
+  const double joints =
+      strain.has("/robot/joint_position") ? static_cast<double>(strain.row_size("/robot/joint_position")) : 0;
+  // Of a cable as they are read and by themselves its three strains, its force, and both on their way to the
+  // file.
   constexpr double of_a_cable = 2 * 3 + 2;
   constexpr double histories = 8;  // times, steps, damage by opening and closing, the worst wire's strain
-  need.add(static_cast<double>(samples) * (histories + 2 * joints + of_a_cable * rows("/cable/span")) * sizeof(double),
+  need.add(static_cast<double>(samples) * (histories + 2 * joints + of_a_cable * rows("/cable/span")) *
+               sizeof(double),
            fmt::format("histories of {} samples", samples), sampling);
   // Tables of sites are copied and looked at in blocks of text and numbers.
   constexpr double table_block = (1 << 15) * 300.0;
@@ -69,7 +75,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t t
                                                 {"cable", static_cast<std::size_t>(rows("/cable/span"))},
                                                 {"cable_span", 1},
                                                 {"probe", 1}};
-  need.add(pipeline::file_buffers(pipeline::life_format(), axes) + pipeline::file_buffers(pipeline::strain_format(), axes) / 2,
+  need.add(pipeline::file_buffers(pipeline::life_format(), axes) +
+               pipeline::file_buffers(pipeline::strain_format(), axes) / 2,
            "what is being read and written");
   return need;
 }

@@ -38,7 +38,8 @@ std::vector<Place> places_of(std::span<const PlacesOfConductor> places, std::spa
       if (damage[count - 1] > 0) all.push_back({conductor, segment, -std::log(damage[count - 1])});
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.log_life < b.log_life; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Place& a, const Place& b) { return a.log_life < b.log_life; });
   return all;
 }
 
@@ -56,17 +57,19 @@ std::span<const double> damage_at(const PlacesOfConductor& places, std::size_t s
 /// When the first of a dresspack's places has failed.
 class Places {
  public:
-  /// all: of this dresspack, soonest first, not empty. haste: ln of how much sooner sharing may make one fail.
-  Places(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles, const std::vector<Place>& all,
-         double failed_percent, double own, double haste)
+  /// all: of this dresspack, soonest first, not empty. haste: ln of how much sooner sharing may make one
+  /// fail.
+  Places(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles,
+         const std::vector<Place>& all, double failed_percent, double own, double haste)
       : own_(own) {
     const auto judged = [&](const Place& place) {
       const std::size_t wires = bundles[place.conductor].damage.size();
-      return JudgedPlace{Wires(damage_at(places[place.conductor], place.segment, wires)), place.conductor, place.segment,
-                         wires_of_share(failed_percent, wires), place.log_life};
+      return JudgedPlace{Wires(damage_at(places[place.conductor], place.segment, wires)), place.conductor,
+                         place.segment, wires_of_share(failed_percent, wires), place.log_life};
     };
     least_ = neglected / double(all.size());
-    constexpr std::size_t soonest = 64;  // enough to know about when the first of all will have failed for certain
+    constexpr std::size_t soonest =
+        64;  // enough to know about when the first of all will have failed for certain
     for (std::size_t i = 0; i < std::min(soonest, all.size()); ++i) judged_.push_back(judged(all[i]));
     take_conductors(bundles);
     latest_ = latest_of_judged(all.front().log_life);
@@ -79,7 +82,8 @@ class Places {
                    : place.log_life > latest_ + haste)
         continue;
       JudgedPlace candidate = judged(place);
-      if (own_ > 0 && candidate.wires.failed(latest_ + haste, candidate.count, own_, memory) < least_) continue;
+      if (own_ > 0 && candidate.wires.failed(latest_ + haste, candidate.count, own_, memory) < least_)
+        continue;
       judged_.push_back(std::move(candidate));
     }
     take_conductors(bundles);
@@ -92,11 +96,13 @@ class Places {
     for (const JudgedPlace& conductor : anywhere_) {
       double none_of_it = 1;
       for (; place != judged_.end() && place->conductor == conductor.conductor; ++place) {
-        const double most = double(place->wires.damaged()) * tabulated_normal((log_time - place->log_life) / own_);
+        const double most =
+            double(place->wires.damaged()) * tabulated_normal((log_time - place->log_life) / own_);
         if (most > least_) none_of_it *= 1 - place->wires.failed(log_time, place->count, own_, memory);
       }
       if (none_of_it < 1)
-        none_of_it = std::max(none_of_it, 1 - conductor.wires.failed(log_time, conductor.count, own_, memory));
+        none_of_it =
+            std::max(none_of_it, 1 - conductor.wires.failed(log_time, conductor.count, own_, memory));
       none *= none_of_it;
       if (none < certain * certain) return 1;
     }
@@ -125,7 +131,8 @@ class Places {
 
   /// When the first of those judged so far has failed for certain: with more of them, no later.
   double latest_of_judged(double soonest) const {
-    double low = soonest - LifeDistribution::farthest * own_, high = soonest + LifeDistribution::farthest * own_;
+    double low = soonest - LifeDistribution::farthest * own_,
+           high = soonest + LifeDistribution::farthest * own_;
     std::vector<double> memory;
     for (int halving = 0; own_ > 0 && halving < 16; ++halving) {
       const double middle = (low + high) / 2;
@@ -141,8 +148,9 @@ class Places {
 
 }  // namespace
 
-std::vector<double> median_place_lives(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles,
-                                       std::size_t segments, double failed_percent) {
+std::vector<double> median_place_lives(std::span<const PlacesOfConductor> places,
+                                       std::span<const Bundle> bundles, std::size_t segments,
+                                       double failed_percent) {
   std::vector<double> lives(places.size(), infinity);
   for (const Place& place : places_of(places, bundles, segments, failed_percent))
     lives[place.conductor] = std::min(lives[place.conductor], std::exp(place.log_life));
@@ -161,10 +169,12 @@ FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::spa
   std::map<std::size_t, std::vector<Place>> of_dresspack;
   for (const Place& place : all) of_dresspack[bundles[place.conductor].dresspack].push_back(place);
 
-  const bool sharing = std::any_of(bundles.begin(), bundles.end(), [](const Bundle& b) { return !b.rate.empty(); });
+  const bool sharing =
+      std::any_of(bundles.begin(), bundles.end(), [](const Bundle& b) { return !b.rate.empty(); });
   double haste = 0;
   for (const Bundle& bundle : bundles)
-    for (std::size_t k = 0; k < bundle.rate.size() && k < wires_of_share(failed_percent, bundle.damage.size()); ++k)
+    for (std::size_t k = 0;
+         k < bundle.rate.size() && k < wires_of_share(failed_percent, bundle.damage.size()); ++k)
       haste = std::max(haste, std::log(bundle.rate[k]));
   const double own = scatter.own() * std::numbers::ln10;
   if (scatter.log10 == 0 && !sharing) {
@@ -180,19 +190,18 @@ FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::spa
     std::vector<PlaceOfConductor> judged;
     for (const Places& dresspack : dresspacks)
       for (const JudgedPlace& place : dresspack.judged()) judged.push_back({place.conductor, place.segment});
-    result.lives = shared_place_lives(bundles, judged, failed_percent, scatter, draws,
-                                      [&](std::size_t conductor, std::size_t segment) {
-                                        return damage_at(places[conductor], segment, bundles[conductor].damage.size());
-                                      });
+    result.lives = shared_place_lives(
+        bundles, judged, failed_percent, scatter, draws, [&](std::size_t conductor, std::size_t segment) {
+          return damage_at(places[conductor], segment, bundles[conductor].damage.size());
+        });
     return result;
   }
   std::vector<LifeDistribution> each;
   for (const Places& dresspack : dresspacks)
-    each.emplace_back(
-        [&dresspack, memory = std::vector<double>()](double log_time) mutable {
-          return dresspack.failed(log_time, memory);
-        },
-        own > 0 ? dresspack.earliest() : dresspack.latest(), dresspack.latest(), scatter.common() * std::numbers::ln10);
+    each.emplace_back([&dresspack, memory = std::vector<double>()](
+                          double log_time) mutable { return dresspack.failed(log_time, memory); },
+                      own > 0 ? dresspack.earliest() : dresspack.latest(), dresspack.latest(),
+                      scatter.common() * std::numbers::ln10);
   result.lives = first_of(each);
   return result;
 }

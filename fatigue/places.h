@@ -1,11 +1,13 @@
 // The planner's life: when the first conductor of a dresspack has lost its share of wires at one place (F26).
 //
-// A conductor that has lost a share of its wires in one segment carries its current through the rest there; breaks anywhere along
-// two metres leave it whole nearly everywhere. P(k of n wires broken in segment g by t) is (F15) with the damages there. A wire's z
-// is the same in all its segments, so the segments' failures hang together in one sense only: each comes sooner the weaker the
-// wires. Then (Harris 1960; Esary, Proschan and Walkup 1967)
+// A conductor that has lost a share of its wires in one segment carries its current through the rest there;
+// breaks anywhere along two metres leave it whole nearly everywhere. P(k of n wires broken in segment g by t)
+// is (F15) with the damages there. A wire's z is the same in all its segments, so the segments' failures hang
+// together in one sense only: each comes sooner the weaker the wires. Then (Harris 1960; Esary, Proschan and
+// Walkup 1967)
 //     max_g P_g  <=  P(some segment)  <=  min[1 - product over g of (1 - P_g),  P(k of n broken anywhere)],
-// of which the right side is told: it is on the safe side. Conductors are independent of each other once the common factor (F25) is given.
+// of which the right side is told: it is on the safe side. Conductors are independent of each other once the
+// common factor (F25) is given.
 #pragma once
 
 #include <functional>
@@ -22,23 +24,24 @@ struct PlacesOfConductor {
 };
 
 struct FirstPlace {
-  Percentiles lives;             ///< [repeats]
+  Percentiles lives;  ///< [repeats]
   /// Where a share of median wires breaks soonest; of no conductor (their number) where none ever does.
   std::size_t conductor = 0, segment = 0;
   std::size_t judged = 0;  ///< places that could matter
 };
 
-/// Life by which the first conductor has lost `failed_percent` of its wires in one segment. bundles (conductor): their wires'
-/// worst places and, where broken wires leave their load to the rest, rates; then by `draws` draws as shared_lives(), which need no
-/// bounds. What is left out, places and moments, adds up to a probability of twice `neglected` at most before the first has failed for
-/// certain.
+/// Life by which the first conductor has lost `failed_percent` of its wires in one segment. bundles
+/// (conductor): their wires' worst places and, where broken wires leave their load to the rest, rates; then
+/// by `draws` draws as shared_lives(), which need no bounds. What is left out, places and moments, adds up to
+/// a probability of twice `neglected` at most before the first has failed for certain.
 FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles,
                              std::size_t segments, double failed_percent, Scatter scatter, int draws);
 constexpr double neglected = 1e-4;
 
-/// Repeats until each conductor has lost that share in one of its segments, (conductor), if every wire lives its median and
-/// none takes over another's load; infinite without damage to so many.
-std::vector<double> median_place_lives(std::span<const PlacesOfConductor> places, std::span<const Bundle> bundles,
-                                       std::size_t segments, double failed_percent);
+/// Repeats until each conductor has lost that share in one of its segments, (conductor), if every wire lives
+/// its median and none takes over another's load; infinite without damage to so many.
+std::vector<double> median_place_lives(std::span<const PlacesOfConductor> places,
+                                       std::span<const Bundle> bundles, std::size_t segments,
+                                       double failed_percent);
 
 }  // namespace dresslife::fatigue

@@ -10,11 +10,11 @@ namespace dresslife::fatigue {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double usual_rate = 0.085;  // Landgraf and Chernenkoff 1988, of steels
+constexpr double usual_rate = 0.085;     // Landgraf and Chernenkoff 1988, of steels
 constexpr double most_repeats = 0x1p50;  // as many cycles do no damage (strain_life.h)
 
-// Gauss and Legendre's four nodes on [0, 1]: exact for polynomials up to the seventh degree. n^r on an octave is analytic within
-// three half widths of its middle, so the error falls like (3 + sqrt 8)^-8 = 7e-7.
+// Gauss and Legendre's four nodes on [0, 1]: exact for polynomials up to the seventh degree. n^r on an octave
+// is analytic within three half widths of its middle, so the error falls like (3 + sqrt 8)^-8 = 7e-7.
 constexpr std::size_t nodes = 4;
 constexpr std::array<double, nodes> place{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
                                           0.93056815579702629};
@@ -87,7 +87,8 @@ double mean_share(double repeats, double exponent) {
   if (repeats <= 1 || exponent == 0) return 1;
   if (std::isinf(repeats)) return 0;
   const double log_repeats = std::log(repeats), power = 1 + exponent;
-  const double rest = std::fabs(power * log_repeats) < 1e-8 ? log_repeats : std::expm1(power * log_repeats) / power;
+  const double rest =
+      std::fabs(power * log_repeats) < 1e-8 ? log_repeats : std::expm1(power * log_repeats) / power;
   return (1 + rest) / repeats;
 }
 

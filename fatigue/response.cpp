@@ -11,17 +11,19 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr std::size_t likely_wires = 24;   // at each point by the job's material, judged over all its constants
-constexpr std::size_t settled_wires = 2;   // of them, with mean stress relaxing exactly
+constexpr std::size_t likely_wires =
+    24;  // at each point by the job's material, judged over all its constants
+constexpr std::size_t settled_wires = 2;  // of them, with mean stress relaxing exactly
 const std::vector<double> strength_nodes{-2, -1, 0, 1, 2}, slope_nodes{-1.5, 0, 1.5};
 
 double log10_life(double damage) {
-  return damage > 0 ? std::min(-std::log10(damage), pipeline::LifeResponse::endless) : pipeline::LifeResponse::endless;
+  return damage > 0 ? std::min(-std::log10(damage), pipeline::LifeResponse::endless)
+                    : pipeline::LifeResponse::endless;
 }
 
 /// Damage of each wire by the loop's rough share (F24).
-std::vector<double> damage_of(const VariedStrains& at, const std::vector<std::size_t>& wires, const SiteCounters& counters,
-                              DamageCounter::Workspace& workspace) {
+std::vector<double> damage_of(const VariedStrains& at, const std::vector<std::size_t>& wires,
+                              const SiteCounters& counters, DamageCounter::Workspace& workspace) {
   std::vector<double> damage(wires.size());
   std::vector<StrainList> lists;
   for (std::size_t first = 0; first < wires.size(); first += lists.size()) {
@@ -35,18 +37,20 @@ std::vector<double> damage_of(const VariedStrains& at, const std::vector<std::si
 }
 
 /// The `count` of them with the largest damage.
-std::vector<std::size_t> worst_of(const std::vector<std::size_t>& wires, const std::vector<double>& damage, std::size_t count) {
+std::vector<std::size_t> worst_of(const std::vector<std::size_t>& wires, const std::vector<double>& damage,
+                                  std::size_t count) {
   std::vector<std::size_t> order(wires.size()), worst;
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return damage[a] > damage[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return damage[a] > damage[b]; });
   for (std::size_t k = 0; k < std::min(count, order.size()); ++k) worst.push_back(wires[order[k]]);
   std::sort(worst.begin(), worst.end());
   return worst;
 }
 
 /// With mean stress relaxing exactly (F23) for those that are likely the worst.
-double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires, const SiteCounters& counters,
-                  DamageCounter::Workspace& workspace) {
+double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires,
+                  const SiteCounters& counters, DamageCounter::Workspace& workspace) {
   const std::vector<double> rough = damage_of(at, wires, counters, workspace);
   double worst = 0;
   for (const std::size_t wire : worst_of(wires, rough, settled_wires))
@@ -65,8 +69,8 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
   const auto strains = strain.read<float>("/variation/strain");
   std::vector<VariedStrains> all(z.size() / pipeline::strain_parameters);
   for (std::size_t v = 0; v < all.size(); ++v)
-    std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(v * pipeline::strain_parameters), pipeline::strain_parameters,
-                all[v].z.begin());
+    std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(v * pipeline::strain_parameters),
+                pipeline::strain_parameters, all[v].z.begin());
   std::size_t next = 0;
   for (std::size_t row = 0; row < of_row.size(); ++row) {
     if (of_row[row] >= all.size() || site[row] >= sites || turning[row] > strains.size() - next)
@@ -81,8 +85,9 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
   return all;
 }
 
-void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, std::span<const VariedStrains> varied,
-                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job, std::size_t threads) {
+void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
+                   std::span<const VariedStrains> varied, const SiteSet& sites, const TextColumn& component,
+                   const pipeline::Job& job, std::size_t threads) {
   response.strength = strength_nodes, response.slope = slope_nodes;
   std::vector<const VariedStrains*> points{&own};
   response.points = {{}};
@@ -104,8 +109,10 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, s
     DamageCounter::Workspace workspace;
     for (std::size_t node = part; node < nodes; node += threads) {
       pipeline::Job moved = job;
-      moved.fatigue.strength_factor *= parameters[index_of(pipeline::Uncertain::strength)].value(strength_nodes[node / slopes]);
-      moved.fatigue.slope_change += parameters[index_of(pipeline::Uncertain::slope)].value(slope_nodes[node % slopes]);
+      moved.fatigue.strength_factor *=
+          parameters[index_of(pipeline::Uncertain::strength)].value(strength_nodes[node / slopes]);
+      moved.fatigue.slope_change +=
+          parameters[index_of(pipeline::Uncertain::slope)].value(slope_nodes[node % slopes]);
       const SiteCounters counters(sites, component, moved);
       for (std::size_t k = 0; k < points.size(); ++k)
         response.worst_life[k * nodes + node] = worst_life(*points[k], likely[k], counters, workspace);

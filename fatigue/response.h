@@ -1,5 +1,6 @@
-// How the worst wire's life answers to what is not known: its material's constants, and strains that dresslife-strain worked out with
-// other friction, slack, play and grips (/variation of strain.h5). README (F27).
+// How the worst wire's life answers to what is not known: its material's constants, and strains that
+// dresslife-strain worked out with other friction, slack, play and grips (/variation of strain.h5). README
+// (F27).
 #pragma once
 
 #include <functional>
@@ -22,9 +23,11 @@ struct VariedStrains {
 /// strain.h5's /variation; nothing where the strain stage tried none.
 std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, std::size_t sites);
 
-/// log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength, slope); the first point is
-/// as the job stands, `own` its wires. damaged_by(material settings): counters of all sites.
-void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, std::span<const VariedStrains> varied,
-                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job, std::size_t threads);
+/// log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength,
+/// slope); the first point is as the job stands, `own` its wires. damaged_by(material settings): counters of
+/// all sites.
+void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
+                   std::span<const VariedStrains> varied, const SiteSet& sites, const TextColumn& component,
+                   const pipeline::Job& job, std::size_t threads);
 
 }  // namespace dresslife::fatigue

@@ -58,8 +58,8 @@ void draw_factors(const Bundle& bundle, std::uint64_t first_stream, std::uint64_
 }
 
 /// Lives at which 1, 2, ... `count` of wires with this damage have broken, (wire). rate: Bundle's.
-void order_breaks(std::span<const double> damage, std::span<const double> factors, std::span<const double> rate,
-                  std::size_t count, std::vector<double>& breaks) {
+void order_breaks(std::span<const double> damage, std::span<const double> factors,
+                  std::span<const double> rate, std::size_t count, std::vector<double>& breaks) {
   breaks.clear();
   for (std::size_t wire = 0; wire < damage.size(); ++wire)
     breaks.push_back(damage[wire] > 0 ? factors[wire] / damage[wire] : infinity);
@@ -156,7 +156,8 @@ Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed
             all_last *= 1 - conductor.wires.failed(log_time, conductor.count, own, memory);
           return 1 - all_last;
         },
-        low - LifeDistribution::farthest * own, high + LifeDistribution::farthest * own, scatter.common() * std::numbers::ln10);
+        low - LifeDistribution::farthest * own, high + LifeDistribution::farthest * own,
+        scatter.common() * std::numbers::ln10);
   }
   return first_of(each);
 }

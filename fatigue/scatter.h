@@ -7,13 +7,13 @@
 // and k of n wires with the upper tail of the Poisson-binomial distribution of their p (F15); percentiles are
 // found by bisection in log t. All lives are in repeats of the motion.
 //
-// Of the variance s^2 a share c is common to all wires of a dresspack (F25): z = sqrt(c) z_common + sqrt(1 - c) z_own. With
-// z_common given, (F15) holds with sqrt(1 - c) s; its distribution over ln t is spread by the common factor in closed form,
-// straight between tabulated points.
+// Of the variance s^2 a share c is common to all wires of a dresspack (F25): z = sqrt(c) z_common + sqrt(1 -
+// c) z_own. With z_common given, (F15) holds with sqrt(1 - c) s; its distribution over ln t is spread by the
+// common factor in closed form, straight between tabulated points.
 //
-// Assumptions: wires are else independent of each other; the places of one wire are not (one z, since a segment is no piece of
-// metal of its own). A wire counts as broken wherever along the dresspack it breaks, but in first_place_lives(), where
-// a conductor's share must have broken in one segment.
+// Assumptions: wires are else independent of each other; the places of one wire are not (one z, since a
+// segment is no piece of metal of its own). A wire counts as broken wherever along the dresspack it breaks,
+// but in first_place_lives(), where a conductor's share must have broken in one segment.
 #pragma once
 
 #include <array>
@@ -40,7 +40,8 @@ std::size_t wires_of_share(double percent, std::size_t wires);
 /// repeat, by the median curves. Infinite when fewer wires are damaged at all. Precondition: count >= 1.
 double life_until(std::span<const double> damage, std::size_t count, Scatter scatter, double share);
 
-/// Lives by which at least one wire has broken, of wires that lie in several dresspacks: (dresspack) (wire) damage.
+/// Lives by which at least one wire has broken, of wires that lie in several dresspacks: (dresspack) (wire)
+/// damage.
 Percentiles first_wire_lives(std::span<const std::vector<double>> damage, Scatter scatter);
 
 /// The wires of one conductor.
@@ -74,7 +75,8 @@ struct PlaceOfConductor {
 };
 using DamageAt = std::function<std::span<const double>(std::size_t conductor, std::size_t segment)>;
 
-/// By the same draws, when the first of these places, those of a conductor in a row, has lost `failed_percent` of its wires.
+/// By the same draws, when the first of these places, those of a conductor in a row, has lost
+/// `failed_percent` of its wires.
 Percentiles shared_place_lives(std::span<const Bundle> bundles, std::span<const PlaceOfConductor> places,
                                double failed_percent, Scatter scatter, int draws, const DamageAt& damage_at);
 

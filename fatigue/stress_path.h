@@ -5,7 +5,8 @@
 // reversal Material memory (Clormann and Seeger 1985), (F4):    a strain beyond the largest |strain| so far
 // lies on the cyclic curve itself; a branch that comes back to the reversal below its origin closes that
 // loop, and the branch that the loop interrupted goes on as if the loop had not been. Assumptions: one axis,
-// stable metal (no softening; how its mean stress relaxes is added in relaxation.h), equal in tension and compression.
+// stable metal (no softening; how its mean stress relaxes is added in relaxation.h), equal in tension and
+// compression.
 #pragma once
 
 #include <functional>

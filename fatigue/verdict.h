@@ -62,9 +62,9 @@ SiteDamage damage_of(const SiteSet& sites, const SiteCounters& counters, std::si
 std::vector<std::size_t> worst_by_group(const SiteDamage& all, std::size_t groups,
                                         const std::function<std::size_t(std::size_t)>& group_of);
 
-/// (F24) Where mean stress falls from repeat to repeat, damage_of() told each site's damage with the share of it that its
-/// outermost loop lets expect. Here the worst site of each group gets 1 / life (F23), and the others of the group change by the
-/// same factor. strains_of(site): its reversals'.
+/// (F24) Where mean stress falls from repeat to repeat, damage_of() told each site's damage with the share of
+/// it that its outermost loop lets expect. Here the worst site of each group gets 1 / life (F23), and the
+/// others of the group change by the same factor. strains_of(site): its reversals'.
 void settle(SiteDamage& all, const SiteCounters& counters, std::size_t groups,
             const std::function<std::size_t(std::size_t)>& group_of,
             const std::function<std::vector<float>(std::size_t)>& strains_of, std::size_t threads);

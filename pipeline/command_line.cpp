@@ -44,7 +44,8 @@ std::optional<int> read_command_line(const StageInfo& info, int argc, char** arg
                        "note there from what the output is made, and make it only when that has changed")
             ->type_name("FILE");
     if (job) noted->needs(job);
-    app.add_option("--likes", likes, "a list of folders that get the same output and note, each under its name")
+    app.add_option("--likes", likes,
+                   "a list of folders that get the same output and note, each under its name")
         ->type_name("FILE")
         ->needs(noted);
   }

@@ -14,12 +14,13 @@
 
 namespace dresslife::pipeline {
 
-/// The running program itself, whatever link or search path led to it. Errors: InputError where there is no /proc
-/// and the name it was started by leads nowhere.
+/// The running program itself, whatever link or search path led to it. Errors: InputError where there is no
+/// /proc and the name it was started by leads nowhere.
 std::filesystem::path program_file();
 std::filesystem::path program_folder();
 
-/// The file that a program was started from as `name`: a path, or a name on the search path. Errors: InputError.
+/// The file that a program was started from as `name`: a path, or a name on the search path. Errors:
+/// InputError.
 std::filesystem::path program_called(const std::string& name);
 
 /// The folder that the environment variable DRESSLIFE_CONFIG names (who sets it means it), else the catalogue

@@ -65,8 +65,8 @@ void limit_time(const std::string& program, std::uint64_t seconds) {
 
 namespace {
 
-/// The kernel ends a program whose stack may not grow: it grows before memory is limited. The lowest byte is enough, all
-/// between belongs to the stack with it; pages that are never used are never cleared.
+/// The kernel ends a program whose stack may not grow: it grows before memory is limited. The lowest byte is
+/// enough, all between belongs to the stack with it; pages that are never used are never cleared.
 [[gnu::noinline]] void grow_stack() {
   constexpr std::size_t bytes = 1 << 20;
   volatile char stack[bytes];

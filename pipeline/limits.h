@@ -13,9 +13,9 @@ struct StageLimits {
 };
 
 /// Opens what of standard input, output and error is closed: a file opened later would take its number, and
-/// what is said would go into it. Lines of standard output leave whole, so that none of standard error lands within
-/// one where both go into one file. A file that may not grow any more fails its write instead of ending the
-/// program.
+/// what is said would go into it. Lines of standard output leave whole, so that none of standard error lands
+/// within one where both go into one file. A file that may not grow any more fails its write instead of
+/// ending the program.
 void settle_streams();
 
 /// A program ends with the process that the environment variable DRESSLIFE_PARENT names as its parent,
@@ -26,8 +26,8 @@ void end_with_parent();
 void limit_time(const std::string& program, std::uint64_t seconds);
 /// Memory beyond what the program began with; more is std::bad_alloc. 0: no limit.
 void limit_memory(std::uint64_t megabytes);
-/// Before a library that does not survive it when its own memory cannot be had. Errors: std::bad_alloc when this
-/// program may not take so much more.
+/// Before a library that does not survive it when its own memory cannot be had. Errors: std::bad_alloc when
+/// this program may not take so much more.
 void check_memory(std::uint64_t megabytes);
 std::uint64_t installed_memory_mb();
 

@@ -24,12 +24,12 @@ int import_program(char** arguments) {
 
 /// In the order of their help. `import` is told of for the help alone: it is a program of its own.
 std::vector<Command> add_commands(CLI::App& program) {
-  std::vector<Command> commands{add_run(program),     add_submit(program),   add_status(program),   add_report(program),
-                                add_clean(program),   add_improve(program),  add_reprogram(program),
-                                add_show(program),    add_plot(program),     add_export(program),
-                                add_rate(program),    add_validate(program), add_calibrate(program),
-                                add_draw(program),    add_preview(program),  add_page(program),
-                                add_route(program)};
+  std::vector<Command> commands{add_run(program),       add_submit(program), add_status(program),
+                                add_report(program),    add_clean(program),  add_improve(program),
+                                add_reprogram(program), add_show(program),   add_plot(program),
+                                add_export(program),    add_rate(program),   add_validate(program),
+                                add_calibrate(program), add_draw(program),   add_preview(program),
+                                add_page(program),      add_route(program)};
   program.add_subcommand(
       "import",
       "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help");

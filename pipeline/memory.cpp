@@ -35,7 +35,7 @@ std::string shown_megabytes(double megabytes) {
 
 double row_bytes(const Dataset& dataset, const std::map<std::string, std::size_t>& axes) {
   constexpr double text = 64;  // a path of names; few are longer
-  double bytes = dataset.type == Type::text                                                              ? text
+  double bytes = dataset.type == Type::text                               ? text
                  : dataset.type == Type::f64 || dataset.type == Type::u64 ? 8
                                                                           : 4;
   for (std::size_t i = 1; i < dataset.shape.size(); ++i) {
@@ -180,11 +180,10 @@ namespace {
 [[noreturn]] void refuse(const StageCall& call, const MemoryNeed& need, const std::string& limit,
                          const std::string& other_remedy) {
   const std::string largest = need.largest(), remedy = need.remedy();
-  throw InputError(
-      {call.input.string()},
-      fmt::format("takes about {} of memory{} ({})", shown_megabytes(need.megabytes()),
-                  largest.empty() ? "" : ", " + largest + " of it", limit),
-      remedy.empty() ? other_remedy : fmt::format("choose {}, or {}", remedy, other_remedy));
+  throw InputError({call.input.string()},
+                   fmt::format("takes about {} of memory{} ({})", shown_megabytes(need.megabytes()),
+                               largest.empty() ? "" : ", " + largest + " of it", limit),
+                   remedy.empty() ? other_remedy : fmt::format("choose {}, or {}", remedy, other_remedy));
 }
 
 }  // namespace

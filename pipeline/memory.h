@@ -1,11 +1,11 @@
 // What memory a stage's job will take: told and heeded before time is spent on it.
 //
-// A stage adds up what grows with its job, from sizes that it knows before it begins. The sum is told, refused
-// where it cannot be had, and waited for where other stages of the same run will give it back: better than a
-// program that the kernel kills, which can say nothing.
+// A stage adds up what grows with its job, from sizes that it knows before it begins. The sum is told,
+// refused where it cannot be had, and waited for where other stages of the same run will give it back: better
+// than a program that the kernel kills, which can say nothing.
 //
-// Of what a peak consists that is not added up - the allocator's rounding, freed memory that it keeps, the HDF5
-// library's tables - is of the size of the rest: an estimate is good within `memory_factor`, either way.
+// Of what a peak consists that is not added up - the allocator's rounding, freed memory that it keeps, the
+// HDF5 library's tables - is of the size of the rest: an estimate is good within `memory_factor`, either way.
 #pragma once
 
 #include <cstdint>
@@ -44,16 +44,16 @@ class MemoryNeed {
   std::vector<Share> shares_;
 };
 
-/// Held while a file of this format is written or read, whose axes have these lengths: rows on their way, and the
-/// library's cache of chunks. Axes that are not named count as 0.
+/// Held while a file of this format is written or read, whose axes have these lengths: rows on their way, and
+/// the library's cache of chunks. Axes that are not named count as 0.
 double file_buffers(const Format& format, const std::map<std::string, std::size_t>& axes);
 
-/// Memory that programs could still take without another one's being moved out [MB]: the machine's, or what the
-/// control group leaves of it. Nothing where the system does not tell.
+/// Memory that programs could still take without another one's being moved out [MB]: the machine's, or what
+/// the control group leaves of it. Nothing where the system does not tell.
 std::optional<double> free_memory_mb();
 
-/// Who of a run's stages has been given how much memory: lines "process megabytes" in a file of the run. Stages
-/// that have ended count no more.
+/// Who of a run's stages has been given how much memory: lines "process megabytes" in a file of the run.
+/// Stages that have ended count no more.
 class MemoryClaims {
  public:
   /// file: empty where a stage runs alone.
@@ -70,8 +70,8 @@ class MemoryClaims {
   std::function<std::optional<double>()> free_;
 };
 
-/// Tells what the job needs, and waits until it may be had. Errors: InputError, at the call's input, for a job
-/// that does not fit into --job-memory or the machine.
+/// Tells what the job needs, and waits until it may be had. Errors: InputError, at the call's input, for a
+/// job that does not fit into --job-memory or the machine.
 void heed_memory(const StageCall& call, const MemoryNeed& need, Progress& progress);
 
 }  // namespace dresslife::pipeline

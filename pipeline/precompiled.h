@@ -1,5 +1,5 @@
-// What nearly every file includes, compiled once for all of them (CMakeLists.txt). Files include what they use
-// all the same: builds through a compiler cache go without this one.
+// What nearly every file includes, compiled once for all of them (CMakeLists.txt). Files include what they
+// use all the same: builds through a compiler cache go without this one.
 #pragma once
 
 #include <fmt/format.h>

@@ -37,7 +37,9 @@ std::string readable(double value, int figures) {
   return grouped(fmt::format("{:.{}f}", rounded, decimals));
 }
 
-std::string life_text(double life, int figures) { return std::isinf(life) ? "no damage" : readable(life, figures); }
+std::string life_text(double life, int figures) {
+  return std::isinf(life) ? "no damage" : readable(life, figures);
+}
 
 std::string hours_text(double hours) { return life_text(hours) + (std::isinf(hours) ? "" : " h"); }
 
@@ -50,7 +52,9 @@ std::string calendar_words(double months) {
   return days < 1 ? "less than a day" : readable(days, 2) + " days";
 }
 
-std::string calendar_text(double months) { return std::isinf(months) ? life_text(months) : calendar_words(months); }
+std::string calendar_text(double months) {
+  return std::isinf(months) ? life_text(months) : calendar_words(months);
+}
 
 std::size_t columns_of(const std::string& text) {
   return static_cast<std::size_t>(

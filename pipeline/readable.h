@@ -10,7 +10,8 @@ namespace dresslife::pipeline {
 /// "-" for NaN.
 std::string readable(double value, int figures = 3);
 
-/// A life in whatever unit, readable() or "no damage" for infinity; hours: the same with their unit, "1,234 h".
+/// A life in whatever unit, readable() or "no damage" for infinity; hours: the same with their unit, "1,234
+/// h".
 std::string life_text(double life, int figures = 3);
 std::string hours_text(double hours);
 

@@ -2,10 +2,11 @@
 // that many doubles, on a FloatPack on twice as many floats. The only home of Google Highway, whose
 // operations these are.
 //
-// Included by files of hot loops that are compiled once per instruction set. Such a file defines DRESSLIFE_MACHINE (a name) and
-// DRESSLIFE_TARGET (Highway's target; by default the build's own), includes this one, and puts its loops between
-// DRESSLIFE_BEGIN_MACHINE and DRESSLIFE_END_MACHINE. What comes from outside must be compiled for any machine, so it is included
-// before: standard headers of all loops here. pipeline/instruction_set.h tells which of them run on the machine at hand.
+// Included by files of hot loops that are compiled once per instruction set. Such a file defines
+// DRESSLIFE_MACHINE (a name) and DRESSLIFE_TARGET (Highway's target; by default the build's own), includes
+// this one, and puts its loops between DRESSLIFE_BEGIN_MACHINE and DRESSLIFE_END_MACHINE. What comes from
+// outside must be compiled for any machine, so it is included before: standard headers of all loops here.
+// pipeline/instruction_set.h tells which of them run on the machine at hand.
 #pragma once
 
 #ifndef DRESSLIFE_MACHINE

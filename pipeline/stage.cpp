@@ -114,7 +114,8 @@ void say(const StageCall& call, Progress& progress, const Warning& warning) {
 }
 
 std::vector<Warning> warnings_in(const FileReader& file) {
-  return file.has_attribute("warnings") ? warnings_from(file.text_attribute("warnings")) : std::vector<Warning>{};
+  return file.has_attribute("warnings") ? warnings_from(file.text_attribute("warnings"))
+                                        : std::vector<Warning>{};
 }
 
 const Format& format_of_output(Part part) {
@@ -134,8 +135,8 @@ void say_known_warnings(const StageCall& call) {
     if (std::find(before.begin(), before.end(), warning) == before.end()) say(call, silent, warning);
 }
 
-/// Jobs of a study that are alike up to here get what one of them made, each under its own name. The names come before
-/// the receipts, as each changes what the file system tells of the file.
+/// Jobs of a study that are alike up to here get what one of them made, each under its own name. The names
+/// come before the receipts, as each changes what the file system tells of the file.
 void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt& receipt) {
   if (flags.likes.empty()) return write_receipt(flags.receipt, receipt, call.output);
   const std::filesystem::path name = call.output.filename(),
@@ -157,10 +158,10 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
   Digests digests;
   if (const char* const noted = std::getenv("DRESSLIFE_DIGESTS")) digests.believe(noted);
   Receipt wanted;
-  wanted.recipe =
-      recipe_of(settings.text, settings.files, program_file(), digests);
+  wanted.recipe = recipe_of(settings.text, settings.files, program_file(), digests);
   wanted.made_with.emplace_back(call.info.program, digests.of(program_file()));
-  for (const std::filesystem::path& file : settings.files) wanted.made_with.emplace_back(file.string(), digests.of(file));
+  for (const std::filesystem::path& file : settings.files)
+    wanted.made_with.emplace_back(file.string(), digests.of(file));
   wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
   const std::optional<Receipt> known = read_receipt(flags.receipt);
   const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
@@ -270,11 +271,12 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
   return job;
 }
 
-void note_warnings(FileWriter& file, const StageCall& call, Progress& progress, const std::vector<Warning>& own,
-                   const FileReader* before) {
+void note_warnings(FileWriter& file, const StageCall& call, Progress& progress,
+                   const std::vector<Warning>& own, const FileReader* before) {
   for (const Warning& warning : own) say(call, progress, warning);
   if (before && !before->has_attribute("warnings")) return;
-  file.attribute("warnings", warnings_text(joined(before ? warnings_in(*before) : std::vector<Warning>{}, own)));
+  file.attribute("warnings",
+                 warnings_text(joined(before ? warnings_in(*before) : std::vector<Warning>{}, own)));
 }
 
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier) {

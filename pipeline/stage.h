@@ -84,10 +84,11 @@ int finish_output(int status);
 /// because the file then does not hold what the job asks for.
 Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before);
 
-/// Writes the root attribute `warnings`, those of the file that was read (before) first, and says this stage's own: on a
-/// terminal, in a study into the log. Of a file that does not tell its warnings the output does not, either.
-void note_warnings(FileWriter& file, const StageCall& call, Progress& progress, const std::vector<Warning>& own,
-                   const FileReader* before = nullptr);
+/// Writes the root attribute `warnings`, those of the file that was read (before) first, and says this
+/// stage's own: on a terminal, in a study into the log. Of a file that does not tell its warnings the output
+/// does not, either.
+void note_warnings(FileWriter& file, const StageCall& call, Progress& progress,
+                   const std::vector<Warning>& own, const FileReader* before = nullptr);
 
 /// Writes the root attributes `job`, `history` and `input_sha256`. earlier: history of the input file, "" for
 /// none. Called last before commit(): Errors: InputError when an input has changed since the stage began.

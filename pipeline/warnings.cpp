@@ -25,7 +25,8 @@ std::string plain(std::string text) {
     if (!text.empty() && static_cast<unsigned char>(text.back()) >= 0xC0) text.pop_back();
     text += "...";
   }
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   return text;
 }
 
@@ -87,7 +88,9 @@ const char* title(WarningKind kind) {
   return "";
 }
 
-std::string Warning::line() const { return where.empty() ? "warning: " + words : where + ": warning: " + words; }
+std::string Warning::line() const {
+  return where.empty() ? "warning: " + words : where + ": warning: " + words;
+}
 std::string Warning::text() const { return where.empty() ? words : where + ": " + words; }
 
 std::string warnings_text(const std::vector<Warning>& warnings) {
@@ -97,7 +100,8 @@ std::string warnings_text(const std::vector<Warning>& warnings) {
     text += fmt::format("{}{}\t{}\t{}", k ? "\n" : "", word(warnings[k].kind), plain(warnings[k].where),
                         plain(warnings[k].words));
   if (listed < warnings.size())
-    text += fmt::format("\n{}\t\tand {} more warnings", word(warnings[listed].kind), warnings.size() - listed);
+    text +=
+        fmt::format("\n{}\t\tand {} more warnings", word(warnings[listed].kind), warnings.size() - listed);
   return text;
 }
 

@@ -1,5 +1,6 @@
-// Warnings: results stand, but a person should look before believing them. Each stage writes its own, after those of
-// the file that it read, into the root attribute `warnings` of its output, so that the last file has all of a job.
+// Warnings: results stand, but a person should look before believing them. Each stage writes its own, after
+// those of the file that it read, into the root attribute `warnings` of its output, so that the last file has
+// all of a job.
 #pragma once
 
 #include <string>
@@ -40,8 +41,8 @@ struct Warning {
   bool operator==(const Warning&) const = default;
 };
 
-/// For the attribute: a line each, kind, place and words between tabs; of more than 100 the first, and how many there
-/// are.
+/// For the attribute: a line each, kind, place and words between tabs; of more than 100 the first, and how
+/// many there are.
 std::string warnings_text(const std::vector<Warning>& warnings);
 /// And back. Lines that are none, of a newer program perhaps, are left out.
 std::vector<Warning> warnings_from(const std::string& text);

@@ -59,7 +59,8 @@ void write_text_if_changed(const std::filesystem::path& file, const std::string&
 /// Removes what killed writers of NAME left beside it.
 void remove_leftovers(const std::filesystem::path& final_name);
 
-/// Removes what this process has begun and not committed, for its last moment: a signal's handler may call it.
+/// Removes what this process has begun and not committed, for its last moment: a signal's handler may call
+/// it.
 void remove_parts_of_this_process() noexcept;
 
 /// Refuses to replace what a result may not replace: a folder, a device, a pipe, a link.

@@ -41,7 +41,7 @@ struct Extreme {
 /// One line of the table. Quantities without a limit have an infinite one.
 struct Check {
   std::optional<pipeline::WarningKind> kind;  ///< of warning when its limit is broken; absent: it has none
-  std::string name, unit;  ///< SI
+  std::string name, unit;                     ///< SI
   double value = 0, limit = 0;
   bool warning = false;
   double time = 0;       ///< [s]

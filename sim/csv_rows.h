@@ -21,9 +21,9 @@ std::vector<CsvCell> cells_of(std::string_view line);
 /// A whole decimal number; nothing else is one.
 std::optional<double> number_in(std::string_view text);
 
-/// Calls `take` for every line but blank ones and those that begin with #, with its cells and its number from 1,
-/// and returns the number of the last line. key: of the job that names the file. Errors: InputError when it cannot be
-/// read.
+/// Calls `take` for every line but blank ones and those that begin with #, with its cells and its number from
+/// 1, and returns the number of the last line. key: of the job that names the file. Errors: InputError when
+/// it cannot be read.
 int read_csv(const std::filesystem::path& file, const char* key,
              const std::function<void(const std::vector<CsvCell>&, int)>& take);
 

@@ -37,13 +37,14 @@ class Reader {
         length_(setup.dresspacks.front().routing.free_length),
         segment_(length_ / setup.simulation.segments),
         stiffness_(axial_stiffness(setup.dresspacks.front().dresspack)) {
-    line_ = read_csv(setup.motion.deformation, "deformation", [&](const std::vector<CsvCell>& cells, int line) {
-      line_ = line;
-      if (columns_.empty())
-        read_header(cells);
-      else
-        read_row(cells);
-    });
+    line_ =
+        read_csv(setup.motion.deformation, "deformation", [&](const std::vector<CsvCell>& cells, int line) {
+          line_ = line;
+          if (columns_.empty())
+            read_header(cells);
+          else
+            read_row(cells);
+        });
     if (result_.times.empty())
       fail(0, "deformation holds no row", "write a header (t_s, kappa_1_1_per_m, ...) and a row per time");
     finish_time();
@@ -77,7 +78,8 @@ class Reader {
       columns_.push_back(column);
     }
     if (names[time].empty()) fail(1, "deformation has no column t_s", "give the time of each row in seconds");
-    if (names[curvature1].empty() && names[curvature2].empty() && names[twist].empty() && names[elongation].empty())
+    if (names[curvature1].empty() && names[curvature2].empty() && names[twist].empty() &&
+        names[elongation].empty())
       fail(1, "deformation has a time and nothing that deforms",
            "add kappa_1_1_per_m, kappa_2_1_per_m, twist_deg_per_m or elongation");
     has_places_ = !names[position].empty();
@@ -112,8 +114,10 @@ class Reader {
 
   double elongation_of(double tension, int column) const {
     if (stiffness_ <= 0)
-      fail(column, "tension_N is given and the dresspack has no axial_stiffness_N and no wires (it becomes an elongation by E A)",
-           "give dresspack.axial_stiffness_N, or a column elongation");
+      fail(
+          column,
+          "tension_N is given and the dresspack has no axial_stiffness_N and no wires (it becomes an elongation by E A)",
+          "give dresspack.axial_stiffness_N, or a column elongation");
     return tension / stiffness_;
   }
 
@@ -121,8 +125,8 @@ class Reader {
     const double angle = rate.norm() * segment_;
     if (angle > most_turn)
       fail(column,
-           fmt::format("curvature and twist turn a segment of {:.4g} mm by {:.4g} deg (at most 120)", 1e3 * segment_,
-                       angle * 180 / EIGEN_PI),
+           fmt::format("curvature and twist turn a segment of {:.4g} mm by {:.4g} deg (at most 120)",
+                       1e3 * segment_, angle * 180 / EIGEN_PI),
            "check the units, or raise simulation.segments");
   }
 
@@ -153,14 +157,18 @@ class Reader {
     if (result_.times.empty()) return;
     if (result_.times.size() == 1) places_ = result_.positions.size();
     if (const std::size_t left = result_.times.size() * places_ - result_.states.size(); left > 0)
-      fail(0, fmt::format("time {} s has {} places (the first has {})", result_.times.back(), places_ - left, places_),
+      fail(0,
+           fmt::format("time {} s has {} places (the first has {})", result_.times.back(), places_ - left,
+                       places_),
            "give every time a row for each position_m");
   }
 
   void check_place(double value, std::size_t place, int column) const {
     constexpr double rounding = 1e-6;  // of decimals, in the length
     if (value < 0 || value > length_ * (1 + rounding))
-      fail(column, fmt::format("position_m is {} (must lie in 0 .. {}, the dresspack's free_length_m)", value, length_),
+      fail(column,
+           fmt::format("position_m is {} (must lie in 0 .. {}, the dresspack's free_length_m)", value,
+                       length_),
            "measure it from the base clamp along the dresspack");
     if (result_.times.size() == 1) {
       if (place > 0 && value <= result_.positions.back())

@@ -9,8 +9,8 @@
 #include "sim/exercise.h"
 #include "sim/memory.h"
 #include "sim/motion_file.h"
-#include "sim/preview.h"
 #include "sim/prescribed.h"
+#include "sim/preview.h"
 #include "sim/proposal.h"
 #include "sim/screening_file.h"
 #include "sim/simulate.h"
@@ -22,17 +22,20 @@ namespace {
 enum Option { preview, screen, rehearse, propose, ring, tried, rehearsals, seed, exercise };
 
 /// A count on the command line. Errors: InputError at the option.
-std::uint64_t whole(const std::string& option, const std::string& text, std::uint64_t least, std::uint64_t most) {
+std::uint64_t whole(const std::string& option, const std::string& text, std::uint64_t least,
+                    std::uint64_t most) {
   std::uint64_t value = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (failure != std::errc() || end != text.data() + text.size() || value < least || value > most)
-    throw pipeline::InputError({option}, fmt::format("'{}' is no whole number from {} to {}", text, least, most),
-                               "write one");
+    throw pipeline::InputError(
+        {option}, fmt::format("'{}' is no whole number from {} to {}", text, least, most), "write one");
   return value;
 }
 
 void write_proposals(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::FileWriter& file) {
-  const auto last = [&](Option option) { return call.options[option].empty() ? "" : call.options[option].back(); };
+  const auto last = [&](Option option) {
+    return call.options[option].empty() ? "" : call.options[option].back();
+  };
   sim::ProposalSettings settings;
   settings.count = static_cast<int>(whole("--propose", last(propose), 1, 24));
   if (!last(tried).empty()) settings.tried = static_cast<int>(whole("--tried", last(tried), 1, 1'000'000));
@@ -48,10 +51,12 @@ bool told_at_rest(const pipeline::StageCall& call, pipeline::Job& job) {
   const auto asked = [&](Option option) { return !call.options[option].empty(); };
   if (!asked(preview) && !asked(screen) && !asked(propose)) return false;
   if (job.motion.is_prescribed())
-    throw pipeline::InputError(job.motion.where, "a prescribed deformation has no cell to preview (nothing moves)",
+    throw pipeline::InputError(job.motion.where,
+                               "a prescribed deformation has no cell to preview (nothing moves)",
                                "run it, and look at its page");
   if (asked(exercise)) job.motion = sim::exercise(job.robot);
-  pipeline::FileWriter file(call.output, asked(preview) ? pipeline::preview_format() : pipeline::screening_format());
+  pipeline::FileWriter file(call.output,
+                            asked(preview) ? pipeline::preview_format() : pipeline::screening_format());
   if (asked(preview))
     sim::write_preview(job, file);
   else if (asked(screen))
@@ -83,8 +88,8 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
     motion.emplace(*file, simulation.description());
   };
   begin(1);
-  const sim::RunSummary summary = simulation.run({[&](const sim::Sample& sample) { motion->add(sample); }, begin,
-                                                  [&](double share) { progress.show(share); }});
+  const sim::RunSummary summary = simulation.run({[&](const sim::Sample& sample) { motion->add(sample); },
+                                                  begin, [&](double share) { progress.show(share); }});
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
   if (const std::string note = sim::repeats_note(summary); !note.empty()) progress.note(note);
   pipeline::note_warnings(*file, call, progress, sim::warnings_of(simulation, summary));
@@ -102,27 +107,26 @@ int main(int argc, char** argv) {
       .output = "motion.h5",
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
       .input_is_job = true,
-      .options = {{"--preview", "",
-                   "simulate nothing; write what stands where, and which lengths suit (preview.h5)"},
-                  {"--screen", "LIST.yaml",
-                   "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)"},
-                  {"--rehearse", "",
-                   "with --screen: run each with few segments, and write what was seen"},
-                  {"--propose", "COUNT",
-                   "simulate nothing; write routings with clamps on the job's links that geometry finds nothing "
-                   "against (screening.h5)"},
-                  {"--ring", "LINK", "with --propose: also a guide ring on this link"},
-                  {"--tried", "COUNT", "with --propose: routings that are looked at; 1200"},
-                  {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by; 0"},
-                  {"--seed", "NUMBER", "with --propose: of the search's chances; 1"},
-                  {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about"}},
+      .options =
+          {{"--preview", "",
+            "simulate nothing; write what stands where, and which lengths suit (preview.h5)"},
+           {"--screen", "LIST.yaml",
+            "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)"},
+           {"--rehearse", "", "with --screen: run each with few segments, and write what was seen"},
+           {"--propose", "COUNT",
+            "simulate nothing; write routings with clamps on the job's links that geometry finds nothing "
+            "against (screening.h5)"},
+           {"--ring", "LINK", "with --propose: also a guide ring on this link"},
+           {"--tried", "COUNT", "with --propose: routings that are looked at; 1200"},
+           {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by; 0"},
+           {"--seed", "NUMBER", "with --propose: of the search's chances; 1"},
+           {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about"}},
       .part = pipeline::Part::sim,
       .told = pipeline::told_checks};
-  return pipeline::run_stage(info, argc, argv,
-                             [](const pipeline::StageCall& call, pipeline::Progress& progress) {
-                               pipeline::Job job = pipeline::read_job(call.input, call.sets);
-                               if (told_at_rest(call, job)) return;
-                               return job.motion.is_prescribed() ? prescribe(call, job, progress)
-                                                                 : simulate(call, job, progress);
-                             });
+  return pipeline::run_stage(
+      info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
+        pipeline::Job job = pipeline::read_job(call.input, call.sets);
+        if (told_at_rest(call, job)) return;
+        return job.motion.is_prescribed() ? prescribe(call, job, progress) : simulate(call, job, progress);
+      });
 }

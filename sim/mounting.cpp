@@ -26,9 +26,9 @@ constexpr double pre_twist_part = 0.5;  // turned at a time [rad]
 
 struct Held {
   RodState state;
-  double roll = 0;   // of its far end
-  double depth = 0;  // largest overlap with an obstacle or another dresspack [m]
-  int through = -1;  // that dresspack, if it is the deepest; -1: robot, cell or floor
+  double roll = 0;                // of its far end
+  double depth = 0;               // largest overlap with an obstacle or another dresspack [m]
+  int through = -1;               // that dresspack, if it is the deepest; -1: robot, cell or floor
   int obstacle = floor_obstacle;  // else, as Contact names it
   double place = 0;               // of the deepest overlap along the piece [m]
   bool found = false;
@@ -99,28 +99,32 @@ class Mounting {
  private:
   const pipeline::Routing& routing(int dresspack) const { return setup_.dresspacks[dresspack].routing; }
 
-  [[noreturn]] void fail(int dresspack, const std::string& what,
-                         const std::string& remedy =
-                             "check the free length and the clamps' places and directions in the mounting pose") const {
-    throw InputError(routing(dresspack).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
+  [[noreturn]] void fail(
+      int dresspack, const std::string& what,
+      const std::string& remedy =
+          "check the free length and the clamps' places and directions in the mounting pose") const {
+    throw InputError(routing(dresspack).where,
+                     fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
                      remedy + " (dresslife preview shows them)");
   }
 
   [[noreturn]] void fail_in_the_way(const Piece& piece, const Held& held) const {
-    const std::string what = held.through >= 0                     ? pipeline::dresspack_words(setup_, held.through)
-                             : held.obstacle >= 0                  ? setup_.robot.links[held.obstacle].name
-                             : held.obstacle == cell_obstacle      ? "what stands in its cell"
-                                                                   : "the floor";
+    const std::string what = held.through >= 0    ? pipeline::dresspack_words(setup_, held.through)
+                             : held.obstacle >= 0 ? setup_.robot.links[held.obstacle].name
+                             : held.obstacle == cell_obstacle ? "what stands in its cell"
+                                                              : "the floor";
     double before = 0;  // along the dresspack
     for (const Piece& hung : hung_pieces_)
       if (hung.dresspack == piece.dresspack) before += hung.properties.length;
     const double deep = 1e3 * held.depth;
-    fail(piece.dresspack,
-         fmt::format("runs {:.0f} mm deep through {} in the mounting pose, {:.2f} m from its base clamp", deep, what,
-                     before + held.place),
-         fmt::format("bring a clamp {:.0f} mm and more out of its way, turn the clamps' directions away from it, or change the free "
-                     "length",
-                     deep));
+    fail(
+        piece.dresspack,
+        fmt::format("runs {:.0f} mm deep through {} in the mounting pose, {:.2f} m from its base clamp", deep,
+                    what, before + held.place),
+        fmt::format(
+            "bring a clamp {:.0f} mm and more out of its way, turn the clamps' directions away from it, or change the free "
+            "length",
+            deep));
   }
 
   Pose mounting_pose() const { return robot_ ? robot_->pose(robot_->mounting_pose()) : path_.at(0); }

@@ -29,7 +29,7 @@ constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 
 constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001};
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double farthest = 4;  // of a clamp from the link that carries it [diameters]
+constexpr double farthest = 4;   // of a clamp from the link that carries it [diameters]
 constexpr int side_by_side = 4;  // rehearsals, however many threads there are
 
 struct Candidate {
@@ -99,9 +99,9 @@ class Search {
     return proposals;
   }
 
-  /// Geometry's best are rehearsed; then what did best is changed a little, again and again, by as much as pays.
-  /// Of a few changes the one is rehearsed that geometry likes most, which is asked for as much more of a radius
-  /// as its parent lacked in its run.
+  /// Geometry's best are rehearsed; then what did best is changed a little, again and again, by as much as
+  /// pays. Of a few changes the one is rehearsed that geometry likes most, which is asked for as much more of
+  /// a radius as its parent lacked in its run.
   std::vector<Candidate> rehearsed_search() {
     constexpr int begun = 12;           // searches by geometry alone
     constexpr double hopeless = 0.5;    // missed by the best of the first third
@@ -132,7 +132,9 @@ class Search {
     return kept;
   }
 
-  static bool is_found(const Candidate& candidate) { return candidate.whole && candidate.missing_in_run == 0; }
+  static bool is_found(const Candidate& candidate) {
+    return candidate.whole && candidate.missing_in_run == 0;
+  }
 
   static void keep(std::vector<Candidate>& kept, Candidate&& next, std::size_t most) {
     const auto place = std::upper_bound(
@@ -178,7 +180,8 @@ class Search {
     constexpr int changes = 3;
     const Candidate& parent = kept[chance_.below(std::min<std::size_t>(3, kept.size()))];
     const auto bend = static_cast<std::size_t>(ScreenedLimit::bend);
-    const double lacked = parent.rehearsal.refusal.empty() ? std::max(0.0, parent.rehearsal.seen.beyond[bend]) : 0;
+    const double lacked =
+        parent.rehearsal.refusal.empty() ? std::max(0.0, parent.rehearsal.seen.beyond[bend]) : 0;
     Candidate best;
     best.missing = never;
     for (int k = 0; k < changes || !std::isfinite(best.missing); ++k) {
@@ -271,7 +274,8 @@ class Search {
   }
 
   /// to_beat: what is worse need not be known exactly.
-  void look_at(Candidate& candidate, double to_beat, const std::array<double, screened_limits>& wishes = wished) {
+  void look_at(Candidate& candidate, double to_beat,
+               const std::array<double, screened_limits>& wishes = wished) {
     pipeline::Routing& routing = candidate.routing;
     routing.where = setup_.dresspacks.front().routing.where;
     routing.base_clamp = clamp(candidate, base);

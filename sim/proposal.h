@@ -5,8 +5,8 @@
 // the way from clamp to clamp, the length by the slack that it leaves where the way is longest (V1). The best
 // of what was tried are then changed a little, again and again (an evolution strategy without recombination;
 // it needs no derivatives, of which the screening has none). Goodness is the sum of what misses a wished
-// margin to each limit, the hose at rest under its weight. Then, if wanted, the best are changed likewise by how
-// they do in short runs (rehearsal.h). Equal seeds, equal proposals.
+// margin to each limit, the hose at rest under its weight. Then, if wanted, the best are changed likewise by
+// how they do in short runs (rehearsal.h). Equal seeds, equal proposals.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@ namespace dresslife::sim {
 struct ProposalSettings {
   int count = 1;     ///< proposals, best first, each of a search of its own
   int tried = 1200;  ///< routings that are screened, by all searches: some milliseconds each
-  int rehearsals = 0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
+  int rehearsals =
+      0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
   std::uint64_t seed = 1;
   std::string ring_link;  ///< a guide ring on it; empty: none
 };
@@ -30,7 +31,7 @@ struct ProposalSettings {
 struct Proposal {
   pipeline::Routing routing;
   Screening screening;
-  double missing = 0;  ///< sum of what misses the wished margins; 0: all are kept
+  double missing = 0;   ///< sum of what misses the wished margins; 0: all are kept
   Rehearsal rehearsal;  ///< of the last run, if there were some
 };
 

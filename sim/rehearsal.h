@@ -1,8 +1,9 @@
 // How a routing does in a run, as a number for a search: how far each limit is kept or passed.
 //
-// A whole run of the motion with few segments, of which nothing is written: a tenth of a second. It knows what
-// geometry (screening.h) does not: weight, speed, contact, and the twist that bends a clamped hose out of its
-// plane. Grades as in screening.h: g <= 0 keeps the limit with so much to spare, g > 0 passes it by so much.
+// A whole run of the motion with few segments, of which nothing is written: a tenth of a second. It knows
+// what geometry (screening.h) does not: weight, speed, contact, and the twist that bends a clamped hose out
+// of its plane. Grades as in screening.h: g <= 0 keeps the limit with so much to spare, g > 0 passes it by so
+// much.
 #pragma once
 
 #include <string>
@@ -13,7 +14,8 @@
 namespace dresslife::sim {
 
 struct Rehearsal {
-  /// (V1) to (V4) and (V6) of what the run's checks saw; (V5) is -infinity: the run itself looks after obstacles.
+  /// (V1) to (V4) and (V6) of what the run's checks saw; (V5) is -infinity: the run itself looks after
+  /// obstacles.
   Screening seen;
   std::string refusal;  ///< why it does not run; empty: it does
 };
@@ -21,7 +23,8 @@ struct Rehearsal {
 /// What a search asks for.
 inline constexpr int rehearsed_segments = 24, rehearsed_repeats = 1;
 
-/// segments: of each dresspack, at most as many as the job asks for. repeats: of the motion, at most likewise.
+/// segments: of each dresspack, at most as many as the job asks for. repeats: of the motion, at most
+/// likewise.
 Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats);
 
 }  // namespace dresslife::sim

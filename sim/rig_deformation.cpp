@@ -14,9 +14,9 @@ using pipeline::Rig;
 using pipeline::RigKind;
 using State = PrescribedDeformation::State;
 
-constexpr double gravity = 9.80665;    // of a weight [m/s2]
-constexpr int quarter = 16;            // samples of a quarter of a cycle where all of the cable moves alike
-constexpr double ramp_segments = 4;    // (D8)
+constexpr double gravity = 9.80665;  // of a weight [m/s2]
+constexpr int quarter = 16;          // samples of a quarter of a cycle where all of the cable moves alike
+constexpr double ramp_segments = 4;  // (D8)
 constexpr double degrees = 180 / EIGEN_PI;
 
 /// 0 before -1/2, 1 after 1/2, half a cosine between.
@@ -83,7 +83,8 @@ class Expansion {
   /// 0, +1, 0, -1, 0 in equal steps, with a line of the program for each of the four ways.
   template <class AtLevel>
   void to_either_side(const std::string& there, const std::string& back, const AtLevel& at) {
-    const std::string texts[] = {"to +" + there, "from +" + there + back, "to -" + there, "from -" + there + back};
+    const std::string texts[] = {"to +" + there, "from +" + there + back, "to -" + there,
+                                 "from -" + there + back};
     for (int way = 0; way < 4; ++way) {
       line(texts[way]);
       for (int k = way == 0 ? 0 : 1; k <= quarter; ++k) {
@@ -104,7 +105,8 @@ class Expansion {
   void swivel() {
     const double stiffness = pipeline::bending_stiffness(dresspack_);
     if (stiffness <= 0)
-      throw InputError(rig_.where, "a swivel bends a cable without bending stiffness (nothing says how tightly)",
+      throw InputError(rig_.where,
+                       "a swivel bends a cable without bending stiffness (nothing says how tightly)",
                        "give dresspack.bending_stiffness_Nm2, or the cable its wires");
     if (*rig_.weight == 0)
       throw InputError(rig_.where, "weight_kg is 0 (what pulls on a cable in a swivel bends it at the clip)",
@@ -144,11 +146,12 @@ class Expansion {
   template <class Bend>
   void sweep(const std::string& there, const std::string& back, const Bend& bend) {
     if (way_.sweep < edge_)
-      throw InputError(rig_.where,
-                       fmt::format("travel_m is {:.4g} (too short to bend or straighten any cable wholly, {:.4g} m of "
-                                   "cable pass the bend's edge, {} segments follow {:.4g})",
-                                   *rig_.travel, way_.sweep, segments_, edge_),
-                       "raise simulation.segments, or give more travel");
+      throw InputError(
+          rig_.where,
+          fmt::format("travel_m is {:.4g} (too short to bend or straighten any cable wholly, {:.4g} m of "
+                      "cable pass the bend's edge, {} segments follow {:.4g})",
+                      *rig_.travel, way_.sweep, segments_, edge_),
+          "raise simulation.segments, or give more travel");
     places();
     const int steps = static_cast<int>(std::ceil(way_.sweep / (segment_ / 2)));
     for (int way = 0; way < 2; ++way) {
@@ -163,24 +166,27 @@ class Expansion {
   void rolling_flex() {
     const double radius = this->radius();
     const FlexShares shares = flex_shares(radius, *rig_.travel);
-    sweep(fmt::format("stroke there: {:.0f} % of the cable are bent and straightened in each stroke, {:.0f} % in every "
-                      "second",
-                      100 * shares.each_stroke, 100 * shares.each_cycle),
-          "stroke back", [&](double position, double at) {
-            return bent_between(position, at, at + way_.bend) / radius;
-          });
+    sweep(
+        fmt::format(
+            "stroke there: {:.0f} % of the cable are bent and straightened in each stroke, {:.0f} % in every "
+            "second",
+            100 * shares.each_stroke, 100 * shares.each_cycle),
+        "stroke back",
+        [&](double position, double at) { return bent_between(position, at, at + way_.bend) / radius; });
   }
 
   void two_pulley() {
     const double radius = this->radius(), half = way_.bend / 2;
     sweep("carriage there", "carriage back", [&](double position, double at) {
-      return (bent_between(position, at, at + half) - bent_between(position, at + half, at + 2 * half)) / radius;
+      return (bent_between(position, at, at + half) - bent_between(position, at + half, at + 2 * half)) /
+             radius;
     });
   }
 
   void tick_tock() {
     if (way_.bend < 2 * edge_)
-      throw InputError(rig_.where, fmt::format("{} segments cannot follow the cable onto the mandrel", segments_),
+      throw InputError(rig_.where,
+                       fmt::format("{} segments cannot follow the cable onto the mandrel", segments_),
                        "raise simulation.segments");
     const double radius = this->radius();
     places();
@@ -194,7 +200,8 @@ class Expansion {
   }
 
   void spread_over_cycle() {
-    const double cycle = 60 / rig_.cycles_per_minute, intervals = static_cast<double>(result_.times.size() - 1);
+    const double cycle = 60 / rig_.cycles_per_minute,
+                 intervals = static_cast<double>(result_.times.size() - 1);
     for (double& time : result_.times) time *= cycle / intervals;
   }
 
@@ -203,8 +210,8 @@ class Expansion {
     for (const State& state : result_.states) worst = std::max(worst, state.rate.norm() * segment_);
     if (worst > most_turn)
       throw InputError(rig_.where,
-                       fmt::format("the rig turns a segment of {:.4g} mm by {:.4g} deg (at most 120)", 1e3 * segment_,
-                                   worst * degrees),
+                       fmt::format("the rig turns a segment of {:.4g} mm by {:.4g} deg (at most 120)",
+                                   1e3 * segment_, worst * degrees),
                        "check the rig's twist, angle and weight, or raise simulation.segments");
   }
 

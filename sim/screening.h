@@ -54,9 +54,8 @@ constexpr std::string_view word(ScreenedLimit value) {
 /// What is further beyond than this cannot work: by so much the curve may err that knows no weight and no
 /// contact. Of 350 random routings none that was rejected kept its limits in a full run (README.md). In the
 /// robot: the hose is pushed aside, so nothing is sure.
-inline constexpr std::array<double, screened_limits> surely_beyond{0, 0, 1, 0.5,
-                                                                   std::numeric_limits<double>::infinity(),
-                                                                   std::numeric_limits<double>::infinity()};
+inline constexpr std::array<double, screened_limits> surely_beyond{
+    0, 0, 1, 0.5, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
 /// Of a point to the nearest one of the line between two others [m].
 double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3& to);

@@ -150,8 +150,8 @@ std::string routing_text(const pipeline::Routing& routing) {
 
 }  // namespace
 
-void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates,
-                     bool in_runs, pipeline::FileWriter& file) {
+void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates, bool in_runs,
+                     pipeline::FileWriter& file) {
   const Node list = pipeline::read_yaml(candidates);
   if (!list.is_list())
     throw InputError(list.where, "holds no list of changes", "write a list of maps {KEY.PATH: VALUE}");

@@ -62,7 +62,8 @@ Simulation::Simulation(const pipeline::Setup& setup)
   robot_ = dynamic_cast<RobotPath*>(path_.get());
   check_size(setup_, path_->duration(), rod_.segments());
   description_.samples = intervals(path_->duration(), setup_.simulation.sample_rate) + 1;
-  for (const pipeline::MountedDresspack& mounted : setup_.dresspacks) describe_dresspack(description_, mounted);
+  for (const pipeline::MountedDresspack& mounted : setup_.dresspacks)
+    describe_dresspack(description_, mounted);
   for (int i = 0; i < rod_.segments(); ++i) {
     description_.dresspack.push_back(rod_.span_of(i).dresspack);
     description_.segment_length.push_back(rod_.span_of(i).segment_length);
@@ -108,12 +109,13 @@ void Simulation::check_reach() const {
   const Span& span = rod_.spans()[where];
   const double length = span.properties.length;
   const std::string between = between_clamps(span);
-  throw InputError(setup_.dresspacks[span.dresspack].routing.where,
-                   fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
-                               pipeline::dresspack_words(setup_, span.dresspack), 1e3 * worst, moment(when),
-                               between.empty() ? "routing.free_length_m is" : "its length" + between + " is",
-                               length, length + worst),
-                   "give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)");
+  throw InputError(
+      setup_.dresspacks[span.dresspack].routing.where,
+      fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
+                  pipeline::dresspack_words(setup_, span.dresspack), 1e3 * worst, moment(when),
+                  between.empty() ? "routing.free_length_m is" : "its length" + between + " is", length,
+                  length + worst),
+      "give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)");
 }
 
 std::string Simulation::between_clamps(const Span& span) const {
@@ -133,12 +135,13 @@ void Simulation::check_taut(const RodState& state, double time) const {
   const Span& span = rod_.most_stretched(state);
   const double elongation = rod_.mean_elongation(state, span);
   if (elongation <= longest_elongation) return;
-  throw InputError(setup_.dresspacks[span.dresspack].routing.where,
-                   fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
-                               pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span),
-                               moment(time), 1e3 * elongation * span.properties.length, 1e2 * elongation),
-                   "give it more free length, or keep the motion from winding it around the robot (dresslife preview shows "
-                   "the clamps)");
+  throw InputError(
+      setup_.dresspacks[span.dresspack].routing.where,
+      fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
+                  pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span), moment(time),
+                  1e3 * elongation * span.properties.length, 1e2 * elongation),
+      "give it more free length, or keep the motion from winding it around the robot (dresslife preview shows "
+      "the clamps)");
 }
 
 std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {
@@ -304,9 +307,10 @@ std::vector<pipeline::Warning> check_warnings(const pipeline::Setup& setup, cons
   std::vector<pipeline::Warning> warnings;
   for (const Check& check : checks)
     if (check.warning)
-      warnings.push_back({*check.kind, "", fmt::format("{}: {} (limit {}) {}", check_words(setup, check),
-                                                       in_words(check.value, check.unit),
-                                                       in_words(check.limit, check.unit), moment(check.time))});
+      warnings.push_back(
+          {*check.kind, "",
+           fmt::format("{}: {} (limit {}) {}", check_words(setup, check), in_words(check.value, check.unit),
+                       in_words(check.limit, check.unit), moment(check.time))});
   return warnings;
 }
 
@@ -315,19 +319,21 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
   if (summary.returns && !summary.periodic)
     warnings.push_back(
         {pipeline::WarningKind::periodic, "",
-         fmt::format("after {} repeats the motion still begins {:.1f} mm from where it began the repeat before "
-                     "(simulation.periodic_tolerance_mm is {:.3g}): friction leaves the dresspack several places; the "
-                     "last repeat is evaluated",
-                     summary.repeats, 1e3 * summary.distance,
-                     1e3 * simulation.setup().simulation.periodic_tolerance)});
+         fmt::format(
+             "after {} repeats the motion still begins {:.1f} mm from where it began the repeat before "
+             "(simulation.periodic_tolerance_mm is {:.3g}): friction leaves the dresspack several places; the "
+             "last repeat is evaluated",
+             summary.repeats, 1e3 * summary.distance,
+             1e3 * simulation.setup().simulation.periodic_tolerance)});
   return pipeline::joined(warnings, check_warnings(simulation.setup(), summary.checks,
                                                    [&](double time) { return simulation.moment(time); }));
 }
 
 std::string repeats_note(const RunSummary& summary) {
   if (summary.repeats < 2 || (summary.returns && !summary.periodic)) return "";
-  return fmt::format("note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
-                     summary.repeats, 1e3 * summary.distance);
+  return fmt::format(
+      "note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
+      summary.repeats, 1e3 * summary.distance);
 }
 
 }  // namespace dresslife::sim

@@ -70,8 +70,8 @@ struct RunSummary {
   std::vector<Check> checks;                       ///< of the last repeat
 };
 
-/// What of a run a person should look at: skipped lines of its program, repeats that do not become alike, and every
-/// check whose limit is broken.
+/// What of a run a person should look at: skipped lines of its program, repeats that do not become alike, and
+/// every check whose limit is broken.
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary);
 
 /// Of checks whose limits are broken. moment: "at 1.2 s, program step 3 'text'".

@@ -159,7 +159,8 @@ void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wa
   }
 }
 
-void BundleScan::settle(const BundlePointers& nesting, const DeformationColumns& columns, std::size_t samples) {
+void BundleScan::settle(const BundlePointers& nesting, const DeformationColumns& columns,
+                        std::size_t samples) {
   constexpr std::size_t of_layer = (deviation + 1) * waves_per_layer * block_samples;
   waves_.resize(nesting.node_count / waves_per_layer * of_layer);
   std::vector<MixedRun> settling;

@@ -55,12 +55,13 @@ class CablePaths {
   void add(const SpanBlock& block);  ///< in order of time
   /// The same for several in one span, whose loose cables go side by side: each gets what it would get alone.
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
-  void finish();                     ///< all samples are there; again: changes nothing
+  void finish();  ///< all samples are there; again: changes nothing
 
-  // ---- after finish() --------------------------------------------------------------------------------------
+  // ---- after finish()
+  // --------------------------------------------------------------------------------------
 
-  /// One segment at `count` samples from `first` on. hose: its columns there. Good until the next call of this
-  /// keeper.
+  /// One segment at `count` samples from `first` on. hose: its columns there. Good until the next call of
+  /// this keeper.
   class Keeper {
    public:
     const SegmentMotion& of(const CablePaths& paths, std::size_t segment, const DeformationColumns& hose,
@@ -97,13 +98,13 @@ class CablePaths {
     int part;
     bool loose, remembers, rubs, sticks;
     double axial_stiffness, slack, friction, line_load, base_grip, tool_grip;
-    double radial_share;  ///< of its strain that the bed of its layer leaves (W31)
-    double elastic;       ///< share of the deviation from the mean that a jacket holds (W30)
+    double radial_share;             ///< of its strain that the bed of its layer leaves (W31)
+    double elastic;                  ///< share of the deviation from the mean that a jacket holds (W30)
     pipeline::PulledCable pulled{};  ///< at the clamps' ends
     std::array<double, 2> grip_slip{};
-    std::vector<double> strain{};  ///< (sample) of all segments; before finish(): unslid
-    std::vector<double> along{};   ///< (segment, sample) the same, each segment its own: with friction
-    std::vector<float> pressing{}; ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
+    std::vector<double> strain{};   ///< (sample) of all segments; before finish(): unslid
+    std::vector<double> along{};    ///< (segment, sample) the same, each segment its own: with friction
+    std::vector<float> pressing{};  ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
   };
 
   /// Loose cables lie in at least so many segments: a hose of fewer is cut as if it had them.
@@ -116,8 +117,10 @@ class CablePaths {
   void put_loose(std::size_t of_block);
   void put_loose(std::size_t cable, std::size_t state, std::size_t sample, std::size_t of_block);
   void put_offsets(std::size_t sample);
-  void add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path, double rest);
-  /// Of its strain, beside what its axis has, that makes force: what twist would take from its length if it could.
+  void add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path,
+                 double rest);
+  /// Of its strain, beside what its axis has, that makes force: what twist would take from its length if it
+  /// could.
   double pulled_by_twist(const Cable& cable, double twist) const;
   void slide(Cable& cable);
   void ask_for_forces();
@@ -127,14 +130,14 @@ class CablePaths {
   std::size_t stride_, all_, next_ = 0;
   bool finished_ = false;
   std::vector<Cable> cables_;
-  std::vector<std::size_t> held_;           ///< of cables_, in the order of rates_
+  std::vector<std::size_t> held_;  ///< of cables_, in the order of rates_
   std::optional<PathRates> rates_;
-  std::vector<std::size_t> loosened_;       ///< of cables_, in the order of loose_
+  std::vector<std::size_t> loosened_;  ///< of cables_, in the order of loose_
   std::optional<LooseCables> loose_;
-  std::optional<SegmentRows> curvature_;    ///< (segment, loose cable x 2, sample) of their own paths [1/m]
+  std::optional<SegmentRows> curvature_;  ///< (segment, loose cable x 2, sample) of their own paths [1/m]
   std::vector<HoseNode> nodes_;
-  std::vector<double> hose_twist_;          ///< (sample) mean along it [rad/m]
-  std::vector<float> hose_curvature_;       ///< (clamp, 2, sample) at the base and the tool end [1/m]
+  std::vector<double> hose_twist_;     ///< (sample) mean along it [rad/m]
+  std::vector<float> hose_curvature_;  ///< (clamp, 2, sample) at the base and the tool end [1/m]
   std::vector<double> hose_moment_, offsets_;
   std::vector<std::size_t> offset_samples_;
 };

@@ -30,7 +30,8 @@ Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinem
                            const pipeline::StrainFactors& factors)
     : kinematics_(kinematics),
       rest_curvature_(dresspack.rest_curvature),
-      section_{pipeline::inner_radius(dresspack).value_or(without_limit), dresspack.core_diameter / 2, factors.play},
+      section_{pipeline::inner_radius(dresspack).value_or(without_limit), dresspack.core_diameter / 2,
+               factors.play},
       hose_bending_stiffness_(dresspack.bending_stiffness) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   if (!dresspack.hose_material.empty()) {
@@ -118,11 +119,12 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   levels_ = std::max(levels_, level);
   const bool measured = component.measured_bending_stiffness.has_value();
   if (measured && friction_level != 1)
-    throw pipeline::InputError(component.where,
-                               fmt::format("'{}' has measured_bending_stiffness_Nm2 and lies in a part that has it "
-                                           "too (one friction level belongs to both)",
-                                           component.name),
-                               "keep one of the two");
+    throw pipeline::InputError(
+        component.where,
+        fmt::format("'{}' has measured_bending_stiffness_Nm2 and lies in a part that has it "
+                    "too (one friction level belongs to both)",
+                    component.name),
+        "keep one of the two");
   const double inside = measured ? pipeline::friction_level(dresspack, component) : friction_level;
   for (const auto& inner : component.components) add(dresspack, inner, index, level + 1, inside);
 }

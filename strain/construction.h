@@ -23,7 +23,7 @@ using namespace helices;  // rods and placements are the words of this stage
 
 constexpr int dresspack_itself = -1;  ///< as the parent of a part or layer
 constexpr int no_cable = -1;
-constexpr int hose_places = 16;       ///< around the hose's wall, evenly spaced
+constexpr int hose_places = 16;  ///< around the hose's wall, evenly spaced
 
 struct Layer {
   std::string name;      ///< "signal cable"; part k is "signal cable k"
@@ -38,20 +38,20 @@ struct Layer {
   double lay_angle = 0;           ///< negative = left hand [rad]
   double lay_tangent = 0;         ///< of the lay angle as the kinematics counts it
   double lay_cosine = 1;
-  double phase = 0;            ///< of part 1 at the base clamp [rad]
-  bool is_hose = false;        ///< places around the hose's wall instead of wires
-  double strain_factor = 1;    ///< of the corrugated wall over a smooth one, along the hose
-  double shear_factor = 1;     ///< the same of its shear by twist
-  double friction = 0;         ///< Coulomb, of a part on what it lies against
-  double line_load = 0;        ///< radial, from jacket and tape [N/m]
-  double tension = 0;          ///< of a part at rest [N]
+  double phase = 0;             ///< of part 1 at the base clamp [rad]
+  bool is_hose = false;         ///< places around the hose's wall instead of wires
+  double strain_factor = 1;     ///< of the corrugated wall over a smooth one, along the hose
+  double shear_factor = 1;      ///< the same of its shear by twist
+  double friction = 0;          ///< Coulomb, of a part on what it lies against
+  double line_load = 0;         ///< radial, from jacket and tape [N/m]
+  double tension = 0;           ///< of a part at rest [N]
   double jacket_stiffness = 0;  ///< that holds a part along its path [N/m2]
   double radial_stiffness = std::numeric_limits<double>::infinity();  ///< of what the layer lies on [N/m2]
-  double axial_stiffness = 0;  ///< EA of a part, of its wires alone [N]; 0: a material is not known
-  bool loose = false;          ///< lies where it rests in the hose, if it may slide
-  pipeline::Laying laying;     ///< of a cable: a part of the first level that is no wire
-  int component = -1;          ///< of the dresspack, which a cable is
-  pipeline::CableForce force;  ///< of a cable
+  double axial_stiffness = 0;            ///< EA of a part, of its wires alone [N]; 0: a material is not known
+  bool loose = false;                    ///< lies where it rests in the hose, if it may slide
+  pipeline::Laying laying;               ///< of a cable: a part of the first level that is no wire
+  int component = -1;                    ///< of the dresspack, which a cable is
+  pipeline::CableForce force;            ///< of a cable
   pipeline::TwistShortening shortening;  ///< of a cable
 
   bool is_cable() const { return level == 1 && !is_wire; }

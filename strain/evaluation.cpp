@@ -32,8 +32,8 @@ double total(const std::vector<double>& lengths) {
   return std::accumulate(lengths.begin(), lengths.end(), 0.0);
 }
 
-/// Inside the cables everything sticks or slides; cables themselves do what the job has them do, or where they
-/// stick in the job, what is inside does: stuck to the hose, or sliding at their places.
+/// Inside the cables everything sticks or slides; cables themselves do what the job has them do, or where
+/// they stick in the job, what is inside does: stuck to the hose, or sliding at their places.
 std::vector<LayerSlip> bound_plan(const Construction& construction, const std::vector<LayerSlip>& own,
                                   pipeline::Slip inside, double free_length) {
   std::vector<LayerSlip> plan = plan_slip(construction, {inside}, free_length);
@@ -101,8 +101,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
-  for (std::size_t k = 0; k < threads; ++k)
-    workers_.push_back({{construction, scan_}, {}, {}, {}});
+  for (std::size_t k = 0; k < threads; ++k) workers_.push_back({{construction, scan_}, {}, {}, {}});
   add_held(means_);
   for (std::size_t b = 0; b < construction.bundles().size(); ++b) {
     const Bundle& bundle = construction.bundles()[b];
@@ -194,7 +193,8 @@ bool Evaluation::mixed(const ClampMeans& means) const {
 }
 
 bool Evaluation::rubs_inside() const {
-  return std::any_of(means_.plan().begin(), means_.plan().end(), [](const LayerSlip& slip) { return slip.friction; });
+  return std::any_of(means_.plan().begin(), means_.plan().end(),
+                     [](const LayerSlip& slip) { return slip.friction; });
 }
 
 void Evaluation::add_held(const ClampMeans& means) {
@@ -256,7 +256,8 @@ bool parent_suffices(const BundleNesting& nesting) {
 }
 
 BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, std::size_t segment,
-                                       const ClampMeans& means, const SegmentMotion& motion, Worker& worker) const {
+                                       const ClampMeans& means, const SegmentMotion& motion,
+                                       Worker& worker) const {
   BundlePointers from = pointers(nesting);
   const int parent = part == dresspack_itself ? dresspack_itself : construction_.parts()[part].parent;
   if (parent == dresspack_itself || !parent_suffices(nesting)) return from;
@@ -266,7 +267,8 @@ BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, s
   if (worker.parent_is != wanted || (in_double && !worker.parent.in_double())) {
     BundleNesting to_parent = part_nesting(parent, segment, means, motion, fibres_, worker);
     to_parent.order = nesting.order + 1;
-    worker.parent.fill(to_parent, motion.columns(construction_, means.plan(), parent), motion.samples, in_double);
+    worker.parent.fill(to_parent, motion.columns(construction_, means.plan(), parent), motion.samples,
+                       in_double);
     worker.parent_is = wanted;
   }
   worker.parent.lend(from);
@@ -274,8 +276,8 @@ BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, s
 }
 
 void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMeans& means,
-                             const SegmentMotion& motion, bool with_rows,
-                             Worker& worker, BundleSites& out) const {
+                             const SegmentMotion& motion, bool with_rows, Worker& worker,
+                             BundleSites& out) const {
   const Bundle& bundle = construction_.bundles()[b];
   const BundleNesting nesting = layer_nesting(bundle, segment, means, motion, worker);
   const BundlePointers from = from_parent(nesting, bundle.part, segment, means, motion, worker);
@@ -300,8 +302,8 @@ void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMean
   });
 }
 
-void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion, bool with_rows,
-                              const std::function<void(const BundleSites&)>& use) {
+void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
+                              bool with_rows, const std::function<void(const BundleSites&)>& use) {
   const std::size_t bundles = construction_.bundles().size(), threads = workers_.size();
   const std::size_t each = std::max<std::size_t>(1, samples_at_a_time / motion.samples);
   const std::size_t ahead = threads == 1 ? 1 : std::min(bundles, 2 * threads * each);
@@ -335,8 +337,7 @@ BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t 
 
 std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> sites, std::size_t segment,
                                                           const ClampMeans& means,
-                                                          const SegmentMotion& motion,
-                                                          Worker& worker) const {
+                                                          const SegmentMotion& motion, Worker& worker) const {
   const std::size_t samples = motion.samples, stride = padded(samples);
   std::vector<std::vector<double>> histories;
   if (mixed(means)) {
@@ -359,8 +360,7 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
 }
 
 void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                            const SegmentMotion& motion, Worker& worker,
-                            std::span<TurningList> lists) const {
+                            const SegmentMotion& motion, Worker& worker, std::span<TurningList> lists) const {
   const auto list = [&](std::span<const float> strain, TurningList& to) {
     TurningPoints points(scan_.gate);
     points.next(strain, to);
@@ -387,27 +387,30 @@ void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, co
   for (std::size_t k = 0; k < sites.size(); ++k) list({strain.data() + k * stride, motion.samples}, lists[k]);
 }
 
-std::vector<FibreHistory> Evaluation::fibre_histories(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                                                      const SegmentMotion& motion, bool with_shear, Worker& worker) const {
+std::vector<FibreHistory> Evaluation::fibre_histories(std::span<const Site> sites, std::size_t segment,
+                                                      const ClampMeans& means, const SegmentMotion& motion,
+                                                      bool with_shear, Worker& worker) const {
   std::vector<std::vector<double>> sliding;
   const BundleNesting nesting = site_nesting(sites, segment, means, motion, sliding, worker);
   const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
   const BundlePointers from = from_parent(nesting, part, segment, means, motion, worker);
   const std::size_t stride = padded(motion.samples), of_one = ingredients(1) * stride;
   std::vector<double> rows(sites.size() * of_one);
-  kernels().node_ingredients(from, columns_of(sites[0], means, motion), 0, motion.samples, rows.data(), stride);
+  kernels().node_ingredients(from, columns_of(sites[0], means, motion), 0, motion.samples, rows.data(),
+                             stride);
   std::vector<FibreHistory> all;
   for (std::size_t k = 0; k < sites.size(); ++k) {
-    all.push_back(mixed_history(nesting.nodes[k], nesting.fibres[0], means.plan()[wires_[sites[k].wire].layer],
-                                rows.data() + k * of_one, motion.samples, with_shear));
+    all.push_back(mixed_history(nesting.nodes[k], nesting.fibres[0],
+                                means.plan()[wires_[sites[k].wire].layer], rows.data() + k * of_one,
+                                motion.samples, with_shear));
     all.back().site = site_row(segment, sites[k]);
   }
   return all;
 }
 
 /// What Kernels::mix does, of one fibre in double precision. rows: its ingredients.
-FibreHistory Evaluation::mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip, const double* rows,
-                                       std::size_t samples, bool with_shear) const {
+FibreHistory Evaluation::mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip,
+                                       const double* rows, std::size_t samples, bool with_shear) const {
   const std::size_t stride = padded(samples);
   const double *const means = rows + mean_strain * stride, *const deviations = rows + deviation * stride;
   const double *const bending = rows + first_bending * stride, *const shears = rows + shear * stride;
@@ -415,9 +418,12 @@ FibreHistory Evaluation::mixed_history(const WireNode& node, const Fibre& fibre,
   const double fibre_scale = shape_of(fibre, node).scale;
   const bool scales = !is_thesis(construction_.kinematics());
   constexpr double glued = std::numeric_limits<double>::infinity();
-  const auto cap = [&](std::size_t t) { return slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, means[t]); };
+  const auto cap = [&](std::size_t t) {
+    return slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, means[t]);
+  };
   Slider slider;
-  for (std::size_t t = 0; slip.friction && t < samples; ++t) slider.next((1 - slip.elastic) * deviations[t], cap(t));
+  for (std::size_t t = 0; slip.friction && t < samples; ++t)
+    slider.next((1 - slip.elastic) * deviations[t], cap(t));
   std::vector<double> held(samples);
   for (std::size_t t = 0; t < samples; ++t) held[t] = slider.next((1 - slip.elastic) * deviations[t], cap(t));
   FibreHistory both{0, std::vector<double>(samples), std::vector<double>(with_shear ? samples : 0)};
@@ -519,7 +525,8 @@ std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const C
 std::vector<const Evaluation::Worst*> Evaluation::of_wires(const std::vector<Worst>& worst) const {
   std::vector<const Worst*> wires;
   for (std::size_t layer = 0; layer < worst.size(); ++layer)
-    if (!construction_.layers()[layer].is_hose && worst[layer].value[Worst::range] >= 0) wires.push_back(&worst[layer]);
+    if (!construction_.layers()[layer].is_hose && worst[layer].value[Worst::range] >= 0)
+      wires.push_back(&worst[layer]);
   return wires;
 }
 
@@ -527,7 +534,8 @@ void Evaluation::find_likely(const std::vector<const Worst*>& wires) {
   likely_.clear();
   float most = 0;
   for (const Worst* const layer : wires) most = std::max(most, layer->value[Worst::cycles]);
-  constexpr float near = 1e-2f;  // of a sum of sixth powers: a layer that sees less than half as much stays behind
+  constexpr float near =
+      1e-2f;  // of a sum of sixth powers: a layer that sees less than half as much stays behind
   for (const Worst* const layer : wires) {
     if (layer->value[Worst::cycles] < near * most) continue;
     for (const Worst::By by : {Worst::range, Worst::range_times_tension}) likely_.push_back(layer->site[by]);
@@ -539,9 +547,11 @@ void Evaluation::find_likely(const std::vector<const Worst*>& wires) {
   likely_.erase(std::unique(likely_.begin(), likely_.end()), likely_.end());
 }
 
-std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const Worst*>& wires, std::size_t segment) {
+std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const Worst*>& wires,
+                                                         std::size_t segment) {
   std::vector<Site> sites;
-  const auto of_range = std::ranges::max_element(wires, {}, [](const Worst* layer) { return layer->value[Worst::range]; });
+  const auto of_range =
+      std::ranges::max_element(wires, {}, [](const Worst* layer) { return layer->value[Worst::range]; });
   if (of_range != wires.end()) {
     const Worst& widest = **of_range;
     sites.push_back(widest.site[Worst::range]);
@@ -551,14 +561,15 @@ std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const
       worst_segment_ = segment;
     }
   }
-  // Two of either: in three of the four shipped programs the wire that is damaged most of all is among them, in the fourth
-  // it is the 19th by cycles.
+  // Two of either: in three of the four shipped programs the wire that is damaged most of all is among them,
+  // in the fourth it is the 19th by cycles.
   constexpr std::size_t by_sum = 2;
   for (std::size_t sum = 0; sum < Worst::sums.size(); ++sum) {
     std::vector<std::pair<float, Site>> most;
     for (const Worst* const layer : wires) {
       const auto& list = layer->by_sum[sum];
-      most.insert(most.end(), list.begin(), list.begin() + static_cast<std::ptrdiff_t>(std::min(by_sum, list.size())));
+      most.insert(most.end(), list.begin(),
+                  list.begin() + static_cast<std::ptrdiff_t>(std::min(by_sum, list.size())));
     }
     std::ranges::stable_sort(most, std::greater(), &std::pair<float, Site>::first);
     most.resize(std::min(by_sum, most.size()));
@@ -578,7 +589,8 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
     const bool same = bound->means.plan() == means_.plan();
-    const std::vector<Site> sites = sites_of_bound(same ? worst : worst_of(segment, bound->means, motion, {}), *bound);
+    const std::vector<Site> sites =
+        sites_of_bound(same ? worst : worst_of(segment, bound->means, motion, {}), *bound);
     put_bound(sites, bound->means, segment, motion, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
   const std::vector<const Worst*> wires = of_wires(worst);
@@ -597,13 +609,14 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   pipeline::in_order(
       workers_.size(), list.size(), found.size(),
       [&](std::size_t part, std::size_t k) {
-        found[k % found.size()] = fibre_histories({&list[k], 1}, segment, means_, motion, true, workers_[part])[0];
+        found[k % found.size()] =
+            fibre_histories({&list[k], 1}, segment, means_, motion, true, workers_[part])[0];
       },
       [&](std::size_t k) { sink.fibre(found[k % found.size()]); });
 }
 
-void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
-                            const SegmentMotion& motion, const Sink& sink) {
+void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion,
+                            const Sink& sink) {
   std::vector<Probe> found(workers_.size());
   pipeline::in_order(
       workers_.size(), sites.size(), found.size(),
@@ -616,8 +629,10 @@ void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
       [&](std::size_t k) { sink.probe(found[k % found.size()]); });
 }
 
-std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst>& worst, Bound& bound) const {
-  constexpr float nearly = 0.7f;  // where all slides, hundreds of wires have sums so near the largest, and any may be the worst
+std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst>& worst,
+                                                         Bound& bound) const {
+  constexpr float nearly =
+      0.7f;  // where all slides, hundreds of wires have sums so near the largest, and any may be the worst
   bound.most.resize(worst.size());
   std::set<Site> sites;
   for (std::size_t k = 0; k < worst.size(); ++k) {
@@ -646,7 +661,8 @@ void Evaluation::put_bound(const std::vector<Site>& list, const ClampMeans& mean
   sink(rows);
 }
 
-std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<Site>& list, std::size_t segment,
+std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<Site>& list,
+                                                             std::size_t segment,
                                                              const std::vector<const ClampMeans*>& ways,
                                                              const SegmentMotion& motion) {
   std::vector<std::size_t> cuts;  // where the fibre or the bundle changes: one nesting for all of a piece
@@ -669,8 +685,9 @@ std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<S
   return turning;
 }
 
-std::vector<SiteRows> Evaluation::varied(const std::vector<Site>& sites, const std::vector<double>& factors, std::size_t segment,
-                                         const DeformationHistory& history, std::size_t row) {
+std::vector<SiteRows> Evaluation::varied(const std::vector<Site>& sites, const std::vector<double>& factors,
+                                         std::size_t segment, const DeformationHistory& history,
+                                         std::size_t row) {
   cables_.finish();
   const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
   std::vector<const ClampMeans*> ways;

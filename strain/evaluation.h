@@ -80,7 +80,8 @@ class Evaluation {
   /// lengths: rest lengths of the segments [m]. threads: share the bundles of a segment; any number gives the
   /// same. Errors: InputError for a probe that names no wire or no segment.
   Evaluation(const Construction& construction, const pipeline::Strain& settings, std::vector<double> lengths,
-             std::size_t samples, std::size_t threads = 1, const SpanPlace& place = {}, const Scratch& scratch = {});
+             std::size_t samples, std::size_t threads = 1, const SpanPlace& place = {},
+             const Scratch& scratch = {});
 
   std::size_t segments() const { return lengths_.size(); }
   std::size_t sites() const {
@@ -102,8 +103,8 @@ class Evaluation {
   void add(const SpanBlock& block);
   /// The same for several of one span, whose loose cables go side by side: each gets what it would get alone.
   static void add(std::span<Evaluation* const> all, const SpanBlock& block);
-  /// Whether cables remember what clamps and friction did, so that what goes on in them has to wait: the blocks
-  /// are then wanted once more, when all have been added.
+  /// Whether cables remember what clamps and friction did, so that what goes on in them has to wait: the
+  /// blocks are then wanted once more, when all have been added.
   bool wants_again() const {
     return cables_.remembers() && (means_.needed() || stick_.means.needed() || free_.means.needed());
   }
@@ -125,12 +126,14 @@ class Evaluation {
 
   /// Whether friction holds anything inside the cables.
   bool rubs_inside() const;
-  /// Those that a segment's damage may go by once something is known better. Precondition: it was evaluated last.
+  /// Those that a segment's damage may go by once something is known better. Precondition: it was evaluated
+  /// last.
   const std::vector<Site>& likely_worst() const { return likely_; }
-  /// The wires' site rows and turning points, in the order of `sites`, with friction times each of `factors`, (factor). Segments as
-  /// in evaluate(); of an evaluation with other slack, play or grips there is no need to evaluate anything before.
-  std::vector<SiteRows> varied(const std::vector<Site>& sites, const std::vector<double>& factors, std::size_t segment,
-                               const DeformationHistory& history, std::size_t row);
+  /// The wires' site rows and turning points, in the order of `sites`, with friction times each of `factors`,
+  /// (factor). Segments as in evaluate(); of an evaluation with other slack, play or grips there is no need
+  /// to evaluate anything before.
+  std::vector<SiteRows> varied(const std::vector<Site>& sites, const std::vector<double>& factors,
+                               std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// Row of the file's own sites.
   std::size_t row_of(std::size_t segment, Site site) const { return site_row(segment, site); }
 
@@ -146,8 +149,8 @@ class Evaluation {
     enum By { range, size, tension, range_times_tension, cycles, ranges, yielding_cycles, measures };
     std::array<Site, measures> site;
     std::array<float, measures> value{-1, -1, -1, -1, -1, -1, -1};
-    /// Those with the largest sums, over cycles and over ranges, largest first: of many middling cycles no sum knows the
-    /// damage well enough for the first alone to be the worst.
+    /// Those with the largest sums, over cycles and over ranges, largest first: of many middling cycles no
+    /// sum knows the damage well enough for the first alone to be the worst.
     static constexpr std::array<By, 2> sums{cycles, ranges};
     static constexpr std::size_t always_by_sum = 12, most_by_sum = 128;
     std::array<std::vector<std::pair<float, Site>>, sums.size()> by_sum;
@@ -160,12 +163,13 @@ class Evaluation {
   /// One way of sliding and what it needs.
   struct Bound {
     ClampMeans means;
-    std::vector<std::array<float, Worst::sums.size()>> most{};  ///< (layer) the largest sums in the segments so far
+    std::vector<std::array<float, Worst::sums.size()>>
+        most{};  ///< (layer) the largest sums in the segments so far
   };
 
   /// Whose states a worker has of a part in which others lie.
   struct ParentKey {
-    int part = -1, order = 0;            ///< order 0: none yet
+    int part = -1, order = 0;           ///< order 0: none yet
     const ClampMeans* means = nullptr;  ///< the job's own where other friction makes no difference
     bool operator==(const ParentKey&) const = default;
   };
@@ -195,7 +199,8 @@ class Evaluation {
   const ClampMeans& means_rubbing(double factor);
   /// The turning points of sites in each of several ways of sliding, (way, site).
   std::vector<std::vector<TurningList>> turning_of(const std::vector<Site>& list, std::size_t segment,
-                                                   const std::vector<const ClampMeans*>& ways, const SegmentMotion& motion);
+                                                   const std::vector<const ClampMeans*>& ways,
+                                                   const SegmentMotion& motion);
   const DeformationColumns& columns_of(Site site, const ClampMeans& means, const SegmentMotion& motion) const;
   void find_probes(const std::vector<pipeline::Probe>& probes);
   BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means,
@@ -204,26 +209,27 @@ class Evaluation {
   BundleNesting layer_nesting(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
                               const SegmentMotion& motion, Worker& worker) const;
   void scan_bundle(std::size_t bundle, std::size_t segment, const ClampMeans& means,
-                   const SegmentMotion& motion, bool with_rows, Worker& worker,
-                   BundleSites& out) const;
+                   const SegmentMotion& motion, bool with_rows, Worker& worker, BundleSites& out) const;
   /// Calls use() for every bundle in order; threads share the work.
-  void scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion, bool with_rows, const std::function<void(const BundleSites&)>& use);
+  void scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion, bool with_rows,
+                    const std::function<void(const BundleSites&)>& use);
   /// The nesting to `part`, from its parent's states where they are enough.
   BundlePointers from_parent(const BundleNesting& nesting, int part, std::size_t segment,
-                             const ClampMeans& means, const SegmentMotion& motion,
-                             Worker& worker) const;
+                             const ClampMeans& means, const SegmentMotion& motion, Worker& worker) const;
   /// Whole histories, in double precision, of sites of one bundle and one fibre.
   std::vector<std::vector<double>> histories_of(std::span<const Site> sites, std::size_t segment,
-                                                const ClampMeans& means, const SegmentMotion& motion, Worker& worker) const;
+                                                const ClampMeans& means, const SegmentMotion& motion,
+                                                Worker& worker) const;
   /// The turning points of such sites, in single precision.
   void list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                  const SegmentMotion& motion, Worker& worker,
-                  std::span<TurningList> lists) const;
-  /// Strain along the fibre and, where asked for, shear of sites of one bundle and one fibre, in double precision.
-  std::vector<FibreHistory> fibre_histories(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
-                                            const SegmentMotion& motion, bool with_shear, Worker& worker) const;
-  FibreHistory mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip, const double* rows,
-                             std::size_t samples, bool with_shear) const;
+                  const SegmentMotion& motion, Worker& worker, std::span<TurningList> lists) const;
+  /// Strain along the fibre and, where asked for, shear of sites of one bundle and one fibre, in double
+  /// precision.
+  std::vector<FibreHistory> fibre_histories(std::span<const Site> sites, std::size_t segment,
+                                            const ClampMeans& means, const SegmentMotion& motion,
+                                            bool with_shear, Worker& worker) const;
+  FibreHistory mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip,
+                             const double* rows, std::size_t samples, bool with_shear) const;
   /// The nesting to such sites, which are its nodes. sliding: keeps the clamp means that they point to.
   BundleNesting site_nesting(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
                              const SegmentMotion& motion, std::vector<std::vector<double>>& sliding,
@@ -239,13 +245,14 @@ class Evaluation {
   /// Layers of which any wire was seen; the hose's wall is no wire.
   std::vector<const Worst*> of_wires(const std::vector<Worst>& worst) const;
   void find_likely(const std::vector<const Worst*>& wires);
-  /// Of the largest range, which is the job's if none before was larger, and of the largest sums; then those that the job
-  /// names.
+  /// Of the largest range, which is the job's if none before was larger, and of the largest sums; then those
+  /// that the job names.
   std::vector<Site> sites_to_probe(const std::vector<const Worst*>& wires, std::size_t segment);
   /// The worst sites of every wire layer. sink: where all sites go; may be empty.
   std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
                               const std::function<void(const SiteRows&)>& sink);
-  void put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion, const Sink& sink);
+  void put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion,
+                  const Sink& sink);
   std::vector<Site> sites_of_bound(const std::vector<Worst>& worst, Bound& bound) const;
   void put_bound(const std::vector<Site>& sites, const ClampMeans& means, std::size_t segment,
                  const SegmentMotion& motion, const std::function<void(const SiteRows&)>& sink);
@@ -260,11 +267,12 @@ class Evaluation {
   bool with_planes_;
   ClampMeans means_;
   Bound stick_, free_;
-  std::vector<std::pair<double, std::unique_ptr<const ClampMeans>>> rubbing_;  ///< with so many times the friction
+  std::vector<std::pair<double, std::unique_ptr<const ClampMeans>>>
+      rubbing_;  ///< with so many times the friction
   std::vector<Site> likely_;
   CablePaths cables_;
   CablePaths::Keeper keeper_;
-  std::size_t meant_ = 0;  ///< samples that the means have had
+  std::size_t meant_ = 0;                ///< samples that the means have had
   std::vector<Worker> workers_;          ///< one a thread
   std::vector<BundleSites> found_;       ///< being scanned, or waiting to be used
   std::vector<Wire> wires_;              ///< bundle by bundle

@@ -8,8 +8,8 @@ namespace dresslife::strain {
 namespace {
 
 /// The slider at the end of a repeat of the motion, and at which sample it slid last; none: never.
-std::optional<std::size_t> settle(const double* means, const double* deviations, std::size_t samples, const LayerSlip& slip,
-                                  Slider& slider) {
+std::optional<std::size_t> settle(const double* means, const double* deviations, std::size_t samples,
+                                  const LayerSlip& slip, Slider& slider) {
   std::optional<std::size_t> slid;
   for (std::size_t t = 0; t < samples; ++t) {
     const double before = slider.slip();
@@ -19,7 +19,8 @@ std::optional<std::size_t> settle(const double* means, const double* deviations,
   return slid;
 }
 
-/// Rows of deviations (mean, then the powers) to what is held of them (the powers), from where one repeat leaves them.
+/// Rows of deviations (mean, then the powers) to what is held of them (the powers), from where one repeat
+/// leaves them.
 void hold(const std::vector<double>& deviations, int powers, std::size_t stride, std::size_t samples,
           const LayerSlip& slip, std::vector<double>& held) {
   held.assign(powers * stride, 0.0);
@@ -27,7 +28,8 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
   Slider slider;
   const double slides = 1 - slip.elastic;
   if (const auto slid = settle(deviations.data(), deviations.data() + stride, samples, slip, slider))
-    for (int power = 1; power < powers; ++power) slope_slip[power] = slides * deviations[(1 + power) * stride + *slid];
+    for (int power = 1; power < powers; ++power)
+      slope_slip[power] = slides * deviations[(1 + power) * stride + *slid];
   for (std::size_t t = 0; t < samples; ++t) {
     const double before = slider.slip();
     const double away = deviations[stride + t];
@@ -35,7 +37,8 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
     const bool sliding = slider.slip() != before;
     for (int power = 1; power < powers; ++power) {
       const double slope = deviations[(1 + power) * stride + t];
-      held[power * stride + t] = Slider::next_slope(slides * slope, sliding, slope_slip[power]) + slip.elastic * slope;
+      held[power * stride + t] =
+          Slider::next_slope(slides * slope, sliding, slope_slip[power]) + slip.elastic * slope;
     }
   }
 }
@@ -92,7 +95,8 @@ const HeldStrains::Rows& HeldStrains::rows_of(int part, int level) {
 BundleNesting HeldStrains::nesting_of(int part) {
   BundleNesting nesting = nesting_to(construction_, means_.plan(), part, arc_, surface_fibres(0));
   means_.attach(nesting, part, *motion_);
-  if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself) attach(nesting, parent);
+  if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself)
+    attach(nesting, parent);
   return nesting;
 }
 
@@ -111,8 +115,8 @@ void HeldStrains::find_deviations(const BundleNesting& nesting, const PartDeviat
   }
   const auto rows = static_cast<std::size_t>(nesting.order) + 2;  // the mean, and the powers
   deviations_->rows.resize(rows * stride_);
-  kernels().deviations(from, of.turn, turned_level(construction_, construction_.ancestry(of.part)), columns, 0, samples_,
-                       deviations_->rows.data(), stride_);
+  kernels().deviations(from, of.turn, turned_level(construction_, construction_.ancestry(of.part)), columns,
+                       0, samples_, deviations_->rows.data(), stride_);
   deviations_->of = of;
 }
 

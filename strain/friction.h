@@ -48,12 +48,13 @@ inline double cap_at(const FrictionCap& cap, double mean) {
   return std::max(0.0, cap.constant + cap.per_mean * mean);
 }
 
-/// What friction holds a share of: the mean of a part and its deviation from it as a series, (1 + power, sample). Of the part
-/// asked for last, and of its parent the state from which all parts in it go on.
+/// What friction holds a share of: the mean of a part and its deviation from it as a series, (1 + power,
+/// sample). Of the part asked for last, and of its parent the state from which all parts in it go on.
 struct PartDeviations {
   struct Of {
     int part = -1, turn = -1;
-    const ClampMeans* means = nullptr;  ///< null: the same for any friction, since it holds nothing of the parts above
+    const ClampMeans* means =
+        nullptr;  ///< null: the same for any friction, since it holds nothing of the parts above
     bool operator==(const Of&) const = default;
   };
   Of of;
@@ -71,7 +72,10 @@ class HeldStrains {
   /// shared: by those that differ in how hard friction is, and in nothing else; they begin together.
   HeldStrains(const Construction& construction, const ClampMeans& means,
               std::shared_ptr<PartDeviations> shared = std::make_shared<PartDeviations>())
-      : construction_(construction), means_(means), kept_(construction.levels()), deviations_(std::move(shared)) {}
+      : construction_(construction),
+        means_(means),
+        kept_(construction.levels()),
+        deviations_(std::move(shared)) {}
 
   /// Memory that it takes in the end, for a motion of so many samples.
   std::size_t bytes(std::size_t samples) const;

@@ -49,7 +49,8 @@ Counts counts_of(const pipeline::Dresspack& dresspack, const pipeline::Strain& s
   for (const Part& part : construction.parts()) {
     const Layer& layer = construction.layers()[part.layer];
     if (layer.is_cable()) {
-      counts.rubbing += pipeline::rubs(settings.slip.front()) && (layer.friction > 0 || layer.jacket_stiffness > 0);
+      counts.rubbing +=
+          pipeline::rubs(settings.slip.front()) && (layer.friction > 0 || layer.jacket_stiffness > 0);
       counts.cables += 1;
       counts.loose += free[part.layer].loose;
       continue;
@@ -79,10 +80,9 @@ Parts parts_in(const std::vector<pipeline::Component>& components) {
 
 void check_counts(const pipeline::Where& where, double samples, double sites) {
   if (!(samples <= most_numbered))
-    throw pipeline::InputError(where,
-                               fmt::format("holds {:.4g} samples (strain.h5 numbers at most {:.0f})", samples,
-                                           most_numbered),
-                               "choose a lower simulation.sample_rate_Hz, or split the motion");
+    throw pipeline::InputError(
+        where, fmt::format("holds {:.4g} samples (strain.h5 numbers at most {:.0f})", samples, most_numbered),
+        "choose a lower simulation.sample_rate_Hz, or split the motion");
   if (!(sites <= most_numbered))
     throw pipeline::InputError(
         where,
@@ -91,7 +91,8 @@ void check_counts(const pipeline::Where& where, double samples, double sites) {
         "choose fewer simulation.segments or strain.surface_fibres, or split the dresspack");
 }
 
-pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job, std::size_t threads) {
+pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job,
+                               std::size_t threads) {
   constexpr double program = 22 << 20;  // itself, its libraries and a job
   const std::size_t samples = motion.rows("/time"), segments = motion.rows("/segment/length");
   const double rows = static_cast<double>(samples), workers = static_cast<double>(threads);
@@ -112,38 +113,43 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   }
   check_counts(motion.where(), rows, sites);
   need.add(listed, "parts and wires", "fewer of them (dresspack.components)");
-  if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb())) return need;  // too many to be listed
+  if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb()))
+    return need;  // too many to be listed
 
   // Every other way in which cables lie is kept beside the job's own, each with four frictions.
-  const double laid = 1 + static_cast<double>(placements_at_most(job)), frictions = job.uncertainty.enabled ? 4 : 1;
+  const double laid = 1 + static_cast<double>(placements_at_most(job)),
+               frictions = job.uncertainty.enabled ? 4 : 1;
   double cable_rows = 0, bent_rows = 0, part_rows = 0, found = 0;
   for (const pipeline::MotionSpan& span : spans) {
     if (span.dresspack >= job.dresspacks.size()) continue;
-    const double length = std::accumulate(lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment),
-                                          lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment + span.segments),
-                                          0.0);
+    const double length = std::accumulate(
+        lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment),
+        lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment + span.segments), 0.0);
     const Counts counts = counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, length);
     const double in_span = static_cast<double>(span.segments);
-    // Strain of each cable and the three that make its force, strain and pressing along one that rubs (cable_paths.h);
-    // curvature along a loose one (segment_rows.h), and the rows of one segment.
+    // Strain of each cable and the three that make its force, strain and pressing along one that rubs
+    // (cable_paths.h); curvature along a loose one (segment_rows.h), and the rows of one segment.
     cable_rows += laid * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
     bent_rows += laid * in_span * counts.loose;
     part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
     // A thread's states of a part and of its parent, and what friction holds of every level.
     constexpr double states = 4, in_single = 3, turned = 1 + phases_per_pitch;
-    found = std::max(found, workers * (2 * states * (counts.depth + 1) + in_single + laid * frictions * counts.depth * turned));
+    found = std::max(found, workers * (2 * states * (counts.depth + 1) + in_single +
+                                       laid * frictions * counts.depth * turned));
     // Bundles that wait to be written: every site's turning points, in lists and in rows (evaluation.cpp).
     constexpr double turns_of_samples = 0.25, point = 16;
     const double ahead = threads == 1 ? 1 : std::min(counts.bundles, 2 * workers);
-    found = std::max(found, ahead * counts.widest_bundle * counts.most_fibres * turns_of_samples * point / value);
+    found =
+        std::max(found, ahead * counts.widest_bundle * counts.most_fibres * turns_of_samples * point / value);
   }
   const std::string sampling = "a lower simulation.sample_rate_Hz, or split the motion";
   need.add(std::min(rows * static_cast<double>(segments) * sizeof(Deformation),
                     static_cast<double>(default_history_bytes)),
            fmt::format("histories of {} segments", segments), sampling);
-  need.add(std::min(bent_rows * rows * value, static_cast<double>(default_history_bytes) / 2), "where loose cables bend",
-           sampling);
-  need.add(cable_rows * rows * value, "what cables do in each segment", "fewer simulation.segments, " + sampling);
+  need.add(std::min(bent_rows * rows * value, static_cast<double>(default_history_bytes) / 2),
+           "where loose cables bend", sampling);
+  need.add(cable_rows * rows * value, "what cables do in each segment",
+           "fewer simulation.segments, " + sampling);
   need.add((part_rows + found) * rows * value, "what parts do at each sample", sampling);
   const std::map<std::string, std::size_t> axes{{"sample", samples},
                                                 {"segment", segments},

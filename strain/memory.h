@@ -14,7 +14,8 @@ class FileReader;
 namespace dresslife::strain {
 
 /// Errors: InputError for more samples or sites than strain.h5 can number, and those of Construction.
-pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job, std::size_t threads);
+pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job,
+                               std::size_t threads);
 
 /// strain.h5 numbers samples and sites in 32 bits, and the largest number stands for none.
 inline constexpr double most_numbered = 4294967294.0;

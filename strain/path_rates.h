@@ -1,10 +1,11 @@
 // How long the paths of parts are that lie in one parent, segment by segment: what those need that slide from
 // clamp to clamp (README W10, W34).
 //
-// Within a segment the parent's deformation is that of its centre, and the phase of what has a lay goes on: the
-// path rate is the mean over places along the segment, close enough that a turn has at least six of them, and
-// at least four; one where nothing on the way has a lay. The mean over evenly spaced places of a turn is exact
-// for its first harmonics, and what is left over of a turn at a segment's ends is known to (pi/6)^2 / 6 of it.
+// Within a segment the parent's deformation is that of its centre, and the phase of what has a lay goes on:
+// the path rate is the mean over places along the segment, close enough that a turn has at least six of them,
+// and at least four; one where nothing on the way has a lay. The mean over evenly spaced places of a turn is
+// exact for its first harmonics, and what is left over of a turn at a segment's ends is known to (pi/6)^2 / 6
+// of it.
 #pragma once
 
 #include <vector>

@@ -30,7 +30,8 @@ void TurningPoints::next(std::span<const float> strains, TurningList& out) {
   std::size_t k = 0;
   while (k < strains.size() && direction_ == 0) begin(strains[k++], out);
   const std::uint32_t first = sample_ - static_cast<std::uint32_t>(k);
-  float direction = static_cast<float>(direction_), extreme = extreme_;  // in registers: most samples move nothing
+  float direction = static_cast<float>(direction_),
+        extreme = extreme_;  // in registers: most samples move nothing
   std::uint32_t extreme_at = extreme_at_;
   for (; k < strains.size(); ++k) {
     const float beyond = direction * (strains[k] - extreme);

@@ -14,7 +14,7 @@ namespace dresslife::strain {
 struct SegmentMotion {
   std::size_t samples = 0;
   DeformationColumns hose{};
-  std::vector<const double*> strain{};      ///< (cable) of (sample); null: it sticks to the hose in every plan
+  std::vector<const double*> strain{};  ///< (cable) of (sample); null: it sticks to the hose in every plan
   std::vector<DeformationColumns> loose{};  ///< (cable) its own deformation, where it can lie loose
 
   /// What the nesting to a part starts from.

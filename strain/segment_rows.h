@@ -1,6 +1,6 @@
-// Numbers that come sample by sample for all segments, and are asked for segment by segment over the whole motion:
-// where loose cables bend. In memory while there is room, else in a file of their own that vanishes with them, so that
-// memory does not grow with the motion's length.
+// Numbers that come sample by sample for all segments, and are asked for segment by segment over the whole
+// motion: where loose cables bend. In memory while there is room, else in a file of their own that vanishes
+// with them, so that memory does not grow with the motion's length.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace dresslife::strain {
 /// Where long histories go.
 struct Scratch {
   std::size_t room = static_cast<std::size_t>(-1);  ///< in memory [bytes]
-  std::filesystem::path beside{};                   ///< the file that they go beside when they have no room; empty: none
+  std::filesystem::path beside{};  ///< the file that they go beside when they have no room; empty: none
 };
 
 class SegmentRows {
@@ -29,8 +29,8 @@ class SegmentRows {
   }
   void end();  ///< of the block. Errors: InputError when the disk is full.
 
-  /// Samples [first, first + count) of a row, to `to`. Precondition: they are in ended blocks. Errors: InputError when they
-  /// cannot be read.
+  /// Samples [first, first + count) of a row, to `to`. Precondition: they are in ended blocks. Errors:
+  /// InputError when they cannot be read.
   void read(std::size_t segment, std::size_t row, std::size_t first, std::size_t count, double* to) const;
 
  private:

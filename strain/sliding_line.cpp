@@ -54,10 +54,10 @@ void SlidingLine::add(double weight, double target) {
   const auto find_lowest = [&] { return lowest_at_ = -at_zero_ / slope_; };
   const auto is_below = [&] { return !below_.empty() && find_lowest() < below_.back().at + below_shift_; };
   const auto is_above = [&] { return !above_.empty() && find_lowest() > above_.back().at + above_shift_; };
-  // A line that is added moves the least to one side. Rounding may put it on the other side of a knot that it has just
-  // passed: who went back would go to and fro for ever.
-  if (is_below())
-    do cross(below_, below_shift_, above_, above_shift_, -1);
+  // A line that is added moves the least to one side. Rounding may put it on the other side of a knot that it
+  // has just passed: who went back would go to and fro for ever.
+  if (is_below()) do
+      cross(below_, below_shift_, above_, above_shift_, -1);
     while (is_below());
   else
     while (is_above()) cross(above_, above_shift_, below_, below_shift_, 1);

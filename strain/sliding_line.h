@@ -2,17 +2,17 @@
 // friction along it and the grips of its clamps (README W34).
 //
 // Element i of the path has gained g_i over the path on which the part was laid in, with slack; if nothing
-// slid, its strain would be gamma_i = (1 + g_i) / (1 + slack) - 1. The part slides along its path, by u at the
-// nodes between elements, and has the strain eps_i = gamma_i + (u_{i+1} - u_i) / l_i. Its force T_i = E A eps_i
-// changes from element to element by no more than friction takes up at the node between them,
+// slid, its strain would be gamma_i = (1 + g_i) / (1 + slack) - 1. The part slides along its path, by u at
+// the nodes between elements, and has the strain eps_i = gamma_i + (u_{i+1} - u_i) / l_i. Its force T_i = E A
+// eps_i changes from element to element by no more than friction takes up at the node between them,
 //     |T_i - T_{i-1}| <= f_i,
 // at either clamp it is at most the grip, and a node slides only where its limit is reached, the way that
 // friction opposes. Over a step that is the minimum of the elastic energy and what friction takes; its dual,
 //     sum l_i (T_i - E A (eps_i before + gamma_i's change))^2 / (2 E A)  ->  least, under the limits above,
-// is a projection. Dynamic programming solves it exactly: with d_i(T) the slope of the least sum up to element
-// i that ends in T, piecewise linear and rising, a limit f moves its two sides apart by 2 f around its zero,
-// and an element adds a line (N. Johnson, J. Comput. Graph. Stat. 22 (2013), for the same sums in statistics).
-// No friction: T is everywhere the same, that of the mean. Limits beyond all forces: glued.
+// is a projection. Dynamic programming solves it exactly: with d_i(T) the slope of the least sum up to
+// element i that ends in T, piecewise linear and rising, a limit f moves its two sides apart by 2 f around
+// its zero, and an element adds a line (N. Johnson, J. Comput. Graph. Stat. 22 (2013), for the same sums in
+// statistics). No friction: T is everywhere the same, that of the mean. Limits beyond all forces: glued.
 #pragma once
 
 #include <span>
@@ -24,7 +24,8 @@ namespace dresslife::strain {
 
 class SlidingLine {
  public:
-  /// lengths: of the elements at rest [m]. axial_stiffness: E A [N]. grips: forces at base and tool clamp [N].
+  /// lengths: of the elements at rest [m]. axial_stiffness: E A [N]. grips: forces at base and tool clamp
+  /// [N].
   SlidingLine(std::vector<double> lengths, double axial_stiffness, double base_grip, double tool_grip);
 
   /// The next sample. unslid: gamma (element). limits: f at the node between elements i - 1 and i at i; [N]
@@ -57,7 +58,7 @@ class SlidingLine {
 
   std::vector<double> lengths_;
   double stiffness_, base_grip_, tool_grip_;
-  std::vector<double> slid_;   ///< (element) (u_{i+1} - u_i) / l_i
+  std::vector<double> slid_;  ///< (element) (u_{i+1} - u_i) / l_i
   std::vector<double> force_, tried_, least_;
   double soft_weight_;
   std::vector<Knot> below_, above_;

@@ -10,9 +10,9 @@
 namespace dresslife::strain {
 namespace {
 
-// A helix with fewer turns between the clamps evens out over all of them: over each turn for itself the strain
-// would leave out what is left of one, R kappa / (2 pi turns) at most. With four, of a wire 3 mm from the axis
-// at 2 1/m, that is 2.4e-4, as much as what evening out over all leaves out.
+// A helix with fewer turns between the clamps evens out over all of them: over each turn for itself the
+// strain would leave out what is left of one, R kappa / (2 pi turns) at most. With four, of a wire 3 mm from
+// the axis at 2 1/m, that is 2.4e-4, as much as what evening out over all leaves out.
 constexpr double least_turns = 4;
 
 /// (W16): friction gathers along a quarter of the length over which the deviation changes sign and back.

@@ -14,9 +14,9 @@
 #include "pipeline/job/job.h"
 #include "pipeline/job/overlap.h"
 #include "pipeline/job/stiffness.h"
+#include "pipeline/threads.h"
 #include "strain/evaluation.h"
 #include "strain/variations.h"
-#include "pipeline/threads.h"
 
 namespace dresslife::strain {
 namespace {
@@ -28,9 +28,10 @@ using pipeline::WarningKind;
 
 constexpr std::size_t block_samples = 512;  // rows read at a time
 constexpr double first_pass_share = 0.05;   // of the work, for the progress display
-// 2 % of strain are a tenth of a life that goes with its fifth power: less than anything else here is known to.
+// 2 % of strain are a tenth of a life that goes with its fifth power: less than anything else here is known
+// to.
 constexpr double believable_mesh_error = 0.02;
-constexpr double loose_pass_share = 0.5;    // the same where cables lie loose
+constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
 
 /// Some samples of all segments.
 struct MotionBlock {
@@ -214,9 +215,11 @@ class VariationWriter {
   }
 
   void append(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
-    file_.append("/variation/row/variation", std::vector<std::uint32_t>(sites.size(), static_cast<std::uint32_t>(variation)));
+    file_.append("/variation/row/variation",
+                 std::vector<std::uint32_t>(sites.size(), static_cast<std::uint32_t>(variation)));
     file_.append("/variation/row/site", std::vector<std::uint32_t>(sites.begin(), sites.end()));
-    file_.append("/variation/row/turning", std::vector<std::uint32_t>(rows.turning.begin(), rows.turning.end()));
+    file_.append("/variation/row/turning",
+                 std::vector<std::uint32_t>(rows.turning.begin(), rows.turning.end()));
     file_.append("/variation/strain", rows.strain);
   }
 
@@ -303,9 +306,11 @@ struct Evaluations {
   std::vector<std::unique_ptr<Evaluation>> of_span;  // refer to them
   int levels = 0;                                    // of the deepest wire
 
-  /// as_told: the same dresspacks without further factors, with whose cables these lie side by side, in as many pieces.
+  /// as_told: the same dresspacks without further factors, with whose cables these lie side by side, in as
+  /// many pieces.
   Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads,
-              const pipeline::StrainFactors& factors, const Scratch& scratch, const Evaluations* as_told = nullptr) {
+              const pipeline::StrainFactors& factors, const Scratch& scratch,
+              const Evaluations* as_told = nullptr) {
     for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
       constructions.emplace_back(mounted.dresspack, job.strain.kinematics, factors);
       levels = std::max(levels, constructions.back().levels());
@@ -329,9 +334,10 @@ struct Evaluations {
       place.free_tool_end = reader.ends_freely(job, k);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
       pipeline::Strain settings = settings_of(job, d);
-      if (as_told) settings.cable_elements = static_cast<int>(as_told->of_span[k]->cables().elements_per_segment());
-      of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings, lengths, reader.samples(), threads, place,
-                                                     scratch));
+      if (as_told)
+        settings.cable_elements = static_cast<int>(as_told->of_span[k]->cables().elements_per_segment());
+      of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings, lengths, reader.samples(),
+                                                     threads, place, scratch));
       place.first_arc += std::accumulate(lengths.begin(), lengths.end(), 0.0);
     }
   }
@@ -340,13 +346,16 @@ struct Evaluations {
 /// pieces: of a loose cable in a segment.
 std::vector<Warning> mesh_warnings(double error, std::size_t pieces) {
   if (error <= believable_mesh_error) return {};
-  return {{WarningKind::mesh, "",
-           fmt::format("{} to a segment, pieces are too long for how loose cables bend: they miss {:.3g} of it (more than "
-                       "{:g}); give strain.cable_elements_per_segment: {} or more, or more simulation.segments",
-                       pieces, error, believable_mesh_error, 2 * pieces)}};
+  return {
+      {WarningKind::mesh, "",
+       fmt::format(
+           "{} to a segment, pieces are too long for how loose cables bend: they miss {:.3g} of it (more than "
+           "{:g}); give strain.cable_elements_per_segment: {} or more, or more simulation.segments",
+           pieces, error, believable_mesh_error, 2 * pieces)}};
 }
 
-/// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the clamps.
+/// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the
+/// clamps.
 class CableRows {
  public:
   void add(std::int32_t span, const Evaluation& evaluation) {
@@ -358,7 +367,8 @@ class CableRows {
       component_.push_back(cables.component(k));
       pulled_.push_back(&cables.pulled(k));
       for (const double slipped : cables.grip_slip(k)) slip_.push_back(slipped);
-      for (const auto& at_clamp : pulled_.back()->place) place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
+      for (const auto& at_clamp : pulled_.back()->place)
+        place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
     }
   }
   void write(FileWriter& file, std::size_t samples) const {
@@ -385,9 +395,10 @@ class CableRows {
   std::vector<const pipeline::PulledCable*> pulled_;
 };
 
-/// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns what a person
-/// should look at: pieces that are too long.
-std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+/// What the cables of all spans do, of which their forces follow. Nothing where there is no cable. Returns
+/// what a person should look at: pieces that are too long.
+std::vector<Warning> write_cables(FileWriter& file,
+                                  const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   CableRows rows;
   std::vector<const std::vector<double>*> hose_moment;  // of spans with cables
   double mesh_error = 0;
@@ -411,14 +422,15 @@ std::vector<Warning> write_cables(FileWriter& file, const std::vector<std::uniqu
   const std::vector<Warning> warnings = mesh_warnings(mesh_error, pieces);
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
-  const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(), cables.offset_samples().end());
+  const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(),
+                                                  cables.offset_samples().end());
   file.append("/cable/offset_sample", offset_samples);
   file.append("/cable/offset", cables.offsets());
   return warnings;
 }
 
-/// What is wrong in the descriptions of dresspacks, whatever the motion: parts that lie in each other, a stiffness that
-/// is not that of the parts.
+/// What is wrong in the descriptions of dresspacks, whatever the motion: parts that lie in each other, a
+/// stiffness that is not that of the parts.
 std::vector<Warning> construction_warnings(const pipeline::Job& job) {
   std::vector<Warning> all;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks)
@@ -433,14 +445,19 @@ std::vector<Warning> construction_warnings(const pipeline::Job& job) {
 /// How a cable by itself bends, from the curvature of a hanging cable to that of a wire around a finger.
 void write_bending(FileWriter& file, const pipeline::Job& job) {
   const pipeline::Dresspack& dresspack = job.dresspacks.front().dresspack;
-  const bool rub = std::any_of(job.strain.slip.begin(), job.strain.slip.end(), [](pipeline::Slip slip) { return rubs(slip); });
-  if (!dresspack.cable_alone || !rub || dresspack.components.size() != 1 || dresspack.components[0].components.empty()) return;
+  const bool rub = std::any_of(job.strain.slip.begin(), job.strain.slip.end(),
+                               [](pipeline::Slip slip) { return rubs(slip); });
+  if (!dresspack.cable_alone || !rub || dresspack.components.size() != 1 ||
+      dresspack.components[0].components.empty())
+    return;
   constexpr int of_a_decade = 20, decades = 5;
   constexpr double least = 1e-3;  // [1/m]
   std::vector<double> curvature, moment;
-  for (int k = 0; k <= decades * of_a_decade; ++k) curvature.push_back(least * std::pow(10, double(k) / of_a_decade));
+  for (int k = 0; k <= decades * of_a_decade; ++k)
+    curvature.push_back(least * std::pow(10, double(k) / of_a_decade));
   try {
-    moment = pipeline::bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
+    moment =
+        pipeline::bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
   } catch (const pipeline::InputError&) {
     return;  // straight parts beside the axis: how far they slide hangs on the length
   }
@@ -450,20 +467,23 @@ void write_bending(FileWriter& file, const pipeline::Job& job) {
 
 }  // namespace
 
-Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain, std::size_t threads,
-                   const std::function<void(double)>& progress, std::size_t history_bytes) {
+Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
+                   std::size_t threads, const std::function<void(double)>& progress,
+                   std::size_t history_bytes) {
   MotionReader reader(motion, job);
   check(motion, job, reader);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
   // Half of the room: the hose's deformation wants the other.
-  const Scratch scratch{history_bytes / 2 / (reader.spans().size() * (1 + placements_at_most(job))), strain.final_name()};
+  const Scratch scratch{history_bytes / 2 / (reader.spans().size() * (1 + placements_at_most(job))),
+                        strain.final_name()};
   const Evaluations all(job, reader, threads, job.strain.factors, scratch);
   const auto& evaluations = all.of_span;
   std::list<Evaluations> otherwise_laid;
-  const Variations variations(job, evaluations, [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
-    return otherwise_laid.emplace_back(job, reader, threads, factors, scratch, &all).of_span;
-  });
+  const Variations variations(
+      job, evaluations, [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
+        return otherwise_laid.emplace_back(job, reader, threads, factors, scratch, &all).of_span;
+      });
   strain.set_axis("segment", segments);
   strain.set_axis("level", all.levels);
   strain.set_axis("sample", samples);
@@ -510,7 +530,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const bool loose = any([](const auto& evaluation) { return evaluation->any_loose(); });
   reader.run(loose, [&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);
-    each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) { Evaluation::add(own, of_span); });
+    each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
+      Evaluation::add(own, of_span);
+    });
     keep(0, block.first, block.deformation);
     progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
              static_cast<double>(samples));
@@ -526,7 +548,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
           if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
       });
     });
-  const std::vector<Warning> warnings = pipeline::joined(construction_warnings(job), write_cables(strain, evaluations));
+  const std::vector<Warning> warnings =
+      pipeline::joined(construction_warnings(job), write_cables(strain, evaluations));
   write_bending(strain, job);
 
   Sink sink;

@@ -25,11 +25,11 @@ struct Notes {
   std::string summary;  ///< one line on the worst site
 };
 
-/// Writes every dataset of strain.h5. threads: any number gives the same bytes. progress: share of the work done.
-/// Errors: InputError for a motion without samples, a dresspack without wires, and those of Construction and
-/// Evaluation.
-Notes write_strain(const pipeline::FileReader& motion, const pipeline::Job& job,
-                   pipeline::FileWriter& strain, std::size_t threads, const std::function<void(double)>& progress,
+/// Writes every dataset of strain.h5. threads: any number gives the same bytes. progress: share of the work
+/// done. Errors: InputError for a motion without samples, a dresspack without wires, and those of
+/// Construction and Evaluation.
+Notes write_strain(const pipeline::FileReader& motion, const pipeline::Job& job, pipeline::FileWriter& strain,
+                   std::size_t threads, const std::function<void(double)>& progress,
                    std::size_t history_bytes = default_history_bytes);
 
 }  // namespace dresslife::strain

@@ -52,8 +52,9 @@ StrandContact::StrandContact(const Strand& strand, Contacts contacts) {
     const double sine = std::sin(layer.lay_angle), cosine = std::cos(layer.lay_angle);
     const double turn = sine / cosine / R;  // kappa_i
     if (layer.jacket_stiffness > 0)
-      throw pipeline::InputError({}, "a strand on contacts that give has no jacket that holds its wires elastically",
-                                 "leave out jacket_stiffness, or use StrandBending, which has it");
+      throw pipeline::InputError(
+          {}, "a strand on contacts that give has no jacket that holds its wires elastically",
+          "leave out jacket_stiffness, or use StrandBending, which has it");
     const double own_press = strand.tension * EA * cosine * cosine / stretch_stiffness * sine * sine / R;
     load += layer.count / (2 * pi) * (own_press + layer.line_load) / cosine;
     const Layer own{cosine * cosine * R, layer.count * EA * cosine * R, turn * cosine,

@@ -7,18 +7,22 @@ namespace {
 
 using pipeline::Uncertain;
 
-// Where there is little slack cables come to pull, and lives fall by decades from one tenth of a per cent to the next.
+// Where there is little slack cables come to pull, and lives fall by decades from one tenth of a per cent to
+// the next.
 constexpr double low_slack = -2.25;
 
 bool any_component(const pipeline::Job& job, const std::function<bool(const pipeline::Component&)>& holds) {
-  return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [&](const pipeline::MountedDresspack& mounted) {
-    return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(), holds);
-  });
+  return std::any_of(
+      job.dresspacks.begin(), job.dresspacks.end(), [&](const pipeline::MountedDresspack& mounted) {
+        return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(), holds);
+      });
 }
 
 bool has_slack(const pipeline::Component& part) { return part.laying.slack > 0; }
 bool has_grip(const pipeline::Component& part) { return part.laying.base_grip || part.laying.tool_grip; }
-bool rubs_on_hose(const pipeline::Component& part) { return !part.components.empty() && part.friction.value_or(0) > 0; }
+bool rubs_on_hose(const pipeline::Component& part) {
+  return !part.components.empty() && part.friction.value_or(0) > 0;
+}
 
 constexpr std::size_t slack_nodes = 3, other_nodes = 2;
 
@@ -66,10 +70,11 @@ std::size_t placements_at_most(const pipeline::Job& job) {
          (rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose) ? other_nodes : 0);
 }
 
-Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Build& build) : as_told_(as_told) {
+Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Build& build)
+    : as_told_(as_told) {
   if (!job.uncertainty.enabled) return;
-  const bool rubs_inside =
-      std::any_of(as_told.begin(), as_told.end(), [](const auto& evaluation) { return evaluation->rubs_inside(); });
+  const bool rubs_inside = std::any_of(as_told.begin(), as_told.end(),
+                                       [](const auto& evaluation) { return evaluation->rubs_inside(); });
   std::vector<double> around, all{0};  // z of friction inside
   // Where rubbing is little, lives bend away toward those without damage.
   if (rubs_inside) around = {-reach, -reach / 2, reach}, all = {0, -reach, -reach / 2, reach};
@@ -106,14 +111,15 @@ std::vector<Evaluation*> Variations::placed(std::size_t span) const {
   return all;
 }
 
-void Variations::evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history, std::size_t row,
-                          const Put& put) const {
+void Variations::evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history,
+                          std::size_t row, const Put& put) const {
   const std::vector<Evaluation::Site>& likely = as_told_[span]->likely_worst();
   if (likely.empty()) return;
   std::vector<std::size_t> sites;
   for (const Evaluation::Site site : likely) sites.push_back(as_told_[span]->row_of(segment, site));
   for (const Placement& placement : placements_) {
-    const std::vector<SiteRows> rows = (*placement.spans)[span]->varied(likely, placement.factors, segment, history, row);
+    const std::vector<SiteRows> rows =
+        (*placement.spans)[span]->varied(likely, placement.factors, segment, history, row);
     for (std::size_t k = 0; k < rows.size(); ++k) put(placement.variation[k], sites, rows[k]);
   }
 }

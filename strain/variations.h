@@ -1,9 +1,10 @@
-// Strains of the likely worst wires with other friction, slack, play and grips: what dresslife-fatigue needs to tell how a life hangs
-// on what is not known (pipeline/job/uncertainty.h).
+// Strains of the likely worst wires with other friction, slack, play and grips: what dresslife-fatigue needs
+// to tell how a life hangs on what is not known (pipeline/job/uncertainty.h).
 //
-// Friction inside is crossed with slack, friction along the hose and grips are moved one by one. Play is left out: in the shipped programs
-// it moves lives by a tenth of a decade, and would cost as much as a slack. Where cables lie and pull is
-// worked out anew for each but friction inside; the wires are those that see most in each segment and layer of the job as it is.
+// Friction inside is crossed with slack, friction along the hose and grips are moved one by one. Play is left
+// out: in the shipped programs it moves lives by a tenth of a decade, and would cost as much as a slack.
+// Where cables lie and pull is worked out anew for each but friction inside; the wires are those that see
+// most in each segment and layer of the job as it is.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ std::size_t placements_at_most(const pipeline::Job& job);
 class Variations {
  public:
   static constexpr double reach = 1.5;  ///< 87 % of all that may be lie between
-  using Point = std::array<double, 5>;  ///< z of the strain parameters, in the order of uncertain_parameters()
+  using Point =
+      std::array<double, 5>;  ///< z of the strain parameters, in the order of uncertain_parameters()
   using Spans = std::vector<std::unique_ptr<Evaluation>>;
   /// Evaluations of all spans with other factors; they stay the caller's.
   using Build = std::function<const Spans&(const pipeline::StrainFactors&)>;
@@ -36,9 +38,11 @@ class Variations {
   std::vector<Evaluation*> placed(std::size_t span) const;
 
   /// What a variation makes of a site: its row in the file and its turning points.
-  using Put = std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
+  using Put =
+      std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
   /// Of one segment, right after the job's own evaluation of it.
-  void evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history, std::size_t row, const Put& put) const;
+  void evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history, std::size_t row,
+                const Put& put) const;
 
  private:
   /// One way in which cables lie, with factors of friction inside and the variation that each of them is.

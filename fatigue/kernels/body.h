@@ -1,5 +1,5 @@
-// The loop of lockstep.h for one instruction set. Included once by baseline.cpp, avx2.cpp, .. , which names it
-// (pipeline/simd.h).
+// The loop of lockstep.h for one instruction set. Included once by baseline.cpp, avx2.cpp, .. , which names
+// it (pipeline/simd.h).
 #pragma once
 
 #include "fatigue/kernels/lockstep.h"
@@ -112,9 +112,9 @@ struct Top {
 };
 
 /// Goes through one period of a history in each lane, which starts and ends with its largest strain L >= 0;
-/// where that was compression the lane is mirrored. Row 0 holds -L with the stress from which a branch leads to that
-/// at L: the path never goes beyond it, so nothing closes below L, and when a step back to L has closed everything,
-/// the branch from there leads to L again, whatever of its stress has relaxed.
+/// where that was compression the lane is mirrored. Row 0 holds -L with the stress from which a branch leads
+/// to that at L: the path never goes beyond it, so nothing closes below L, and when a step back to L has
+/// closed everything, the branch from there leads to L again, whatever of its stress has relaxed.
 template <bool one_by_one>
 class Loops {
  public:
@@ -210,9 +210,9 @@ inline std::size_t largest_of(const StrainList& list) {
 
 /// One period of a history, as rotate_to_largest() makes it of one that alternates.
 struct Period {
-  float largest = 0;      ///< L
-  float sign = 1;         ///< -1: mirrored
-  std::size_t steps = 0;  ///< from L to L
+  float largest = 0;        ///< L
+  float sign = 1;           ///< -1: mirrored
+  std::size_t steps = 0;    ///< from L to L
   double first_stress = 0;  ///< at L, where LockstepTables has a function for it
 };
 

@@ -35,8 +35,8 @@ struct LockstepTables {
 
   double endurance = 0;  ///< amplitudes up to it do no damage
 
-  /// Size of the stress at the largest |strain| of a history that a part of its offset (F22) has left, where it is
-  /// not null; else there it lies on the cyclic curve. largest: with its sign; share: StrainList's.
+  /// Size of the stress at the largest |strain| of a history that a part of its offset (F22) has left, where
+  /// it is not null; else there it lies on the cyclic curve. largest: with its sign; share: StrainList's.
   double (*first_stress)(const void* material, double largest, double range, double share) = nullptr;
 };
 

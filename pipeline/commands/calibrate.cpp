@@ -29,7 +29,8 @@ int calibrate(const RunOptions& options) {
   const std::string table = learned_table(learned);
   write_text_if_changed(places.folder / "calibration.yaml", to_yaml(echo_fields(learned.calibration)));
   write_text_if_changed(places.folder / "calibration.svg", calibration_picture(learned));
-  print(shown(fmt::format("{}\nCalibration: {}\nPicture: {}\n", table, (places.folder / "calibration.yaml").string(),
+  print(shown(fmt::format("{}\nCalibration: {}\nPicture: {}\n", table,
+                          (places.folder / "calibration.yaml").string(),
                           (places.folder / "calibration.svg").string())));
   return 0;
 }
@@ -39,7 +40,8 @@ int calibrate(const RunOptions& options) {
 Command add_calibrate(CLI::App& program) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* words = program.add_subcommand(
-      "calibrate", "learn what is not known of cables from lives that were observed; a job that names the result starts from it");
+      "calibrate",
+      "learn what is not known of cables from lives that were observed; a job that names the result starts from it");
   words->add_option("observations", options->study, "OBSERVATIONS.yaml")->required()->type_name("");
   add_run_options(*words, *options);
   add_study_options(*words, *options);

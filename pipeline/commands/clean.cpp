@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What a run writes into a job's folder; whatever else lies there is somebody's own.
-constexpr std::array<const char*, 7> own_files{"job.yaml", "motion.h5", "strain.h5", "life.h5", "log", "page.html", "preview.html"};
+constexpr std::array<const char*, 7> own_files{"job.yaml", "motion.h5", "strain.h5",   "life.h5",
+                                               "log",      "page.html", "preview.html"};
 
 struct Freed {
   std::uintmax_t bytes = 0;
@@ -46,7 +47,8 @@ void remove_job(const fs::path& folder, Freed& freed) {
 
 bool is_job_folder(const fs::directory_entry& entry) {
   std::error_code ignored;
-  return entry.is_directory(ignored) && !entry.is_symlink(ignored) && fs::is_directory(entry.path() / ".stage", ignored) &&
+  return entry.is_directory(ignored) && !entry.is_symlink(ignored) &&
+         fs::is_directory(entry.path() / ".stage", ignored) &&
          fs::is_regular_file(entry.path() / "job.yaml", ignored);
 }
 
@@ -54,7 +56,8 @@ int clean(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   const fs::path folder = request.out / study_name(request.file);
   if (!fs::is_directory(folder))
-    throw InputError({folder.string()}, "is not there (the study has not run)", "run it: dresslife run " + options.study);
+    throw InputError({folder.string()}, "is not there (the study has not run)",
+                     "run it: dresslife run " + options.study);
   const FolderLock lock(folder);
   const Standing standing = standing_of(request);
   Freed freed;
@@ -65,7 +68,8 @@ int clean(const StudyOptions& options) {
   }
   std::vector<fs::path> others;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (is_job_folder(entry) && !jobs.contains(entry.path().filename().string())) others.push_back(entry.path());
+    if (is_job_folder(entry) && !jobs.contains(entry.path().filename().string()))
+      others.push_back(entry.path());
   for (const fs::path& other : others) remove_job(other, freed);
   constexpr double megabyte = 1e6;
   print(shown(fmt::format("{}: {} MB freed, {} jobs that the study has no more\n", folder.string(),
@@ -78,7 +82,8 @@ int clean(const StudyOptions& options) {
 Command add_clean(CLI::App& program) {
   const auto options = std::make_shared<StudyOptions>();
   CLI::App* words = program.add_subcommand(
-      "clean", "remove what a study does not keep (its key keep), and the results of jobs that it has no more");
+      "clean",
+      "remove what a study does not keep (its key keep), and the results of jobs that it has no more");
   words->add_option("study", options->study, "STUDY.yaml")->required()->type_name("");
   add_study_options(*words, *options);
   return {words, [options] { return clean(*options); }};

@@ -39,8 +39,10 @@ Command add_export(CLI::App& program) {
   words->add_option("job", options->job, "the job's folder, or one of its .h5 files")
       ->required()
       ->type_name("");
-  words->add_option("--paraview", options->xdmf, "file to write; it names the .h5 files, which must stay. Of ParaView's three readers "
-                    "only 'XDMF Reader' reads parts of their tables")
+  words
+      ->add_option("--paraview", options->xdmf,
+                   "file to write; it names the .h5 files, which must stay. Of ParaView's three readers "
+                   "only 'XDMF Reader' reads parts of their tables")
       ->required()
       ->type_name("FILE.xdmf");
   return {words, [options] { return export_job(*options); }};

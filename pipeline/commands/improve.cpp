@@ -41,8 +41,9 @@ int improve_study(Options options) {
       [&](const Study& study) { return made_rows(study, places, quiet); },
       [&](const Improvement& so_far) {
         const std::optional<std::size_t> best = so_far.best();
-        progress.show(fmt::format("{}/{}  best {}", so_far.trials.size(), options.request.trials,
-                                  best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits"));
+        progress.show(
+            fmt::format("{}/{}  best {}", so_far.trials.size(), options.request.trials,
+                        best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits"));
       }};
   const Improvement found = improve(options.request, places, makers);
   progress.clear();
@@ -73,20 +74,25 @@ Command add_improve(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* words = program.add_subcommand(
       "improve", "search for jobs that live longer: keys that are freed, under the limits of the checks");
-  words->add_option("study", options->study, "STUDY.yaml with `free`, or JOB.yaml whose clamps and length are then free")
+  words
+      ->add_option("study", options->study,
+                   "STUDY.yaml with `free`, or JOB.yaml whose clamps and length are then free")
       ->required()
       ->type_name("");
   words
-      ->add_option("--free", options->request.frees,
-                   "free a key: 'LOW .. HIGH', 'SPREAD around', 'ANGLE deg around', 'LOW .. HIGH along LINK' or '[A, B]'; "
-                   "may be repeated")
+      ->add_option(
+          "--free", options->request.frees,
+          "free a key: 'LOW .. HIGH', 'SPREAD around', 'ANGLE deg around', 'LOW .. HIGH along LINK' or '[A, B]'; "
+          "may be repeated")
       ->type_name("KEY.PATH=RANGE")
       ->allow_extra_args(false);
   words->add_option("--trials", options->request.trials, "jobs to try, or sets of all the study's jobs")
       ->check(CLI::Range(2, 100'000))
       ->type_name("COUNT")
       ->capture_default_str();
-  words->add_option("--at-a-time", options->request.at_a_time, "trials that are thought of together; another number, another search")
+  words
+      ->add_option("--at-a-time", options->request.at_a_time,
+                   "trials that are thought of together; another number, another search")
       ->check(CLI::Range(1, 1024))
       ->type_name("COUNT")
       ->capture_default_str();
@@ -95,12 +101,15 @@ Command add_improve(CLI::App& program) {
       ->type_name("NUMBER")
       ->capture_default_str();
   words
-      ->add_option("--rehearsals", options->request.rehearsals,
-                   "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each variable")
+      ->add_option(
+          "--rehearsals", options->request.rehearsals,
+          "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each variable")
       ->check(CLI::Range(-1, 100'000))
       ->type_name("COUNT")
       ->capture_default_str();
-  words->add_option("--method", options->method, "models of lives and limits, or chance alone to hold against it")
+  words
+      ->add_option("--method", options->method,
+                   "models of lives and limits, or chance alone to hold against it")
       ->check(CLI::IsMember({"surrogate", "random"}))
       ->type_name("surrogate|random")
       ->capture_default_str();
@@ -109,19 +118,21 @@ Command add_improve(CLI::App& program) {
       ->type_name("none|hose_length|cycle_time")
       ->capture_default_str();
   words
-      ->add_option("--off", options->off_mm, "what a clamp or the length may be off by: told of the best job; 0: not asked")
+      ->add_option("--off", options->off_mm,
+                   "what a clamp or the length may be off by: told of the best job; 0: not asked")
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("MM")
       ->capture_default_str();
   add_run_options(*words, *options);
   add_launcher(*words, *options);
   add_study_options(*words, *options);
-  return {words, [options] {
-            options->request.method = value_of(options->method, {SearchMethod::surrogate, SearchMethod::random});
-            options->request.second =
-                value_of(options->second, {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time});
-            return improve_study(*options);
-          }};
+  return {
+      words, [options] {
+        options->request.method = value_of(options->method, {SearchMethod::surrogate, SearchMethod::random});
+        options->request.second =
+            value_of(options->second, {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time});
+        return improve_study(*options);
+      }};
 }
 
 }  // namespace dresslife::pipeline

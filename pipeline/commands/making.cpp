@@ -15,7 +15,8 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A study with fewer jobs than cores lets each stage use several. Those of a launcher are not this machine's.
+/// A study with fewer jobs than cores lets each stage use several. Those of a launcher are not this
+/// machine's.
 void share_cores(const RunOptions& options, std::size_t jobs) {
   const std::size_t cores = options.launcher.empty() ? static_cast<std::size_t>(options.jobs) : 1;
   const std::size_t each = cores / std::max<std::size_t>(jobs, 1);
@@ -23,8 +24,8 @@ void share_cores(const RunOptions& options, std::size_t jobs) {
   ::setenv("DRESSLIFE_THREADS", std::to_string(std::max<std::size_t>(each, 1)).c_str(), keep);
 }
 
-/// Removes during a run what is not kept. Jobs that share files go together, when the last of them has ended: before, it
-/// would free nothing, and a name less changes one of the times of a file that others read.
+/// Removes during a run what is not kept. Jobs that share files go together, when the last of them has ended:
+/// before, it would free nothing, and a name less changes one of the times of a file that others read.
 class Unkept {
  public:
   Unkept(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states)
@@ -119,9 +120,12 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
 
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows) {
-  const auto is_rated = [](const StudyJob& job) { return job.failure.empty() && job.job && has_ratings(*job.job); };
+  const auto is_rated = [](const StudyJob& job) {
+    return job.failure.empty() && job.job && has_ratings(*job.job);
+  };
   if (study.keep == Keep::lives && std::any_of(study.jobs.begin(), study.jobs.end(), is_rated))
-    tell("note: no life is told in rated cycles (keep: lives leaves no damage of single places); keep: histories tells them\n");
+    tell(
+        "note: no life is told in rated cycles (keep: lives leaves no damage of single places); keep: histories tells them\n");
   const RatedStudy rated = rated_study(study);
   if (rated.cables.empty()) return;
   const StudyPlaces places{of_study.folder / ".rigs", of_study.programs};

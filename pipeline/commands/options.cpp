@@ -38,8 +38,9 @@ void add_run_options(CLI::App& command, RunOptions& options) {
 
 void add_launcher(CLI::App& command, RunOptions& options) {
   command
-      .add_option("--launcher", options.launcher,
-                  "shell words before each stage's command, which start it elsewhere and end as it ends: 'srun -n1 -c1 --exact'")
+      .add_option(
+          "--launcher", options.launcher,
+          "shell words before each stage's command, which start it elsewhere and end as it ends: 'srun -n1 -c1 --exact'")
       ->type_name("WORDS")
       ->check([](const std::string& text) {
         return text.find('\n') == std::string::npos ? std::string() : std::string("must be one line");
@@ -59,13 +60,16 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
     if (fs::is_regular_file(shipped, failure)) return fs::proximate(shipped);
     looked_for += (looked_for.empty() ? "" : " or ") + entry.string();
   }
-  throw InputError({name}, fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
+  throw InputError({name},
+                   fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
                    "write the path of a YAML file");
 }
 
 }  // namespace
 
-fs::path named_file(const std::string& name, const std::string& shelf) { return file_or_entry(name, {shelf}); }
+fs::path named_file(const std::string& name, const std::string& shelf) {
+  return file_or_entry(name, {shelf});
+}
 
 fs::path named_study(const std::string& name) { return file_or_entry(name, {"studies", "jobs"}); }
 

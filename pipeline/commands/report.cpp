@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Prints the ranking of what is done. The files of the study's folder are brought up to date: of a stale job they keep
-/// the last result, marked. Where one is lost that they may still tell of, they stay as the last run left them.
+/// Prints the ranking of what is done. The files of the study's folder are brought up to date: of a stale job
+/// they keep the last result, marked. Where one is lost that they may still tell of, they stay as the last
+/// run left them.
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   if (const fs::path folder = request.out / study_name(request.file); !fs::is_directory(folder))

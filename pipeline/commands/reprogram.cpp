@@ -47,7 +47,9 @@ std::vector<double> cost_of_lines(const fs::path& life_file) {
 
 /// How many times as long it lives; without damage before and after: 1.
 double times_as_long(const TriedWay& tried, const TriedWay& before) {
-  return std::isinf(before.outcome.hours) && std::isinf(tried.outcome.hours) ? 1 : tried.outcome.hours / before.outcome.hours;
+  return std::isinf(before.outcome.hours) && std::isinf(tried.outcome.hours)
+             ? 1
+             : tried.outcome.hours / before.outcome.hours;
 }
 
 std::string lines_words(const OtherWay& way) {
@@ -67,18 +69,19 @@ std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
     std::string sets;
     for (const std::string& set : tried.way.sets) sets += (sets.empty() ? "" : "; ") + set;
     const bool ran = tried.outcome.failure.empty();
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", quoted(lines_words(tried.way)), quoted(tried.way.what),
-                        ran ? shortest_text(tried.outcome.hours) : "",
-                        ran ? shortest_text(times_as_long(tried, before)) : "",
-                        ran ? shortest_text(tried.seconds) : "", ran ? shortest_text(before.seconds - tried.seconds) : "",
-                        quoted(tried.outcome.words()), quoted(sets));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{}\n", quoted(lines_words(tried.way)), quoted(tried.way.what),
+        ran ? shortest_text(tried.outcome.hours) : "", ran ? shortest_text(times_as_long(tried, before)) : "",
+        ran ? shortest_text(tried.seconds) : "", ran ? shortest_text(before.seconds - tried.seconds) : "",
+        quoted(tried.outcome.words()), quoted(sets));
   }
   return text;
 }
 
 std::string table_of(const std::string& job, const TriedWay& before, const std::vector<TriedWay>& ways) {
-  std::string text = fmt::format("{}: {} h, {:.1f} s{}{}\n", job, readable(before.outcome.hours), before.seconds,
-                                 before.outcome.feasible() ? "" : "; ", before.outcome.words());
+  std::string text =
+      fmt::format("{}: {} h, {:.1f} s{}{}\n", job, readable(before.outcome.hours), before.seconds,
+                  before.outcome.feasible() ? "" : "; ", before.outcome.words());
   text += fmt::format("  {:>10} {:>10}  {}\n", "life", "cycle", "way");
   for (std::size_t k = 0; k < std::min(listed, ways.size()); ++k) {
     const TriedWay& tried = ways[k];
@@ -112,7 +115,8 @@ std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job,
   for (const RankingRow& row : made_rows(study, places, options))
     tried.push_back(seen(row, places, ways[way_of.at(row.job)]));
   std::stable_sort(tried.begin(), tried.end(), [](const TriedWay& a, const TriedWay& b) {
-    return std::tuple(!a.outcome.failure.empty(), -a.outcome.hours) < std::tuple(!b.outcome.failure.empty(), -b.outcome.hours);
+    return std::tuple(!a.outcome.failure.empty(), -a.outcome.hours) <
+           std::tuple(!b.outcome.failure.empty(), -b.outcome.hours);
   });
   return tried;
 }
@@ -129,7 +133,8 @@ int reprogram(const Options& options) {
   const std::vector<RankingRow> rows = made_rows(study, places, options);
   for (std::size_t k = 0; k < study.jobs.size(); ++k) {
     const StudyJob& job = study.jobs[k];
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& of) { return of.job == job.name; });
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const RankingRow& of) { return of.job == job.name; });
     const TriedWay before = seen(*row, places, {});
     if (!before.outcome.failure.empty()) {
       tell(fmt::format("{}: error: it does not run: {}\n", job.name, before.outcome.failure));
@@ -149,8 +154,11 @@ int reprogram(const Options& options) {
 Command add_reprogram(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* words = program.add_subcommand(
-      "reprogram", "tell what the program could do instead: the lines that cost most by other turns of wrist and arm, by a point, or slower");
-  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")->required()->type_name("");
+      "reprogram",
+      "tell what the program could do instead: the lines that cost most by other turns of wrist and arm, by a point, or slower");
+  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
+      ->required()
+      ->type_name("");
   words->add_option("--lines", options->lines, "of the program that are tried, those first that cost most")
       ->check(CLI::Range(0, 1000))
       ->type_name("COUNT")

@@ -31,7 +31,8 @@ int run_shard(const RunOptions& options) {
   const FolderLock lock(folder / standing.places.notes());
   look_again(standing);
   const int executed = make_rest(request, standing, options);
-  if (!options.quiet) tell(fmt::format("{} {}: {} stages ran\n", standing.study.name, options.shard, executed));
+  if (!options.quiet)
+    tell(fmt::format("{} {}: {} stages ran\n", standing.study.name, options.shard, executed));
   return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
 }
 
@@ -49,7 +50,8 @@ int run(const RunOptions& options) {
   const int executed = make_rest(request, standing, options);
   tell_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, looks, digests] = standing;
-  const bool any = std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& job) { return job.failure.empty(); });
+  const bool any = std::any_of(study.jobs.begin(), study.jobs.end(),
+                               [](const StudyJob& job) { return job.failure.empty(); });
   if (!options.quiet && any)
     tell(executed ? fmt::format("{}: {} stages ran\n", study.name, executed)
                   : fmt::format("{}: nothing to do\n", study.name));
@@ -92,8 +94,9 @@ Command add_run(CLI::App& program) {
       ->type_name("MB")
       ->default_str("all of the machine's");
   add_launcher(*words, *options);
-  words->add_option("--shard", options->shard,
-                    "make only the Kth of N parts of the study, beside runs of the others, and rank nothing")
+  words
+      ->add_option("--shard", options->shard,
+                   "make only the Kth of N parts of the study, beside runs of the others, and rank nothing")
       ->type_name("K/N");
   add_study_options(*words, *options);
   return {words, [options] { return run(*options); }};

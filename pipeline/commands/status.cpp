@@ -18,7 +18,8 @@ int status(const StudyOptions& options) {
   std::size_t done = 0;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
-    const std::string word = job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
+    const std::string word =
+        job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
     done += word == "done";
     print(shown(fmt::format("{:<40} {}\n", job.name, word)));
   }

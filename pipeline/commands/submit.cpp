@@ -33,8 +33,8 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
-/// The batch script: the same `dresslife run` in an allocation as on a laptop, but for the launcher. In an array of
-/// allocations each makes its shard; whichever is started again goes on where it was.
+/// The batch script: the same `dresslife run` in an allocation as on a laptop, but for the launcher. In an
+/// array of allocations each makes its shard; whichever is started again goes on where it was.
 std::string script_of(const SubmitOptions& options, const Cluster& cluster, const Standing& standing) {
   constexpr double megabyte = 1e6;
   const int tasks = options.tasks.value_or(cluster.tasks);
@@ -46,10 +46,13 @@ std::string script_of(const SubmitOptions& options, const Cluster& cluster, cons
   text += fmt::format("#SBATCH --ntasks={} --cpus-per-task=1 --mem-per-cpu={}\n", tasks, memory);
   text += "#SBATCH --requeue --output=/dev/null\n";
   if (!cluster.options.empty()) text += fmt::format("#SBATCH {}\n", cluster.options);
-  text += fmt::format("cd {} && exec >>{} 2>&1 || exit 1\n", shell_word(fs::current_path().string()), whole(log));
-  text += fmt::format("exec {} run {} -o {}", whole(program_file()), whole(request_of(options).file), whole(options.out));
+  text +=
+      fmt::format("cd {} && exec >>{} 2>&1 || exit 1\n", shell_word(fs::current_path().string()), whole(log));
+  text += fmt::format("exec {} run {} -o {}", whole(program_file()), whole(request_of(options).file),
+                      whole(options.out));
   for (const std::string& set : options.sets) text += " --set " + shell_word(set);
-  text += fmt::format(" \\\n  --quiet --jobs {} --job-memory {} --launcher {} \\\n", tasks, memory, shell_word(cluster.launcher));
+  text += fmt::format(" \\\n  --quiet --jobs {} --job-memory {} --launcher {} \\\n", tasks, memory,
+                      shell_word(cluster.launcher));
   return text + "  ${SLURM_ARRAY_TASK_ID:+--shard \"$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT\"}\n";
 }
 
@@ -66,8 +69,9 @@ std::string submitted(const Cluster& cluster, const std::string& more, const fs:
   if (status == 0 && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos) return name;
   throw InputError({script.string()},
                    fmt::format("'{}' did not take it ({})", cluster.submit,
-                               WIFEXITED(status) && WEXITSTATUS(status) != 0 ? fmt::format("exit status {}", WEXITSTATUS(status))
-                                                                            : "it printed no number"),
+                               WIFEXITED(status) && WEXITSTATUS(status) != 0
+                                   ? fmt::format("exit status {}", WEXITSTATUS(status))
+                                   : "it printed no number"),
                    "see what it said, and the options of the cluster's file (--cluster)");
 }
 
@@ -84,7 +88,8 @@ int submit(const SubmitOptions& options) {
   write_text_if_changed(script, script_of(options, cluster, standing));
   const std::string array = shards > 1 ? fmt::format(" --array=1-{}", shards) : "";
   if (options.only_write) {
-    print(shown(fmt::format("{} is written; submit it: {}{} {}\n", script.string(), cluster.submit, array, script.string())));
+    print(shown(fmt::format("{} is written; submit it: {}{} {}\n", script.string(), cluster.submit, array,
+                            script.string())));
     return 0;
   }
   std::string last = submitted(cluster, array, script);
@@ -102,11 +107,18 @@ int submit(const SubmitOptions& options) {
 
 Command add_submit(CLI::App& program) {
   const auto options = std::make_shared<SubmitOptions>();
-  CLI::App* words =
-      program.add_subcommand("submit", "let a cluster's queue run a study: the same graph, each stage behind the cluster's launcher");
-  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")->required()->type_name("");
-  words->add_option("--cluster", options->cluster, "YAML of config/clusters, or a file")->capture_default_str()->type_name("");
-  words->add_option("-n,--tasks", options->tasks, "stages at a time, a core each; default: the cluster's tasks")
+  CLI::App* words = program.add_subcommand(
+      "submit",
+      "let a cluster's queue run a study: the same graph, each stage behind the cluster's launcher");
+  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
+      ->required()
+      ->type_name("");
+  words->add_option("--cluster", options->cluster, "YAML of config/clusters, or a file")
+      ->capture_default_str()
+      ->type_name("");
+  words
+      ->add_option("-n,--tasks", options->tasks,
+                   "stages at a time, a core each; default: the cluster's tasks")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   words->add_flag("--only-write", options->only_write, "write the batch script, and submit nothing");

@@ -1,4 +1,5 @@
-// The names of the checks of motions in motion.h5 (/check/name): who writes and who reads them means the same.
+// The names of the checks of motions in motion.h5 (/check/name): who writes and who reads them means the
+// same.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ inline constexpr char too_long[] = "least slack: too long above";
 inline constexpr char most_slack[] = "most slack";
 inline constexpr char travel[] = "travel of the retraction unit";
 
-inline constexpr std::array<std::string_view, 11> all{bend_radius,   twist,         net_twist, twist_left,
-                                                      tension,       contact_depth, contact_force,
-                                                      too_short,     too_long,      most_slack, travel};
+inline constexpr std::array<std::string_view, 11> all{bend_radius, twist,         net_twist,     twist_left,
+                                                      tension,     contact_depth, contact_force, too_short,
+                                                      too_long,    most_slack,    travel};
 
 }  // namespace dresslife::pipeline::check_name

@@ -18,7 +18,8 @@ std::vector<Told> told_checks(const std::filesystem::path& motion_file) {
   const auto names = file.read<std::string>("/check/name");
   const auto values = file.read<double>("/check/value"), limits = file.read<double>("/check/limit");
   std::string lines;
-  for (std::size_t k = 0; k < names.size(); ++k) lines += fmt::format("{} {} {}\n", values[k], limits[k], names[k]);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    lines += fmt::format("{} {} {}\n", values[k], limits[k], names[k]);
   return {{checks_name, lines}};
 }
 

@@ -1,4 +1,5 @@
-// The checks of a motion (/check/*) beside it: its receipt tells them, so that they are known where motion.h5 is not kept.
+// The checks of a motion (/check/*) beside it: its receipt tells them, so that they are known where motion.h5
+// is not kept.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +16,8 @@ struct CheckedValue {
   bool operator==(const CheckedValue&) const = default;
 };
 
-/// For the receipt of a motion; nothing of a motion without checks. Errors: InputError when it cannot be read.
+/// For the receipt of a motion; nothing of a motion without checks. Errors: InputError when it cannot be
+/// read.
 std::vector<Told> told_checks(const std::filesystem::path& motion_file);
 
 /// What told_checks() told.

@@ -1,6 +1,7 @@
 #include "pipeline/files/digest.h"
 
-// The envelope around it (EVP) makes tables of every cipher first: a third of a millisecond at each start of a stage.
+// The envelope around it (EVP) makes tables of every cipher first: a third of a millisecond at each start of
+// a stage.
 #define OPENSSL_API_COMPAT 10101
 #include <fmt/format.h>
 #include <openssl/sha.h>

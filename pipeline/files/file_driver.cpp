@@ -62,8 +62,8 @@ herr_t set_end_of_use(H5FD_t* file, H5FD_mem_t, haddr_t address) {
 }
 haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) { return opened(file).end_of_file; }
 
-/// Of a file that is only read nothing lies beyond its end, whatever lengths its tables tell; a file being written
-/// has places that were given away and not filled yet.
+/// Of a file that is only read nothing lies beyond its end, whatever lengths its tables tell; a file being
+/// written has places that were given away and not filled yet.
 herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t count, void* bytes) {
   const OpenFile& from = opened(file);
   const bool beyond = address > from.end_of_file || count > from.end_of_file - address;

@@ -14,7 +14,8 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_chunk_bytes = 64 << 20;  // one is held unpacked; other programs write 1 MB and less
+constexpr std::size_t most_chunk_bytes = 64
+                                         << 20;  // one is held unpacked; other programs write 1 MB and less
 
 template <class T>
 constexpr Type type_of = Type::f64;
@@ -180,14 +181,14 @@ void FileReader::Impl::check_storage(const Open& made) const {
         __builtin_mul_overflow(chunk_size, chunk[i], &chunk_size))
       fail(fmt::format("dataset {} is too large", path));
   }
-  if (chunk_size > most_chunk_bytes)
-    fail(fmt::format("dataset {} has chunks of {} bytes", path, chunk_size));
+  if (chunk_size > most_chunk_bytes) fail(fmt::format("dataset {} has chunks of {} bytes", path, chunk_size));
   check_fits(made, creation, needed, chunk_size);
   if (H5Dget_num_chunks(made.id, space, &found) < 0 || found != needed)
     fail(fmt::format("dataset {} has {} of its {} chunks (the file is damaged)", path, found, needed));
 }
 
-void FileReader::Impl::check_fits(const Open& made, hid_t creation, hsize_t chunks, hsize_t chunk_size) const {
+void FileReader::Impl::check_fits(const Open& made, hid_t creation, hsize_t chunks,
+                                  hsize_t chunk_size) const {
   constexpr hsize_t least_index_bytes = 4;  // of a chunk: at least its length stands somewhere
   const std::string& path = made.description->path;
   const hsize_t least = H5Pget_nfilters(creation) > 0 ? least_index_bytes : chunk_size;
@@ -208,8 +209,7 @@ std::size_t FileReader::Impl::packed_rows_of(const Open& made) {
       values{};  // scale type, scale, numbers a chunk, class, size, sign, order, fill value ...
   std::size_t count = values.size();
   unsigned flags = 0, config = 0;
-  const H5Z_filter_t filter =
-      H5Pget_filter2(creation, 0, &flags, &count, values.data(), 0, nullptr, &config);
+  const H5Z_filter_t filter = H5Pget_filter2(creation, 0, &flags, &count, values.data(), 0, nullptr, &config);
   H5D_fill_value_t fill = H5D_FILL_VALUE_ERROR;
   H5Pfill_value_defined(creation, &fill);
   hsize_t chunk = 0;
@@ -230,8 +230,8 @@ void FileReader::Impl::read_packed(const Open& from, std::size_t first, std::siz
     std::uint32_t unfiltered = 0;
     const bool found = H5Dget_chunk_storage_size(from.id, &chunk, &size) >= 0;
     packed.resize(size);
-    if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, &chunk, &unfiltered, packed.data()) < 0 ||
-        unfiltered || !unpack_chunk(packed, *from.description->decimals, std::span(numbers)))
+    if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, &chunk, &unfiltered, packed.data()) < 0 || unfiltered ||
+        !unpack_chunk(packed, *from.description->decimals, std::span(numbers)))
       fail(fmt::format("dataset {} cannot be read (the file is damaged)", from.description->path));
     const std::size_t here = std::min<std::size_t>(end, chunk + from.packed_rows) - row;
     std::copy_n(numbers.data() + (row - chunk), here, out);
@@ -240,7 +240,8 @@ void FileReader::Impl::read_packed(const Open& from, std::size_t first, std::siz
   }
 }
 
-void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t count, hid_t type, void* out) const {
+void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t count, hid_t type,
+                            void* out) const {
   if (first + count > from.lengths[0])
     throw std::logic_error("rows beyond the end of " + from.description->path);
   std::vector<hsize_t> begin(from.lengths.size(), 0), length = from.lengths;
@@ -257,7 +258,8 @@ void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t cou
 }
 
 template <class T>
-void FileReader::Impl::read_values(const std::string& path, std::size_t first, std::size_t count, std::vector<T>& out) const {
+void FileReader::Impl::read_values(const std::string& path, std::size_t first, std::size_t count,
+                                   std::vector<T>& out) const {
   const Open& from = dataset(path);
   out.resize(count * from.row_values);
   if constexpr (std::is_same_v<T, float>)
@@ -290,7 +292,8 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
                      fmt::format("check the path, or make it with {}", format.made_by));
   const std::string remedy = fmt::format("make the file anew with {}", format.made_by);
   impl_->input = InputBytes(file);
-  impl_->bytes = static_cast<std::uint64_t>(std::max<std::int64_t>(0, state_of(impl_->input.descriptor()).size));
+  impl_->bytes =
+      static_cast<std::uint64_t>(std::max<std::int64_t>(0, state_of(impl_->input.descriptor()).size));
   impl_->checksum = impl_->input.read_checksum(remedy);
   if (scope == Scope::everything) impl_->input.check(impl_->checksum, remedy);
   check_library_memory();

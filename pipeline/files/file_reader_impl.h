@@ -21,7 +21,7 @@ struct FileReader::Impl {
   };
   std::filesystem::path name;
   const Format* format = nullptr;
-  InputBytes input;  // closed after the library has let go of it
+  InputBytes input;         // closed after the library has let go of it
   std::uint64_t bytes = 0;  // of the file: nothing that it holds is larger
   Handle file;
   std::map<std::string, Open> open;
@@ -42,8 +42,8 @@ struct FileReader::Impl {
   /// All values are in the file. What its tables promise beyond that the library would make up, as zeros, in
   /// as much memory as they say.
   void check_storage(const Open& made) const;
-  /// Each chunk takes its place in the file, and what lies there unpacked is no smaller than it was: no dataset
-  /// has more chunks than the file has room for, nor are those that exist larger than the file.
+  /// Each chunk takes its place in the file, and what lies there unpacked is no smaller than it was: no
+  /// dataset has more chunks than the file has room for, nor are those that exist larger than the file.
   void check_fits(const Open& made, hid_t creation, hsize_t chunks, hsize_t chunk_size) const;
   /// Rows of a chunk if it is packed as this program does it; other layouts of the same numbers go through
   /// the library.

@@ -14,7 +14,8 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t chunk_bytes = 1 << 16;  // one write call and one chunk: large enough to amortise both
-constexpr std::size_t packed_chunk_rows = 1 << 15;  // fewer calls; the range of values, hence their bits, hardly grows
+constexpr std::size_t packed_chunk_rows =
+    1 << 15;  // fewer calls; the range of values, hence their bits, hardly grows
 static_assert(packed_chunk_rows <= ListDeflater::most_numbers);
 
 std::size_t size_of(Type type) {

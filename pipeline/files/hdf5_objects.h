@@ -1,5 +1,5 @@
-// What writing and reading of HDF5 files have in common: identifiers that close themselves, the library's silence and
-// its memory, types and axes.
+// What writing and reading of HDF5 files have in common: identifiers that close themselves, the library's
+// silence and its memory, types and axes.
 #pragma once
 
 #include <hdf5.h>
@@ -46,8 +46,9 @@ inline void silence_library() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Before each call that lets the library take memory of its own: where that fails halfway, it frees what it never
-/// had and takes the program along. It takes a node of a tree, a chunk on its way and a chunk's cache, 1 MB each.
+/// Before each call that lets the library take memory of its own: where that fails halfway, it frees what it
+/// never had and takes the program along. It takes a node of a tree, a chunk on its way and a chunk's cache,
+/// 1 MB each.
 inline void check_library_memory() {
   constexpr std::uint64_t megabytes = 8;
   check_memory(megabytes);

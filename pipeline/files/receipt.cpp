@@ -79,7 +79,8 @@ std::optional<std::string> whole_text(const std::filesystem::path& file, std::in
 /// In one line, and back.
 std::string in_line(const std::string& text) {
   std::string line;
-  for (const char letter : text) line += letter == '\n' ? "\\n" : letter == '\\' ? "\\\\" : std::string(1, letter);
+  for (const char letter : text)
+    line += letter == '\n' ? "\\n" : letter == '\\' ? "\\\\" : std::string(1, letter);
   return line;
 }
 std::string out_of_line(std::string_view line) {
@@ -113,7 +114,8 @@ std::string text_of(const Receipt& receipt) {
   for (const Told& told : receipt.told)
     text += told.text.empty() ? fmt::format("number {} {}\n", told.name, told.number)
                               : fmt::format("text {} {}\n", told.name, in_line(told.text));
-  for (const auto& [what, digest] : receipt.made_with) text += fmt::format("with {} {}\n", digest, in_line(what));
+  for (const auto& [what, digest] : receipt.made_with)
+    text += fmt::format("with {} {}\n", digest, in_line(what));
   return text;
 }
 
@@ -127,7 +129,8 @@ std::string note_digests(const std::vector<std::filesystem::path>& files) {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     if (!state.exists() || now - std::chrono::nanoseconds(state.changed_ns) < tick) continue;
     const std::string digest = Digests().of(file);
-    if (state_of(file) == state) notes += fmt::format("{} {} {}\n", digest, words_of(state), in_line(file.string()));
+    if (state_of(file) == state)
+      notes += fmt::format("{} {} {}\n", digest, words_of(state), in_line(file.string()));
   }
   return notes;
 }
@@ -197,7 +200,8 @@ void give_output(const std::filesystem::path& output, const std::filesystem::pat
   if (failure)
     std::filesystem::copy_file(output, name, std::filesystem::copy_options::overwrite_existing, failure);
   if (failure)
-    throw InputError({name.string()}, "cannot be written (" + failure.message() + ")", "check the folder and the disk");
+    throw InputError({name.string()}, "cannot be written (" + failure.message() + ")",
+                     "check the folder and the disk");
 }
 
 bool is_as_noted(const Receipt& receipt, const std::filesystem::path& output) {

@@ -11,7 +11,8 @@
 //   (FileState), if the file system's clock had moved on between the output and its receipt. Both times are
 //   the file system's own, which nobody can set. Where the receipt is not the younger one, the bytes are
 //   compared;
-//   told:   what the root of life.h5 says of the result, so that ten thousand are gathered without opening them, and
+//   told:   what the root of life.h5 says of the result, so that ten thousand are gathered without opening
+//   them, and
 //           the checks of motion.h5 (checks.h);
 //   with:   digests of the program and of each file, one by one: which of them changed.
 //
@@ -64,8 +65,9 @@ class Digests {
   std::map<std::filesystem::path, std::string> known_;
 };
 
-/// Digests of files by their canonical paths, a line each with the state that the file had: who starts many programs looks at
-/// what all need once. Nothing of a file that is not there or was changed a moment ago, when its state says too little.
+/// Digests of files by their canonical paths, a line each with the state that the file had: who starts many
+/// programs looks at what all need once. Nothing of a file that is not there or was changed a moment ago,
+/// when its state says too little.
 std::string note_digests(const std::vector<std::filesystem::path>& files);
 
 std::string recipe_of(std::string_view settings, const std::vector<std::filesystem::path>& files,
@@ -80,8 +82,8 @@ void write_receipt(const std::filesystem::path& file, Receipt receipt, const std
 /// Notes the state of an output whose bytes are as noted, so that they need no look the next time.
 void renew_receipt(const std::filesystem::path& file, const std::filesystem::path& output);
 
-/// Gives an output a second name; where the file system has none for it, a copy. Replaces what is there. Errors:
-/// InputError when it cannot be written.
+/// Gives an output a second name; where the file system has none for it, a copy. Replaces what is there.
+/// Errors: InputError when it cannot be written.
 void give_output(const std::filesystem::path& output, const std::filesystem::path& name);
 
 /// Whether `output` is the file that the receipt tells of.

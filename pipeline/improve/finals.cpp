@@ -11,11 +11,13 @@ namespace {
 
 constexpr std::size_t finalists = 6;  // whose lives are told over what is not known, too
 
-/// The best of what was tried; the front of two aims whole, but for the jobs as they are, which are told anyhow.
+/// The best of what was tried; the front of two aims whole, but for the jobs as they are, which are told
+/// anyhow.
 std::vector<std::size_t> finalists_of(const Improvement& found) {
   std::vector<std::size_t> best;
   if (found.front.size() > 1) {
-    std::copy_if(found.front.begin(), found.front.end(), std::back_inserter(best), [](std::size_t k) { return k > 0; });
+    std::copy_if(found.front.begin(), found.front.end(), std::back_inserter(best),
+                 [](std::size_t k) { return k > 0; });
     return best;
   }
   for (std::size_t k = 1; k < found.trials.size(); ++k)
@@ -35,13 +37,15 @@ bool is_of(const RankingRow& row, const std::vector<std::string>& jobs) {
 
 const Final* Finals::best() const {
   if (of.size() < 2) return nullptr;
-  return &*std::max_element(of.begin() + 1, of.end(), [](const Final& a, const Final& b) { return a.hours < b.hours; });
+  return &*std::max_element(of.begin() + 1, of.end(),
+                            [](const Final& a, const Final& b) { return a.hours < b.hours; });
 }
 
 const RankingRow* Finals::worst_row(const Final& one) const {
   const RankingRow* worst = nullptr;
   for (const RankingRow& row : rows)
-    if (is_of(row, one.jobs) && row.done() && (!worst || row.headline_hours() < worst->headline_hours())) worst = &row;
+    if (is_of(row, one.jobs) && row.done() && (!worst || row.headline_hours() < worst->headline_hours()))
+      worst = &row;
   return worst;
 }
 

@@ -34,8 +34,8 @@ struct Finals {
 /// Of two aims the whole front, of one the best few.
 Finals finals_of(const Improvement& found, const ImproveRequest& request, const MakeRows& make_rows);
 
-/// Share of draws in which the worst job of `best` lives longer than that of the jobs as they are; absent where nothing
-/// is uncertain.
+/// Share of draws in which the worst job of `best` lives longer than that of the jobs as they are; absent
+/// where nothing is uncertain.
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places);
 
 /// Whether a row is of one of these jobs.

@@ -52,7 +52,8 @@ std::optional<Vector3d> vector_of(const Node& node) {
 }
 
 Node vector_node(const Vector3d& vector, double step) {
-  return list_of({number_node(vector.x(), step), number_node(vector.y(), step), number_node(vector.z(), step)});
+  return list_of(
+      {number_node(vector.x(), step), number_node(vector.y(), step), number_node(vector.z(), step)});
 }
 
 VectorXd one(double u) { return VectorXd::Constant(1, u); }
@@ -60,7 +61,9 @@ bool within(const VectorXd& place) {
   constexpr double rounding = 1e-9;
   return place.minCoeff() >= -rounding && place.maxCoeff() <= 1 + rounding;
 }
-VectorXd if_within(const VectorXd& place) { return within(place) ? place.cwiseMax(0).cwiseMin(1) : VectorXd(); }
+VectorXd if_within(const VectorXd& place) {
+  return within(place) ? place.cwiseMax(0).cwiseMin(1) : VectorXd();
+}
 
 class NumberRange : public FreeKey {
  public:
@@ -123,8 +126,9 @@ class PositionLine : public FreeKey {
   double low_, high_;
 };
 
-/// Directions within an angle of an axis, each as likely by its tangent plane: tan(angle) q, q in the unit disc, to which
-/// the unit square is mapped after P. Shirley and K. Chiu (Journal of Graphics Tools 2 (1997) 45).
+/// Directions within an angle of an axis, each as likely by its tangent plane: tan(angle) q, q in the unit
+/// disc, to which the unit square is mapped after P. Shirley and K. Chiu (Journal of Graphics Tools 2 (1997)
+/// 45).
 class DirectionCone : public FreeKey {
  public:
   DirectionCone(const Vector3d& axis, double angle_deg)
@@ -153,7 +157,8 @@ class DirectionCone : public FreeKey {
   static Eigen::Vector2d on_disc(double a, double b) {
     constexpr double quarter = std::numbers::pi / 4;
     if (a == 0 && b == 0) return {0, 0};
-    if (std::abs(a) > std::abs(b)) return a * Eigen::Vector2d(std::cos(quarter * b / a), std::sin(quarter * b / a));
+    if (std::abs(a) > std::abs(b))
+      return a * Eigen::Vector2d(std::cos(quarter * b / a), std::sin(quarter * b / a));
     return b * Eigen::Vector2d(std::sin(quarter * a / b), std::cos(quarter * a / b));
   }
   static Eigen::Vector2d on_square(const Eigen::Vector2d& q) {
@@ -202,8 +207,9 @@ const Node* common_value(const std::vector<Node>& documents, const std::string& 
       const std::string word = path.substr(begin, dot - begin);
       std::size_t index = 0;
       std::from_chars(word.data(), word.data() + word.size(), index);
-      node = !node->is_list() ? node->find(word)
-                              : index >= 1 && index <= node->items.size() ? &node->items[index - 1] : nullptr;
+      node = !node->is_list()                            ? node->find(word)
+             : index >= 1 && index <= node->items.size() ? &node->items[index - 1]
+                                                         : nullptr;
       begin = dot + 1;
     }
     if (!node || (first && to_yaml(*first) != to_yaml(*node))) return nullptr;
@@ -255,14 +261,16 @@ class Reader {
     const std::size_t dots = text.find("..");
     if (dots == std::string::npos) refuse(fmt::format("is '{}'", written_.text));
     const double low = number(text.substr(0, dots)), high = number(text.substr(dots + 2));
-    if (!(low < high)) refuse(fmt::format("is '{}', which holds nothing", written_.text), "write the smaller number first");
+    if (!(low < high))
+      refuse(fmt::format("is '{}', which holds nothing", written_.text), "write the smaller number first");
     return {low, high};
   }
 
   Vector3d given_vector(const std::string& text) const {
     const Node node = parse_yaml(text, written_.where.file);
     const std::optional<Vector3d> vector = vector_of(node);
-    if (!vector || vector->norm() == 0) refuse(fmt::format("is '{}', in which '{}' is no vector", written_.text, text));
+    if (!vector || vector->norm() == 0)
+      refuse(fmt::format("is '{}', in which '{}' is no vector", written_.text, text));
     return *vector;
   }
 
@@ -277,7 +285,8 @@ class Reader {
     const bool given = centre.find('[') != std::string::npos;
     if (degrees != std::string::npos) {
       const double angle = number(spread.substr(0, degrees));
-      if (!(angle > 0 && angle <= 80)) refuse(fmt::format("is a cone of {} deg", angle), "give 0 to 80 deg to each side");
+      if (!(angle > 0 && angle <= 80))
+        refuse(fmt::format("is a cone of {} deg", angle), "give 0 to 80 deg to each side");
       const std::optional<Vector3d> axis = given ? given_vector(centre) : vector_of(own_value());
       if (!axis) refuse("is no direction, but is freed by an angle", "free directions by ANGLE deg around");
       return std::make_unique<DirectionCone>(*axis, angle);
@@ -285,7 +294,8 @@ class Reader {
     const double far = number(spread);
     if (!(far > 0)) refuse("may not change at all", "give a spread above 0");
     if (given) return std::make_unique<PositionBox>(given_vector(centre), far);
-    if (const std::optional<Vector3d> vector = vector_of(own_value())) return std::make_unique<PositionBox>(*vector, far);
+    if (const std::optional<Vector3d> vector = vector_of(own_value()))
+      return std::make_unique<PositionBox>(*vector, far);
     if (const std::optional<double> value = number_of(own_value()))
       return std::make_unique<NumberRange>(*value - far, *value + far);
     refuse("is neither a number nor a position", "free it by a list [A, B, ...]");
@@ -365,7 +375,8 @@ Node Freedom::usual(const Job& job) {
     const double length = routing.free_length;
     free[path + "free_length_m"] = scalar(fmt::format("{:.4g} .. {:.4g}", 0.9 * length, 1.35 * length));
     for (const char* clamp : {"base_clamp", "tool_clamp"}) {
-      const std::optional<Clamp>& of = std::string_view(clamp) == "base_clamp" ? routing.base_clamp : routing.tool_clamp;
+      const std::optional<Clamp>& of =
+          std::string_view(clamp) == "base_clamp" ? routing.base_clamp : routing.tool_clamp;
       if (!of) continue;
       free_place(free, path + clamp + ".");
     }

@@ -4,8 +4,8 @@
 //     routing.free_length_m: 1.9 .. 2.6                       any number between
 //     routing.tool_clamp.direction: 30 deg around             any direction in a cone about the job's
 //     routing.base_clamp.position_m: 0.05 around              each coordinate so far from the job's
-//     routing.base_clamp.position_m: -0.2 .. 0.3 along link_3 from the job's place along the link (or along [1, 0, 0])
-//     dresspack: [spot_welding, slim.yaml]                    one of these
+//     routing.base_clamp.position_m: -0.2 .. 0.3 along link_3 from the job's place along the link (or along
+//     [1, 0, 0]) dresspack: [spot_welding, slim.yaml]                    one of these
 //
 // A number with `around` is that far from the job's, up or down.
 #pragma once
@@ -43,12 +43,13 @@ class Freedom {
     std::string own;  ///< the jobs' value; empty: they name none, or not the same
   };
 
-  /// free: a map from key paths to what they may be. jobs: that it is for; where they differ in a key that is freed
-  /// about its own value, the value must be given. Errors: InputError.
+  /// free: a map from key paths to what they may be. jobs: that it is for; where they differ in a key that is
+  /// freed about its own value, the value must be given. Errors: InputError.
   static Freedom from(const Node& free, const std::vector<std::shared_ptr<const Job>>& jobs);
 
-  /// What is freed of a job when nobody says: the length by a tenth shorter to a third longer, all clamps and rings
-  /// by 150 mm and 45 deg, a turn of the tool clamp by half a turn. Errors: InputError for a job without clamps on a robot.
+  /// What is freed of a job when nobody says: the length by a tenth shorter to a third longer, all clamps and
+  /// rings by 150 mm and 45 deg, a turn of the tool clamp by half a turn. Errors: InputError for a job
+  /// without clamps on a robot.
   static Node usual(const Job& job);
 
   Eigen::Index variables() const;

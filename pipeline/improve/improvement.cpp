@@ -21,14 +21,16 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double endless_hours = 1e9;  // beyond, nobody waits for a break, and one routing is as good as the other
+constexpr double endless_hours =
+    1e9;  // beyond, nobody waits for a break, and one routing is as good as the other
 
 Node with_frees(Node free, const std::vector<std::string>& written) {
   for (const std::string& one : written) {
     const Where where{"--free " + one};
     const std::size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError(where, "is not KEY.PATH=RANGE", "write for example --free 'routing.free_length_m=1.9 .. 2.6'");
+      throw InputError(where, "is not KEY.PATH=RANGE",
+                       "write for example --free 'routing.free_length_m=1.9 .. 2.6'");
     Node value = parse_yaml(one.substr(equals + 1), where.file);
     place_at(value, where);
     free[one.substr(0, equals)] = std::move(value);
@@ -76,7 +78,8 @@ class Improver {
     if (document.find("keep")) done_.keep_trials = done_.keep_finals = study.keep;
     for (const StudyJob& job : study.jobs) {
       if (!job.failure.empty())
-        throw InputError({request.file.string()}, fmt::format("job '{}' cannot be run: {}", job.name, job.failure), "mend it");
+        throw InputError({request.file.string()},
+                         fmt::format("job '{}' cannot be run: {}", job.name, job.failure), "mend it");
       done_.jobs.push_back(job.name);
       jobs_.push_back(job.job);
     }
@@ -164,7 +167,8 @@ class Improver {
         const double violation = of.refusal.empty() ? of.violation() : no_job;
         worst[k].rejected = worst[k].rejected || of.rejected;
         if (violation > worst[k].violation)
-          worst[k] = {violation, worst[k].rejected, of.beyond, of.refusal.empty() ? list.words(of) : of.refusal};
+          worst[k] = {violation, worst[k].rejected, of.beyond,
+                      of.refusal.empty() ? list.words(of) : of.refusal};
       }
     }
     return worst;
@@ -176,7 +180,8 @@ class Improver {
     return text;
   }
 
-  /// (place) the worst of all jobs' short runs. A trial that does not run is graded by geometry in one (V1) to (V5).
+  /// (place) the worst of all jobs' short runs. A trial that does not run is graded by geometry in one (V1)
+  /// to (V5).
   std::vector<Look> rehearsed(const std::vector<VectorXd>& places) {
     std::vector<std::vector<std::string>> sets;
     for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
@@ -198,7 +203,8 @@ class Improver {
     const bool runs = candidate.refusal.empty();
     if (!runs && look.ran) look = {look.place, false, {}, {}};
     if (runs != look.ran) return;
-    const std::vector<double> beyond = runs ? limits_of_rehearsal(list.limits, candidate.beyond) : candidate.beyond;
+    const std::vector<double> beyond =
+        runs ? limits_of_rehearsal(list.limits, candidate.beyond) : candidate.beyond;
     if (look.beyond.empty()) look.beyond = beyond;
     for (std::size_t k = 0; k < beyond.size(); ++k) look.beyond[k] = std::max(look.beyond[k], beyond[k]);
   }
@@ -256,9 +262,11 @@ class Improver {
 
   Look look_of(const Trial& trial, const VectorXd& place) const {
     Look look{place, trial.worst.failure.empty(), {}, trial.worst.beyond};
-    if (look.ran) look.aims.push_back(-std::log(std::clamp(trial.worst.hours, 1 / endless_hours, endless_hours)));
+    if (look.ran)
+      look.aims.push_back(-std::log(std::clamp(trial.worst.hours, 1 / endless_hours, endless_hours)));
     if (look.ran && aims() == 2)
-      look.aims.push_back(request_.second == SecondAim::hose_length ? trial.hose_length : trial.cycle_seconds);
+      look.aims.push_back(request_.second == SecondAim::hose_length ? trial.hose_length
+                                                                    : trial.cycle_seconds);
     return look;
   }
 
@@ -291,7 +299,8 @@ std::string csv_cell(const std::string& text) {
 std::optional<std::size_t> Improvement::best() const {
   std::optional<std::size_t> found;
   for (std::size_t k = 0; k < trials.size(); ++k)
-    if (trials[k].worst.feasible() && (!found || trials[k].worst.hours > trials[*found].worst.hours)) found = k;
+    if (trials[k].worst.feasible() && (!found || trials[k].worst.hours > trials[*found].worst.hours))
+      found = k;
   return found;
 }
 
@@ -304,7 +313,8 @@ std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vec
   return jobs;
 }
 
-std::vector<StudyJob> trial_jobs(const ImproveRequest& request, std::vector<std::string> sets, const std::string& prefix) {
+std::vector<StudyJob> trial_jobs(const ImproveRequest& request, std::vector<std::string> sets,
+                                 const std::string& prefix) {
   sets.push_back("uncertainty.enabled=false");
   return changed_jobs(request, sets, prefix);
 }
@@ -321,8 +331,9 @@ std::string improvement_csv(const Improvement& improvement) {
     const Trial& trial = improvement.trials[k];
     const bool ran = trial.worst.failure.empty();
     const std::string words = ran ? trial.worst.words() : trial.worst.failure + "; " + trial.screened;
-    text += fmt::format("{},{},{},{},{},{}", k, trial.worst.feasible() ? 1 : 0, ran ? shortest_text(trial.worst.hours) : "",
-                        csv_cell(words), shortest_text(trial.hose_length), ran ? shortest_text(trial.cycle_seconds) : "");
+    text += fmt::format("{},{},{},{},{},{}", k, trial.worst.feasible() ? 1 : 0,
+                        ran ? shortest_text(trial.worst.hours) : "", csv_cell(words),
+                        shortest_text(trial.hose_length), ran ? shortest_text(trial.cycle_seconds) : "");
     for (std::size_t j = 0; j < improvement.freed.size(); ++j)
       text += "," + (trial.sets.empty() ? "" : csv_cell(trial.sets[j].substr(trial.sets[j].find('=') + 1)));
     text += "\n";

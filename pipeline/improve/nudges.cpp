@@ -10,18 +10,21 @@ namespace {
 
 std::string routings_of(const Job& job) {
   std::string text;
-  for (const MountedDresspack& mounted : job.dresspacks) text += mounted.name + to_yaml(echo_fields(mounted.routing));
+  for (const MountedDresspack& mounted : job.dresspacks)
+    text += mounted.name + to_yaml(echo_fields(mounted.routing));
   return text;
 }
 
-void add_clamp(std::vector<Nudge>& nudges, const std::string& path, const std::string& name, const Clamp& clamp, double by) {
+void add_clamp(std::vector<Nudge>& nudges, const std::string& path, const std::string& name,
+               const Clamp& clamp, double by) {
   constexpr const char* axes = "xyz";
   for (int axis = 0; axis < 3; ++axis)
     for (const double off : {-by, by}) {
       Vector3d position = clamp.position;
       position[axis] += off;
       nudges.push_back({fmt::format("{}, {} {} {:.3g} mm", name, axes[axis], off < 0 ? "−" : "+", 1e3 * by),
-                        {fmt::format("{}.position_m=[{:.6g}, {:.6g}, {:.6g}]", path, position.x(), position.y(), position.z())}});
+                        {fmt::format("{}.position_m=[{:.6g}, {:.6g}, {:.6g}]", path, position.x(),
+                                     position.y(), position.z())}});
     }
 }
 

@@ -18,7 +18,8 @@ std::size_t nearest_of(const std::vector<Trial>& trials) {
   return nearest;
 }
 
-/// Limits that stand against the trials: those that none keeps; if each is kept by some, those that the nearest passes.
+/// Limits that stand against the trials: those that none keeps; if each is kept by some, those that the
+/// nearest passes.
 std::vector<std::string> binding(const std::vector<Trial>& trials, const Trial& nearest) {
   std::vector<std::string> lines;
   std::string together;
@@ -27,7 +28,8 @@ std::vector<std::string> binding(const std::vector<Trial>& trials, const Trial& 
     for (const Trial& trial : trials)
       if (trial.worst.failure.empty()) least = std::min(least, trial.worst.beyond[k]);
     const std::string& name = outcome_limit_names()[k];
-    if (least > 0) lines.push_back(fmt::format("No trial keeps {}: the best passes it by {:.2g}", name, least));
+    if (least > 0)
+      lines.push_back(fmt::format("No trial keeps {}: the best passes it by {:.2g}", name, least));
     if (nearest.worst.beyond[k] > 0) together += (together.empty() ? "" : ", ") + name;
   }
   if (lines.empty())
@@ -50,7 +52,8 @@ std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const 
   for (const std::string& end : ends)
     lines.push_back("It stands at the end of what may be changed: " + end + "; widen it");
   if (ends.empty())
-    lines.push_back("It stands inside of all that may be changed: more trials, other keys, or another dresspack");
+    lines.push_back(
+        "It stands inside of all that may be changed: more trials, other keys, or another dresspack");
   return lines;
 }
 

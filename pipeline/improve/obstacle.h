@@ -1,5 +1,5 @@
-// Why no trial keeps all limits: which limit stands against them, how near the best came, and which keys stand there at
-// the ends of what they may be.
+// Why no trial keeps all limits: which limit stands against them, how near the best came, and which keys
+// stand there at the ends of what they may be.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace dresslife::pipeline {
 
-/// A line each: the nearest trial and what it passes; each limit that no trial that ran keeps; ends of freed ranges
-/// that the nearest stands at. trials: none of them feasible.
+/// A line each: the nearest trial and what it passes; each limit that no trial that ran keeps; ends of freed
+/// ranges that the nearest stands at. trials: none of them feasible.
 std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const Freedom& freedom);
 
 }  // namespace dresslife::pipeline

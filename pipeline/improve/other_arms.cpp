@@ -31,9 +31,12 @@ Isometry3d forearm(const Robot& robot, const Vector3d& arm) {
 }
 
 /// The wrist's centre lies on axis 4, so that no turn of that moves it.
-Vector3d centre(const Robot& robot, const Vector3d& arm) { return forearm(robot, arm) * robot.joints[4].origin; }
+Vector3d centre(const Robot& robot, const Vector3d& arm) {
+  return forearm(robot, arm) * robot.joints[4].origin;
+}
 
-/// dc/dq by central differences: of smooth functions of angles, so that a millionth of a turn errs by rounding alone.
+/// dc/dq by central differences: of smooth functions of angles, so that a millionth of a turn errs by
+/// rounding alone.
 Matrix3d jacobian(const Robot& robot, const Vector3d& arm) {
   constexpr double h = 1e-5;
   Matrix3d columns;
@@ -80,8 +83,8 @@ std::vector<Vector3d> starts(const Robot& robot, double first) {
   return all;
 }
 
-/// (q4, q5, q6) next to `before` within the limits, of both turns and with whole turns. rotation: of the flange in
-/// forearm().
+/// (q4, q5, q6) next to `before` within the limits, of both turns and with whole turns. rotation: of the
+/// flange in forearm().
 std::optional<Vector3d> wrist_at(const Robot& robot, const Matrix3d& rotation, const Vector3d& before) {
   const Vector3d a = robot.joints[3].axis.normalized(), b = robot.joints[4].axis.normalized(), e = b.cross(a);
   const double sign = robot.joints[5].axis.dot(a) > 0 ? 1 : -1;
@@ -90,14 +93,17 @@ std::optional<Vector3d> wrist_at(const Robot& robot, const Matrix3d& rotation, c
   const double lean = std::hypot(tip.dot(e), tip.dot(a.cross(e)));
   std::optional<Vector3d> nearest;
   for (const double side : {1.0, -1.0}) {
-    const double four = lean < aligned ? before[0] : std::atan2(side * tip.dot(a.cross(e)), side * tip.dot(e));
+    const double four =
+        lean < aligned ? before[0] : std::atan2(side * tip.dot(a.cross(e)), side * tip.dot(e));
     const double five = std::atan2(side * lean, tip.dot(a));
-    const Matrix3d rest = (Eigen::AngleAxisd(four, a) * Eigen::AngleAxisd(five, b)).toRotationMatrix().transpose() * rotation;
+    const Matrix3d rest =
+        (Eigen::AngleAxisd(four, a) * Eigen::AngleAxisd(five, b)).toRotationMatrix().transpose() * rotation;
     const double six = sign * std::atan2((rest * e).dot(a.cross(e)), (rest * e).dot(e));
     for (const double turn4 : {-2 * pi, 0.0, 2 * pi})
       for (const double turn6 : {-2 * pi, 0.0, 2 * pi}) {
         const Vector3d wrist(four + turn4, five, six + turn6);
-        if (!within_limits(robot, 3, wrist[0]) || !within_limits(robot, 4, wrist[1]) || !within_limits(robot, 5, wrist[2]))
+        if (!within_limits(robot, 3, wrist[0]) || !within_limits(robot, 4, wrist[1]) ||
+            !within_limits(robot, 5, wrist[2]))
           continue;
         if (!nearest || (wrist - before).norm() < (*nearest - before).norm()) nearest = wrist;
       }
@@ -121,7 +127,8 @@ std::vector<OtherArm> other_arms(const Robot& robot, const std::vector<double>& 
   constexpr double apart = 0.02;  // [rad]: nearer ones are one
   const Vector3d arm(joints[0], joints[1], joints[2]), wrist(joints[3], joints[4], joints[5]);
   Matrix3d rotation = forearm(robot, arm).linear();
-  for (std::size_t k = 3; k < 6; ++k) rotation = rotation * Eigen::AngleAxisd(joints[k], robot.joints[k].axis.normalized());
+  for (std::size_t k = 3; k < 6; ++k)
+    rotation = rotation * Eigen::AngleAxisd(joints[k], robot.joints[k].axis.normalized());
   const Vector3d target = centre(robot, arm);
   const double side = jacobian(robot, arm).determinant();
   std::vector<Vector3d> known{arm};
@@ -132,12 +139,14 @@ std::vector<OtherArm> other_arms(const Robot& robot, const std::vector<double>& 
     const auto same = [&](const Vector3d& one) { return (one - *found).cwiseAbs().maxCoeff() < apart; };
     if (std::any_of(known.begin(), known.end(), same)) continue;
     known.push_back(*found);
-    const std::optional<Vector3d> turned = wrist_at(robot, forearm(robot, *found).linear().transpose() * rotation, wrist);
+    const std::optional<Vector3d> turned =
+        wrist_at(robot, forearm(robot, *found).linear().transpose() * rotation, wrist);
     if (!turned) continue;
     const bool round = std::cos((*found)[0] - arm[0]) < 0;
     const bool flipped = (jacobian(robot, *found).determinant() * side < 0) != round;
     const std::string_view what = arm_configurations[round ? (flipped ? 2 : 1) : flipped ? 0 : 3];
-    others.push_back({what, {(*found)[0], (*found)[1], (*found)[2], (*turned)[0], (*turned)[1], (*turned)[2]}});
+    others.push_back(
+        {what, {(*found)[0], (*found)[1], (*found)[2], (*turned)[0], (*turned)[1], (*turned)[2]}});
   }
   return others;
 }

@@ -26,7 +26,8 @@ constexpr double degree = std::numbers::pi / 180;
 struct Line {
   const MotionStep* step;
   std::string path, name;
-  const MotionStep* from = nullptr;  ///< the move before it, of a block's first line the block's last; null: none
+  const MotionStep* from =
+      nullptr;  ///< the move before it, of a block's first line the block's last; null: none
 };
 
 bool leads_joints(const MotionStep& step) { return step.repeat == 0 && !step.joints.empty(); }
@@ -45,7 +46,8 @@ void add_lines(std::vector<Line>& lines, const std::vector<MotionStep>& steps, c
       continue;
     }
     const std::string file = std::filesystem::path(step.where.file).filename().string();
-    lines.push_back({&step, here, fmt::format("{}:{} '{}{}'", file, step.where.line, block, step.text), from});
+    lines.push_back(
+        {&step, here, fmt::format("{}:{} '{}{}'", file, step.where.line, block, step.text), from});
     if (leads_joints(step)) from = &step;
   }
 }
@@ -75,7 +77,8 @@ std::vector<NamedTurn> turns_of_wrist(const Robot& robot) {
   };
   for (const double four : {-180.0, 180.0})
     for (const double six : {-180.0, 180.0})
-      add(fmt::format("wrist over: axis 4 {:+.0f}, axis 6 {:+.0f} deg, axis 5 to the other side", four, six), four, true, six);
+      add(fmt::format("wrist over: axis 4 {:+.0f}, axis 6 {:+.0f} deg, axis 5 to the other side", four, six),
+          four, true, six);
   for (const double turn : {-360.0, 360.0}) add(fmt::format("axis 6 {:+.0f} deg", turn), 0, false, turn);
   for (const double turn : {-360.0, 360.0}) add(fmt::format("axis 4 {:+.0f} deg", turn), turn, false, 0);
   return turns;
@@ -115,7 +118,8 @@ std::optional<std::string> slower(const Job& job, const Line& line, double facto
   const MotionStep& step = *line.step;
   if (!step.is_move() || step.tool_speed || step.duration || step.turn_speed) return std::nullopt;
   if (step.speed) return fmt::format("{}.speed_deg_per_s={:.6g}", line.path, *step.speed * factor / degree);
-  return fmt::format("{}.speed_percent={:.6g}", line.path, step.speed_percent.value_or(job.motion.speed_percent) * factor);
+  return fmt::format("{}.speed_percent={:.6g}", line.path,
+                     step.speed_percent.value_or(job.motion.speed_percent) * factor);
 }
 
 /// Where a line's move may go by: arm and wrist one after the other. The line becomes a block of two.
@@ -123,7 +127,8 @@ std::vector<OtherWay> by_a_point(const Robot& robot, const Line& line) {
   std::vector<OtherWay> ways;
   const MotionStep& step = *line.step;
   if (!line.from || line.from->joints.size() != 6 || step.joints.size() != 6 || step.duration) return ways;
-  constexpr double none = degree, rounded = 30;  // a part that moves less has no way of its own; [deg] of the corner
+  constexpr double none = degree,
+                   rounded = 30;  // a part that moves less has no way of its own; [deg] of the corner
   for (const bool arm_first : {true, false}) {
     std::vector<double> point = arm_first ? step.joints : line.from->joints;
     const std::vector<double>& wrist = arm_first ? line.from->joints : step.joints;
@@ -142,8 +147,8 @@ std::vector<OtherWay> by_a_point(const Robot& robot, const Line& line) {
     on_the_way.stop_zone.reset();
     ways.push_back({fmt::format("by a point: {} first", arm_first ? "axes 1 to 3" : "axes 4 to 6"),
                     {line.name},
-                    {fmt::format("{}={{repeat: 1, steps: [{}, {}]}}", line.path, set_text(echo_fields(on_the_way)),
-                                 set_text(echo_fields(step)))}});
+                    {fmt::format("{}={{repeat: 1, steps: [{}, {}]}}", line.path,
+                                 set_text(echo_fields(on_the_way)), set_text(echo_fields(step)))}});
   }
   return ways;
 }
@@ -161,7 +166,8 @@ std::vector<double> cost_of_moves(const std::vector<Line>& lines, const std::vec
 
 }  // namespace
 
-std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage, std::size_t most_lines) {
+std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage,
+                                 std::size_t most_lines) {
   std::vector<Line> lines;
   add_lines(lines, job.motion.steps, "motion.steps", "", nullptr);
   if (std::none_of(lines.begin(), lines.end(), [](const Line& line) { return !line.step->joints.empty(); }))

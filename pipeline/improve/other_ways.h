@@ -1,11 +1,14 @@
 // What a robot program could do instead: the lines that cost most reach the same targets in another way.
 //
-// A wrist whose axes 4 and 6 lie along each other at axis 5 = 0, and whose axis 5 crosses them at a right angle in a
-// point, reaches every pose twice, and by whole turns of axes 4 and 6 more often, as R_x(pi) R_y(-b) R_x(pi) = R_y(b):
-//     (q4, q5, q6) -> (q4 +- 180 deg, -q5, q6 +- 180 deg),   (q4 +- 360 deg, q5, q6),   (q4, q5, q6 +- 360 deg)
-// and by another configuration of axes 1 to 3 (other_arms.h). Each way is tried at each line by itself and at all lines
-// together, which spares the turn there and back; each line more slowly; and by a point on its way, so that arm and wrist
-// move one after the other. Programs of steps with joint targets alone: targets of the tool take the turn that is next.
+// A wrist whose axes 4 and 6 lie along each other at axis 5 = 0, and whose axis 5 crosses them at a right
+// angle in a point, reaches every pose twice, and by whole turns of axes 4 and 6 more often, as R_x(pi)
+// R_y(-b) R_x(pi) = R_y(b):
+//     (q4, q5, q6) -> (q4 +- 180 deg, -q5, q6 +- 180 deg),   (q4 +- 360 deg, q5, q6),   (q4, q5, q6 +- 360
+//     deg)
+// and by another configuration of axes 1 to 3 (other_arms.h). Each way is tried at each line by itself and at
+// all lines together, which spares the turn there and back; each line more slowly; and by a point on its way,
+// so that arm and wrist move one after the other. Programs of steps with joint targets alone: targets of the
+// tool take the turn that is next.
 #pragma once
 
 #include <string>
@@ -16,13 +19,15 @@
 namespace dresslife::pipeline {
 
 struct OtherWay {
-  std::string what;               ///< "axis 6 turned by +360 deg"
-  std::vector<std::string> lines; ///< "hard.yaml:13 'round: gun out to the left'"; empty: all
-  std::vector<std::string> sets;  ///< "motion.steps.2.steps.1.joints_deg=[...]"
+  std::string what;                ///< "axis 6 turned by +360 deg"
+  std::vector<std::string> lines;  ///< "hard.yaml:13 'round: gun out to the left'"; empty: all
+  std::vector<std::string> sets;   ///< "motion.steps.2.steps.1.joints_deg=[...]"
 };
 
-/// line_damage: (line) what each costs, as read_life() tells; what a dwell costs counts to the move before. most_lines: of
-/// those that cost most. Targets beyond the axes' limits are left out. Errors: InputError for a motion without steps that have joint targets.
-std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage, std::size_t most_lines);
+/// line_damage: (line) what each costs, as read_life() tells; what a dwell costs counts to the move before.
+/// most_lines: of those that cost most. Targets beyond the axes' limits are left out. Errors: InputError for
+/// a motion without steps that have joint targets.
+std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage,
+                                 std::size_t most_lines);
 
 }  // namespace dresslife::pipeline

@@ -29,7 +29,8 @@ double log_ratio(double value, double limit) {
   return value > 0 ? std::clamp(std::log(value / limit), unasked, -unasked) : unasked;
 }
 
-/// Less slack than asked for, as a share of the length. Its limit is a share of the length, too: so the length is known.
+/// Less slack than asked for, as a share of the length. Its limit is a share of the length, too: so the
+/// length is known.
 void see_slack(Outcome& outcome, const std::string& name, double slack, double limit) {
   constexpr double least_share = 0.02, most_share = 1.0 / 3;  // of a length, as the checks ask for slack
   if (name == check_name::too_short) see(outcome, too_short, least_share * (limit - slack) / limit);
@@ -54,13 +55,14 @@ void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& a
 }  // namespace
 
 const std::vector<std::string>& outcome_limit_names() {
-  static const std::vector<std::string> names{"bend radius", "twist",         "too short",       "too long",
-                                              "tension",     "contact force", "retraction's stroke",
-                                              "forces in cables"};
+  static const std::vector<std::string> names{
+      "bend radius", "twist",         "too short",           "too long",
+      "tension",     "contact force", "retraction's stroke", "forces in cables"};
   return names;
 }
 
-std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names, const std::vector<double>& beyond) {
+std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
+                                        const std::vector<double>& beyond) {
   static const std::map<std::string, Limit> limit_of{{"bent too tightly", bend},
                                                      {"twisted too far", twist},
                                                      {"too short", too_short},
@@ -109,7 +111,8 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
 }
 
 void describe(Fields& f, AskedLimits& limits) {
-  f.maybe_number("contact_force_N", limits.contact_force, above(0), "largest of the dresspack on robot and cell");
+  f.maybe_number("contact_force_N", limits.contact_force, above(0),
+                 "largest of the dresspack on robot and cell");
   f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
 }
 

@@ -23,9 +23,10 @@ void describe(Fields& f, AskedLimits& limits);
 inline constexpr int outcome_limits = 8;
 const std::vector<std::string>& outcome_limit_names();
 
-/// The same of a short run (screened.h), whose limits have the names of those of geometry; not a number where it knows
-/// nothing.
-std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names, const std::vector<double>& beyond);
+/// The same of a short run (screened.h), whose limits have the names of those of geometry; not a number where
+/// it knows nothing.
+std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
+                                        const std::vector<double>& beyond);
 
 struct Outcome {
   std::string failure;         ///< why there is no life; empty: there is one
@@ -38,8 +39,8 @@ struct Outcome {
   std::string words() const;
 };
 
-/// Of a job that ran in `folder`: its checks from the simulation's receipt, its life from the row. A receipt that
-/// cannot be read is a failure, a check that nobody knows our fault (std::logic_error).
+/// Of a job that ran in `folder`: its checks from the simulation's receipt, its life from the row. A receipt
+/// that cannot be read is a failure, a check that nobody knows our fault (std::logic_error).
 Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked = {});
 
 /// The worst of several jobs: least life, most of each limit, the first failure.

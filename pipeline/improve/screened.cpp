@@ -43,12 +43,14 @@ ScreenedList read_screening(const std::filesystem::path& path) {
   return list;
 }
 
-ScreenedList screening_of(const Job& job, const std::string& candidates, ScreenedBy by, const std::filesystem::path& folder) {
+ScreenedList screening_of(const Job& job, const std::string& candidates, ScreenedBy by,
+                          const std::filesystem::path& folder) {
   const std::filesystem::path draft = folder / "screened.yaml", list = folder / "candidates.yaml";
   write_text_if_changed(draft, job_text(job), Sync::never);
   write_text_if_changed(list, candidates, Sync::never);
   const PassingFile told("screening.h5");
-  std::vector<std::string> arguments{draft.string(), "--screen", list.string(), "-o", told.path().string(), "--quiet"};
+  std::vector<std::string> arguments{draft.string(), "--screen",           list.string(),
+                                     "-o",           told.path().string(), "--quiet"};
   if (by == ScreenedBy::short_runs) arguments.push_back("--rehearse");
   return run_stage_program("dresslife-sim", arguments) == 0 ? read_screening(told.path()) : ScreenedList{};
 }

@@ -10,7 +10,8 @@ std::string set_text(const Node& value) {
   }
   std::string text;
   for (const Node& item : value.items) text += (text.empty() ? "" : ", ") + set_text(item);
-  for (const Entry& entry : value.entries) text += (text.empty() ? "" : ", ") + entry.key + ": " + set_text(entry.value);
+  for (const Entry& entry : value.entries)
+    text += (text.empty() ? "" : ", ") + entry.key + ": " + set_text(entry.value);
   return value.is_map() ? "{" + text + "}" : "[" + text + "]";
 }
 

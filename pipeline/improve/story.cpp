@@ -15,8 +15,8 @@ namespace {
 
 /// The best with one thing off, as trials were run.
 std::vector<ImprovementStory::Nudge> nudged(const Improvement& found, std::size_t trial,
-                                            const ImproveRequest& request, double off, const StudyPlaces& places,
-                                            const MakeRows& make_rows) {
+                                            const ImproveRequest& request, double off,
+                                            const StudyPlaces& places, const MakeRows& make_rows) {
   std::vector<ImprovementStory::Nudge> told;
   if (off == 0) return told;
   const std::vector<std::string>& sets = found.trials[trial].sets;
@@ -50,7 +50,8 @@ ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Ou
   ImprovementStory::Lives lives{"", outcome.feasible() ? "all kept" : outcome.words()};
   if (const RankingRow* row = finals.worst_row(of)) {
     std::error_code failure;
-    if (std::filesystem::exists(places.job(row->job) / "page.html", failure)) lives.page = row->job + "/page.html";
+    if (std::filesystem::exists(places.job(row->job) / "page.html", failure))
+      lives.page = row->job + "/page.html";
     const std::array<double, 3> hours =
         row->planned() ? row->planned_hours : std::array{row->life_hours, row->life_hours, row->life_hours};
     lives.p10 = hours[0], lives.p50 = hours[1], lives.p90 = hours[2];
@@ -82,13 +83,14 @@ std::string change_lines(const Trial& trial) {
 
 }  // namespace
 
-ImprovementStory story_of(const Improvement& found, const Finals& finals, const ImproveRequest& request, double off,
-                          const StudyPlaces& places, const MakeRows& make_rows) {
+ImprovementStory story_of(const Improvement& found, const Finals& finals, const ImproveRequest& request,
+                          double off, const StudyPlaces& places, const MakeRows& make_rows) {
   ImprovementStory story;
   story.name = found.name;
   for (std::size_t k = 0; k < found.trials.size(); ++k) {
     const Outcome& worst = found.trials[k].worst;
-    story.looks.push_back({static_cast<int>(k), worst.failure.empty(), worst.feasible(), worst.hours, worst.words()});
+    story.looks.push_back(
+        {static_cast<int>(k), worst.failure.empty(), worst.feasible(), worst.hours, worst.words()});
   }
   const bool by_length = request.second == SecondAim::hose_length;
   story.second_title = by_length ? "free length [m]" : "cycle time [s]";
@@ -104,7 +106,8 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, const 
   story.after = lives_of(finals, *best, trial.worst, places);
   story.longer_in = share_longer(finals, *best, places);
   for (std::size_t k = 0; k < trial.sets.size(); ++k)
-    story.changes.push_back({found.freed[k], found.own[k], trial.sets[k].substr(trial.sets[k].find('=') + 1)});
+    story.changes.push_back(
+        {found.freed[k], found.own[k], trial.sets[k].substr(trial.sets[k].find('=') + 1)});
   story.nudges = nudged(found, best->trial, request, off, places, make_rows);
   return story;
 }
@@ -114,7 +117,9 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   const Outcome& was = found.trials.front().worst;
   std::string text = fmt::format(
       "As it is: {}{}\n", was.failure.empty() ? hours_text(finals.of.front().hours) : "it does not run",
-      was.feasible() ? ", all limits kept" : was.failure.empty() ? ", " + was.words() : ": " + was.failure);
+      was.feasible()        ? ", all limits kept"
+      : was.failure.empty() ? ", " + was.words()
+                            : ": " + was.failure);
   if (finals.of.size() == 1) {
     text += fmt::format("No feasible job was found in {} trials and {} short runs.\n", found.trials.size(),
                         found.rehearsals);
@@ -125,19 +130,23 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     text += fmt::format("Longest lives for their {}:\n", word(second));
     for (const std::size_t k : found.front) {
       const Trial& trial = found.trials[k];
-      const auto of = std::find_if(finals.of.begin(), finals.of.end(), [&](const Final& one) { return one.trial == k; });
-      text += fmt::format("  {:>10}  {:>12}  {:.3f} m  {:.1f} s\n", k == 0 ? "as it is" : fmt::format("trial {:4}", k),
-                          hours_text(of->hours), trial.hose_length, trial.cycle_seconds);
+      const auto of =
+          std::find_if(finals.of.begin(), finals.of.end(), [&](const Final& one) { return one.trial == k; });
+      text += fmt::format("  {:>10}  {:>12}  {:.3f} m  {:.1f} s\n",
+                          k == 0 ? "as it is" : fmt::format("trial {:4}", k), hours_text(of->hours),
+                          trial.hose_length, trial.cycle_seconds);
     }
     return text;
   }
   const Final& best = *finals.best();
-  text += fmt::format("Trial {} of {}: {}, all limits kept", best.trial, found.trials.size(), hours_text(best.hours));
+  text += fmt::format("Trial {} of {}: {}, all limits kept", best.trial, found.trials.size(),
+                      hours_text(best.hours));
   if (story.longer_in) text += fmt::format("; it lives longer in {:.0f} % of draws", 100 * *story.longer_in);
   text += "\n" + change_lines(found.trials[best.trial]) + forgives_words(story.nudges, off);
   if (best.hours <= finals.of.front().hours && was.feasible())
     text += "Nothing that was tried lives longer over all that is not known.\n";
-  for (const std::string& job : best.jobs) text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
+  for (const std::string& job : best.jobs)
+    text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
   return text;
 }
 

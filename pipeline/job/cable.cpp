@@ -18,8 +18,9 @@ std::string name_of(const Node& node) {
 
 /// Of a component, what says where it lies among others.
 bool is_place(const std::string& key) {
-  for (const char* word : {"count", "layer", "helix_radius_mm", "lay_angle_deg", "hand", "phase_deg", "position",
-                           "slack_percent", "play_mm", "base_grip_N", "tool_grip_N", "mass_kg_per_m", "tension_N"})
+  for (const char* word :
+       {"count", "layer", "helix_radius_mm", "lay_angle_deg", "hand", "phase_deg", "position",
+        "slack_percent", "play_mm", "base_grip_N", "tool_grip_N", "mass_kg_per_m", "tension_N"})
     if (key == word) return true;
   return false;
 }
@@ -41,7 +42,8 @@ Node around(Node cable) {
   copy(cable, "name", dresspack);
   dresspack["cable_alone"] = scalar("true");
   char* end = nullptr;
-  const double millimetres = std::strtod(radius->text.c_str(), &end);  // what is no number is refused as radius_mm
+  const double millimetres =
+      std::strtod(radius->text.c_str(), &end);  // what is no number is refused as radius_mm
   dresspack["diameter_mm"] = scalar(*end == '\0' ? shortest_text(2 * millimetres) : radius->text);
   dresspack["diameter_mm"].where = radius->where;
   dresspack["components"] = list_of({std::move(cable)});
@@ -115,8 +117,9 @@ Node cable_alone(const Node& written, const std::string& part, const Where& aske
   const auto known = std::find(names.begin(), names.end(), part);
   if ((part.empty() && names.size() != 1) || (!part.empty() && known == names.end()))
     throw InputError(asked,
-                     part.empty() ? fmt::format("dresspack '{}' holds {} cables", name_of(dresspack), names.size())
-                                  : fmt::format("dresspack '{}' holds no cable '{}'", name_of(dresspack), part),
+                     part.empty()
+                         ? fmt::format("dresspack '{}' holds {} cables", name_of(dresspack), names.size())
+                         : fmt::format("dresspack '{}' holds no cable '{}'", name_of(dresspack), part),
                      names.empty() ? "name a dresspack whose parts hold wires"
                                    : fmt::format("give part, one of: {}", fmt::join(names, ", ")));
   const std::size_t which = part.empty() ? 0 : static_cast<std::size_t>(known - names.begin());
@@ -129,10 +132,10 @@ Node cable_alone(const Node& written, const std::string& part, const Where& aske
   copy(dresspack, "source", alone);
   copy(dresspack, "materials", alone);
   if (is_hose(dresspack)) return alone;
-  for (const char* key : {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N",
-                          "construction_state", "construction_curvature_1_per_m",
-                          "damping_time_ms", "damping_source", "friction_coefficient", "least_bend_radius_mm",
-                          "most_twist_deg_per_m", "most_tension_N"})
+  for (const char* key :
+       {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N",
+        "construction_state", "construction_curvature_1_per_m", "damping_time_ms", "damping_source",
+        "friction_coefficient", "least_bend_radius_mm", "most_twist_deg_per_m", "most_tension_N"})
     copy(dresspack, key, alone);
   return alone;
 }

@@ -31,8 +31,7 @@ CableForce::CableForce(const Dresspack& dresspack, const Component& cable) {
   bending_ = cable.measured_bending_stiffness.value_or(bending_);
 }
 
-void CableForce::add(const Dresspack& dresspack, const Component& part, double count,
-                     double cosines) {
+void CableForce::add(const Dresspack& dresspack, const Component& part, double count, double cosines) {
   count *= part.count;
   cosines *= std::cos(part.lay_angle);
   for (const Component& inner : part.components) add(dresspack, inner, count, cosines);

@@ -42,8 +42,9 @@ double bending_of(const std::vector<Component>& components, const Dresspack& dre
   double sum = 0;
   for (const Component& part : components) {
     const Material* material = find_material(dresspack, part.material);
-    const double wire = (material ? material->youngs_modulus : 0) * std::numbers::pi / 4 * std::pow(part.radius, 4);
-    const double own = part.plain              ? properties_of(*part.plain, part.radius).bending
+    const double wire =
+        (material ? material->youngs_modulus : 0) * std::numbers::pi / 4 * std::pow(part.radius, 4);
+    const double own = part.plain                ? properties_of(*part.plain, part.radius).bending
                        : part.components.empty() ? wire
                        : part.measured_bending_stiffness
                            ? *part.measured_bending_stiffness
@@ -55,11 +56,13 @@ double bending_of(const std::vector<Component>& components, const Dresspack& dre
 
 }  // namespace
 
-double pull_of_wires(const Dresspack& dresspack, const std::vector<Component>& parts, double elongation, double twist) {
+double pull_of_wires(const Dresspack& dresspack, const std::vector<Component>& parts, double elongation,
+                     double twist) {
   return pull_of(parts, dresspack, {1 + elongation, twist}, {});
 }
 
-double elongation_under(const Dresspack& dresspack, const std::vector<Component>& parts, double pull, double twist) {
+double elongation_under(const Dresspack& dresspack, const std::vector<Component>& parts, double pull,
+                        double twist) {
   double low = -0.5, high = 0.5;  // the pull grows with the elongation
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;
@@ -69,7 +72,8 @@ double elongation_under(const Dresspack& dresspack, const std::vector<Component>
 }
 
 TwistShortening twist_shortening(const Dresspack& dresspack, const Component& cable) {
-  constexpr double twist = 1;  // [rad/m], as much as hoses are twisted: the cubic is 1e-5 of it, rounding 1e-15
+  constexpr double twist =
+      1;  // [rad/m], as much as hoses are twisted: the cubic is 1e-5 of it, rounding 1e-15
   if (!(pull_of_wires(dresspack, cable.components, 1e-3, 0) > 0)) return {};
   const double there = -elongation_under(dresspack, cable.components, 0, twist);
   const double back = -elongation_under(dresspack, cable.components, 0, -twist);

@@ -13,7 +13,8 @@ namespace dresslife::pipeline {
 /// A cable between two clamps.
 struct PulledCable {
   CableForce force;
-  /// (sample) strain that makes its force: the largest along it by size, at the base clamp, at the tool clamp.
+  /// (sample) strain that makes its force: the largest along it by size, at the base clamp, at the tool
+  /// clamp.
   std::array<std::vector<double>, 3> strain{};
   /// Of its axis at the base and at the tool clamp, toward d1 and d2 [m].
   std::array<std::array<double, 2>, 2> place{};

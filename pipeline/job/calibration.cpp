@@ -22,20 +22,23 @@ void describe(Fields& f, LearnedParameter& parameter) {
   f.number("mean", parameter.mean, Need::required, between(-20, 20), "likewise");
   f.numbers("covariance", parameter.covariance, Need::required, "of z with every parameter of this list");
   f.number("value", parameter.value, Need::optional, any_number(), "median of its key, for people");
-  f.number("value_p10", parameter.value_p10, Need::optional, any_number(), "80 % of what is likely lie between this ...");
+  f.number("value_p10", parameter.value_p10, Need::optional, any_number(),
+           "80 % of what is likely lie between this ...");
   f.number("value_p90", parameter.value_p90, Need::optional, any_number(), "... and this");
 }
 
 void describe(Fields& f, LearnedFrom& from) {
   f.text("observation", from.observation, Need::required, "its name");
   f.text("observed", from.observed, Need::optional, "what was seen");
-  f.text("predicted_before", from.predicted_before, Need::optional, "median and 10 .. 90 % of the same, from the prior");
+  f.text("predicted_before", from.predicted_before, Need::optional,
+         "median and 10 .. 90 % of the same, from the prior");
   f.text("predicted_after", from.predicted_after, Need::optional, "and from what was learned");
   f.text("digest", from.digest, Need::optional, "of the row and the files that it names");
 }
 
 void describe(Fields& f, LearnedWithin& within) {
-  f.maybe_number("least_strain_range", within.least_strain_range, at_least(0), "of the worst wire, over the tests");
+  f.maybe_number("least_strain_range", within.least_strain_range, at_least(0),
+                 "of the worst wire, over the tests");
   f.maybe_number("largest_strain_range", within.largest_strain_range, at_least(0), "likewise");
   f.maybe_number("largest_curvature_1_per_m", within.largest_curvature, at_least(0), "of the tests");
   f.maybe_number("largest_twist_deg_per_m", within.largest_twist, at_least(0), "of the tests");
@@ -52,7 +55,8 @@ void describe(Fields& f, Calibration& calibration) {
             "whether its medians stand in the job's keys already: in resolved jobs");
   f.text("note", calibration.note, Need::optional, "how it was learned");
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
-  f.group("within", calibration.within, Need::optional, "what the tests went through; outside nobody has looked");
+  f.group("within", calibration.within, Need::optional,
+          "what the tests went through; outside nobody has looked");
   f.list("observations", calibration.observations, Need::optional, "from what it was learned");
 }
 
@@ -61,7 +65,8 @@ namespace {
 /// Of uncertain_parameters(); uncertain_count: there is none of that name.
 std::size_t index_of_name(const std::string& name) {
   const auto& known = uncertain_parameters();
-  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
   return static_cast<std::size_t>(found - known.begin());
 }
 
@@ -75,7 +80,8 @@ void check_parameter(const Calibration& calibration, std::size_t i) {
   }
   for (std::size_t other = 0; other < i; ++other)
     if (calibration.parameters[other].name == parameter.name)
-      throw InputError(parameter.where, fmt::format("'{}' stands twice", parameter.name), "keep one of the two");
+      throw InputError(parameter.where, fmt::format("'{}' stands twice", parameter.name),
+                       "keep one of the two");
   if (parameter.covariance.size() != calibration.parameters.size())
     throw InputError(parameter.where,
                      fmt::format("'{}' has {} covariances (there are {} parameters)", parameter.name,
@@ -88,7 +94,8 @@ Eigen::MatrixXd covariance_of(const Calibration& calibration) {
   Eigen::MatrixXd covariance(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      covariance(i, j) = calibration.parameters[static_cast<std::size_t>(i)].covariance[static_cast<std::size_t>(j)];
+      covariance(i, j) =
+          calibration.parameters[static_cast<std::size_t>(i)].covariance[static_cast<std::size_t>(j)];
   return covariance;
 }
 
@@ -96,21 +103,24 @@ Eigen::MatrixXd covariance_of(const Calibration& calibration) {
 
 void check_calibration(const Calibration& calibration) {
   if (calibration.format != Calibration::format_word)
-    throw InputError(calibration.where, fmt::format("has the format '{}'", calibration.format),
-                     fmt::format("name a file that dresslife calibrate wrote ({})", Calibration::format_word));
+    throw InputError(
+        calibration.where, fmt::format("has the format '{}'", calibration.format),
+        fmt::format("name a file that dresslife calibrate wrote ({})", Calibration::format_word));
   if (calibration.format_version > Calibration::newest_version)
     throw InputError(calibration.where,
-                     fmt::format("is of version {} (this dresslife reads up to {})", calibration.format_version,
-                                 Calibration::newest_version),
+                     fmt::format("is of version {} (this dresslife reads up to {})",
+                                 calibration.format_version, Calibration::newest_version),
                      "use the dresslife that wrote it, or calibrate again");
   for (std::size_t i = 0; i < calibration.parameters.size(); ++i) check_parameter(calibration, i);
   const Eigen::MatrixXd covariance = covariance_of(calibration);
   constexpr double rounding = 1e-6;  // of what is printed
   const bool symmetric = (covariance - covariance.transpose()).norm() <= rounding * covariance.norm();
   // A parameter that is known has no variance.
-  const Eigen::MatrixXd lifted = covariance + rounding * Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols());
+  const Eigen::MatrixXd lifted =
+      covariance + rounding * Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols());
   if (!symmetric || lifted.llt().info() != Eigen::Success)
-    throw InputError(calibration.where, "has covariances that are not symmetric and positive", "run dresslife calibrate again");
+    throw InputError(calibration.where, "has covariances that are not symmetric and positive",
+                     "run dresslife calibrate again");
 }
 
 ParameterKnowledge knowledge_of(const Calibration& calibration) {
@@ -122,7 +132,8 @@ ParameterKnowledge knowledge_of(const Calibration& calibration) {
   for (std::size_t i = 0; i < place.size(); ++i) {
     knowledge.mean[place[i]] = calibration.parameters[i].mean;
     for (std::size_t j = 0; j < place.size(); ++j)
-      knowledge.covariance(place[i], place[j]) = covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      knowledge.covariance(place[i], place[j]) =
+          covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
   return knowledge;
 }
@@ -168,16 +179,20 @@ std::vector<std::string> beyond(const LearnedWithin& within, const Experience& e
   std::vector<std::string> words;
   const auto at_most = [&](const char* what, double value, const std::optional<double>& most) {
     if (most && value > hardly * *most)
-      words.push_back(fmt::format("{} of {} (at most {} in its tests)", what, readable(value, 2), readable(*most, 2)));
+      words.push_back(
+          fmt::format("{} of {} (at most {} in its tests)", what, readable(value, 2), readable(*most, 2)));
   };
   at_most("a strain range", experience.strain_range, within.largest_strain_range);
-  if (within.least_strain_range && experience.strain_range > 0 && experience.strain_range * hardly < *within.least_strain_range)
-    words.push_back(fmt::format("a strain range of {} (at least {} in its tests)", readable(experience.strain_range, 2),
+  if (within.least_strain_range && experience.strain_range > 0 &&
+      experience.strain_range * hardly < *within.least_strain_range)
+    words.push_back(fmt::format("a strain range of {} (at least {} in its tests)",
+                                readable(experience.strain_range, 2),
                                 readable(*within.least_strain_range, 2)));
   at_most("a curvature [1/m]", experience.curvature, within.largest_curvature);
   at_most("a twist [rad/m]", experience.twist, within.largest_twist);
   for (const std::string& material : experience.materials)
-    if (!within.materials.empty() && (", " + within.materials + ",").find(", " + material + ",") == std::string::npos)
+    if (!within.materials.empty() &&
+        (", " + within.materials + ",").find(", " + material + ",") == std::string::npos)
       words.push_back(fmt::format("wires of {} ({} in its tests)", material, within.materials));
   return words;
 }

@@ -1,11 +1,11 @@
-// What observations have taught of what is not known (uncertainty.h): a file that `dresslife calibrate` writes and a job
-// names. Where a job names one, the keys of all parameters that stand at their defaults go to its medians, and its draws are
-// the calibration's.
+// What observations have taught of what is not known (uncertainty.h): a file that `dresslife calibrate`
+// writes and a job names. Where a job names one, the keys of all parameters that stand at their defaults go
+// to its medians, and its draws are the calibration's.
 //
 //   calibration: calibration.yaml
 //
-// In the resolved job the file's content stands in place of its name, with `applied: true` once its medians stand in the
-// keys: what a file of results depends on is all in it.
+// In the resolved job the file's content stands in place of its name, with `applied: true` once its medians
+// stand in the keys: what a file of results depends on is all in it.
 #pragma once
 
 #include <filesystem>
@@ -23,17 +23,17 @@ class Fields;
 /// One parameter: its z, and for people the key.
 struct LearnedParameter {
   std::string name;
-  double median = 0, mean = 0;     ///< of z
-  std::vector<double> covariance;  ///< of z, with every parameter of the list
+  double median = 0, mean = 0;                     ///< of z
+  std::vector<double> covariance;                  ///< of z, with every parameter of the list
   double value = 0, value_p10 = 0, value_p90 = 0;  ///< of the key: median, and 80 % lie between
   Where where;
 };
 
 /// From what it was learned.
 struct LearnedFrom {
-  std::string observation, observed;       ///< name; "at least 100,000 cycles"
+  std::string observation, observed;              ///< name; "at least 100,000 cycles"
   std::string predicted_before, predicted_after;  ///< median, and 10 .. 90 %
-  std::string digest;                      ///< of the row and the files that it names
+  std::string digest;                             ///< of the row and the files that it names
 };
 
 /// What the tests went through; outside nobody has looked.
@@ -61,18 +61,20 @@ void describe(Fields& f, LearnedFrom& from);
 void describe(Fields& f, LearnedWithin& within);
 void describe(Fields& f, Calibration& calibration);
 
-/// Errors: InputError at the place: another format or a newer version, an unknown parameter or one twice, a covariance that
-/// is not square, symmetric and positive.
+/// Errors: InputError at the place: another format or a newer version, an unknown parameter or one twice, a
+/// covariance that is not square, symmetric and positive.
 void check_calibration(const Calibration& calibration);
 
-/// In the order of uncertain_parameters(); one that the calibration does not know keeps mean 0 and variance 1.
+/// In the order of uncertain_parameters(); one that the calibration does not know keeps mean 0 and
+/// variance 1.
 ParameterKnowledge knowledge_of(const Calibration& calibration);
 
-/// In a job's tree that is not read yet: the calibration's file in place of its name, its medians in the keys that stand at
-/// their defaults. Errors: InputError.
+/// In a job's tree that is not read yet: the calibration's file in place of its name, its medians in the keys
+/// that stand at their defaults. Errors: InputError.
 void apply_calibration(Node& job);
 
-/// Where a job goes beyond what a calibration was learned from: "a strain range of 0.012 (0.001 .. 0.006 in its tests)".
+/// Where a job goes beyond what a calibration was learned from: "a strain range of 0.012 (0.001 .. 0.006 in
+/// its tests)".
 struct Experience {
   double strain_range = 0;          ///< of the worst wire
   double curvature = 0, twist = 0;  ///< largest of the motion [1/m], [rad/m]

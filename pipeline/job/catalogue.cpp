@@ -88,9 +88,10 @@ void check_accelerations(const Node& robot, const fs::path& urdf, const Where& a
       asked,
       fmt::format("{} has no accelerations of {} (a URDF cannot hold any)", urdf.string(),
                   fmt::join(without, ", ")),
-      fmt::format("give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes (those of config/robots have "
-                  "some 300 to 3,000)",
-                  driven));
+      fmt::format(
+          "give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes (those of config/robots have "
+          "some 300 to 3,000)",
+          driven));
 }
 
 /// `urdf: FILE` and what else says how to read it; all other keys of the entry go over the robot in it.
@@ -123,7 +124,8 @@ void read_urdf(Node& entry) {
 /// A robot's program in its own language, or joints as columns.
 bool is_program_file(const fs::path& file) {
   std::string end = file.extension();
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char letter) { return std::tolower(letter); });
   static const std::set<std::string> ends{".mod", ".modx", ".prg", ".pgf", ".src", ".ls", ".csv"};
   return ends.contains(end) && is_file(file);
 }
@@ -166,7 +168,8 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
     return;
   }
   const Node* from = entry.is_map() ? entry.find("from") : nullptr;
-  if (!from && entry.is_map() && entry.find("cable") && folder == "dresspacks") return read_cable(entry, job, depth);
+  if (!from && entry.is_map() && entry.find("cable") && folder == "dresspacks")
+    return read_cable(entry, job, depth);
   if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
   if (!from) return;
   Node base = catalogue_entry(folder, from->text, from->where, job);
@@ -249,7 +252,8 @@ void add_width(Node& dresspack, const std::vector<Node>& components) {
   diameter.where = where;
 }
 
-/// What nobody measured of a dresspack is taken from its construction, and its damping is that of the shipped ones.
+/// What nobody measured of a dresspack is taken from its construction, and its damping is that of the shipped
+/// ones.
 void add_estimates(Node& dresspack) {
   const Node* components = dresspack.find("components");
   if (!components || components->items.empty() || dresspack.find("cable_alone")) return;
@@ -259,16 +263,18 @@ void add_estimates(Node& dresspack) {
     value = scalar(text);
     value.where = dresspack.where;
   };
-  for (const char* key : {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})
+  for (const char* key :
+       {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})
     if (!dresspack.find(key)) add(key, "from_construction");
   if (dresspack.find("damping_time_ms") || dresspack.find("damping_source")) return;
   add("damping_time_ms", is_hose(dresspack) ? "10" : "20");
   add("damping_source", "ESTIMATE, the default of dresslife; a decay test of a hanging length decides");
 }
 
-/// A catalogue entry where a job has one: written out, of a dresspack with the layers of cables that are given by data
-/// sheets and the materials that its wires name.
-void resolve_entry(Node* entry, const std::string& path, const std::string& folder, const Node& job, Problems& problems) {
+/// A catalogue entry where a job has one: written out, of a dresspack with the layers of cables that are
+/// given by data sheets and the materials that its wires name.
+void resolve_entry(Node* entry, const std::string& path, const std::string& folder, const Node& job,
+                   Problems& problems) {
   if (!entry || !problems.attempt(path, entry->where, [&] { resolve(*entry, folder, job.where); })) return;
   if (folder != "dresspacks" || !entry->is_map()) return;
   expand_data_sheets(*entry, path, problems);
@@ -333,11 +339,12 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   const bool may_be_file = folder == "programs" && fs::path(name).has_extension();
-  throw InputError(named_at,
-                   fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,
-                               may_be_file ? fmt::format(", and there is no file '{}'", beside.string()) : ""),
-                   names.empty() ? "write the entry itself or a path to a .yaml file"
-                                 : fmt::format("one of: {}", fmt::join(names, ", ")));
+  throw InputError(
+      named_at,
+      fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,
+                  may_be_file ? fmt::format(", and there is no file '{}'", beside.string()) : ""),
+      names.empty() ? "write the entry itself or a path to a .yaml file"
+                    : fmt::format("one of: {}", fmt::join(names, ", ")));
 }
 
 void set_value(Node& job, const std::string& path, Node value, const Where& where) {
@@ -366,7 +373,8 @@ void apply_set(Node& job, const std::string& set) {
 }
 
 void resolve_job(Node& job, Problems& problems) {
-  for (const Shelf& shelf : shelves) resolve_entry(job.find(shelf.key), shelf.key, shelf.folder, job, problems);
+  for (const Shelf& shelf : shelves)
+    resolve_entry(job.find(shelf.key), shelf.key, shelf.folder, job, problems);
   Node* list = job.find("dresspacks");
   for (std::size_t i = 0; list && i < list->items.size(); ++i)
     resolve_entry(list->items[i].find("dresspack"), fmt::format("dresspacks[{}].dresspack", i + 1),

@@ -16,8 +16,8 @@ namespace dresslife::pipeline {
 Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
                      const Where& job);
 
-/// Writes out every entry that a job names, the cables that it gives by data sheets, and the materials that its
-/// dresspacks name. What cannot be is added to the problems, with the key that stays as it was written.
+/// Writes out every entry that a job names, the cables that it gives by data sheets, and the materials that
+/// its dresspacks name. What cannot be is added to the problems, with the key that stays as it was written.
 void resolve_job(Node& job, Problems& problems);
 /// The same. Errors: InputError, all at once.
 void resolve_job(Node& job);

@@ -33,9 +33,9 @@ struct WallFactors {
 
 /// One corrugation.
 struct Fold {
-  double radius = 0;      ///< r, of crests and roots [m]
-  double half_flank = 0;  ///< a [m]
-  double compliance = 0;  ///< J [m3]
+  double radius = 0;        ///< r, of crests and roots [m]
+  double half_flank = 0;    ///< a [m]
+  double compliance = 0;    ///< J [m3]
   double unfolded() const;  ///< length along the wall [m]
 };
 Fold fold_of(const Corrugation& profile);

@@ -1,5 +1,5 @@
-// The two constants of a metal's cyclic curve, strain = sigma / E + (sigma / K')^(1/n') (F7 of fatigue/README.md), as a
-// material gives them or as its strain-life constants imply them.
+// The two constants of a metal's cyclic curve, strain = sigma / E + (sigma / K')^(1/n') (F7 of
+// fatigue/README.md), as a material gives them or as its strain-life constants imply them.
 #pragma once
 
 #include "pipeline/job/material.h"

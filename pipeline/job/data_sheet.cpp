@@ -253,7 +253,8 @@ void expand(Node& component) {
 
 /// In lower case, without space around it.
 std::string plain(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) { return std::tolower(letter); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return std::tolower(letter); });
   const std::size_t begin = text.find_first_not_of(" \t\n"), end = text.find_last_not_of(" \t\n");
   return begin == std::string::npos ? "" : text.substr(begin, end + 1 - begin);
 }
@@ -262,9 +263,10 @@ constexpr const char* example_line =
     "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm";
 
 /// The keys that one phrase of a sheet's line stands for.
-std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase, const Where& where) {
-  static const std::regex section(R"((\d+) *[x*] *(?:(\d+) *[x*] *)?([\d.]+) *mm(?:2|\^2|²))"), word_class("class *[1-6]"),
-      length(R"(([a-z][a-z -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
+std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
+                                                                const Where& where) {
+  static const std::regex section(R"((\d+) *[x*] *(?:(\d+) *[x*] *)?([\d.]+) *mm(?:2|\^2|²))"),
+      word_class("class *[1-6]"), length(R"(([a-z][a-z -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
   static const std::vector<std::pair<std::regex, const char*>> lengths{
       {std::regex("(single )?wires?( diameter)?"), "wire_diameter_mm"},
       {std::regex("(outer |outside )?diameter|od"), "outer_diameter_mm"},
@@ -276,15 +278,17 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   std::smatch found;
   if (std::regex_match(phrase, word_class)) return {};
   if (std::regex_match(phrase, found, section)) {
-    std::vector<std::pair<const char*, std::string>> keys{{"cores", found[1]}, {"cross_section_mm2", found[3]}};
+    std::vector<std::pair<const char*, std::string>> keys{{"cores", found[1]},
+                                                          {"cross_section_mm2", found[3]}};
     if (found[2].matched) keys.emplace_back("cores_per_group", found[2]);
     return keys;
   }
   if (std::regex_match(phrase, found, length))
     for (const auto& [words, key] : lengths)
       if (std::regex_match(found[1].str(), words)) return {{key, found[2]}};
-  throw InputError(where, fmt::format("'{}' of a data sheet is not understood", phrase),
-                   fmt::format("write phrases as in '{}', lengths in mm, or the keys of a data sheet", example_line));
+  throw InputError(
+      where, fmt::format("'{}' of a data sheet is not understood", phrase),
+      fmt::format("write phrases as in '{}', lengths in mm, or the keys of a data sheet", example_line));
 }
 
 }  // namespace
@@ -299,7 +303,8 @@ Node sheet_from_line(const Node& line) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
     for (const auto& [key, value] : keys_of_phrase(phrase, line.where)) {
       if (sheet.find(key))
-        throw InputError(line.where, fmt::format("'{}' tells {} a second time", phrase, key), "keep one of the two");
+        throw InputError(line.where, fmt::format("'{}' tells {} a second time", phrase, key),
+                         "keep one of the two");
       sheet[key] = scalar(value);
     }
   }

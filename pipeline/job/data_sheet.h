@@ -35,7 +35,7 @@ struct DataSheet {
   std::optional<double> lay_length;        ///< of the cores, or groups [m]
   std::optional<double> group_lay_length;  ///< of the cores in a group [m]
   std::optional<double> wire_lay_length;   ///< [m]
-  std::string material = "copper_halved";         ///< of the wires
+  std::string material = "copper_halved";  ///< of the wires
   double friction = 0.3;                   ///< Coulomb, of cores and of wires on each other
   double jacket_pressure = 0.04e6;         ///< on the cores [Pa]
   Where where;
@@ -44,10 +44,10 @@ struct DataSheet {
 class Fields;
 void describe(Fields& f, DataSheet& sheet);
 
-/// A sheet's line as keys of a data sheet: "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm,
-/// jacket PUR 1.1 mm". Of pairs "4 x 2 x 0.25 mm2", "pair lay length 20 mm"; "core diameter 1.4 mm", "wire lay length
-/// 18 mm". The class tells no more than the wires do, a jacket's material nothing. Errors: InputError at the line for
-/// words that are none of these.
+/// A sheet's line as keys of a data sheet: "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer
+/// diameter 8.2 mm, jacket PUR 1.1 mm". Of pairs "4 x 2 x 0.25 mm2", "pair lay length 20 mm"; "core
+/// diameter 1.4 mm", "wire lay length 18 mm". The class tells no more than the wires do, a jacket's material
+/// nothing. Errors: InputError at the line for words that are none of these.
 Node sheet_from_line(const Node& line);
 
 enum class Fillers { none, allowed };

@@ -128,8 +128,8 @@ bool all_scalars(const Node& list) {
   return std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is_scalar(); });
 }
 
-/// Text that needs no quotes at first sight: numbers, names, paths, sentences. The library looks at every letter with
-/// regular expressions.
+/// Text that needs no quotes at first sight: numbers, names, paths, sentences. The library looks at every
+/// letter with regular expressions.
 bool plain_at_sight(std::string_view text, bool in_brackets) {
   const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
   const auto is_letter = [](char letter) { return (letter | 0x20) >= 'a' && (letter | 0x20) <= 'z'; };
@@ -157,8 +157,8 @@ std::string quoted_text(const std::string& text, bool quoted, bool in_brackets) 
   return in_brackets ? written.substr(1, written.size() - 2) : written;
 }
 
-/// Writes the tree as the library's emitter does, whose layout takes it ten times as long: jobs are written several
-/// times for each of a study.
+/// Writes the tree as the library's emitter does, whose layout takes it ten times as long: jobs are written
+/// several times for each of a study.
 class Emitter {
  public:
   explicit Emitter(std::string& out) : out_(out) {}
@@ -304,7 +304,7 @@ std::filesystem::path folder_of(const Where& where) {
 
 std::string read_text(const std::filesystem::path& file) {
   constexpr std::uintmax_t longest = 256 << 20;  // [bytes]; a day of recorded poses takes 100 MB
-  std::error_code failure;  // opening tells it
+  std::error_code failure;                       // opening tells it
   const std::filesystem::file_status status = std::filesystem::status(file, failure);
   if (std::filesystem::is_directory(status))
     throw InputError({file.string()}, "is a folder, not a file", "name a file");

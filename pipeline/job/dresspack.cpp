@@ -10,20 +10,23 @@ namespace {
 
 /// Keys of a component, of the first level only.
 void describe(Fields& f, Laying& laying) {
-  f.choice("position", laying.position,
-           "in the cross-section of a hose: held at its place, loose where it rests, or auto: loose if the "
-           "part is no wire, has a lay angle of 20 deg at most, may slide, and the dresspack has an inner_diameter_mm or a "
-           "hose_corrugation");
+  f.choice(
+      "position", laying.position,
+      "in the cross-section of a hose: held at its place, loose where it rests, or auto: loose if the "
+      "part is no wire, has a lay angle of 20 deg at most, may slide, and the dresspack has an inner_diameter_mm or a "
+      "hose_corrugation");
   f.number("slack_percent", laying.slack, Need::optional, between(0, 20),
            "length of the part beyond the path on which it was laid in, when the hose had its rest shape");
-  f.maybe_number("play_mm", laying.play, above(0),
-                 "how far a loose part can leave its place; without it to the wall, what fills the middle and "
-                 "its neighbours");
+  f.maybe_number(
+      "play_mm", laying.play, above(0),
+      "how far a loose part can leave its place; without it to the wall, what fills the middle and "
+      "its neighbours");
   f.maybe_number("base_grip_N", laying.base_grip, above(0),
                  "force at which the base clamp lets the part slip; without it never");
   f.maybe_number("tool_grip_N", laying.tool_grip, above(0), "the same of the tool clamp");
-  f.maybe_number("mass_kg_per_m", laying.mass, above(0),
-                 "of a loose part, or one without wires; without it wires of 8900 kg/m3 in a polymer of 1200");
+  f.maybe_number(
+      "mass_kg_per_m", laying.mass, above(0),
+      "of a loose part, or one without wires; without it wires of 8900 kg/m3 in a polymer of 1200");
 }
 
 }  // namespace
@@ -53,9 +56,10 @@ void describe(Fields& f, Component& component) {
   f.text("material", component.material, Need::optional,
          "of a wire: a name of config/materials; a part with parts has none");
   f.list("components", component.components, Need::optional, "the layers of parts inside");
-  f.maybe_group("without_wires", component.plain,
-                "of a part right in the dresspack that is neither wire nor cable: it has mass, stiffness and a place, and "
-                "no life of its own");
+  f.maybe_group(
+      "without_wires", component.plain,
+      "of a part right in the dresspack that is neither wire nor cable: it has mass, stiffness and a place, and "
+      "no life of its own");
   f.number("jacket_stiffness_N_per_m2", component.jacket_stiffness, Need::optional, at_least(0),
            "force per length and displacement by which a jacket that fills the gussets holds the part along "
            "its path; read where strain.slip is friction");
@@ -83,27 +87,33 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.place(dresspack.where);
   f.text("name", dresspack.name, Need::required, "name of the dresspack");
   f.text("source", dresspack.source, Need::required, "where the numbers come from");
-  f.boolean("cable_alone", dresspack.cable_alone, Need::optional,
-            "it is one cable by itself, as `cable:` makes it; stiffness, mass and damping may be left out where a "
-            "rig or a deformation moves it");
+  f.boolean(
+      "cable_alone", dresspack.cable_alone, Need::optional,
+      "it is one cable by itself, as `cable:` makes it; stiffness, mass and damping may be left out where a "
+      "rig or a deformation moves it");
   const Need need = dresspack.cable_alone ? Need::optional : Need::required;
   const Range range = dresspack.cable_alone ? at_least(0) : above(0);
   f.number("diameter_mm", dresspack.diameter, Need::required, above(0), "outer diameter of the hose");
   constexpr std::string_view from = "from_construction";
-  f.number_or_word("mass_kg_per_m", dresspack.mass_per_length, dresspack.mass_from_construction, from, need, range,
-                   "of the filled hose; or of its parts and wall");
-  f.number_or_word("bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction, from, need,
-                   range, "EI of the filled hose; or of its parts, wall and core in their construction_state");
-  f.number_or_word("torsional_stiffness_Nm2", dresspack.torsional_stiffness, dresspack.torsional_from_construction, from,
-                   need, range, "GJ of the filled hose, likewise");
-  f.number_or_word("axial_stiffness_N", dresspack.axial_stiffness, dresspack.axial_from_construction, from, need, range,
-                   "EA of the filled hose, likewise");
-  f.choice("construction_state", dresspack.construction_state,
-           "in which from_construction takes a stiffness: parts slide, are held by their friction, or are glued");
-  f.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional, between(1e-3, 100),
+  f.number_or_word("mass_kg_per_m", dresspack.mass_per_length, dresspack.mass_from_construction, from, need,
+                   range, "of the filled hose; or of its parts and wall");
+  f.number_or_word("bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction,
+                   from, need, range,
+                   "EI of the filled hose; or of its parts, wall and core in their construction_state");
+  f.number_or_word("torsional_stiffness_Nm2", dresspack.torsional_stiffness,
+                   dresspack.torsional_from_construction, from, need, range,
+                   "GJ of the filled hose, likewise");
+  f.number_or_word("axial_stiffness_N", dresspack.axial_stiffness, dresspack.axial_from_construction, from,
+                   need, range, "EA of the filled hose, likewise");
+  f.choice(
+      "construction_state", dresspack.construction_state,
+      "in which from_construction takes a stiffness: parts slide, are held by their friction, or are glued");
+  f.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional,
+           between(1e-3, 100),
            "to which the hose is bent in construction_state friction: the larger, the more has slid");
-  f.maybe_number("core_bending_stiffness_Nm2", dresspack.core_bending_stiffness, at_least(0),
-                 "EI of what fills the middle and is no component; read where a stiffness is from_construction");
+  f.maybe_number(
+      "core_bending_stiffness_Nm2", dresspack.core_bending_stiffness, at_least(0),
+      "EI of what fills the middle and is no component; read where a stiffness is from_construction");
   f.maybe_number("core_torsional_stiffness_Nm2", dresspack.core_torsional_stiffness, at_least(0),
                  "its GJ; without it 0.8 of its EI, as of a solid round bar");
   f.maybe_number("core_axial_stiffness_N", dresspack.core_axial_stiffness, at_least(0),
@@ -121,8 +131,9 @@ void describe(Fields& f, Dresspack& dresspack) {
                  "that the maker allows in motion; tighter is warned of; without it ten diameters");
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
                  "that the maker allows in motion; more is warned of; without it 180");
-  f.maybe_number("most_tension_N", dresspack.most_tension, above(0),
-                 "pull along the filled hose that the maker allows in motion; more is warned of; without it no pull is");
+  f.maybe_number(
+      "most_tension_N", dresspack.most_tension, above(0),
+      "pull along the filled hose that the maker allows in motion; more is warned of; without it no pull is");
   f.text("hose_material", dresspack.hose_material, Need::optional,
          "of the hose's wall, a name of config/materials; without it the hose's strain is not evaluated");
   f.maybe_number(
@@ -131,9 +142,10 @@ void describe(Fields& f, Dresspack& dresspack) {
       "hose_corrugation");
   f.maybe_group("hose_corrugation", dresspack.hose_corrugation,
                 "profile of the hose's wall, which gives the factor of its strain");
-  f.maybe_number("inner_diameter_mm", dresspack.inner_diameter, above(0),
-                 "of a hose in which parts lie loose; without it that within hose_corrugation; neither: parts "
-                 "are held by a jacket");
+  f.maybe_number(
+      "inner_diameter_mm", dresspack.inner_diameter, above(0),
+      "of a hose in which parts lie loose; without it that within hose_corrugation; neither: parts "
+      "are held by a jacket");
   f.number("core_diameter_mm", dresspack.core_diameter, Need::optional, at_least(0),
            "of what fills the middle of a hose and is no component");
   f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only");
@@ -180,8 +192,9 @@ void check_plain(const Component& part, const Component* parent, Problems& probl
     problems.add(part.where, fmt::format("'{}' is without wires and lies in '{}'", part.name, parent->name),
                  "leave it out: what a cable holds beside its wires counts as polymer");
   if (!part.material.empty() || !part.components.empty())
-    problems.add(part.where, fmt::format("'{}' is without wires and has {}", part.name,
-                                         part.material.empty() ? "components" : "a material"),
+    problems.add(part.where,
+                 fmt::format("'{}' is without wires and has {}", part.name,
+                             part.material.empty() ? "components" : "a material"),
                  "leave out one of the two");
   if (part.measured_bending_stiffness || part.polymer_bending_stiffness > 0)
     problems.add(part.where, fmt::format("'{}' is without wires and has a cable's stiffness", part.name),
@@ -194,10 +207,10 @@ int check_component(const Component& component, const Component* parent, Problem
   if (component.plain)
     check_plain(component, parent, problems);
   else if (component.components.empty() == component.material.empty())
-    problems.add(where,
-                     fmt::format("'{}' must have either a material (a wire) or components", component.name),
-                     parent->components.empty() ? "give one of the two, or without_wires: {kind: hose, fibre or filler}"
-                                                : "give one of the two");
+    problems.add(
+        where, fmt::format("'{}' must have either a material (a wire) or components", component.name),
+        parent->components.empty() ? "give one of the two, or without_wires: {kind: hose, fibre or filler}"
+                                   : "give one of the two");
   if (component.count > 1 && component.helix_radius == 0)
     problems.add(
         where,
@@ -205,7 +218,7 @@ int check_component(const Component& component, const Component* parent, Problem
         "give their distance from the axis");
   if (component.helix_radius == 0 && component.lay_angle != 0)
     problems.add(where, fmt::format("'{}' on the axis has a lay angle", component.name),
-                     "set lay_angle_deg to 0");
+                 "set lay_angle_deg to 0");
   if (component.name.find('/') != std::string::npos || component.layer.find('/') != std::string::npos)
     problems.add(where, fmt::format("name '{}' holds a '/'", component.name), "choose another name");
   if (parent && component.helix_radius + component.radius > parent->radius * 1.02)
@@ -247,20 +260,23 @@ void check_laying(const Dresspack& dresspack, const Component& component, bool f
   const Laying& laying = component.laying;
   const bool lone = is_wire(component);
   if (!(laying == Laying{}) && (!first_level || lone))
-    throw InputError(component.where,
-                     fmt::format("'{}' has position, slack, play, grip or mass (they are of cables right in the "
-                                 "dresspack; this is {})",
-                                 component.name, lone ? "a wire" : "a part of a cable"),
-                     "give them to the cable");
+    throw InputError(
+        component.where,
+        fmt::format("'{}' has position, slack, play, grip or mass (they are of cables right in the "
+                    "dresspack; this is {})",
+                    component.name, lone ? "a wire" : "a part of a cable"),
+        "give them to the cable");
   for (const Component& inner : component.components) check_laying(dresspack, inner, false);
   if (!first_level || !lies_loose(dresspack, component)) return;
   if (component.lay_angle > steepest_loose_lay)
-    throw InputError(component.where,
-                     fmt::format("'{}' is loose and has a lay angle of {:g} deg (a loose cable's path is known where it is "
-                                 "nearly along the hose, up to {:g} deg)",
-                                 component.name, std::numbers::inv_pi * 180 * component.lay_angle,
-                                 std::numbers::inv_pi * 180 * steepest_loose_lay),
-                     "give it a longer lay, or position: held");
+    throw InputError(
+        component.where,
+        fmt::format(
+            "'{}' is loose and has a lay angle of {:g} deg (a loose cable's path is known where it is "
+            "nearly along the hose, up to {:g} deg)",
+            component.name, std::numbers::inv_pi * 180 * component.lay_angle,
+            std::numbers::inv_pi * 180 * steepest_loose_lay),
+        "give it a longer lay, or position: held");
   if (!inner_radius(dresspack) && !laying.play)
     throw InputError(component.where,
                      fmt::format("'{}' is loose (how much room it has is not known)", component.name),
@@ -289,21 +305,23 @@ void check_middle(const Dresspack& dresspack, const Component& component) {
   const double inside = component.helix_radius - component.radius, core = dresspack.core_diameter / 2;
   const bool has_core = core > 0 || dresspack.core_bending_stiffness.value_or(0) > 0;
   if (component.helix_radius == 0 && has_core && inner_radius(dresspack))
-    throw InputError(component.where,
-                     fmt::format("'{}' lies in the middle, and the keys core_.. tell of something that does too (of no "
-                                 "component)",
-                                 component.name),
-                     "leave them out, or the component");
+    throw InputError(
+        component.where,
+        fmt::format("'{}' lies in the middle, and the keys core_.. tell of something that does too (of no "
+                    "component)",
+                    component.name),
+        "leave them out, or the component");
   if (component.helix_radius > 0 && inside + 2 * allowed * component.radius < core)
     throw InputError(component.where,
-                     fmt::format("'{}' begins {:.4g} mm from the axis (core_diameter_mm is {:.4g})", component.name,
-                                 1e3 * inside, 2e3 * core),
+                     fmt::format("'{}' begins {:.4g} mm from the axis (core_diameter_mm is {:.4g})",
+                                 component.name, 1e3 * inside, 2e3 * core),
                      "check core_diameter_mm, helix_radius_mm and radius_mm");
 }
 
 /// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
 void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
-  if (rubs(slip[std::min(level, slip.size()) - 1]) && !component.plain && !(component.friction && component.radial_line_load))
+  if (rubs(slip[std::min(level, slip.size()) - 1]) && !component.plain &&
+      !(component.friction && component.radial_line_load))
     throw InputError(component.where,
                      fmt::format("'{}' has no {} (strain.slip of its level is friction)", component.name,
                                  component.friction ? "radial_line_load_N_per_m" : "friction_coefficient"),
@@ -320,9 +338,10 @@ void check_ratings(const std::vector<Rating>& ratings) {
 }
 void check_ratings(const Component& component, bool first_level) {
   if (!component.ratings.empty() && (!first_level || component.components.empty()))
-    throw InputError(component.ratings.front().where,
-                     fmt::format("'{}' has ratings (they are of cables right in the dresspack)", component.name),
-                     "give them to the cable");
+    throw InputError(
+        component.ratings.front().where,
+        fmt::format("'{}' has ratings (they are of cables right in the dresspack)", component.name),
+        "give them to the cable");
   check_ratings(component.ratings);
   for (const Component& inner : component.components) check_ratings(inner, false);
 }

@@ -69,11 +69,11 @@ constexpr std::string_view word(SlipState value) {
 /// How a part of the first level is laid into its dresspack and clamped (strain/README.md, W32 to W37).
 struct Laying {
   Position position = Position::automatic;
-  double slack = 0;                     ///< length beyond the path on which it was laid in [% of that]
-  std::optional<double> play;           ///< from its place in any direction [m]; absent: what the hose leaves
-  std::optional<double> base_grip;      ///< force at which the base clamp lets it slip [N]; absent: never
-  std::optional<double> tool_grip;      ///< the same of the tool clamp [N]
-  std::optional<double> mass;           ///< per length [kg/m]; absent: of wires and a filling of polymer
+  double slack = 0;                 ///< length beyond the path on which it was laid in [% of that]
+  std::optional<double> play;       ///< from its place in any direction [m]; absent: what the hose leaves
+  std::optional<double> base_grip;  ///< force at which the base clamp lets it slip [N]; absent: never
+  std::optional<double> tool_grip;  ///< the same of the tool clamp [N]
+  std::optional<double> mass;       ///< per length [kg/m]; absent: of wires and a filling of polymer
   bool operator==(const Laying&) const = default;
 };
 
@@ -90,15 +90,15 @@ struct Component {
   std::optional<double> friction;  ///< Coulomb, on what it lies against; needed where slip is `friction`
   std::optional<double> radial_line_load;  ///< that presses the part on what it lies against [N/m]; likewise
   double tension = 0;                      ///< of the part in the dresspack at rest [N]
-  double jacket_stiffness = 0;  ///< of a jacket that holds the part along its path [N/m2]
-  std::optional<double> radial_stiffness;            ///< of what the helix lies on [N/m2]; absent: rigid
+  double jacket_stiffness = 0;             ///< of a jacket that holds the part along its path [N/m2]
+  std::optional<double> radial_stiffness;  ///< of what the helix lies on [N/m2]; absent: rigid
   std::optional<double> measured_bending_stiffness;  ///< M / curvature of a part with parts [N m2]
   double measured_at_curvature = 1;                  ///< [1/m]
   double polymer_bending_stiffness = 0;              ///< of it, of jacket and insulation [N m2]
-  std::string material;  ///< of a wire; a key of Dresspack::materials; empty for a part with parts
+  std::string material;            ///< of a wire; a key of Dresspack::materials; empty for a part with parts
   std::optional<PlainPart> plain;  ///< of a part of the first level that is no wire and holds none
-  Laying laying;         ///< of a part of the first level that is no wire
-  std::vector<Rating> ratings;  ///< likewise, a cable
+  Laying laying;                   ///< of a part of the first level that is no wire
+  std::vector<Rating> ratings;     ///< likewise, a cable
   std::vector<Component> components;
   Where where;
 };
@@ -115,32 +115,35 @@ struct Corrugation {
 
 struct Dresspack {
   std::string name, source;
-  bool cable_alone = false;  ///< it is one cable by itself (cable.h), whose stiffness and mass may be missing (0)
-  double diameter = 0;                          ///< outer, of the hose [m]
-  double mass_per_length = 0;                   ///< of the filled hose [kg/m]
-  double bending_stiffness = 0;                 ///< EI [N m2]
-  double torsional_stiffness = 0;               ///< GJ [N m2]
-  double axial_stiffness = 0;                   ///< EA [N]
-  /// Whether those four were taken from the construction, stiffnesses in that state and bent as far (stiffness.h).
+  bool cable_alone =
+      false;            ///< it is one cable by itself (cable.h), whose stiffness and mass may be missing (0)
+  double diameter = 0;  ///< outer, of the hose [m]
+  double mass_per_length = 0;      ///< of the filled hose [kg/m]
+  double bending_stiffness = 0;    ///< EI [N m2]
+  double torsional_stiffness = 0;  ///< GJ [N m2]
+  double axial_stiffness = 0;      ///< EA [N]
+  /// Whether those four were taken from the construction, stiffnesses in that state and bent as far
+  /// (stiffness.h).
   bool mass_from_construction = false;
-  bool bending_from_construction = false, torsional_from_construction = false, axial_from_construction = false;
+  bool bending_from_construction = false, torsional_from_construction = false,
+       axial_from_construction = false;
   SlipState construction_state = SlipState::friction;
-  double construction_curvature = 1;                ///< [1/m]
-  std::optional<double> core_bending_stiffness;     ///< of what fills the middle and is no component: EI [N m2]
-  std::optional<double> core_torsional_stiffness;   ///< GJ [N m2]
-  std::optional<double> core_axial_stiffness;       ///< EA [N]
-  double rest_curvature = 0;                    ///< of the unloaded hose, toward x of its base clamp [1/m]
-  double damping_time = 0;                      ///< Kelvin-Voigt tau of bending and twist [s]
-  std::string damping_source;                   ///< where the damping was measured or why it is guessed
-  double friction = 0;                          ///< Coulomb, hose against robot
-  std::optional<double> least_bend_radius;      ///< allowed in motion [m]; absent: ten diameters
-  std::optional<double> most_twist;             ///< allowed in motion [rad/m]; absent: 180 deg/m
-  std::optional<double> most_tension;           ///< of the hose, allowed in motion [N]; absent: no limit
-  std::string hose_material;                    ///< of the hose's wall; empty: its strain is not evaluated
-  std::optional<double> hose_strain_factor;     ///< strain of the wall over that of a smooth hose
-  std::optional<Corrugation> hose_corrugation;  ///< gives that factor instead; neither: a smooth hose
-  std::optional<double> inner_diameter;         ///< in which parts can move [m]; absent: see inner_radius()
-  double core_diameter = 0;                     ///< of what fills the middle and is no component [m]
+  double construction_curvature = 1;             ///< [1/m]
+  std::optional<double> core_bending_stiffness;  ///< of what fills the middle and is no component: EI [N m2]
+  std::optional<double> core_torsional_stiffness;  ///< GJ [N m2]
+  std::optional<double> core_axial_stiffness;      ///< EA [N]
+  double rest_curvature = 0;                       ///< of the unloaded hose, toward x of its base clamp [1/m]
+  double damping_time = 0;                         ///< Kelvin-Voigt tau of bending and twist [s]
+  std::string damping_source;                      ///< where the damping was measured or why it is guessed
+  double friction = 0;                             ///< Coulomb, hose against robot
+  std::optional<double> least_bend_radius;         ///< allowed in motion [m]; absent: ten diameters
+  std::optional<double> most_twist;                ///< allowed in motion [rad/m]; absent: 180 deg/m
+  std::optional<double> most_tension;              ///< of the hose, allowed in motion [N]; absent: no limit
+  std::string hose_material;                       ///< of the hose's wall; empty: its strain is not evaluated
+  std::optional<double> hose_strain_factor;        ///< strain of the wall over that of a smooth hose
+  std::optional<Corrugation> hose_corrugation;     ///< gives that factor instead; neither: a smooth hose
+  std::optional<double> inner_diameter;  ///< in which parts can move [m]; absent: see inner_radius()
+  double core_diameter = 0;              ///< of what fills the middle and is no component [m]
   std::vector<Component> components;
   std::vector<Material> materials;  ///< those that the wires name, looked up in the catalogue
   std::vector<Rating> ratings;      ///< of a dresspack that is a cable itself
@@ -151,7 +154,8 @@ struct Dresspack {
 /// its parts are held by a jacket.
 std::optional<double> inner_radius(const Dresspack& dresspack);
 
-/// Of a loose part [rad]: W32 counts its slope R t to its square, which is cos(lay) of what it does, 0.94 here.
+/// Of a loose part [rad]: W32 counts its slope R t to its square, which is cos(lay) of what it does, 0.94
+/// here.
 constexpr double steepest_loose_lay = std::numbers::pi / 9;
 
 /// Whether a part of the first level lies loose: asked for, or in a hose and no steeper than that.

@@ -23,9 +23,10 @@ void describe(Fields& f, Fatigue& fatigue) {
       "scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
       "standard deviation of log10 of a wire's life; ESTIMATE: lives of 20 equal wires spread over 0.75 of a "
       "decade");
-  f.number("scatter_shared", fatigue.scatter_shared, Need::optional, between(0, 1),
-           "share of the variance of scatter_log10 that all wires of a dresspack, one spool or batch, have in "
-           "common; ESTIMATE");
+  f.number(
+      "scatter_shared", fatigue.scatter_shared, Need::optional, between(0, 1),
+      "share of the variance of scatter_log10 that all wires of a dresspack, one spool or batch, have in "
+      "common; ESTIMATE");
   f.number("failed_wires_percent", fatigue.failed_wires_percent, Need::optional, between(0, 100),
            "a conductor fails when so many of its wires are broken; 0: with the first");
   f.boolean("load_sharing", fatigue.load_sharing, Need::optional,
@@ -34,7 +35,8 @@ void describe(Fields& f, Fatigue& fatigue) {
            "of strains and stresses of the wires' strain-life curve, to try what is not known");
   f.number("slope_change", fatigue.slope_change, Need::optional, between(-0.1, 0.1),
            "added to b of the wires' strain-life curve, about 1e5 cycles; likewise");
-  f.number("scatter_factor", fatigue.scatter_factor, Need::optional, between(0, 5), "of scatter_log10; likewise");
+  f.number("scatter_factor", fatigue.scatter_factor, Need::optional, between(0, 5),
+           "of scatter_log10; likewise");
   f.number("model_factor", fatigue.model_factor, Need::optional, between(1e-4, 1e4),
            "of the wires' lives, for what no stage knows; likewise");
 }

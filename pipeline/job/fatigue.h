@@ -93,9 +93,9 @@ struct Fatigue {
   int listed_sites = 20;        ///< worst sites whose cycles are written
   double operating_hours_per_week = 80;  ///< turns hours into months
   double scatter_log10 = 0.2;            ///< standard deviation of log10 of a wire's life
-  double scatter_shared = 0.5;           ///< share of its variance that all wires of a dresspack have in common
-  double failed_wires_percent = 10;      ///< a conductor fails when so many of its wires have
-  bool load_sharing = false;             ///< the rest of a conductor takes over the load of its broken wires
+  double scatter_shared = 0.5;       ///< share of its variance that all wires of a dresspack have in common
+  double failed_wires_percent = 10;  ///< a conductor fails when so many of its wires have
+  bool load_sharing = false;         ///< the rest of a conductor takes over the load of its broken wires
   // What is not known (uncertainty.h); of wires, not of the hose:
   double strength_factor = 1;  ///< of strains and stresses of the strain-life curve
   double slope_change = 0;     ///< of b

@@ -85,21 +85,20 @@ class FieldReader final : public Fields {
 
   void text(Key key, std::string& value, Need need, std::string_view meaning) override {
     read(key, need, meaning, [&](const Node& node) {
-      if (!node.is_scalar() || node.text.empty()) refuse(node, fmt::format("{} must be text", name_of(key)), meaning);
+      if (!node.is_scalar() || node.text.empty())
+        refuse(node, fmt::format("{} must be text", name_of(key)), meaning);
       value = node.text;
     });
   }
 
   void number(Key key, double& value, Need need, Range range, std::string_view meaning) override {
-    read(key, need, meaning, [&](const Node& node) {
-      value = number_of(node, key, range, meaning) * unit_of_key(key).to_si;
-    });
+    read(key, need, meaning,
+         [&](const Node& node) { value = number_of(node, key, range, meaning) * unit_of_key(key).to_si; });
   }
 
   void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) override {
-    read(key, Need::optional, meaning, [&](const Node& node) {
-      value = number_of(node, key, range, meaning) * unit_of_key(key).to_si;
-    });
+    read(key, Need::optional, meaning,
+         [&](const Node& node) { value = number_of(node, key, range, meaning) * unit_of_key(key).to_si; });
   }
 
   void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
@@ -165,7 +164,8 @@ class FieldReader final : public Fields {
   void choose_some(Key key, std::vector<int>& indices, const Words& words,
                    std::string_view meaning) override {
     read(key, Need::optional, meaning, [&](const Node& node) {
-      if (node.is_list() && node.items.empty()) refuse(node, fmt::format("{} is an empty list", name_of(key)), meaning);
+      if (node.is_list() && node.items.empty())
+        refuse(node, fmt::format("{} is an empty list", name_of(key)), meaning);
       std::vector<int> read;
       if (!node.is_list()) read.push_back(word_of(node, key, words, meaning));
       for (const Node& item : node.items) read.push_back(word_of(item, key, words, meaning));
@@ -211,8 +211,8 @@ class FieldReader final : public Fields {
     level.map = &node;
     level.passed_over = passed_over_.contains(level.path);
     if (!level.passed_over && !node.is_map()) {
-      problems_.add(node.where, fmt::format("{} must be a map of settings", level.path), "write {key: value, ...}",
-                    level.path);
+      problems_.add(node.where, fmt::format("{} must be a map of settings", level.path),
+                    "write {key: value, ...}", level.path);
       level.passed_over = true;
     }
     if (level.passed_over) level.map = &nothing;
@@ -238,8 +238,8 @@ class FieldReader final : public Fields {
     throw InputError(node.where, what, fmt::format("give {}", meaning));
   }
 
-  /// Hands the key's value to `take`, where the map has one that nobody has refused; what take throws is a problem of
-  /// this key.
+  /// Hands the key's value to `take`, where the map has one that nobody has refused; what take throws is a
+  /// problem of this key.
   template <class Take>
   void read(Key key, Need need, std::string_view meaning, const Take& take) {
     Level& level = levels_.back();
@@ -261,7 +261,8 @@ class FieldReader final : public Fields {
   }
 
   /// word: that may stand instead; empty: none.
-  double number_of(const Node& node, Key key, Range range, std::string_view meaning, std::string_view word = "") const {
+  double number_of(const Node& node, Key key, Range range, std::string_view meaning,
+                   std::string_view word = "") const {
     const std::optional<double> value =
         node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
     if (!value) {
@@ -316,7 +317,9 @@ class FieldReader final : public Fields {
   /// A key that is there under a wrong name is not missing.
   void close(const Level& level) {
     if (level.passed_over) return;
-    const auto path_of = [&](const std::string& key) { return level.path.empty() ? key : level.path + "." + key; };
+    const auto path_of = [&](const std::string& key) {
+      return level.path.empty() ? key : level.path + "." + key;
+    };
     std::vector<std::string> misnamed;
     for (const Entry& entry : level.map->entries) {
       if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end()) continue;

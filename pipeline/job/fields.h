@@ -60,8 +60,8 @@ class Fields {
   virtual void number(Key key, double& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) = 0;
   /// A number, or this word: then by_word is set and the value stays.
-  virtual void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
-                              std::string_view meaning) = 0;
+  virtual void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need,
+                              Range range, std::string_view meaning) = 0;
   virtual void integer(Key key, int& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void boolean(Key key, bool& value, Need need, std::string_view meaning) = 0;
   virtual void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) = 0;
@@ -128,8 +128,8 @@ using Describe = std::function<void(Fields&)>;
 
 /// From a document's map. Errors: see above; all at once.
 void read_fields(const Node& node, const Describe& described);
-/// The same among other problems: keys that they refused are passed over, and its own are added to them. A value that
-/// is refused leaves what it was before.
+/// The same among other problems: keys that they refused are passed over, and its own are added to them. A
+/// value that is refused leaves what it was before.
 void read_fields(const Node& node, const Describe& described, Problems& problems);
 /// To a map, with defaults filled in.
 Node echo_fields(const Describe& described);

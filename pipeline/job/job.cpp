@@ -78,10 +78,10 @@ void check_shared(const std::vector<MountedDresspack>& dresspacks) {
     if (!mounted.routing.mounting_pose.empty()) {
       if (posed && posed->routing.mounting_pose != mounted.routing.mounting_pose)
         problems.add(mounted.routing.where,
-                         fmt::format("mounting_pose_deg differs from that of dresspack '{}' (all are clamped "
-                                     "in one pose)",
-                                     posed->name),
-                         "give the same, or give it once");
+                     fmt::format("mounting_pose_deg differs from that of dresspack '{}' (all are clamped "
+                                 "in one pose)",
+                                 posed->name),
+                     "give the same, or give it once");
       posed = &mounted;
     }
     for (const Material& material : mounted.dresspack.materials) {
@@ -90,10 +90,9 @@ void check_shared(const std::vector<MountedDresspack>& dresspacks) {
       if (same == known.end())
         known.push_back(&material);
       else if (to_yaml(echo_fields(**same)) != to_yaml(echo_fields(material)))
-        problems.add(
-            material.where,
-            fmt::format("material '{}' is another than that of the dresspack before", material.name),
-            "give one of the two another name");
+        problems.add(material.where,
+                     fmt::format("material '{}' is another than that of the dresspack before", material.name),
+                     "give one of the two another name");
     }
   }
   problems.finish();
@@ -106,14 +105,14 @@ void check_prescribed(const Job& job, const Node& document) {
   Problems problems;
   const auto refuse = [&](const Where& where, const std::string& what) {
     problems.add(where, fmt::format("{} beside {} (which says how the dresspack deforms)", what, key),
-                     "leave it out");
+                 "leave it out");
   };
   for (const char* other : {"robot", "cell"})
     if (const Node* given = document.find(other)) refuse(given->where, fmt::format("{} is given", other));
   if (job.dresspacks.size() > 1)
     problems.add(job.motion.where,
-                     fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),
-                     "keep one dresspack");
+                 fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),
+                 "keep one dresspack");
   const Node* routing = document.find("routing");
   if (job.motion.rig && routing) refuse(routing->where, "routing is given");
   for (const Entry& entry : routing ? routing->entries : std::vector<Entry>{})
@@ -136,16 +135,16 @@ void check_simulated(const Dresspack& dresspack) {
   for (const auto& [key, value] : needed)
     if (value <= 0)
       problems.add(dresspack.where,
-                       fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
-                       "give it, or let motion.rig or motion.deformation move the cable");
+                   fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
+                   "give it, or let motion.rig or motion.deformation move the cable");
   if (dresspack.damping_source.empty())
     problems.add(dresspack.where, "dresspack.damping_source is missing (a cable that is simulated needs it)",
-                     "give damping_time_ms and where it comes from");
+                 "give damping_time_ms and where it comes from");
   problems.finish();
 }
 
-/// Of one dresspack. path: of what holds its keys, "" or "dresspacks[2].". Returns how many levels of parts it has, where
-/// that can be told.
+/// Of one dresspack. path: of what holds its keys, "" or "dresspacks[2].". Returns how many levels of parts
+/// it has, where that can be told.
 std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted, const std::string& path,
                                  Problems& problems) {
   const std::string dresspack = path + "dresspack", routing = path + "routing";
@@ -155,7 +154,8 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
   if (!job.motion.is_prescribed() && !problems.touch("motion")) {
     if (!problems.touch("robot") && !problems.touch(dresspack + ".diameter_mm"))
       judge(routing, mounted.routing.where, [&] {
-        check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
+        check_routing(mounted.routing, mounted.dresspack.diameter, job.robot,
+                      !job.motion.clamp_poses.empty());
       });
     judge(dresspack, mounted.dresspack.where, [&] { check_simulated(mounted.dresspack); });
   }
@@ -163,7 +163,8 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
   if (!problems.touch("strain"))
     judge(dresspack + ".components", mounted.dresspack.where,
           [&] { depth = check_dresspack(mounted.dresspack, job.strain.slip); });
-  judge(dresspack + ".materials", mounted.dresspack.where, [&] { check_materials(mounted.dresspack.materials); });
+  judge(dresspack + ".materials", mounted.dresspack.where,
+        [&] { check_materials(mounted.dresspack.materials); });
   judge(dresspack + ".components", mounted.dresspack.where,
         [&] { refuse_gross_overlap(mounted.dresspack); });  // dresslife-strain warns of less
   return depth;
@@ -171,7 +172,8 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
 
 void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
   const Forms forms = forms_of(job);
-  if (!forms.one) problems.attempt("dresspacks", job.dresspacks.front().where, [&] { check_names(job.dresspacks); });
+  if (!forms.one)
+    problems.attempt("dresspacks", job.dresspacks.front().where, [&] { check_names(job.dresspacks); });
   if (job.dresspacks.size() > 1 && !job.motion.clamp_poses.empty())
     problems.add(job.motion.where,
                  fmt::format("motion.clamp_poses brings the clamps of one dresspack (there are {})",
@@ -187,21 +189,24 @@ void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
   }
   if (told) problems.attempt("", job.motion.where, [&] { check_shared(job.dresspacks); });
   if (told && job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
-    problems.add(strain,
-                 fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
-                 "give one word, or one per level, outermost first");
+    problems.add(
+        strain,
+        fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
+        "give one word, or one per level, outermost first");
 }
 
 /// A curve whose lives do not rise with falling strain is none.
 void check_slopes(const Job& job, const Where& where) {
   for (const MountedDresspack& mounted : job.dresspacks)
     for (const Material& material : mounted.dresspack.materials)
-      if (material.strain_life_table.empty() && !(material.fatigue_strength_exponent + job.fatigue.slope_change <= -0.02))
-        throw InputError(where,
-                         fmt::format("fatigue.slope_change {} leaves '{}' a slope b of {} (must be -0.02 or less)",
-                                     job.fatigue.slope_change, material.name,
-                                     material.fatigue_strength_exponent + job.fatigue.slope_change),
-                         "give a smaller one");
+      if (material.strain_life_table.empty() &&
+          !(material.fatigue_strength_exponent + job.fatigue.slope_change <= -0.02))
+        throw InputError(
+            where,
+            fmt::format("fatigue.slope_change {} leaves '{}' a slope b of {} (must be -0.02 or less)",
+                        job.fatigue.slope_change, material.name,
+                        material.fatigue_strength_exponent + job.fatigue.slope_change),
+            "give a smaller one");
 }
 
 /// Whether what was read fits together. What was not read is not judged.
@@ -242,7 +247,8 @@ void check_forms(Node& document, Problems& problems) {
   for (const char* key : {"dresspack", "routing"}) {
     const Node* alone = document.find(key);
     if (list && alone)
-      problems.add(alone->where, fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
+      problems.add(alone->where,
+                   fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
                    "keep one of the two");
     const Node* motion = document.find("motion");
     const bool of_rig = key == std::string_view("routing") && motion && motion->find("rig");
@@ -263,7 +269,8 @@ void complete(Job& job, const Node& document, Problems& problems) {
     MountedDresspack& mounted = job.dresspacks[d];
     const std::string path = forms_of(job).one ? "" : fmt::format("dresspacks[{}].", d + 1);
     if (!problems.touch("robot") && !problems.touch(path + "routing"))
-      problems.attempt(path + "routing", mounted.routing.where, [&] { place_clamps(mounted.routing, job.robot); });
+      problems.attempt(path + "routing", mounted.routing.where,
+                       [&] { place_clamps(mounted.routing, job.robot); });
     if (!problems.touch(path + "dresspack"))
       problems.attempt(path + "dresspack", mounted.dresspack.where,
                        [&] { take_stiffnesses(mounted.dresspack, job.strain.slip); });
@@ -283,7 +290,8 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   if (!document.is_map())
     throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
   Problems problems;
-  for (const std::string& set : sets) problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });
+  for (const std::string& set : sets)
+    problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });
   check_forms(document, problems);
   resolve_job(document, problems);
   if (const Node* calibration = document.find("calibration"))
@@ -295,7 +303,8 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   check(job, document, problems);
   problems.finish(document.where.file);
   if (job.motion.rig)
-    job.dresspacks.front().routing.free_length = rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
+    job.dresspacks.front().routing.free_length =
+        rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
   return job;
 }
 
@@ -313,8 +322,8 @@ std::string job_text(const std::filesystem::path& file, const std::vector<std::s
 
 namespace {
 
-/// What of a wire's material decides strains: how stiff it is, and, where a grip bounds the force of a cable, its cyclic
-/// curve, given or as it follows from the strain-life constants.
+/// What of a wire's material decides strains: how stiff it is, and, where a grip bounds the force of a cable,
+/// its cyclic curve, given or as it follows from the strain-life constants.
 struct MetalKeys {
   Material material;
   bool pulls_at_grips = false;
@@ -364,7 +373,8 @@ void describe(Fields& echo, StrainKeys& keys) {
   if (dresspack.rest_curvature != 0)
     echo.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(), "");
   if (dresspack.construction_curvature != Dresspack{}.construction_curvature)
-    echo.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional, any_number(), "");
+    echo.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional,
+                any_number(), "");
   echo.maybe_number("core_bending_stiffness_Nm2", dresspack.core_bending_stiffness, any_number(), "");
   if (dresspack.hose_material.empty()) return;
   echo.text("hose_material", dresspack.hose_material, Need::optional, "");
@@ -396,7 +406,8 @@ void describe_each(Fields& echo, const Forms& forms, std::vector<Keys> keys) {
 void count_as_numbers(Dresspack& dresspack) {
   const Dresspack untold;
   dresspack.mass_from_construction = false;
-  dresspack.bending_from_construction = dresspack.torsional_from_construction = dresspack.axial_from_construction = false;
+  dresspack.bending_from_construction = dresspack.torsional_from_construction =
+      dresspack.axial_from_construction = false;
   dresspack.construction_state = untold.construction_state;
   dresspack.construction_curvature = untold.construction_curvature;
   dresspack.core_bending_stiffness = dresspack.core_torsional_stiffness = dresspack.core_axial_stiffness = {};
@@ -511,7 +522,8 @@ const Material& resolved_material(const Job& job, const std::string& wanted) {
 }  // namespace
 
 Material material_of(const Job& job, const std::string& name) {
-  return changed(resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material), job.fatigue);
+  return changed(resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material),
+                 job.fatigue);
 }
 
 ParameterKnowledge knowledge_of(const Job& job) {

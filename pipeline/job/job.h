@@ -30,9 +30,9 @@ struct Job : Setup {
 /// What is known of its parameters: from observations where it names a calibration, else its prior.
 ParameterKnowledge knowledge_of(const Job& job);
 
-/// The material that a wire of material `name` has under these settings, as changed() leaves it, and that of a hose's wall, which
-/// fatigue.material leaves alone. Dresspacks share their materials: one name, one material. Precondition: the
-/// job was read by read_job() or job_from().
+/// The material that a wire of material `name` has under these settings, as changed() leaves it, and that of
+/// a hose's wall, which fatigue.material leaves alone. Dresspacks share their materials: one name, one
+/// material. Precondition: the job was read by read_job() or job_from().
 Material material_of(const Job& job, const std::string& name);
 const Material& hose_material_of(const Job& job, const Dresspack& dresspack);
 

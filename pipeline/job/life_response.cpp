@@ -20,7 +20,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double farthest = 3.5;  // deviations: nothing is told of what lies beyond
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack);
 
-/// Where z lies among rising nodes: between `below` and the next, at `share` of the way, which lies outside [0, 1] beyond the ends.
+/// Where z lies among rising nodes: between `below` and the next, at `share` of the way, which lies outside
+/// [0, 1] beyond the ends.
 struct Place {
   std::size_t below = 0;
   double share = 0;
@@ -90,15 +91,20 @@ class Surface {
     double sum = here - at_zero_;
     for (std::size_t p = 0; p < strain_parameters; ++p) {
       if (nodes_[p].size() < 2 || (crossed_ && (p == friction || p == slack))) continue;
-      sum += between(place_among(nodes_[p], z[p]), [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) - here;
+      sum += between(place_among(nodes_[p], z[p]),
+                     [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) -
+             here;
     }
     if (crossed_) {
-      const Place of_friction = place_among(nodes_[friction], z[friction]), of_slack = place_among(nodes_[slack], z[slack]);
-      sum += between(of_friction, [&](std::size_t f) {
-               return between(of_slack, [&](std::size_t s) {
-                 return worst(grid_[f * nodes_[slack].size() + s], strength, slope);
-               });
-             }) - here;
+      const Place of_friction = place_among(nodes_[friction], z[friction]),
+                  of_slack = place_among(nodes_[slack], z[slack]);
+      sum += between(of_friction,
+                     [&](std::size_t f) {
+                       return between(of_slack, [&](std::size_t s) {
+                         return worst(grid_[f * nodes_[slack].size() + s], strength, slope);
+                       });
+                     }) -
+             here;
     }
     const UncertainParameter& model = uncertain_parameters()[index_of(Uncertain::model)];
     return sum + std::log10(model.value(far[index_of(Uncertain::model)]));
@@ -142,7 +148,9 @@ double life_on(const Surface& surface, const LifeResponse& response, const Param
 
 double LifeResponse::change(const ParameterPoint& z) const { return Surface(*this).change(z); }
 
-double LifeResponse::log10_life(const ParameterPoint& z, double u) const { return life_on(Surface(*this), *this, z, u); }
+double LifeResponse::log10_life(const ParameterPoint& z, double u) const {
+  return life_on(Surface(*this), *this, z, u);
+}
 
 // ---- as text ----------------------------------------------------------------------------------------------
 
@@ -171,13 +179,14 @@ void check(const LifeResponse& response) {
     return std::find(nodes.begin(), nodes.end(), 0.0) != nodes.end() &&
            std::adjacent_find(nodes.begin(), nodes.end(), std::greater_equal<>()) == nodes.end();
   };
-  const bool whole = !response.points.empty() && response.points[0] == std::array<double, strain_parameters>{} &&
-                     holds_zero(response.strength) && holds_zero(response.slope) && holds_zero(response.scatter) &&
-                     response.worst_life.size() ==
-                         response.points.size() * response.strength.size() * response.slope.size() &&
-                     response.planned.size() == response.scatter.size() &&
-                     response.knowledge.mean.size() == Eigen::Index(uncertain_count) &&
-                     response.knowledge.covariance.size() == Eigen::Index(uncertain_count * uncertain_count);
+  const bool whole =
+      !response.points.empty() && response.points[0] == std::array<double, strain_parameters>{} &&
+      holds_zero(response.strength) && holds_zero(response.slope) && holds_zero(response.scatter) &&
+      response.worst_life.size() ==
+          response.points.size() * response.strength.size() * response.slope.size() &&
+      response.planned.size() == response.scatter.size() &&
+      response.knowledge.mean.size() == Eigen::Index(uncertain_count) &&
+      response.knowledge.covariance.size() == Eigen::Index(uncertain_count * uncertain_count);
   if (!whole) throw std::invalid_argument("lists of other lengths");
 }
 
@@ -187,7 +196,8 @@ std::string LifeResponse::text() const {
   std::string text = "construction " + construction + "\nmaterial " + material + "\n";
   text += line("mean", std::span(knowledge.mean.data(), uncertain_count));
   for (Eigen::Index row = 0; row < knowledge.covariance.rows(); ++row)
-    text += line("covariance", std::vector<double>(knowledge.covariance.row(row).begin(), knowledge.covariance.row(row).end()));
+    text += line("covariance", std::vector<double>(knowledge.covariance.row(row).begin(),
+                                                   knowledge.covariance.row(row).end()));
   for (const auto& point : points) text += line("point", point);
   text += line("strength", strength) + line("slope", slope) + line("scatter", scatter);
   for (const auto& lives : planned) text += line("planned", lives);
@@ -205,7 +215,8 @@ LifeResponse LifeResponse::from_text(const std::string& text) {
     std::string name;
     words >> name;
     if (name == "construction" || name == "material") {
-      (name == "material" ? response.material : response.construction) = one.substr(std::min(one.size(), name.size() + 1));
+      (name == "material" ? response.material : response.construction) =
+          one.substr(std::min(one.size(), name.size() + 1));
       continue;
     }
     const std::vector<double> numbers = numbers_after(words);
@@ -214,7 +225,8 @@ LifeResponse LifeResponse::from_text(const std::string& text) {
       std::copy(numbers.begin(), numbers.end(), array.begin());
     };
     if (name == "mean")
-      response.knowledge.mean = Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+      response.knowledge.mean =
+          Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
     else if (name == "covariance")
       covariance.insert(covariance.end(), numbers.begin(), numbers.end());
     else if (name == "point")
@@ -231,7 +243,8 @@ LifeResponse LifeResponse::from_text(const std::string& text) {
       response.worst_life = numbers;
   }
   if (covariance.size() == uncertain_count * uncertain_count)
-    response.knowledge.covariance = Eigen::Map<const Eigen::MatrixXd>(covariance.data(), uncertain_count, uncertain_count);
+    response.knowledge.covariance =
+        Eigen::Map<const Eigen::MatrixXd>(covariance.data(), uncertain_count, uncertain_count);
   check(response);
   return response;
 }
@@ -301,13 +314,15 @@ std::string stream_of(const LifeResponse& response, std::size_t parameter, const
   return std::string(of.name) + "/" + shared;
 }
 
-/// Lower triangle L with L L^T = covariance; a parameter that is known has a row of zeros. What jobs share comes before what each has
-/// for itself, so that nothing shared hangs on a job's own numbers. order: (row) parameter.
+/// Lower triangle L with L L^T = covariance; a parameter that is known has a row of zeros. What jobs share
+/// comes before what each has for itself, so that nothing shared hangs on a job's own numbers. order: (row)
+/// parameter.
 Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<std::size_t>& order) {
   const auto n = static_cast<Eigen::Index>(order.size());
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
   const auto of = [&](Eigen::Index a, Eigen::Index b) {
-    return covariance(static_cast<Eigen::Index>(order[std::size_t(a)]), static_cast<Eigen::Index>(order[std::size_t(b)]));
+    return covariance(static_cast<Eigen::Index>(order[std::size_t(a)]),
+                      static_cast<Eigen::Index>(order[std::size_t(b)]));
   };
   for (Eigen::Index column = 0; column < n; ++column) {
     const double left = of(column, column) - factor.row(column).head(column).squaredNorm();
@@ -315,7 +330,8 @@ Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<s
     factor(column, column) = std::sqrt(left);
     for (Eigen::Index row = column + 1; row < n; ++row)
       factor(row, column) =
-          (of(row, column) - factor.row(row).head(column).dot(factor.row(column).head(column))) / factor(column, column);
+          (of(row, column) - factor.row(row).head(column).dot(factor.row(column).head(column))) /
+          factor(column, column);
   }
   return factor;
 }
@@ -329,12 +345,14 @@ struct Draws {
 Draws draws_of(const LifeResponse& response, const std::string& job, std::size_t count) {
   std::vector<std::size_t> order(uncertain_count);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_partition(order.begin(), order.end(),
-                        [](std::size_t p) { return uncertain_parameters()[p].shared != SharedBy::installation; });
+  std::stable_partition(order.begin(), order.end(), [](std::size_t p) {
+    return uncertain_parameters()[p].shared != SharedBy::installation;
+  });
   const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
   Draws draws{std::vector<ParameterPoint>(count), normals_of("scatter of wires/job " + job, count)};
   for (std::size_t d = 0; d < count; ++d)
-    for (std::size_t p = 0; p < uncertain_count; ++p) draws.z[d][p] = response.knowledge.mean(static_cast<Eigen::Index>(p));
+    for (std::size_t p = 0; p < uncertain_count; ++p)
+      draws.z[d][p] = response.knowledge.mean(static_cast<Eigen::Index>(p));
   for (std::size_t column = 0; column < uncertain_count; ++column) {
     if (factor.col(static_cast<Eigen::Index>(column)).isZero(0)) continue;
     const std::vector<double> normal = normals_of(stream_of(response, order[column], job), count);
@@ -350,19 +368,20 @@ Draws draws_of(const LifeResponse& response, const std::string& job, std::size_t
 std::vector<double> lives_of(const LifeResponse& response, const Draws& draws) {
   const Surface surface(response);
   std::vector<double> lives(draws.u.size());
-  for (std::size_t d = 0; d < lives.size(); ++d) lives[d] = life_on(surface, response, draws.z[d], draws.u[d]);
+  for (std::size_t d = 0; d < lives.size(); ++d)
+    lives[d] = life_on(surface, response, draws.z[d], draws.u[d]);
   return lives;
 }
 
-/// Share of the variance of `lives` that lies between groups of draws with equal places in the order of `cause`: the first-order share
-/// (Sobol' 1993), less what `size` draws a group leave by chance. 0 where nothing varies.
+/// Share of the variance of `lives` that lies between groups of draws with equal places in the order of
+/// `cause`: the first-order share (Sobol' 1993), less what `size` draws a group leave by chance. 0 where
+/// nothing varies.
 double first_order(const std::vector<double>& cause, const std::vector<double>& lives) {
   constexpr std::size_t groups = 25;
   std::vector<std::size_t> order(lives.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return cause[a] != cause[b] ? cause[a] < cause[b] : a < b;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return cause[a] != cause[b] ? cause[a] < cause[b] : a < b; });
   if (cause[order.front()] == cause[order.back()]) return 0;
   const std::size_t size = lives.size() / groups;
   double mean = 0, square = 0, between_groups = 0;
@@ -394,7 +413,8 @@ DrawnLives drawn_lives(const LifeResponse& response, const std::string& job, std
     const double at = shares[i] * double(count) - 0.5;
     const auto below = static_cast<std::size_t>(std::max(0.0, at));
     const double low = sorted[below], high = sorted[std::min(below + 1, count - 1)];
-    drawn.percentiles[i] = std::pow(10.0, std::isinf(high) ? high : low + (at - double(below)) * (high - low));
+    drawn.percentiles[i] =
+        std::pow(10.0, std::isinf(high) ? high : low + (at - double(below)) * (high - low));
   }
   std::vector<double> finite = drawn.log10_life, cause(count);
   for (double& life : finite) life = std::min(life, LifeResponse::endless);
@@ -416,12 +436,14 @@ double share_outliving(const std::vector<double>& one, const std::vector<double>
 std::string share_words(const std::array<double, uncertain_count + 1>& share) {
   std::vector<std::size_t> order(share.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
   std::string words;
   for (const std::size_t p : order) {
     if (share[p] < 0.01) break;
     words += fmt::format("{}{} {:.0f} %", words.empty() ? "" : "; ",
-                         p == uncertain_count ? "scatter of wires" : uncertain_parameters()[p].name, 100 * share[p]);
+                         p == uncertain_count ? "scatter of wires" : uncertain_parameters()[p].name,
+                         100 * share[p]);
   }
   return words;
 }

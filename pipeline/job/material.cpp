@@ -35,9 +35,10 @@ void describe(Fields& f, Material& material) {
                  "n'; without it b/c");
   f.maybe_number("walker_exponent", material.walker_exponent, between(0, 1),
                  "gamma of mean_stress walker; without it 0.5");
-  f.maybe_number("relaxation_threshold_strain", material.relaxation_threshold_strain, between(1e-6, 1),
-                 "strain amplitude above which mean stress relaxes, for mean_stress_relaxation power_law; without "
-                 "it never");
+  f.maybe_number(
+      "relaxation_threshold_strain", material.relaxation_threshold_strain, between(1e-6, 1),
+      "strain amplitude above which mean stress relaxes, for mean_stress_relaxation power_law; without "
+      "it never");
   f.maybe_number("relaxation_exponent", material.relaxation_exponent, between(0, 1),
                  "of the number of repeats, at twice that amplitude; without it 0.085");
 }
@@ -48,7 +49,7 @@ void check_materials(const std::vector<Material>& materials) {
     const auto& table = material.strain_life_table;
     if (table.size() == 1)
       problems.add(material.where, fmt::format("strain_life_table of '{}' has one point", material.name),
-                       "give at least two");
+                   "give at least two");
     for (std::size_t i = 1; i < table.size(); ++i)
       if (!(table[i].strain_amplitude < table[i - 1].strain_amplitude &&
             table[i].cycles > table[i - 1].cycles))

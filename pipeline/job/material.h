@@ -21,14 +21,14 @@ struct Material {
   std::string name, source;
   double youngs_modulus = 0;  ///< E [Pa]
   double poisson_ratio = 0;
-  double fatigue_strength = 0;                      ///< sigma_f' [Pa]
-  double fatigue_strength_exponent = 0;             ///< b
-  double fatigue_ductility = 0;                     ///< epsilon_f'
-  double fatigue_ductility_exponent = 0;            ///< c
-  std::optional<double> cyclic_strength;            ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
-  std::optional<double> cyclic_hardening_exponent;  ///< n'; absent: b / c
-  std::optional<double> tensile_strength;           ///< at which a wire tears [Pa]
-  std::optional<double> walker_exponent;            ///< gamma; absent: 0.5, that of SWT
+  double fatigue_strength = 0;                        ///< sigma_f' [Pa]
+  double fatigue_strength_exponent = 0;               ///< b
+  double fatigue_ductility = 0;                       ///< epsilon_f'
+  double fatigue_ductility_exponent = 0;              ///< c
+  std::optional<double> cyclic_strength;              ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
+  std::optional<double> cyclic_hardening_exponent;    ///< n'; absent: b / c
+  std::optional<double> tensile_strength;             ///< at which a wire tears [Pa]
+  std::optional<double> walker_exponent;              ///< gamma; absent: 0.5, that of SWT
   std::optional<double> relaxation_threshold_strain;  ///< above it mean stress relaxes; absent: never
   std::optional<double> relaxation_exponent;          ///< at twice the threshold; absent: 0.085
   std::vector<StrainLifePoint>

@@ -1,5 +1,5 @@
-// The motion: a program's moves and dwells, a robot program as it lies on a controller, recorded clamp poses, or
-// how the dresspack deforms: prescribed, or by a test rig.
+// The motion: a program's moves and dwells, a robot program as it lies on a controller, recorded clamp poses,
+// or how the dresspack deforms: prescribed, or by a test rig.
 #pragma once
 
 #include <Eigen/Core>
@@ -145,8 +145,8 @@ void describe(Fields& f, Motion& motion);
 void check_motion(const Motion& motion, const Robot& robot);
 
 /// Files that a robot program may be read from besides those that the motion names: of a folder (or of the
-/// folder of a list of modules), those that end like robot programs, within it and the folders in it; of a KRL
-/// program, those of the robot's folder R1 in a backup, else those beside it. Sorted.
+/// folder of a list of modules), those that end like robot programs, within it and the folders in it; of a
+/// KRL program, those of the robot's folder R1 in a backup, else those beside it. Sorted.
 std::vector<std::filesystem::path> program_files(const std::filesystem::path& program);
 
 /// One motion as YAML, and from a document that holds nothing else (checked key by key, not against a robot).

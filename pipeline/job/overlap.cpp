@@ -57,16 +57,20 @@ bool go_on_alike(const Component& one, const Component& other) {
   return std::abs(turn_rate(one) - turn_rate(other)) * along < 2 * pi / std::max(one.count, other.count);
 }
 
-void add_overlaps_between(const std::vector<Component>& components, Problems& problems, std::vector<Warning>* warnings) {
+void add_overlaps_between(const std::vector<Component>& components, Problems& problems,
+                          std::vector<Warning>* warnings) {
   for (std::size_t a = 0; a < components.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
       const Component &one = components[b], &other = components[a];
       if (!overlap_each_other(one, other)) continue;
       const double apart = nearest_distance(one, other), needed = one.radius + other.radius;
-      const auto name = [](const Component& of) { return of.layer.empty() ? of.name : of.layer + "/" + of.name; };
-      const std::string what = fmt::format("'{}' and '{}' come as near as {:.4g} mm between their axes, {:.3f} mm less than their "
-                                           "radii together",
-                                           name(one), name(other), 1e3 * apart, 1e3 * (needed - apart));
+      const auto name = [](const Component& of) {
+        return of.layer.empty() ? of.name : of.layer + "/" + of.name;
+      };
+      const std::string what = fmt::format(
+          "'{}' and '{}' come as near as {:.4g} mm between their axes, {:.3f} mm less than their "
+          "radii together",
+          name(one), name(other), 1e3 * apart, 1e3 * (needed - apart));
       const std::string remedy = "check helix_radius_mm, radius_mm, phase_deg and lay_angle_deg of both";
       if (apart < hopeless * needed && go_on_alike(one, other))
         problems.add(other.where, what + " (nearer than half of these)", remedy);
@@ -94,7 +98,8 @@ void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>*
 
 }  // namespace
 
-// One valley between phi = -turned, where the other lies beside it, and 0, where it lies a lay before it: found by steps, then by thirds.
+// One valley between phi = -turned, where the other lies beside it, and 0, where it lies a lay before it:
+// found by steps, then by thirds.
 double neighbour_distance(double helix_radius, double lay_angle, int count) {
   const double turned = 2 * pi / count, R = helix_radius;
   if (lay_angle == 0) return 2 * R * std::sin(turned / 2);
@@ -105,8 +110,10 @@ double neighbour_distance(double helix_radius, double lay_angle, int count) {
   int nearest = 0;
   for (int k = 1; k <= steps; ++k)
     if (squared(-turned * k / steps) < squared(-turned * nearest / steps)) nearest = k;
-  double low = -turned * std::min(nearest + 1, steps) / steps, high = -turned * std::max(nearest - 1, 0) / steps;
-  for (int third = 0; third < 40; ++third) {  // 2/3 of the width each time: 1e-7 of a step, squared in the distance
+  double low = -turned * std::min(nearest + 1, steps) / steps,
+         high = -turned * std::max(nearest - 1, 0) / steps;
+  for (int third = 0; third < 40;
+       ++third) {  // 2/3 of the width each time: 1e-7 of a step, squared in the distance
     const double left = (2 * low + high) / 3, right = (low + 2 * high) / 3;
     (squared(left) < squared(right) ? high : low) = squared(left) < squared(right) ? right : left;
   }

@@ -1,4 +1,5 @@
-// Parts of one layer that would need more room than their circle has, and parts of two layers that would lie in each other.
+// Parts of one layer that would need more room than their circle has, and parts of two layers that would lie
+// in each other.
 //
 // Neighbours lie on helices of one radius R and lay angle alpha, turned against each other by delta = 2 pi/K.
 // Seen from a point of one, the other is nearest not in the cross-section but a little along,
@@ -16,8 +17,8 @@ namespace dresslife::pipeline {
 /// Between the axes of neighbours in a layer of `count` > 1 parts [m].
 double neighbour_distance(double helix_radius, double lay_angle, int count);
 
-/// Nearest that parts of two components of one parent come to each other, between their axes [m]: as they lie in the
-/// cross-section where they go on alike (tan(alpha) / R), else R less R, since in a metre they meet.
+/// Nearest that parts of two components of one parent come to each other, between their axes [m]: as they lie
+/// in the cross-section where they go on alike (tan(alpha) / R), else R less R, since in a metre they meet.
 double nearest_distance(const Component& one, const Component& other);
 
 /// Whether the parts of a component overlap by more than overlap_warnings() allows.
@@ -26,10 +27,10 @@ bool overlaps(const Component& component);
 bool overlap_each_other(const Component& one, const Component& other);
 
 /// A warning for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
-/// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit. Likewise for each two
-/// components of one parent.
-/// Errors: InputError for parts nearer than half of their diameter, of two components where they go on alike, as cables at
-/// one angle. Insulation gives, but two such parts would share over a third of their sections.
+/// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit. Likewise for
+/// each two components of one parent. Errors: InputError for parts nearer than half of their diameter, of two
+/// components where they go on alike, as cables at one angle. Insulation gives, but two such parts would
+/// share over a third of their sections.
 std::vector<Warning> overlap_warnings(const Dresspack& dresspack);
 
 /// The errors alone, in a hundredth of the time: nobody asks what would fit.

@@ -26,7 +26,8 @@ bool lies_in(std::string_view inner, std::string_view outer) {
 InputErrors::InputErrors(std::vector<Problem> problems)
     : InputError({}, "", ""), problems_(std::move(problems)), text_(lines_of(problems_)) {}
 
-void Problems::add(const Where& where, const std::string& what, const std::string& remedy, const std::string& key) {
+void Problems::add(const Where& where, const std::string& what, const std::string& remedy,
+                   const std::string& key) {
   note({where, key, InputError(where, what, remedy).what()});
 }
 
@@ -42,15 +43,17 @@ void Problems::note(Problem problem) {
 }
 
 bool Problems::touch(const std::string& key) const {
-  return std::any_of(keys_.begin(), keys_.end(),
-                     [&](const std::string& refused) { return lies_in(refused, key) || lies_in(key, refused); });
+  return std::any_of(keys_.begin(), keys_.end(), [&](const std::string& refused) {
+    return lies_in(refused, key) || lies_in(key, refused);
+  });
 }
 
 void Problems::finish(const std::string& first_file) const {
   if (problems_.empty()) return;
   std::vector<std::string> files{first_file};  // in the order in which they were met
   for (const Problem& problem : problems_)
-    if (std::find(files.begin(), files.end(), problem.where.file) == files.end()) files.push_back(problem.where.file);
+    if (std::find(files.begin(), files.end(), problem.where.file) == files.end())
+      files.push_back(problem.where.file);
   const auto place = [&](const Problem& problem) {
     return std::make_tuple(std::find(files.begin(), files.end(), problem.where.file), problem.where.line,
                            problem.where.column);
@@ -60,8 +63,8 @@ void Problems::finish(const std::string& first_file) const {
                    [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
   if (more_)
     sorted.push_back({Where{first_file, 0, 0}, "",
-                      fmt::format("{}: error: only the first {} problems are told; mend them first", first_file,
-                                  most_problems)});
+                      fmt::format("{}: error: only the first {} problems are told; mend them first",
+                                  first_file, most_problems)});
   throw InputErrors(std::move(sorted));
 }
 

@@ -1,8 +1,9 @@
-// All that is wrong with what a user wrote, at once: readers and checks add to it and go on, and the last of them
-// throws the whole as one InputError, a line for each, in the order of the file.
+// All that is wrong with what a user wrote, at once: readers and checks add to it and go on, and the last of
+// them throws the whole as one InputError, a line for each, in the order of the file.
 //
-// What follows from a mistake is no mistake: a problem notes the key that it is of ("routing.free_length_m"), a
-// reader passes over a key that was refused before, and a check asks touch() whether what it judges was read.
+// What follows from a mistake is no mistake: a problem notes the key that it is of ("routing.free_length_m"),
+// a reader passes over a key that was refused before, and a check asks touch() whether what it judges was
+// read.
 #pragma once
 
 #include <set>
@@ -33,10 +34,11 @@ class InputErrors final : public InputError {
 
 class Problems {
  public:
-  void add(const Where& where, const std::string& what, const std::string& remedy, const std::string& key = "");
+  void add(const Where& where, const std::string& what, const std::string& remedy,
+           const std::string& key = "");
 
-  /// Calls what may throw an InputError; what it throws is noted as of the key, at its own place or, where that
-  /// lies in no line that is known, at this one. Returns whether it threw nothing.
+  /// Calls what may throw an InputError; what it throws is noted as of the key, at its own place or, where
+  /// that lies in no line that is known, at this one. Returns whether it threw nothing.
   template <class Act>
   bool attempt(const std::string& key, const Where& where, const Act& act) {
     try {
@@ -51,11 +53,12 @@ class Problems {
   }
 
   const std::set<std::string>& keys() const { return keys_; }  ///< that were refused
-  /// Whether a value of this key, at it, in it or around it, was refused: "routing" by "routing.free_length_m".
+  /// Whether a value of this key, at it, in it or around it, was refused: "routing" by
+  /// "routing.free_length_m".
   bool touch(const std::string& key) const;
 
-  /// Throws all of them as InputErrors, those in this file first and each file's by line and column; nothing where
-  /// there are none.
+  /// Throws all of them as InputErrors, those in this file first and each file's by line and column; nothing
+  /// where there are none.
   void finish(const std::string& first_file = "") const;
 
  private:

@@ -1,6 +1,6 @@
-// A test rig for cables, as standards and makers describe it: what the cable is put through, cycle after cycle
-// (sim/README.md, D4 to D8, say how it becomes a prescribed deformation). One repeat of the motion is one cycle
-// of the rig, so a life in repeats is a life in rig cycles.
+// A test rig for cables, as standards and makers describe it: what the cable is put through, cycle after
+// cycle (sim/README.md, D4 to D8, say how it becomes a prescribed deformation). One repeat of the motion is
+// one cycle of the rig, so a life in repeats is a life in rig cycles.
 #pragma once
 
 #include <optional>
@@ -56,9 +56,9 @@ void check_rig(Rig& rig);
 /// Bend radius of the cable's axis [m]. diameter: of the cable [m]. Precondition: a checked rig that bends.
 double axis_radius(const Rig& rig, double diameter);
 
-/// Along the cable of a rig in which a bend passes: a straight lead, then `bend` of cable that is bent at a time,
-/// which moves on by `sweep`, and a lead again [m]. Of travel beyond 5/4 of the bend only so much is followed:
-/// what the further cable sees is the same.
+/// Along the cable of a rig in which a bend passes: a straight lead, then `bend` of cable that is bent at a
+/// time, which moves on by `sweep`, and a lead again [m]. Of travel beyond 5/4 of the bend only so much is
+/// followed: what the further cable sees is the same.
 struct BendWay {
   double lead = 0, bend = 0, sweep = 0;
   double length() const { return 2 * lead + bend + sweep; }

@@ -125,7 +125,8 @@ void check_robot(const Robot& robot, const Where& where) {
                  fmt::format("robot has {} joints and {} links (must be one link more)", robot.joints.size(),
                              robot.links.size()),
                  "list the base link and one link per joint");
-  for (const Joint& joint : robot.joints) problems.attempt("", joint.where, [&] { check_joint(joint, robot); });
+  for (const Joint& joint : robot.joints)
+    problems.attempt("", joint.where, [&] { check_joint(joint, robot); });
   for (const ExternalAxis& axis : robot.external_axes)
     problems.attempt("", axis.where, [&] {
       if (axis.name.empty()) throw InputError(axis.where, "an external axis has no name", "name it");

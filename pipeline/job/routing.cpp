@@ -141,12 +141,13 @@ void check_rings(const Routing& routing, double diameter, const Robot& robot, Pr
   for (std::size_t k = 0; k < routing.rings.size(); ++k) {
     const GuideRing& ring = routing.rings[k];
     const std::string name = fmt::format("rings[{}]", k + 1);
-    problems.attempt("", ring.where, [&] { check_place(ring.link, ring.direction, name, ring.where, robot); });
+    problems.attempt("", ring.where,
+                     [&] { check_place(ring.link, ring.direction, name, ring.where, robot); });
     if (2 * ring.radius <= diameter)
       problems.add(ring.where,
-                       fmt::format("routing.{}.radius_mm is {} (the dresspack's own radius is {} mm)", name,
-                                   1e3 * ring.radius, 1e3 * diameter / 2),
-                       "give a ring that lets it through");
+                   fmt::format("routing.{}.radius_mm is {} (the dresspack's own radius is {} mm)", name,
+                               1e3 * ring.radius, 1e3 * diameter / 2),
+                   "give a ring that lets it through");
     if (!ring.at_length) continue;
     if (!(*ring.at_length > before && *ring.at_length < routing.free_length))
       problems.add(
@@ -161,8 +162,8 @@ void check_rings(const Routing& routing, double diameter, const Robot& robot, Pr
     for (const GuideRing& ring : routing.rings)
       if (!ring.at_length)
         problems.add(ring.where,
-                         "a ring beside routing.clamps has no at_length_m (it tells between which clamps)",
-                         "give the length of dresspack from the base clamp to the ring");
+                     "a ring beside routing.clamps has no at_length_m (it tells between which clamps)",
+                     "give the length of dresspack from the base clamp to the ring");
 }
 
 void check_intermediate_clamps(const Routing& routing, const Robot& robot, Problems& problems) {
@@ -173,12 +174,11 @@ void check_intermediate_clamps(const Routing& routing, const Robot& robot, Probl
       check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot);
     });
     if (!(at_length > before && at_length < routing.free_length))
-      problems.add(
-          clamp.where,
-          fmt::format("routing.clamps[{}].at_length_m is {} (must lie between {} and {}, the clamps "
-                      "before and after it)",
-                      k + 1, at_length, before, routing.free_length),
-          "list the clamps in their order along the dresspack");
+      problems.add(clamp.where,
+                   fmt::format("routing.clamps[{}].at_length_m is {} (must lie between {} and {}, the clamps "
+                               "before and after it)",
+                               k + 1, at_length, before, routing.free_length),
+                   "list the clamps in their order along the dresspack");
     before = at_length;
   }
 }
@@ -187,7 +187,9 @@ void check_intermediate_clamps(const Routing& routing, const Robot& robot, Probl
 
 void place_clamps(Routing& routing, const Robot& robot) {
   Problems problems;
-  const auto place = [&](Clamp& clamp) { problems.attempt("", clamp.where, [&] { place_clamp(clamp, robot); }); };
+  const auto place = [&](Clamp& clamp) {
+    problems.attempt("", clamp.where, [&] { place_clamp(clamp, robot); });
+  };
   for (std::optional<Clamp>* clamp : {&routing.base_clamp, &routing.tool_clamp})
     if (*clamp) place(**clamp);
   for (IntermediateClamp& between : routing.clamps) place(between.clamp);
@@ -199,7 +201,8 @@ void check_routing(const Routing& routing, double diameter, const Robot& robot, 
   const auto attempt = [&](const auto& check) { problems.attempt("", routing.where, check); };
   if (!recorded) {
     attempt([&] { check_clamp(routing.base_clamp, "base_clamp", routing, robot); });
-    if (is_clamped(routing.tool_end)) attempt([&] { check_clamp(routing.tool_clamp, "tool_clamp", routing, robot); });
+    if (is_clamped(routing.tool_end))
+      attempt([&] { check_clamp(routing.tool_clamp, "tool_clamp", routing, robot); });
   } else if (routing.base_clamp || routing.tool_clamp) {
     problems.add(routing.where, "clamps are given although motion.clamp_poses brings their poses",
                  "keep one of the two");
@@ -218,8 +221,8 @@ void check_routing(const Routing& routing, double diameter, const Robot& robot, 
                  "add tool_end: free, or leave the mass out");
   if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != robot.axes())
     problems.add(routing.where,
-                 fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)", routing.mounting_pose.size(),
-                             robot.axes()),
+                 fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)",
+                             routing.mounting_pose.size(), robot.axes()),
                  "give one angle per axis");
   problems.finish();
 }

@@ -10,7 +10,8 @@ void describe(Fields& f, Simulation& simulation) {
   f.integer("segments", simulation.segments, Need::optional, between(4, 2000),
             "rigid segments of each dresspack's chain");
   f.number_or_word(
-      "time_step_ms", simulation.time_step, simulation.choose_time_step, "auto", Need::optional, between(0.01, 20),
+      "time_step_ms", simulation.time_step, simulation.choose_time_step, "auto", Need::optional,
+      between(0.01, 20),
       "integration step; auto: the first repeat chooses the one that keeps to curvature_error_percent");
   f.number(
       "curvature_error_percent", simulation.curvature_error, Need::optional, above(0),

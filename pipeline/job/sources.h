@@ -1,8 +1,8 @@
-// What the reading of jobs finds in the file system. Who has expanded a study and finds all of it as it was needs
-// not expand it again (pipeline/study/known_study.h).
+// What the reading of jobs finds in the file system. Who has expanded a study and finds all of it as it was
+// needs not expand it again (pipeline/study/known_study.h).
 //
-// While a Sources lives, whatever its thread looks up through the functions below is noted, and a document is read
-// from the disk and parsed once, however many jobs name it.
+// While a Sources lives, whatever its thread looks up through the functions below is noted, and a document is
+// read from the disk and parsed once, however many jobs name it.
 #pragma once
 
 #include <filesystem>
@@ -24,8 +24,8 @@ class Sources {
   Sources& operator=(const Sources&) = delete;
 
   enum class Kind { text, file, folder, program };
-  /// What a look found: the text, or "yes" and "no", or the names of a program's files, line by line. The same look
-  /// without a Sources. A text that cannot be read: "no".
+  /// What a look found: the text, or "yes" and "no", or the names of a program's files, line by line. The
+  /// same look without a Sources. A text that cannot be read: "no".
   static std::string found_at(Kind kind, const std::filesystem::path& path);
   /// Looks by what they were for and where, and what each found first.
   using Looks = std::map<std::pair<Kind, std::string>, std::string>;

@@ -14,21 +14,22 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double wire_density = 8900;           // [kg/m3], of copper
-constexpr double torsion_of_core = 0.8;         // ESTIMATE, as of a solid round bar
-constexpr double gravity = 9.81;                // [m/s2]
-constexpr double believable_stretch = 1e-3;     // by its own weight; hoses of polyamide: 1e-4 and less
-constexpr double believable = 2;                // a life moves by up to a factor of five with twice the E I (README)
+constexpr double wire_density = 8900;        // [kg/m3], of copper
+constexpr double torsion_of_core = 0.8;      // ESTIMATE, as of a solid round bar
+constexpr double gravity = 9.81;             // [m/s2]
+constexpr double believable_stretch = 1e-3;  // by its own weight; hoses of polyamide: 1e-4 and less
+constexpr double believable = 2;  // a life moves by up to a factor of five with twice the E I (README)
 
 /// Of a round of polymer.
 double round_bending(double radius) { return polymer_modulus * pi / 4 * std::pow(radius, 4); }
 
-/// Of a part's jacket and insulation: given, else of a round as wide as it is. A measured stiffness has it in it.
-/// Of a part without wires all of it.
+/// Of a part's jacket and insulation: given, else of a round as wide as it is. A measured stiffness has it in
+/// it. Of a part without wires all of it.
 double polymer_of(const Component& part) {
   if (part.plain) return properties_of(*part.plain, part.radius).bending;
   if (part.components.empty()) return 0;
-  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness) return part.polymer_bending_stiffness;
+  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness)
+    return part.polymer_bending_stiffness;
   return round_bending(part.radius);
 }
 
@@ -79,9 +80,11 @@ void add_wires(const Component& part, double count, double cosines, double& mass
 double section_of_wall(const Dresspack& dresspack) {
   if (dresspack.hose_corrugation) {
     const Corrugation& profile = *dresspack.hose_corrugation;
-    return pi * (dresspack.diameter - profile.height) * profile.wall * fold_of(profile).unfolded() / profile.pitch;
+    return pi * (dresspack.diameter - profile.height) * profile.wall * fold_of(profile).unfolded() /
+           profile.pitch;
   }
-  return pi / 4 * (dresspack.diameter * dresspack.diameter - *dresspack.inner_diameter * *dresspack.inner_diameter);
+  return pi / 4 *
+         (dresspack.diameter * dresspack.diameter - *dresspack.inner_diameter * *dresspack.inner_diameter);
 }
 
 HoseStiffness core_of(const Dresspack& dresspack) {
@@ -107,7 +110,8 @@ Component whole(const Dresspack& dresspack) {
 class Wires {
  public:
   explicit Wires(const Dresspack& dresspack) : bending_(dresspack, whole(dresspack), StraightParts::slide) {
-    for (const Component& layer : dresspack.components) layers_.push_back(pull_and_twist(dresspack, alone(layer)));
+    for (const Component& layer : dresspack.components)
+      layers_.push_back(pull_and_twist(dresspack, alone(layer)));
   }
   double bending(SlipState state, double curvature) const {
     switch (state) {
@@ -128,10 +132,13 @@ class Wires {
 };
 
 double pull_of_plain(const Component& part) {
-  return part.plain ? part.count * properties_of(*part.plain, part.radius).axial * std::pow(std::cos(part.lay_angle), 3) : 0;
+  return part.plain ? part.count * properties_of(*part.plain, part.radius).axial *
+                          std::pow(std::cos(part.lay_angle), 3)
+                    : 0;
 }
 
-HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, SlipState state, double curvature) {
+HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, SlipState state,
+                             double curvature) {
   const HoseStiffness wall = wall_of(dresspack), core = core_of(dresspack);
   const double polymer = polymer_of(dresspack);
   HoseStiffness sum{wall.bending + core.bending + polymer + wires.bending(state, curvature),
@@ -182,8 +189,10 @@ std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
   if (dresspack.core_diameter > 0 && !dresspack.core_bending_stiffness)
     missing.push_back(fmt::format("what fills its core of {:.3g} mm (core_bending_stiffness_Nm2)",
                                   1e3 * dresspack.core_diameter));
-  if (is_hose(dresspack) && dresspack.hose_material.empty()) missing.push_back("its wall (hose_material)");
-  else if (is_hose(dresspack) && !knows_wall(dresspack)) missing.push_back("its wall (hose_corrugation)");
+  if (is_hose(dresspack) && dresspack.hose_material.empty())
+    missing.push_back("its wall (hose_material)");
+  else if (is_hose(dresspack) && !knows_wall(dresspack))
+    missing.push_back("its wall (hose_corrugation)");
   return missing;
 }
 
@@ -195,13 +204,15 @@ void take_from_construction(Dresspack& dresspack) {
   const auto take = [&](bool wanted, const char* key, double value, double& to) {
     if (!wanted) return;
     if (!(value > 0))
-      throw InputError(dresspack.where,
-                       fmt::format("dresspack.{} is from_construction, which has none (no part, wall or core of it carries)",
-                                   key),
-                       fmt::format("give {}, components with wires, hose_material and its profile, or the core's", key));
+      throw InputError(
+          dresspack.where,
+          fmt::format(
+              "dresspack.{} is from_construction, which has none (no part, wall or core of it carries)", key),
+          fmt::format("give {}, components with wires, hose_material and its profile, or the core's", key));
     to = value;
   };
-  take(dresspack.bending_from_construction, "bending_stiffness_Nm2", taken.bending, dresspack.bending_stiffness);
+  take(dresspack.bending_from_construction, "bending_stiffness_Nm2", taken.bending,
+       dresspack.bending_stiffness);
   take(dresspack.torsional_from_construction, "torsional_stiffness_Nm2", taken.torsional,
        dresspack.torsional_stiffness);
   take(dresspack.axial_from_construction, "axial_stiffness_N", taken.axial, dresspack.axial_stiffness);
@@ -220,12 +231,13 @@ std::string too_little_words(const Dresspack& dresspack, const std::vector<std::
   take(dresspack.axial_from_construction, "axial_stiffness_N", dresspack.axial_stiffness);
   if (taken.empty() || missing.empty()) return "";
   const double stretch = gravity * dresspack.mass_per_length / dresspack.axial_stiffness;
-  const std::string soft = dresspack.axial_from_construction && stretch > believable_stretch
-                               ? fmt::format("; it would stretch by {:.2g} % under a metre of its own weight", 100 * stretch)
-                               : "";
+  const std::string soft =
+      dresspack.axial_from_construction && stretch > believable_stretch
+          ? fmt::format("; it would stretch by {:.2g} % under a metre of its own weight", 100 * stretch)
+          : "";
   const bool wall = is_hose(dresspack) && dresspack.hose_material.empty();
-  return fmt::format("too little is from_construction: {}, without {}{} ({}give {} as measured)", fmt::join(taken, ", "),
-                     fmt::join(missing, " and "), soft,
+  return fmt::format("too little is from_construction: {}, without {}{} ({}give {} as measured)",
+                     fmt::join(taken, ", "), fmt::join(missing, " and "), soft,
                      wall ? "name the wall's, as hose_material: hose_polyamide, or " : "give that, or ",
                      taken.size() == 1 ? "it" : "them");
 }
@@ -237,17 +249,24 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   if (dresspack.components.empty() || given <= 0) return {};
   const auto missing = missing_in_construction(dresspack);
   std::vector<Warning> warnings;
-  const auto warn = [&](std::string words) { warnings.push_back({WarningKind::material, "", std::move(words)}); };
+  const auto warn = [&](std::string words) {
+    warnings.push_back({WarningKind::material, "", std::move(words)});
+  };
   if (const std::string words = too_little_words(dresspack, missing); !words.empty()) warn(words);
   if (dresspack.bending_from_construction) return warnings;
   const std::string without = missing.empty() ? "" : fmt::format(" without {}", fmt::join(missing, " and "));
   const Wires wires(dresspack);
-  const auto bending = [&](SlipState state) { return stiffness_with(wires, dresspack, state, curvature).bending; };
+  const auto bending = [&](SlipState state) {
+    return stiffness_with(wires, dresspack, state, curvature).bending;
+  };
   const double sliding = bending(SlipState::sliding), friction = bending(SlipState::friction),
                stuck = bending(SlipState::stuck);
   // How solid a jacket is that holds parts, and how it holds them, is not known of a cable.
-  const double least = is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
-  const double most = !missing.empty() ? HUGE_VAL : is_hose(dresspack) ? std::min(friction * believable, stuck) : stuck;
+  const double least =
+      is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
+  const double most = !missing.empty()     ? HUGE_VAL
+                      : is_hose(dresspack) ? std::min(friction * believable, stuck)
+                                           : stuck;
   if (given >= least && given <= most) return warnings;
   warn(fmt::format(
       "bending_stiffness_Nm2 is {:.3g}, {:.2g} times what the dresspack's parts{} have by their friction and pressures at {:.3g} "
@@ -267,13 +286,17 @@ std::string stiffness_text(const Dresspack& dresspack) {
   if (dresspack.mass_from_construction)
     text += fmt::format("mass {:.4g} kg/m from construction: wires of {:.0f} kg/m3 in a polymer of {:.0f}\n",
                         dresspack.mass_per_length, wire_density, polymer_density);
-  const auto line = [&](const char* name, const char* unit, double used, bool taken, double HoseStiffness::*of) {
-    text += fmt::format("{} {:.4g} {} {}; of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n",
-                        name, used, unit, taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given",
-                        sliding.*of, friction.*of, curvature, stuck.*of);
+  const auto line = [&](const char* name, const char* unit, double used, bool taken,
+                        double HoseStiffness::*of) {
+    text += fmt::format(
+        "{} {:.4g} {} {}; of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n",
+        name, used, unit, taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given",
+        sliding.*of, friction.*of, curvature, stuck.*of);
   };
-  line("E I", "N m2", dresspack.bending_stiffness, dresspack.bending_from_construction, &HoseStiffness::bending);
-  line("G J", "N m2", dresspack.torsional_stiffness, dresspack.torsional_from_construction, &HoseStiffness::torsional);
+  line("E I", "N m2", dresspack.bending_stiffness, dresspack.bending_from_construction,
+       &HoseStiffness::bending);
+  line("G J", "N m2", dresspack.torsional_stiffness, dresspack.torsional_from_construction,
+       &HoseStiffness::torsional);
   line("E A", "N", dresspack.axial_stiffness, dresspack.axial_from_construction, &HoseStiffness::axial);
   const auto missing = missing_in_construction(dresspack);
   return missing.empty() ? text : text + fmt::format("without {}\n", fmt::join(missing, " and "));

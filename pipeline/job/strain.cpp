@@ -24,16 +24,19 @@ void describe(Fields& f, Strain& strain) {
             "fibres on each wire's surface: 1 the outward one, more equally spaced, 0 the axis");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),
            "turning points of smaller strain ranges are dropped");
-  f.integer("cable_elements_per_segment", strain.cable_elements, Need::optional, between(0, most_cable_elements),
-            "pieces into which loose cables are cut, which lie in shorter waves than a segment resolves; 0: as many as their "
-            "slack and room ask for, at least 2, and 64 in all. Twice as many cost them twice the time and leave a quarter of "
-            "the error (loose_mesh_error of strain.h5)");
+  f.integer(
+      "cable_elements_per_segment", strain.cable_elements, Need::optional, between(0, most_cable_elements),
+      "pieces into which loose cables are cut, which lie in shorter waves than a segment resolves; 0: as many as their "
+      "slack and room ask for, at least 2, and 64 in all. Twice as many cost them twice the time and leave a quarter of "
+      "the error (loose_mesh_error of strain.h5)");
   const auto factor = [&](const char* key, double& value, const char* meaning) {
     f.number(key, value, Need::optional, between(1e-3, 1e3), meaning);
   };
-  factor("friction_factor", strain.factors.friction,
-         "of friction times pressure inside the cables, also where a measured stiffness sets it; to try what is not known");
-  factor("hose_friction_factor", strain.factors.hose_friction, "of the friction of cables in a hose; likewise");
+  factor(
+      "friction_factor", strain.factors.friction,
+      "of friction times pressure inside the cables, also where a measured stiffness sets it; to try what is not known");
+  factor("hose_friction_factor", strain.factors.hose_friction,
+         "of the friction of cables in a hose; likewise");
   factor("slack_factor", strain.factors.slack, "of slack_percent; likewise");
   factor("play_factor", strain.factors.play, "of how far loose cables can leave their places; likewise");
   factor("grip_factor", strain.factors.grip, "of base_grip_N and tool_grip_N; likewise");

@@ -28,26 +28,32 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "friction of the cables on their hose",
        "ESTIMATE: polymer on polymer 0.15 to 0.6, and what presses is the cable's own weight",
        "the force that draws one cable through its hose"},
-      {"slack", "strain.slack_factor", true, 0.4, true, SharedBy::installation, "excess length of the cables in the hose",
+      {"slack", "strain.slack_factor", true, 0.4, true, SharedBy::installation,
+       "excess length of the cables in the hose",
        "ESTIMATE: 2 cm in 2 m, laid in by hand to within about 1 cm",
        "the length of each cable between the clamps against the hose's: slack_percent"},
-      {"play", "strain.play_factor", true, 0.35, true, SharedBy::construction, "room in which the cables can move",
-       "ESTIMATE: differences of diameters known to 1 or 2 mm each",
+      {"play", "strain.play_factor", true, 0.35, true, SharedBy::construction,
+       "room in which the cables can move", "ESTIMATE: differences of diameters known to 1 or 2 mm each",
        "the inner diameter of the hose and the cables' outer ones: play_mm"},
-      {"grip", "strain.grip_factor", true, 0.7, true, SharedBy::installation, "force at which a clamp lets a cable slip",
+      {"grip", "strain.grip_factor", true, 0.7, true, SharedBy::installation,
+       "force at which a clamp lets a cable slip",
        "ESTIMATE: a clamp's screw and rubber by hand; without effect where no grip is given",
        "the force that draws a cable out of its clamp: tool_grip_N"},
-      {"strength", "fatigue.strength_factor", true, 0.25, false, SharedBy::material, "strain that the wire bears for a life",
+      {"strength", "fatigue.strength_factor", true, 0.25, false, SharedBy::material,
+       "strain that the wire bears for a life",
        "Nachtigall 1975: rules from tensile tests miss lives by a factor of 3 in one case of five, 1.2 in strain at the "
        "fifth power; with it the sets of config/materials for soft copper, 1.1 to 1.3 apart",
        "two cables in a torsion or flex test, with the cycles at which they failed (dresslife calibrate)"},
-      {"slope", "fatigue.slope_change", false, 0.01, false, SharedBy::material, "slope of life over small strains (b)",
+      {"slope", "fatigue.slope_change", false, 0.01, false, SharedBy::material,
+       "slope of life over small strains (b)",
        "ESTIMATE: b of copper is given as -0.112, -0.12 and, by one pair of measurements, -0.12",
        "the same test at half the twist or bend"},
-      {"scatter", "fatigue.scatter_factor", true, 0.35, false, SharedBy::material, "scatter of lives from wire to wire",
+      {"scatter", "fatigue.scatter_factor", true, 0.35, false, SharedBy::material,
+       "scatter of lives from wire to wire",
        "ESTIMATE: foils of one batch 0.04, fatigue lives often 0.3 of a decade, 0.2 in between",
        "five or more equal specimens in one test"},
-      {"model", "fatigue.model_factor", true, 0.7, false, SharedBy::everything, "life beside what the model knows",
+      {"model", "fatigue.model_factor", true, 0.7, false, SharedBy::everything,
+       "life beside what the model knows",
        "ESTIMATE: a factor of 2 for wear, corrosion, temperature and the hose's motion; in vacuum copper lives 20 times as "
        "long as in air",
        "dresspacks that broke, or have not, with their programs and hours (dresslife calibrate)"},
@@ -59,7 +65,8 @@ std::vector<std::string> sets_at(std::span<const double> z) {
   std::vector<std::string> sets;
   for (std::size_t p = 0; p < uncertain_count; ++p)
     if (z[p] != 0)
-      sets.push_back(fmt::format("{}={}", uncertain_parameters()[p].key, shortest_text(uncertain_parameters()[p].value(z[p]))));
+      sets.push_back(fmt::format("{}={}", uncertain_parameters()[p].key,
+                                 shortest_text(uncertain_parameters()[p].value(z[p]))));
   return sets;
 }
 
@@ -70,20 +77,22 @@ std::array<double, uncertain_count> Uncertainty::default_spread() {
 }
 
 void describe(Fields& f, Uncertainty& uncertainty) {
-  f.boolean("enabled", uncertainty.enabled, Need::optional,
-            "whether lives are told over what is not known, besides the wires' scatter; it costs at most as much time again");
+  f.boolean(
+      "enabled", uncertainty.enabled, Need::optional,
+      "whether lives are told over what is not known, besides the wires' scatter; it costs at most as much time again");
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     f.number(parameter.name, uncertainty.spread[p], Need::optional,
              parameter.logarithmic ? between(1, 100) : between(0, 0.05),
              fmt::format("{}: one standard deviation, as {} of {}; {}: known. {}", parameter.meaning,
-                         parameter.logarithmic ? "a factor" : "a change", parameter.key, parameter.logarithmic ? 1 : 0,
-                         parameter.source));
+                         parameter.logarithmic ? "a factor" : "a change", parameter.key,
+                         parameter.logarithmic ? 1 : 0, parameter.source));
   }
 }
 
 ParameterKnowledge prior_of(const Uncertainty& uncertainty) {
-  ParameterKnowledge prior{Eigen::VectorXd::Zero(uncertain_count), Eigen::MatrixXd::Zero(uncertain_count, uncertain_count)};
+  ParameterKnowledge prior{Eigen::VectorXd::Zero(uncertain_count),
+                           Eigen::MatrixXd::Zero(uncertain_count, uncertain_count)};
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const auto at = static_cast<Eigen::Index>(p);
     prior.covariance(at, at) = std::pow(uncertain_parameters()[p].z_of(uncertainty.spread[p]), 2);
@@ -95,15 +104,16 @@ namespace {
 
 void change_table(std::vector<StrainLifePoint>& table, const Fatigue& fatigue) {
   for (StrainLifePoint& point : table) {
-    point.strain_amplitude *= fatigue.strength_factor * std::pow(2 * point.cycles / reversals_of_slope, fatigue.slope_change);
+    point.strain_amplitude *=
+        fatigue.strength_factor * std::pow(2 * point.cycles / reversals_of_slope, fatigue.slope_change);
     point.cycles *= fatigue.model_factor;
   }
 }
 
 }  // namespace
 
-// Strains and stresses times s: eps/s = (sig/s)/E + ((sig/s)/K')^(1/n'), so K' grows by s^(1 - n'). Lives times m leave n' and K'
-// = sf'/ef'^n' as they are.
+// Strains and stresses times s: eps/s = (sig/s)/E + ((sig/s)/K')^(1/n'), so K' grows by s^(1 - n'). Lives
+// times m leave n' and K' = sf'/ef'^n' as they are.
 Material changed(Material material, const Fatigue& fatigue) {
   if (!is_changed(fatigue)) return material;
   change_table(material.strain_life_table, fatigue);

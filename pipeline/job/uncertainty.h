@@ -1,10 +1,11 @@
 // What is not known of a dresspack, as the one list that draws, fits and reports share.
 //
-// Every parameter has a standardised variable z, before anything is measured standard normal and independent of the
-// others. It acts on a job through one ordinary key, whose default changes nothing:
+// Every parameter has a standardised variable z, before anything is measured standard normal and independent
+// of the others. It acts on a job through one ordinary key, whose default changes nothing:
 //     logarithmic   key = exp(deviation z), a factor;   else   key = deviation z, an addend.
-// So `--set strain.friction_factor=2.5` is friction at z = 1. A job's own spread (section `uncertainty`) makes the prior
-// of z narrower or wider and leaves what z means alone: z of a calibration holds for every job.
+// So `--set strain.friction_factor=2.5` is friction at z = 1. A job's own spread (section `uncertainty`)
+// makes the prior of z narrower or wider and leaves what z means alone: z of a calibration holds for every
+// job.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,11 +35,11 @@ enum class SharedBy {
 };
 
 struct UncertainParameter {
-  std::string_view name;     ///< as in calibrations and tables: "friction_inside"
-  std::string_view key;      ///< of the job: "strain.friction_factor"
-  bool logarithmic;          ///< the key is a factor; else an addend
-  double deviation;          ///< of ln(key), or of the key, at z = 1
-  bool of_strain;            ///< moves what dresslife-strain works out; else only what dresslife-fatigue does
+  std::string_view name;  ///< as in calibrations and tables: "friction_inside"
+  std::string_view key;   ///< of the job: "strain.friction_factor"
+  bool logarithmic;       ///< the key is a factor; else an addend
+  double deviation;       ///< of ln(key), or of the key, at z = 1
+  bool of_strain;         ///< moves what dresslife-strain works out; else only what dresslife-fatigue does
   SharedBy shared;
   std::string_view meaning;  ///< "friction times pressure inside the cables"
   std::string_view source;   ///< of the deviation
@@ -51,19 +52,22 @@ struct UncertainParameter {
 const std::array<UncertainParameter, uncertain_count>& uncertain_parameters();
 constexpr std::size_t index_of(Uncertain parameter) { return static_cast<std::size_t>(parameter); }
 
-/// "strain.friction_factor=2.5" and so on, as `--set` takes them, of all parameters whose z is not 0. Precondition: (parameter).
+/// "strain.friction_factor=2.5" and so on, as `--set` takes them, of all parameters whose z is not 0.
+/// Precondition: (parameter).
 std::vector<std::string> sets_at(std::span<const double> z);
 
 /// The section `uncertainty` of a job.
 struct Uncertainty {
   bool enabled = true;
-  std::array<double, uncertain_count> spread = default_spread();  ///< of the key at one deviation: a factor, or an addend
+  std::array<double, uncertain_count> spread =
+      default_spread();  ///< of the key at one deviation: a factor, or an addend
 
   static std::array<double, uncertain_count> default_spread();
 };
 void describe(Fields& f, Uncertainty& uncertainty);
 
-/// What is known of all parameters together: a normal distribution of z. The prior of a job, or a calibration's posterior.
+/// What is known of all parameters together: a normal distribution of z. The prior of a job, or a
+/// calibration's posterior.
 struct ParameterKnowledge {
   Eigen::VectorXd mean;        ///< (parameter), in the order of uncertain_parameters()
   Eigen::MatrixXd covariance;  ///< (parameter, parameter)
@@ -71,9 +75,10 @@ struct ParameterKnowledge {
 /// Independent, mean 0, of the spreads that the job gives.
 ParameterKnowledge prior_of(const Uncertainty& uncertainty);
 
-/// A wire's material as fatigue.strength_factor, slope_change and model_factor make it: strains and stresses of the
-/// strain-life curve times the first; b moved by the second about reversals_of_slope, where its stress stays; lives
-/// times the third. K' and n' follow, so that (8) and the cyclic curve stay compatible as they were.
+/// A wire's material as fatigue.strength_factor, slope_change and model_factor make it: strains and stresses
+/// of the strain-life curve times the first; b moved by the second about reversals_of_slope, where its stress
+/// stays; lives times the third. K' and n' follow, so that (8) and the cyclic curve stay compatible as they
+/// were.
 Material changed(Material material, const Fatigue& fatigue);
 constexpr double reversals_of_slope = 2e5;  ///< in the middle of what wires are tested at
 

@@ -47,8 +47,9 @@ constexpr std::array units{
 const Unit& unit_of_key(std::string_view key) {
   const Unit* longest = &dimensionless;
   for (const Unit& unit : units)
-    if (key.size() > unit.suffix.size() + 1 && key.back() == unit.suffix.back() && key.ends_with(unit.suffix) &&
-        key[key.size() - unit.suffix.size() - 1] == '_' && unit.suffix.size() > longest->suffix.size())
+    if (key.size() > unit.suffix.size() + 1 && key.back() == unit.suffix.back() &&
+        key.ends_with(unit.suffix) && key[key.size() - unit.suffix.size() - 1] == '_' &&
+        unit.suffix.size() > longest->suffix.size())
       longest = &unit;
   return *longest;
 }
@@ -61,13 +62,14 @@ std::string_view stem_of_key(std::string_view key) {
 std::string shortest_text(double value) { return fmt::format("{}", value); }
 
 std::string text_in_unit(double si, const Unit& unit) {
-  // A value that came from text is x * to_si for some short x, of which si / to_si is within two roundings, 2.3e-16.
-  // Decimals of up to 15 digits lie 1e-15 and more apart: such an x is the nearest of them. Of more digits it is one of
-  // the roundings of the quotient's neighbours.
+  // A value that came from text is x * to_si for some short x, of which si / to_si is within two
+  // roundings, 2.3e-16. Decimals of up to 15 digits lie 1e-15 and more apart: such an x is the nearest of
+  // them. Of more digits it is one of the roundings of the quotient's neighbours.
   using Limits = std::numeric_limits<double>;
   const double near = si / unit.to_si;
   // Most are the quotient itself, and tell so by being short.
-  if (std::string text = shortest_text(near); near * unit.to_si == si && (unit.to_si == 1 || text.size() <= Limits::digits10))
+  if (std::string text = shortest_text(near);
+      near * unit.to_si == si && (unit.to_si == 1 || text.size() <= Limits::digits10))
     return text;
   for (int digits = Limits::digits10; digits <= Limits::max_digits10; ++digits)
     for (const double x : {near, std::nextafter(near, INFINITY), std::nextafter(near, -INFINITY)}) {

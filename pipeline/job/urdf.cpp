@@ -532,7 +532,9 @@ class Chain {
 
 }  // namespace
 
-Node robot_from_urdf(const UrdfRequest& request) { return robot_from_urdf(request, read_source(request.urdf)); }
+Node robot_from_urdf(const UrdfRequest& request) {
+  return robot_from_urdf(request, read_source(request.urdf));
+}
 
 Node robot_from_urdf(const UrdfRequest& request, const std::string& text) {
   const std::string file = request.urdf.string();

@@ -96,11 +96,15 @@ class RoundEmulation {
     const double noise = observation.noise_percent / 100;
     EmulatedTest made;
     if (observation.decrement) {
-      const MeasuredNumber number{*observation.decrement - observation.decrement_without_slip, noise * *observation.decrement, {{0, 1.0}}};
+      const MeasuredNumber number{*observation.decrement - observation.decrement_without_slip,
+                                  noise * *observation.decrement,
+                                  {{0, 1.0}}};
       const auto said = [&](const std::vector<double>& curvature, const std::vector<double>& moment) {
-        return VectorXd::Constant(1, log_decrement_by_slip(curvature, moment, observation.at_curvature)).eval();
+        return VectorXd::Constant(1, log_decrement_by_slip(curvature, moment, observation.at_curvature))
+            .eval();
       };
-      for (const RoundOfJobs::Runs& runs : variants) made.bending.push_back({bending_over(test, runs, said), {number}});
+      for (const RoundOfJobs::Runs& runs : variants)
+        made.bending.push_back({bending_over(test, runs, said), {number}});
       return made;
     }
     const std::vector<BendingPoint> points =
@@ -117,13 +121,15 @@ class RoundEmulation {
         values[static_cast<Index>(c)] = log_moment(curvature, moment, bent.curvatures[c]);
       return values;
     };
-    for (const RoundOfJobs::Runs& runs : variants) made.bending.push_back({bending_over(test, runs, said), bent.numbers});
+    for (const RoundOfJobs::Runs& runs : variants)
+      made.bending.push_back({bending_over(test, runs, said), bent.numbers});
     return made;
   }
 
   /// Logarithms over z of what is said of a first bend, from its table of curvatures and moments.
   template <typename Said>
-  std::vector<Emulator> bending_over(const ObservedTest& test, const RoundOfJobs::Runs& runs, const Said& said) const {
+  std::vector<Emulator> bending_over(const ObservedTest& test, const RoundOfJobs::Runs& runs,
+                                     const Said& said) const {
     const auto of_job = [&](std::size_t job) {
       row_of(test, job);
       const FileReader strain(places_.job(round_.study().jobs[job].name) / "strain.h5", strain_format());

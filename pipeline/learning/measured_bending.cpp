@@ -28,7 +28,8 @@ class Path {
  public:
   Sum next(double curvature) {
     const double way = curvature - last_;
-    if (way != 0 && direction_ != 0 && (way > 0) != (direction_ > 0)) turns_.push_back({last_, moment_at(last_)});
+    if (way != 0 && direction_ != 0 && (way > 0) != (direction_ > 0))
+      turns_.push_back({last_, moment_at(last_)});
     if (way != 0) direction_ = way;
     while (closes(curvature)) turns_.resize(turns_.size() - (turns_.size() > 1 ? 2 : 1));
     last_ = curvature;
@@ -36,7 +37,8 @@ class Path {
   }
 
  private:
-  /// Whether the branch has come as far as that before it began, or, from the first turn, as far on the other side.
+  /// Whether the branch has come as far as that before it began, or, from the first turn, as far on the other
+  /// side.
   bool closes(double curvature) const {
     if (turns_.empty()) return false;
     const double begin = turns_.back().curvature;
@@ -72,12 +74,13 @@ double number_of(const std::string& cell, const Where& where) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    throw InputError(where, fmt::format("'{}' is not a number", cell), "write curvature and moment with decimal points");
+    throw InputError(where, fmt::format("'{}' is not a number", cell),
+                     "write curvature and moment with decimal points");
   return value;
 }
 
-/// Integral of M1 from 0 to a curvature [N m x 1/m]: between two values of the table M1 is a power, before the first one
-/// that of the first two.
+/// Integral of M1 from 0 to a curvature [N m x 1/m]: between two values of the table M1 is a power, before
+/// the first one that of the first two.
 double work(const std::vector<double>& curvatures, const std::vector<double>& moments, double curvature) {
   double sum = 0;
   for (std::size_t k = 1; k < curvatures.size(); ++k) {
@@ -108,15 +111,18 @@ std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
     const Where where{file.string(), number, 1};
     const std::vector<std::string> cells = cells_of(line);
     if (number == 1 && (cells.size() != 2 || cells[0] != "curvature_1_per_m" || cells[1] != "moment_Nm"))
-      throw InputError(where, "is not the header of a bending test", "begin with 'curvature_1_per_m,moment_Nm'");
+      throw InputError(where, "is not the header of a bending test",
+                       "begin with 'curvature_1_per_m,moment_Nm'");
     if (number == 1 || (cells.size() == 1 && cells[0].empty()) || cells.empty()) continue;
     if (cells.size() != 2)
       throw InputError(where, fmt::format("has {} columns (a bending test has 2)", cells.size()),
                        "write curvature and moment, with a comma between");
     points.push_back({number_of(cells[0], where), number_of(cells[1], where)});
   }
-  const bool bent = std::any_of(points.begin(), points.end(), [](const BendingPoint& p) { return p.curvature != 0 && p.moment != 0; });
-  if (!bent) throw InputError({file.string()}, "holds no moment of a bent cable", "write a line per measured point");
+  const bool bent = std::any_of(points.begin(), points.end(),
+                                [](const BendingPoint& p) { return p.curvature != 0 && p.moment != 0; });
+  if (!bent)
+    throw InputError({file.string()}, "holds no moment of a bent cable", "write a line per measured point");
   return points;
 }
 
@@ -139,14 +145,16 @@ BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double n
   return made;
 }
 
-double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments, double curvature) {
+double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments,
+                  double curvature) {
   const auto above = std::upper_bound(curvatures.begin() + 1, curvatures.end() - 1, curvature);
   const auto k = static_cast<std::size_t>(above - curvatures.begin());
   const double part = std::log(curvature / curvatures[k - 1]) / std::log(curvatures[k] / curvatures[k - 1]);
   return std::log(moments[k - 1]) + part * std::log(moments[k] / moments[k - 1]);
 }
 
-double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments, double largest) {
+double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments,
+                             double largest) {
   constexpr int places = 40;
   constexpr double least = 1e-4;
   double lost = 0, stored = 0;

@@ -21,30 +21,37 @@ void describe(Fields& f, Observation& observation) {
   f.text("note", observation.note, Need::optional, "what is not known, and how it is varied");
   f.maybe_number("cycles", observation.cycles, above(0), "that it lived");
   f.maybe_number("hours", observation.hours, above(0), "of motion that it lived, instead of cycles");
-  f.maybe_number("stiffness_Nm2", observation.stiffness, above(0),
-                 "instead of a life: moment over curvature of the cable, bent from straight to at_curvature_1_per_m");
-  f.number("at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100),
-           "of stiffness_Nm2; of decrement the curvature beside the clamp at the end of a swing, 3.5 x deflection / length^2");
-  f.maybe_number("decrement", observation.decrement, between(1e-3, 5),
-                 "instead of a life: ln of the ratio of two swings to one side that follow each other, of a piece that stands out from a clamp");
+  f.maybe_number(
+      "stiffness_Nm2", observation.stiffness, above(0),
+      "instead of a life: moment over curvature of the cable, bent from straight to at_curvature_1_per_m");
+  f.number(
+      "at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100),
+      "of stiffness_Nm2; of decrement the curvature beside the clamp at the end of a swing, 3.5 x deflection / length^2");
+  f.maybe_number(
+      "decrement", observation.decrement, between(1e-3, 5),
+      "instead of a life: ln of the ratio of two swings to one side that follow each other, of a piece that stands out from a clamp");
   f.number("decrement_without_slip", observation.decrement_without_slip, Need::optional, between(0, 5),
            "what of decrement the jacket's polymer and the air have, as the smallest swings show it");
-  f.path("bending", observation.bending, Need::optional,
-         "instead of a life: a CSV of a bending test, columns curvature_1_per_m and moment_Nm, from straight, loops as they were bent");
+  f.path(
+      "bending", observation.bending, Need::optional,
+      "instead of a life: a CSV of a bending test, columns curvature_1_per_m and moment_Nm, from straight, loops as they were bent");
   f.number("noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
            "standard deviation of a measured moment, stiffness or decrement");
   f.number("cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
            "that the observer counts in one repeat of the job's motion: 2 where single strokes are counted");
-  f.choice("outcome", observation.outcome,
-           "broken: so long it lived; broken_by: no specimen lived longer; run_out: it had not failed then; rating: "
-           "its maker promises so much");
-  f.choice("criterion", observation.criterion,
-           "what counted as failed: first_wire, or conductor (a share of its wires at one place, fatigue.failed_wires_percent)");
+  f.choice(
+      "outcome", observation.outcome,
+      "broken: so long it lived; broken_by: no specimen lived longer; run_out: it had not failed then; rating: "
+      "its maker promises so much");
+  f.choice(
+      "criterion", observation.criterion,
+      "what counted as failed: first_wire, or conductor (a share of its wires at one place, fatigue.failed_wires_percent)");
   f.integer("specimens", observation.specimens, Need::optional, between(1, 1e6),
             "that were tried; of several that broke, cycles or hours are their geometric mean");
-  f.number("unshared_log10", observation.unshared_log10, Need::optional, between(0, 3),
-           "standard deviation of log10 of life that this test has of its own, for dresslife calibrate; smaller for the cable "
-           "that is calibrated for in its own test");
+  f.number(
+      "unshared_log10", observation.unshared_log10, Need::optional, between(0, 3),
+      "standard deviation of log10 of life that this test has of its own, for dresslife calibrate; smaller for the cable "
+      "that is calibrated for in its own test");
 }
 
 namespace {
@@ -67,10 +74,12 @@ std::vector<Variant> combinations(const Node* vary, const std::string& name) {
   std::vector<Variant> variants{{name, {}}};
   if (!vary) return variants;
   if (!vary->is_map())
-    throw InputError(vary->where, "vary must be a map of keys to lists of values", "write {KEY.PATH: [A, B]}");
+    throw InputError(vary->where, "vary must be a map of keys to lists of values",
+                     "write {KEY.PATH: [A, B]}");
   for (const Entry& key : vary->entries) {
     if (!key.value.is_list() || key.value.items.empty())
-      throw InputError(key.where, fmt::format("vary.{} must be a list of values", key.key), "write [A, B, ...]");
+      throw InputError(key.where, fmt::format("vary.{} must be a list of values", key.key),
+                       "write [A, B, ...]");
     std::vector<Variant> longer;
     for (const Variant& variant : variants)
       for (std::size_t i = 0; i < key.value.items.size(); ++i) {
@@ -87,25 +96,31 @@ std::vector<Variant> combinations(const Node* vary, const std::string& name) {
 }
 
 Observation read_one(const Node& item) {
-  if (!item.is_map()) throw InputError(item.where, "an observation must be a map", "write name, job, cycles, source");
+  if (!item.is_map())
+    throw InputError(item.where, "an observation must be a map", "write name, job, cycles, source");
   Node plain = item;
   std::erase_if(plain.entries, [](const Entry& e) { return e.key == "job" || e.key == "vary"; });
   Observation observation;
   read_fields(plain, observation);
   if (!fits_a_folder(observation.name))
-    throw InputError(item.where, fmt::format("name '{}' is not made of letters, digits and _", observation.name),
-                     "choose another name");
-  const int observed = observation.cycles.has_value() + observation.hours.has_value() + observation.stiffness.has_value() +
-                       observation.decrement.has_value() + !observation.bending.empty();
-  if (observed != 1)
     throw InputError(item.where,
-                     fmt::format("'{}' must have either cycles or hours (or stiffness_Nm2, decrement or bending)", observation.name),
-                     "give one of them");
+                     fmt::format("name '{}' is not made of letters, digits and _", observation.name),
+                     "choose another name");
+  const int observed = observation.cycles.has_value() + observation.hours.has_value() +
+                       observation.stiffness.has_value() + observation.decrement.has_value() +
+                       !observation.bending.empty();
+  if (observed != 1)
+    throw InputError(
+        item.where,
+        fmt::format("'{}' must have either cycles or hours (or stiffness_Nm2, decrement or bending)",
+                    observation.name),
+        "give one of them");
   if (observation.decrement && observation.decrement_without_slip >= *observation.decrement)
     throw InputError(item.where, fmt::format("'{}': nothing of decrement is left for slip", observation.name),
                      "give a decrement_without_slip below decrement");
   if (!observation.decrement && observation.decrement_without_slip > 0)
-    throw InputError(item.where, fmt::format("'{}' has decrement_without_slip but no decrement", observation.name),
+    throw InputError(item.where,
+                     fmt::format("'{}' has decrement_without_slip but no decrement", observation.name),
                      "give decrement, or leave it out");
   if (!item.find("job"))
     throw InputError(item.where, fmt::format("'{}' has no job (what was done to it)", observation.name),
@@ -131,16 +146,19 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
     throw InputError(document.where, "holds no observations", "write 'observations:' and a list");
   for (const Entry& entry : document.entries)
     if (entry.key != "observations")
-      throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key), "leave it out");
+      throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key),
+                       "leave it out");
   std::vector<ObservedTest> tests;
   std::set<std::string> names;
   for (const Node& item : list->items) {
     ObservedTest test{read_one(item), {}, to_yaml(item), item.where};
     const std::string& name = test.observation.name;
     if (!names.insert(name).second)
-      throw InputError(item.where, fmt::format("two observations are named '{}'", name), "give each another name");
+      throw InputError(item.where, fmt::format("two observations are named '{}'", name),
+                       "give each another name");
     const Node& written = *item.find("job");
-    Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where) : written;
+    Node base =
+        written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where) : written;
     if (!test.observation.is_life() && base.is_map() && !base.find("motion")) add_still_motion(base);
     for (const Variant& variant : combinations(item.find("vary"), name)) {
       test.variants.push_back({variant.name, base, ""});
@@ -167,7 +185,8 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
     for (ObservedTest::Variant& variant : test.variants) {
       StudyJob job{variant.name, nullptr, variant.failure};
       try {
-        if (job.failure.empty()) job.job = std::make_shared<const Job>(job_from(std::move(variant.job), all_sets));
+        if (job.failure.empty())
+          job.job = std::make_shared<const Job>(job_from(std::move(variant.job), all_sets));
       } catch (const InputError& problem) {
         job.failure = problem.what();
       }
@@ -192,13 +211,15 @@ std::array<double, 3> lives_of(const Observation& observation, const RankingRow&
   return lives;
 }
 
-Prediction predicted(const Observation& observation, const Study& study, const std::vector<RankingRow>& rows) {
+Prediction predicted(const Observation& observation, const Study& study,
+                     const std::vector<RankingRow>& rows) {
   Prediction prediction;
   prediction.low = prediction.stuck = endless;
   std::vector<double> medians;
   for (const std::size_t index : observation.jobs) {
     const std::string& name = study.jobs[index].name;
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& r) { return r.job == name; });
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const RankingRow& r) { return r.job == name; });
     ++prediction.variants;
     if (row == rows.end() || !row->done()) {
       if (prediction.failure.empty()) prediction.failure = row == rows.end() ? "not computed" : row->failure;
@@ -257,9 +278,11 @@ std::string short_life(double life) { return life_text(life, 2); }
 
 std::string observed_text(const Observation& observation) {
   if (observation.stiffness)
-    return fmt::format("{} N m2 at {} 1/m", readable(*observation.stiffness, 3), readable(observation.at_curvature, 2));
+    return fmt::format("{} N m2 at {} 1/m", readable(*observation.stiffness, 3),
+                       readable(observation.at_curvature, 2));
   if (observation.decrement)
-    return fmt::format("decrement {} at {} 1/m", readable(*observation.decrement, 2), readable(observation.at_curvature, 2));
+    return fmt::format("decrement {} at {} 1/m", readable(*observation.decrement, 2),
+                       readable(observation.at_curvature, 2));
   if (!observation.bending.empty()) return observation.bending.filename().string();
   const char* sign = observation.outcome == ObservedEnd::broken      ? ""
                      : observation.outcome == ObservedEnd::broken_by ? "at most "
@@ -275,19 +298,19 @@ std::string validation_table(const ValidationStudy& validation, const std::vecto
   for (const Observation& observation : validation.observations) {
     const Prediction prediction = predicted(observation, validation.study, rows);
     if (prediction.failed > 0) {
-      text += fmt::format("| {} | {} | {} | {} of {} variants failed: {} | | | |\n", observation.name, observation.what,
-                          observed_text(observation), prediction.failed, prediction.variants, prediction.failure);
+      text += fmt::format("| {} | {} | {} | {} of {} variants failed: {} | | | |\n", observation.name,
+                          observation.what, observed_text(observation), prediction.failed,
+                          prediction.variants, prediction.failure);
       continue;
     }
-    const std::string medians =
-        prediction.variants == 1
-            ? short_life(prediction.median)
-            : fmt::format("{} .. {} ({})", short_life(prediction.shortest), short_life(prediction.longest),
-                          prediction.variants);
-    text += fmt::format("| {} | {} | {}, {} | {} | {} .. {} | {} .. {} | {} |\n", observation.name, observation.what,
-                        observed_text(observation), word(observation.outcome), medians, short_life(prediction.low),
-                        short_life(prediction.high), short_life(prediction.stuck), short_life(prediction.free),
-                        words_of(judged(observation, prediction)));
+    const std::string medians = prediction.variants == 1
+                                    ? short_life(prediction.median)
+                                    : fmt::format("{} .. {} ({})", short_life(prediction.shortest),
+                                                  short_life(prediction.longest), prediction.variants);
+    text += fmt::format("| {} | {} | {}, {} | {} | {} .. {} | {} .. {} | {} |\n", observation.name,
+                        observation.what, observed_text(observation), word(observation.outcome), medians,
+                        short_life(prediction.low), short_life(prediction.high), short_life(prediction.stuck),
+                        short_life(prediction.free), words_of(judged(observation, prediction)));
   }
   return text;
 }

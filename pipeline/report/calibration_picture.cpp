@@ -26,17 +26,22 @@ svg { font: 12px sans-serif; background: #fff }
 class Bars {
  public:
   Bars(Picture& picture, double from_top, std::size_t rows, Axis axis)
-      : picture_(picture), panel_{left, from_top, plot_width, row_height * static_cast<double>(rows), {}, {}} {
+      : picture_(picture), panel_{left, from_top, plot_width, row_height * static_cast<double>(rows),
+                                  {},   {}} {
     panel_.x = std::move(axis);
     for (const Tick& tick : panel_.x.ticks(8)) {
-      picture_.line(panel_.across(tick.value), panel_.top, panel_.across(tick.value), panel_.bottom(), "grid");
-      picture_.text(panel_.across(tick.value), panel_.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
+      picture_.line(panel_.across(tick.value), panel_.top, panel_.across(tick.value), panel_.bottom(),
+                    "grid");
+      picture_.text(panel_.across(tick.value), panel_.bottom() + 17, tick.label, "tick",
+                    Picture::Anchor::middle);
     }
-    picture_.text(left + plot_width / 2, panel_.bottom() + 36, panel_.x.title, "axis-title", Picture::Anchor::middle);
+    picture_.text(left + plot_width / 2, panel_.bottom() + 36, panel_.x.title, "axis-title",
+                  Picture::Anchor::middle);
   }
 
   /// Returns the middle of the row, from the top.
-  double add(const std::string& name, const Foretold& before, const Foretold* after, const std::string& words) {
+  double add(const std::string& name, const Foretold& before, const Foretold* after,
+             const std::string& words) {
     const double y = panel_.top + row_height * (static_cast<double>(rows_++) + 0.5);
     picture_.text(left - 8, y + 4, shortened(name, 26), "name", Picture::Anchor::end);
     bar(y, 16, before, "before");
@@ -79,8 +84,9 @@ Foretold in_deviations(const UncertainParameter& parameter, const Foretold& key)
 }  // namespace
 
 std::string calibration_picture(const Learned& learned) {
-  const auto tests = static_cast<std::size_t>(std::count_if(
-      learned.tests.begin(), learned.tests.end(), [](const LearnedTest& test) { return test.observation.is_life(); }));
+  const auto tests = static_cast<std::size_t>(
+      std::count_if(learned.tests.begin(), learned.tests.end(),
+                    [](const LearnedTest& test) { return test.observation.is_life(); }));
   const double second = top + row_height * static_cast<double>(uncertain_count) + 78;
   Picture picture(left + plot_width + words_width, second + row_height * static_cast<double>(tests) + 48,
                   "What observations have taught", "Parameters, and lives foretold, before and after");
@@ -92,22 +98,27 @@ std::string calibration_picture(const Learned& learned) {
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     const LearnedAxis& axis = learned.axes[p];
-    const Foretold before = in_deviations(parameter, axis.before), after = in_deviations(parameter, axis.after);
+    const Foretold before = in_deviations(parameter, axis.before),
+                   after = in_deviations(parameter, axis.after);
     parameters.add(std::string(parameter.name), before, axis.learned ? &after : nullptr,
-                   axis.learned ? fmt::format("{} ({} .. {})", readable(axis.after[1]), readable(axis.after[0]),
-                                              readable(axis.after[2]))
+                   axis.learned ? fmt::format("{} ({} .. {})", readable(axis.after[1]),
+                                              readable(axis.after[0]), readable(axis.after[2]))
                                 : "no test hangs on it");
   }
   if (tests > 0) {
-    picture.text(left, second - 10, "dot: observed; arrow to the right: at least, to the left: at most", "tick");
-    Bars lives(picture, second, tests, decades_axis("life of one specimen [cycles of the test, or hours]", least_life, most_life));
+    picture.text(left, second - 10, "dot: observed; arrow to the right: at least, to the left: at most",
+                 "tick");
+    Bars lives(picture, second, tests,
+               decades_axis("life of one specimen [cycles of the test, or hours]", least_life, most_life));
     for (const LearnedTest& test : learned.tests)
       if (test.observation.is_life())
-        add_seen(picture, lives, lives.add(test.observation.name, test.before, &test.after, observed_text(test.observation)),
+        add_seen(picture, lives,
+                 lives.add(test.observation.name, test.before, &test.after, observed_text(test.observation)),
                  test.observation);
   }
   std::string text = picture.svg();
-  text.insert(text.find('>'), fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\"", picture.width()));
+  text.insert(text.find('>'),
+              fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\"", picture.width()));
   return text.insert(text.find('>') + 1, std::string("\n") + style);
 }
 

@@ -1,5 +1,5 @@
-// What observations have taught, as a picture that stands alone (SVG): each parameter before and after, and each row's life
-// as it was foretold before and after beside what was seen.
+// What observations have taught, as a picture that stands alone (SVG): each parameter before and after, and
+// each row's life as it was foretold before and after beside what was seen.
 #pragma once
 
 #include <string>

@@ -9,7 +9,8 @@ namespace dresslife::pipeline {
 /// Rules for a page's style sheet, with colours for light and dark readers.
 std::string chart_style();
 
-/// A chart in a page, at a size at which its words can be read; a picture without words to read, which shrinks with the page.
+/// A chart in a page, at a size at which its words can be read; a picture without words to read, which
+/// shrinks with the page.
 std::string chart_in_page(const std::string& svg);
 std::string picture_in_page(const std::string& svg);
 

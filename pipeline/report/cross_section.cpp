@@ -42,9 +42,9 @@ std::string kind_words(const Component& part) {
 /// What a part without wires has instead.
 std::string plain_words(const Component& part) {
   const PlainProperties plain = properties_of(*part.plain, part.radius);
-  return kind_words(part) +
-         fmt::format(", {:.3g} kg/m, E I {:.3g} N m2{}; no life here", part.laying.mass.value_or(plain.mass),
-                             plain.bending, part.plain->bending_stiffness ? "" : " (ESTIMATE)");
+  return kind_words(part) + fmt::format(", {:.3g} kg/m, E I {:.3g} N m2{}; no life here",
+                                        part.laying.mass.value_or(plain.mass), plain.bending,
+                                        part.plain->bending_stiffness ? "" : " (ESTIMATE)");
 }
 
 double section_of_wires(const Component& part) {
@@ -105,13 +105,10 @@ constexpr std::string_view style =
 class Drawing {
  public:
   Drawing(const Dresspack& dresspack, LayerLines layers)
-      : dresspack_(dresspack),
-        layers_(layers),
-        scale_((picture - 2 * margin) / dresspack.diameter) {}
+      : dresspack_(dresspack), layers_(layers), scale_((picture - 2 * margin) / dresspack.diameter) {}
 
   std::string svg() {
-    if (layers_ == LayerLines::drawn)
-      list(dresspack_.components, 0);
+    if (layers_ == LayerLines::drawn) list(dresspack_.components, 0);
     const double height = picture + line_height * (static_cast<double>(lines_.size()) + 1);
     std::string body = fmt::format("<g transform=\"translate({0:.4g} {0:.4g})\">\n{1}{2}</g>\n", picture / 2,
                                    hose(), inside(dresspack_.components));
@@ -216,10 +213,12 @@ class Drawing {
 
 /// "layer 2/wire 17": the layer's name where it has one, then part 17 of so many.
 std::string own_name(const Component& component, int number) {
-  return fmt::format("{}{}{} {}", component.layer, component.layer.empty() ? "" : "/", component.name, number);
+  return fmt::format("{}{}{} {}", component.layer, component.layer.empty() ? "" : "/", component.name,
+                     number);
 }
 
-void list_wires(const std::vector<Component>& components, const std::string& before, std::vector<std::string>& paths) {
+void list_wires(const std::vector<Component>& components, const std::string& before,
+                std::vector<std::string>& paths) {
   for (const Component& component : components)
     for (int k = 0; k < component.count; ++k) {
       const std::string path = before + own_name(component, k + 1);

@@ -26,8 +26,8 @@ std::vector<std::string> wire_paths(const Dresspack& dresspack);
 /// nothing.
 std::vector<double> bending_stiffnesses(const Dresspack& dresspack);
 
-/// What the dresspack has in all, its layers with widths, lays and hands, then wires, metal and stiffnesses; lines end with a
-/// line feed.
+/// What the dresspack has in all, its layers with widths, lays and hands, then wires, metal and stiffnesses;
+/// lines end with a line feed.
 std::string construction_text(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

@@ -15,8 +15,9 @@ constexpr std::size_t listed_lines = 10, listed_layers = 12;
 
 /// A share with a bar beside it, whose full length is the largest share of the table.
 std::string meter(double share, double largest) {
-  return fmt::format("<span class=\"metered\"><span class=\"meter\"><span style=\"width:{:.1f}%\"></span></span>{:.1f} %</span>",
-                     100 * share / largest, 100 * share);
+  return fmt::format(
+      "<span class=\"metered\"><span class=\"meter\"><span style=\"width:{:.1f}%\"></span></span>{:.1f} %</span>",
+      100 * share / largest, 100 * share);
 }
 
 std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
@@ -176,8 +177,10 @@ std::string chart_section(const std::string& heading, const std::string& remark,
 }
 
 std::string damage_along(const LifeSummary& life, const RankingRow& row) {
-  const std::string along = row.worst_dresspack.empty() ? "the dresspack" : "the " + escaped(row.worst_dresspack);
-  return chart_section("Damage along " + along, place_remark(life), segment_chart(life, row.worst_segment_from_tool));
+  const std::string along =
+      row.worst_dresspack.empty() ? "the dresspack" : "the " + escaped(row.worst_dresspack);
+  return chart_section("Damage along " + along, place_remark(life),
+                       segment_chart(life, row.worst_segment_from_tool));
 }
 
 std::string damage_tables(const LifeSummary& life, const RankingRow& row) {

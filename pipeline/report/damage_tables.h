@@ -1,5 +1,5 @@
-// Where a job's damage comes from, as sections of a page: along the dresspack and by the nearest clamp, by program line, joint
-// and layer of wires.
+// Where a job's damage comes from, as sections of a page: along the dresspack and by the nearest clamp, by
+// program line, joint and layer of wires.
 #pragma once
 
 #include <string>

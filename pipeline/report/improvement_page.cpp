@@ -29,23 +29,28 @@ h1, td code { overflow-wrap: anywhere; } div.narrow { display: none; } .figure {
 
 /// A table that scrolls where it is wider than the page.
 std::string table(const std::string& head, const std::string& rows) {
-  return fmt::format("<div class=\"wide\"><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", head, rows);
+  return fmt::format(
+      "<div class=\"wide\"><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", head, rows);
 }
 
 std::string lives_section(const ImprovementStory& story) {
   const auto row = [](const char* name, const ImprovementStory::Lives& of) {
-    return fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
-                       "<td>{}</td></tr>\n",
-                       name, printed_life(of.p10), printed_life(of.p50), printed_life(of.p90), escaped(of.words));
+    return fmt::format(
+        "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
+        "<td>{}</td></tr>\n",
+        name, printed_life(of.p10), printed_life(of.p50), printed_life(of.p90), escaped(of.words));
   };
   std::string text =
       "<h2>Lives</h2>\n" +
-      table("<th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th><th class=\"number\">p90 [h]</th><th>limits</th>",
-            (story.before ? row("before", *story.before) : "") + (story.after ? row("after", *story.after) : ""));
+      table(
+          "<th></th><th class=\"number\">p10 [h]</th><th class=\"number\">p50 [h]</th><th class=\"number\">p90 [h]</th><th>limits</th>",
+          (story.before ? row("before", *story.before) : "") +
+              (story.after ? row("after", *story.after) : ""));
   if (story.longer_in)
-    text += fmt::format("<p>Over all that is not known of the dresspack, in what both have in common alike, it lives longer in "
-                        "{:.0f} % of draws.</p>\n",
-                        100 * *story.longer_in);
+    text += fmt::format(
+        "<p>Over all that is not known of the dresspack, in what both have in common alike, it lives longer in "
+        "{:.0f} % of draws.</p>\n",
+        100 * *story.longer_in);
   return text;
 }
 
@@ -60,8 +65,9 @@ std::string changes_section(const ImprovementStory& story) {
 std::string beside_section(const ImprovementStory& story) {
   if (!story.before || !story.after || story.before->page.empty() || story.after->page.empty()) return "";
   const auto half = [](const char* name, const std::string& page) {
-    return fmt::format("<div><p><a href=\"{0}\">{1}</a></p><iframe src=\"{0}\" title=\"{1}\" loading=\"lazy\"></iframe></div>\n",
-                       escaped(page), name);
+    return fmt::format(
+        "<div><p><a href=\"{0}\">{1}</a></p><iframe src=\"{0}\" title=\"{1}\" loading=\"lazy\"></iframe></div>\n",
+        escaped(page), name);
   };
   return "<h2>Side by side</h2>\n<div class=\"beside\">\n" + half("before", story.before->page) +
          half("after", story.after->page) + "</div>\n";
@@ -71,10 +77,10 @@ std::string nudges_section(const ImprovementStory& story) {
   if (story.nudges.empty()) return "";
   std::string rows;
   for (const ImprovementStory::Nudge& nudge : story.nudges)
-    rows += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td></tr>\n", escaped(nudge.what),
-                        nudge.ran && std::isfinite(nudge.share) ? fmt::format("× {:.2f}", nudge.share) : "–",
-                        nudge.words.empty() ? "" : " class=\"failed\"",
-                        nudge.words.empty() ? "kept" : escaped(nudge.words));
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td></tr>\n", escaped(nudge.what),
+        nudge.ran && std::isfinite(nudge.share) ? fmt::format("× {:.2f}", nudge.share) : "–",
+        nudge.words.empty() ? "" : " class=\"failed\"", nudge.words.empty() ? "kept" : escaped(nudge.words));
   return "<h2>What it forgives</h2>\n<p>No clamp is set to the millimetre: the same jobs with one thing off, without what is not "
          "known.</p>\n" +
          table("<th>off by</th><th class=\"number\">life</th><th>limits</th>", rows);
@@ -86,8 +92,9 @@ constexpr double broad = 940, narrow = 350, chart_height = 370;
 /// A chart at both widths: words keep their size, so a phone's has fewer of them.
 template <typename Draw>
 std::string at_both_widths(const Draw& draw) {
-  return fmt::format("<div class=\"figure\"><div class=\"broad\">{}</div><div class=\"narrow\">{}</div></div>\n", draw(broad),
-                     draw(narrow));
+  return fmt::format(
+      "<div class=\"figure\"><div class=\"broad\">{}</div><div class=\"narrow\">{}</div></div>\n",
+      draw(broad), draw(narrow));
 }
 
 Panel panel_of(double width, Axis x, Axis y) {
@@ -96,10 +103,12 @@ Panel panel_of(double width, Axis x, Axis y) {
 }
 
 /// Lives over trials: what keeps its limits, what does not, and the best so far.
-std::string history_chart(const std::vector<ImprovementStory::Look>& looks, double low, double high, double width) {
+std::string history_chart(const std::vector<ImprovementStory::Look>& looks, double low, double high,
+                          double width) {
   const Panel panel = panel_of(width, linear_axis("trial", 0, static_cast<double>(looks.size())),
                                decades_axis("life of the worst job, p10 [h]", low, high));
-  Picture picture(width, chart_height, "The search", "Life over trials, with those that keep all limits and the best of them so far.");
+  Picture picture(width, chart_height, "The search",
+                  "Life over trials, with those that keep all limits and the best of them so far.");
   panel.draw_axes(picture);
   double best = 0;
   std::vector<std::pair<double, double>> stairs;
@@ -108,7 +117,8 @@ std::string history_chart(const std::vector<ImprovementStory::Look>& looks, doub
     const double x = panel.across(look.trial);
     const double y = panel.down(std::min(look.hours, panel.y.high));
     picture.dot(x, y, look.feasible ? 4 : 2.5, look.feasible ? "dot" : "bar-hot",
-                fmt::format("trial {}: {} h{}", look.trial, printed_life(look.hours), look.feasible ? "" : "; " + look.words));
+                fmt::format("trial {}: {} h{}", look.trial, printed_life(look.hours),
+                            look.feasible ? "" : "; " + look.words));
     if (!look.feasible || look.hours <= best) continue;
     if (best > 0) stairs.emplace_back(x, panel.down(std::min(best, panel.y.high)));
     best = look.hours;
@@ -143,8 +153,10 @@ std::string front_charts(const ImprovementStory& story) {
   across.low = least;
   across.high = most;
   return "<h2>Between the two aims</h2>\n" + at_both_widths([&](double width) {
-           const Panel panel = panel_of(width, across, decades_axis("life of the worst job, p10 [h]", low, high));
-           Picture picture(width, chart_height, "The front", "Longest life for each value of the second aim.");
+           const Panel panel =
+               panel_of(width, across, decades_axis("life of the worst job, p10 [h]", low, high));
+           Picture picture(width, chart_height, "The front",
+                           "Longest life for each value of the second aim.");
            panel.draw_axes(picture);
            for (const auto& [second, hours] : story.front)
              picture.dot(panel.across(second), panel.down(std::min(hours, panel.y.high)), 4, "dot",
@@ -158,10 +170,11 @@ std::string history_section(const ImprovementStory& story) {
                                     [](const ImprovementStory::Look& look) { return !look.ran; });
   const auto feasible = std::count_if(story.looks.begin(), story.looks.end(),
                                       [](const ImprovementStory::Look& look) { return look.feasible; });
-  return fmt::format("<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
-                     "run; the line is the best so far. Lives are over the scatter of wires alone.</p>\n",
-                     story.looks.size(), feasible, static_cast<std::ptrdiff_t>(story.looks.size()) - feasible - failed,
-                     failed) +
+  return fmt::format(
+             "<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
+             "run; the line is the best so far. Lives are over the scatter of wires alone.</p>\n",
+             story.looks.size(), feasible,
+             static_cast<std::ptrdiff_t>(story.looks.size()) - feasible - failed, failed) +
          history_charts(story.looks);
 }
 
@@ -174,8 +187,8 @@ std::string improvement_page(const ImprovementStory& story) {
       "<p class=\"soft\">All trials stand in improve.csv, the last jobs in <a href=\"report.html\">their report</a>.</p>\n"
       "{3}{4}{5}{6}{7}{8}</body></html>\n",
       escaped(story.name), chart_style(), page_style, lives_section(story),
-      story.after ? changes_section(story) : "", front_charts(story), beside_section(story), nudges_section(story),
-      history_section(story));
+      story.after ? changes_section(story) : "", front_charts(story), beside_section(story),
+      nudges_section(story), history_section(story));
 }
 
 }  // namespace dresslife::pipeline

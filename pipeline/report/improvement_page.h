@@ -1,5 +1,5 @@
-// The page of a search for longer lives: before and after side by side, what was changed, what is gained and how sure
-// that is, how much the new place forgives, and the way there.
+// The page of a search for longer lives: before and after side by side, what was changed, what is gained and
+// how sure that is, how much the new place forgives, and the way there.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ struct ImprovementStory {
     std::string key, before, after;  ///< before: empty where a job does not name it, or jobs differ in it
   };
   struct Lives {
-    std::string page;                       ///< of the job, relative to this page; empty: there is none
-    std::string words;                      ///< of its limits: "all kept"
-    double p10 = 0, p50 = 0, p90 = 0;       ///< [h] of the worst job
+    std::string page;                  ///< of the job, relative to this page; empty: there is none
+    std::string words;                 ///< of its limits: "all kept"
+    double p10 = 0, p50 = 0, p90 = 0;  ///< [h] of the worst job
   };
   struct Look {
     int trial = 0;
@@ -24,7 +24,7 @@ struct ImprovementStory {
     std::string words;  ///< what is passed
   };
   struct Nudge {
-    std::string what;   ///< "base clamp, z + 10 mm"
+    std::string what;  ///< "base clamp, z + 10 mm"
     bool ran = false;
     double share = 0;   ///< its life over that of the place itself
     std::string words;  ///< what is passed; empty: nothing

@@ -25,8 +25,8 @@
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/section_data.h"
 #include "pipeline/study/ranking.h"
-#include "pipeline/whole_file.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -53,7 +53,6 @@ void check_together(const FileReader& life, const FileReader* other) {
                    "run the stages again, one after the other");
 }
 
-
 bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
 
 std::string headline(const RankingRow& row) {
@@ -72,9 +71,10 @@ std::string headline(const RankingRow& row) {
   if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
     text += fmt::format("; a first wire breaks after {} .. {} h in 10 .. 90 %",
                         printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
-  text += fmt::format("; the worst wire's own median is {}, {} if all inside the cables stuck, {} if all slid",
-                      printed_hours(row.life_hours), printed_hours(row.hours_of(row.life_repeats_all_stick)),
-                      printed_hours(row.hours_of(row.life_repeats_all_free)));
+  text +=
+      fmt::format("; the worst wire's own median is {}, {} if all inside the cables stuck, {} if all slid",
+                  printed_hours(row.life_hours), printed_hours(row.hours_of(row.life_repeats_all_stick)),
+                  printed_hours(row.hours_of(row.life_repeats_all_free)));
   text += ".</p>\n";
   if (damaged(row))
     text += fmt::format(
@@ -85,7 +85,8 @@ std::string headline(const RankingRow& row) {
   return text;
 }
 
-/// "E I 25 N m2, G J 20 N m2, E A 1e+05 N" of each dresspack as it was simulated; empty where an older file does not tell.
+/// "E I 25 N m2, G J 20 N m2, E A 1e+05 N" of each dresspack as it was simulated; empty where an older file
+/// does not tell.
 std::string stiffness_words(const FileReader& motion) {
   if (!motion.has("/dresspack/bending_stiffness")) return "";
   const auto bending = motion.read<double>("/dresspack/bending_stiffness"),
@@ -96,7 +97,8 @@ std::string stiffness_words(const FileReader& motion) {
   for (std::size_t d = 0; d < bending.size() && d < names.size(); ++d)
     if (bending[d] > 0)
       words.push_back(fmt::format("{}E I {:.3g} N m2, G J {:.3g} N m2, E A {:.3g} N",
-                                  names[d].empty() ? "" : names[d] + ": ", bending[d], torsional[d], axial[d]));
+                                  names[d].empty() ? "" : names[d] + ": ", bending[d], torsional[d],
+                                  axial[d]));
   return fmt::format("{}", fmt::join(words, "; "));
 }
 
@@ -108,7 +110,8 @@ std::string construction_words(const Setup& setup) {
   return words;
 }
 
-/// "stress cyclic, counting repeating" of what a part of the resolved job says in single words; empty: nothing.
+/// "stress cyclic, counting repeating" of what a part of the resolved job says in single words; empty:
+/// nothing.
 std::string settings_words(const Node& job, const std::string& part) {
   std::vector<std::string> words;
   if (const Node* settings = job.find(part); settings && settings->is_map())
@@ -118,8 +121,8 @@ std::string settings_words(const Node& job, const std::string& part) {
 }
 
 /// The settings that decide most, as they were in the end. job: resolved.
-std::string assumptions(const RankingRow& row, const Node& job, const FileReader* motion, const FileReader* strain,
-                        const Setup* setup) {
+std::string assumptions(const RankingRow& row, const Node& job, const FileReader* motion,
+                        const FileReader* strain, const Setup* setup) {
   std::string list;
   const auto fact = [&](const std::string& name, const std::string& value) {
     list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
@@ -131,8 +134,9 @@ std::string assumptions(const RankingRow& row, const Node& job, const FileReader
          fmt::format("cables pull with at most {:.2g} of what tears them", *row.largest_force_share));
   if (strain && strain->has_attribute("loose_mesh_error"))
     fact("mesh of loose cables",
-         fmt::format("{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
-                     100 * strain->number_attribute("loose_mesh_error")));
+         fmt::format(
+             "{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
+             100 * strain->number_attribute("loose_mesh_error")));
   const std::string stiffness = motion ? stiffness_words(*motion) : "";
   if (!stiffness.empty()) fact("hose as simulated", escaped(stiffness));
   if (const std::string words = setup ? construction_words(*setup) : ""; !words.empty())
@@ -164,7 +168,8 @@ std::string broken_limits(const FileReader& motion) {
 /// What lies in each dresspack, in words.
 std::string layers(const Setup& setup) {
   std::string text;
-  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) text += construction_text(setup.dresspacks[d].dresspack);
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
+    text += construction_text(setup.dresspacks[d].dresspack);
   return text;
 }
 
@@ -185,7 +190,8 @@ class Page {
     check_together(life_, strain_.get());
     if (!motion_) return;
     if (const std::string limits = broken_limits(*motion_); !limits.empty()) notes_.push_back(limits);
-    // The motion may be another job's that moves alike, with other cables in the hose; a life is each job's own.
+    // The motion may be another job's that moves alike, with other cables in the hose; a life is each job's
+    // own.
     const std::string source = files.life().string() + " (attribute job)";
     setup_ = setup_from(parse_yaml(life_.text_attribute("job"), source));
   }

@@ -29,7 +29,8 @@ bool known_whole(const FileReader& strain, std::uint32_t site) {
 
 std::string KnownHistory::words() const {
   if (!whole) return component + ", straight between its turning points";
-  return share < 1 ? fmt::format("{} ({} % of the worst wire's damage)", component, readable(100 * share, 3)) : component;
+  return share < 1 ? fmt::format("{} ({} % of the worst wire's damage)", component, readable(100 * share, 3))
+                   : component;
 }
 
 KnownHistory known_history(const FileReader& life, const FileReader* strain) {

@@ -40,7 +40,8 @@ struct LifeSummary {
   std::string job, history;
 };
 
-/// strain_file: of the same job, for a history without gaps; may be missing. Errors: InputError when a file cannot be read.
+/// strain_file: of the same job, for a history without gaps; may be missing. Errors: InputError when a file
+/// cannot be read.
 LifeSummary read_life(const std::filesystem::path& life_file, const std::filesystem::path& strain_file = {});
 
 /// A stretch of time in which one program line runs.

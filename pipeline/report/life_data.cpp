@@ -23,7 +23,7 @@ constexpr std::size_t most_turns = 30'000;     // of other places, of six bytes 
 constexpr std::size_t most_samples = 20'000;
 constexpr std::size_t most_closings = 300;  // of each segment
 constexpr double least_closing = 1e-4;      // of a segment's damage: 0.01 %
-constexpr int cycle_cells = 24;             // along range and mean, as wide as a thumb on a phone can be told apart
+constexpr int cycle_cells = 24;  // along range and mean, as wide as a thumb on a phone can be told apart
 
 /// A history as it is, or by the two extremes of each of equal stretches, in the order in which they occur.
 class Thinning {
@@ -93,8 +93,8 @@ class Data {
 
   std::string text() const {
     return fmt::format(
-        "{{{},\"segments\":{},\"strains\":{},\"closings\":{},{}{}\"program\":{},\"joints\":{}}}", attributes(),
-        segments(), strains(), closings(), cycles(), loops(), program(),
+        "{{{},\"segments\":{},\"strains\":{},\"closings\":{},{}{}\"program\":{},\"joints\":{}}}",
+        attributes(), segments(), strains(), closings(), cycles(), loops(), program(),
         json(life_.has("/joint/name") ? life_.read<std::string>("/joint/name") : std::vector<std::string>{}));
   }
 
@@ -161,7 +161,7 @@ class Data {
 
   /// A wire whose whole history strain.h5 holds.
   struct Probe {
-    std::size_t row;     ///< of /probe/strain
+    std::size_t row;  ///< of /probe/strain
     std::uint32_t site;
     double damage;
   };
@@ -183,16 +183,17 @@ class Data {
     return of;
   }
 
-  /// One history, at its own times or at those of all. sampled: whole, else straight between turning points. site: of the
-  /// wire; the segment's worst where it is not told.
+  /// One history, at its own times or at those of all. sampled: whole, else straight between turning points.
+  /// site: of the wire; the segment's worst where it is not told.
   std::string strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
                          const std::vector<float>& own_times = {}, const Probe* of = nullptr) const {
     const bool other = of && of->site != worst_site_[segment];
     std::vector<std::string> path{""};
     if (other) life_.read_rows("/site/component", of->site, 1, path);
-    return fmt::format("{{\"segment\":{},\"sampled\":{},{}{}\"numbers\":{}}}", segment, sampled,
-                       other ? fmt::format("\"wire\":{},\"damage\":{},", json(path.front()), json(of->damage)) : "",
-                       own_times.empty() ? "" : "\"time\":" + base64_of(own_times) + ",", packed(strain));
+    return fmt::format(
+        "{{\"segment\":{},\"sampled\":{},{}{}\"numbers\":{}}}", segment, sampled,
+        other ? fmt::format("\"wire\":{},\"damage\":{},", json(path.front()), json(of->damage)) : "",
+        own_times.empty() ? "" : "\"time\":" + base64_of(own_times) + ",", packed(strain));
   }
 
   /// Of a segment's worst wire: times after the first sample [s], strains.
@@ -209,8 +210,8 @@ class Data {
     return {times, strain};
   }
 
-  /// The history of one wire of each segment: of the worst that is known whole; of the job's worst wire its turning points
-  /// beside it. Where none is known whole the worst, straight between its turning points.
+  /// The history of one wire of each segment: of the worst that is known whole; of the job's worst wire its
+  /// turning points beside it. Where none is known whole the worst, straight between its turning points.
   std::string strains() const {
     const auto probed = probes();
     const int worst = worst_segment();
@@ -232,20 +233,23 @@ class Data {
         add(strain_row(segment, true, thinning_.of(history), {}, &probe->second));
       } else {
         const auto [times, strain] = turning_points(segment);
-        if (!strain.empty() && (turns += strain.size()) <= most_turns) add(strain_row(segment, false, strain, times));
+        if (!strain.empty() && (turns += strain.size()) <= most_turns)
+          add(strain_row(segment, false, strain, times));
         continue;
       }
       kept += thinning_.length();
     }
-    return fmt::format("{{\"thinned\":{},\"time\":{},\"rows\":[{}]{}}}", thinning_.thins(), base64_of(thinning_.times(time_)), rows,
-                       worst_turns(worst, worst_known));
+    return fmt::format("{{\"thinned\":{},\"time\":{},\"rows\":[{}]{}}}", thinning_.thins(),
+                       base64_of(thinning_.times(time_)), rows, worst_turns(worst, worst_known));
   }
 
   /// Of the worst wire, where its history is not known whole.
   std::string worst_turns(int worst, bool known) const {
     if (worst < 0 || known || !strain_) return "";
     const auto [times, strain] = turning_points(static_cast<std::size_t>(worst));
-    return strain.empty() ? "" : fmt::format(",\"turns\":{{\"time\":{},\"strain\":{}}}", base64_of(times), packed(strain));
+    return strain.empty()
+               ? ""
+               : fmt::format(",\"turns\":{{\"time\":{},\"strain\":{}}}", base64_of(times), packed(strain));
   }
 
   /// Where cycles close: per segment the sum, then times and damages of the largest.
@@ -275,14 +279,15 @@ class Data {
     return '[' + rows + ']';
   }
 
-  /// The worst site's cycles by range and mean: of each cell that holds any its place, their number, their damage, and when the
-  /// most damaging one closes.
+  /// The worst site's cycles by range and mean: of each cell that holds any its place, their number, their
+  /// damage, and when the most damaging one closes.
   std::string cycles() const {
     if (!worst_) return "";
     struct Cell {
       double count = 0, damage = 0, most = -1, time = 0;
     };
-    const auto site = life_.read<std::uint32_t>("/cycles/site"), end = life_.read<std::uint32_t>("/cycles/end");
+    const auto site = life_.read<std::uint32_t>("/cycles/site"),
+               end = life_.read<std::uint32_t>("/cycles/end");
     const auto range = life_.read<double>("/cycles/range"), mean = life_.read<double>("/cycles/mean"),
                count = life_.read<double>("/cycles/count"), damage = life_.read<double>("/cycles/damage");
     double high = 0, low_mean = INFINITY, high_mean = -INFINITY;
@@ -308,10 +313,11 @@ class Data {
     }
     std::string rows;
     for (const auto& [at, cell] : cells)
-      rows += fmt::format("{}[{},{},{},{},{}]", rows.empty() ? "" : ",", at.first, at.second, json(cell.count),
-                          json(cell.damage), json(cell.time));
-    return fmt::format("\"cycles\":{{\"cells\":{},\"range\":{},\"low_mean\":{},\"high_mean\":{},\"rows\":[{}]}},", cycle_cells,
-                       json(high), json(low_mean), json(high_mean), rows);
+      rows += fmt::format("{}[{},{},{},{},{}]", rows.empty() ? "" : ",", at.first, at.second,
+                          json(cell.count), json(cell.damage), json(cell.time));
+    return fmt::format(
+        "\"cycles\":{{\"cells\":{},\"range\":{},\"low_mean\":{},\"high_mean\":{},\"rows\":[{}]}},",
+        cycle_cells, json(high), json(low_mean), json(high_mean), rows);
   }
 
   /// Stress over strain of the worst site.
@@ -321,8 +327,9 @@ class Data {
     const std::vector<std::size_t> kept = thinning_.kept(strain);
     std::vector<float> times;
     for (const std::size_t sample : kept) times.push_back(static_cast<float>(time_[sample] - time_[0]));
-    return fmt::format("\"loops\":{{\"rule\":{},\"time\":{},\"strain\":{},\"stress\":{}}},", json(stress_rule()), base64_of(times),
-                       packed(Thinning::at(strain, kept)), packed(Thinning::at(stress, kept)));
+    return fmt::format("\"loops\":{{\"rule\":{},\"time\":{},\"strain\":{},\"stress\":{}}},",
+                       json(stress_rule()), base64_of(times), packed(Thinning::at(strain, kept)),
+                       packed(Thinning::at(stress, kept)));
   }
 
   /// What stress follows, in words.
@@ -342,7 +349,8 @@ class Data {
     const Steps steps(*low, *high);
     std::vector<std::uint16_t> numbers;
     for (const double value : values) numbers.push_back(steps.of(value));
-    return fmt::format("{{\"low\":{},\"step\":{},\"numbers\":{}}}", json(steps.low), json(steps.step), base64_of(numbers));
+    return fmt::format("{{\"low\":{},\"step\":{},\"numbers\":{}}}", json(steps.low), json(steps.step),
+                       base64_of(numbers));
   }
 
   std::string program() const {

@@ -177,7 +177,8 @@ class Player {
     parts_.clear();
   }
 
-  /// Contacts come and go from sample to sample and choose none: a key sample tells the largest since the one before it.
+  /// Contacts come and go from sample to sample and choose none: a key sample tells the largest since the one
+  /// before it.
   void gather_contacts(const std::vector<std::size_t>& keys) {
     for (const Group& group : groups_) {
       if (group.name != contact) continue;

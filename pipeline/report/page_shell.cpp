@@ -42,7 +42,8 @@ std::filesystem::path three_folder() {
 }
 
 std::string shell_digest() {
-  return xxh3(fmt::format("{}{}{}{}{}", chart_style(), page_style(), page_scripts(), three_scripts(), version()));
+  return xxh3(
+      fmt::format("{}{}{}{}{}", chart_style(), page_style(), page_scripts(), three_scripts(), version()));
 }
 
 std::string whole_page(const std::string& title, const std::string& made_from, const std::string& body,
@@ -52,8 +53,8 @@ std::string whole_page(const std::string& title, const std::string& made_from, c
       "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}"
       "<p class=\"soft\">dresslife {}</p>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
       "{}<script>{}</script>\n</body>\n</html>\n",
-      before_digest, made_from, escaped(title), chart_style() + std::string(page_style()), body, version(), data, three_scripts(),
-      page_scripts());
+      before_digest, made_from, escaped(title), chart_style() + std::string(page_style()), body, version(),
+      data, three_scripts(), page_scripts());
 }
 
 std::string made_from_of(const std::filesystem::path& page) {

@@ -90,8 +90,8 @@ void add_place(std::string& places, const Vector3d& at) {
 
 /// Numbers that every moment repeats: a reference to one list at the head makes the Xdmf3 readers abort.
 std::string numbers(std::size_t count, const char* type, const std::string& values) {
-  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Format=\"XML\">{}</DataItem>", count, type,
-                     values);
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Format=\"XML\">{}</DataItem>", count,
+                     type, values);
 }
 
 // ---- the robot --------------------------------------------------------------------------------------------
@@ -198,8 +198,9 @@ std::string xdmf_text(const JobFiles& files, const fs::path& output) {
   const Shapes shapes(setup.robot);
   const bool with_robot = !shapes.empty() && motion.has("/robot/link_pose");
 
-  std::string text = "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
-                     "<Grid Name=\"job\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string text =
+      "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+      "<Grid Name=\"job\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   const std::size_t segments = of_segment.size();
   const auto at_nodes = [&](const char* name, const std::string& item) {
     return attribute(name, "Node", segments, item);
@@ -213,8 +214,7 @@ std::string xdmf_text(const JobFiles& files, const fs::path& output) {
         "<Grid Name=\"moment\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{}\"/>\n"
         "<Grid Name=\"dresspack\"><Topology TopologyType=\"Mixed\" "
         "NumberOfElements=\"{}\">{}</Topology>\n{}{}",
-        times[k], hose.lines, hose.cells, geometry(segments, places),
-        at_nodes("radius [m]", hose.radii));
+        times[k], hose.lines, hose.cells, geometry(segments, places), at_nodes("radius [m]", hose.radii));
     text += at_nodes("tension [N]", moved.scalars("/tension", k, 8));
     if (motion.has("/contact/force"))
       text += at_nodes("contact force [N]", moved.scalars("/contact/force", k, 4));

@@ -142,7 +142,9 @@ std::string printed(double value, int figures) {
 
 std::string printed_life(double life) { return std::isinf(life) ? life_text(life) : printed(life); }
 
-std::string printed_hours(double hours) { return std::isinf(hours) ? hours_text(hours) : printed(hours) + " h"; }
+std::string printed_hours(double hours) {
+  return std::isinf(hours) ? hours_text(hours) : printed(hours) + " h";
+}
 
 std::vector<Tick> Axis::ticks(int most) const {
   return logarithmic ? logarithmic_ticks(low, high, most) : linear_ticks(low, high, most);

@@ -186,9 +186,11 @@ double length_of(const std::vector<SpanPreview>& spans) {
   return length;
 }
 
-/// Of "... 0.42 m from its base clamp", as the simulation words a place along a dresspack [m]; not a number: it names none.
+/// Of "... 0.42 m from its base clamp", as the simulation words a place along a dresspack [m]; not a number:
+/// it names none.
 double place_in(const std::string& refusal) {
-  const std::size_t end = refusal.find(" m from its base clamp"), begin = end == std::string::npos ? end : refusal.rfind(' ', end - 1);
+  const std::size_t end = refusal.find(" m from its base clamp"),
+                    begin = end == std::string::npos ? end : refusal.rfind(' ', end - 1);
   double place = std::numeric_limits<double>::quiet_NaN();
   if (begin != std::string::npos) std::from_chars(refusal.data() + begin + 1, refusal.data() + end, place);
   return place;
@@ -246,7 +248,8 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
         "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption class=\"soft\">{0}</figcaption>"
         "</figure>\n",
         escaped(dresspack.name), base64(cross_section_picture(dresspack, LayerLines::left_out)));
-    layers += fmt::format("<h2>{}</h2>\n<pre>{}</pre>\n", escaped(dresspack.name), escaped(construction_text(dresspack)));
+    layers += fmt::format("<h2>{}</h2>\n<pre>{}</pre>\n", escaped(dresspack.name),
+                          escaped(construction_text(dresspack)));
   }
   body += "</div></div>\n" + well + scan_table(spans) + layers;
   body += "<p class=\"soft\" id=\"shown\"></p>\n<details><summary>Settings</summary>\n<pre>" +

@@ -76,9 +76,9 @@ tbody th { font-weight: 400; vertical-align: top; }
 /// When the first wire of such dresspacks breaks, in 10 to 90 % of them.
 std::string first_break_cell(const RankingRow& row) {
   if (std::isnan(row.first_wire_hours[0])) return "";
-  return std::isinf(row.first_wire_hours[0])
-             ? printed_life(row.first_wire_hours[0])
-             : fmt::format("{} .. {}", printed(row.first_wire_hours[0]), printed_life(row.first_wire_hours[2]));
+  return std::isinf(row.first_wire_hours[0]) ? printed_life(row.first_wire_hours[0])
+                                             : fmt::format("{} .. {}", printed(row.first_wire_hours[0]),
+                                                           printed_life(row.first_wire_hours[2]));
 }
 
 std::string place_words(const RankingRow& row) {
@@ -114,12 +114,15 @@ std::string warning_cell(const RankingRow& row) {
   if (kinds.empty()) return row.warnings ? "" : "<span class=\"soft\">not known</span>";
   std::string list;
   for (const Warning& warning : warnings_of(row)) list += fmt::format("<li>{}</li>", escaped(warning.text()));
-  return fmt::format("<details><summary class=\"failed\">{}</summary><ul>{}</ul></details>", escaped(kinds), list);
+  return fmt::format("<details><summary class=\"failed\">{}</summary><ul>{}</ul></details>", escaped(kinds),
+                     list);
 }
 
 /// What a cell is sorted by; empty: nothing.
 std::string sorted_by(double value) {
-  return fmt::format(" data-value=\"{}\"", std::isnan(value) ? "" : std::isinf(value) ? "Infinity" : shortest_text(value));
+  return fmt::format(" data-value=\"{}\"", std::isnan(value)   ? ""
+                                           : std::isinf(value) ? "Infinity"
+                                                               : shortest_text(value));
 }
 
 /// Of a row of the table, for who sorts and compares them.
@@ -135,10 +138,11 @@ std::string number_cell(double value, const std::string& words) {
 /// Where half and 90 % lie, and how sure the job's place is, below its life.
 std::string certainty_cell(const RankingRow& row) {
   if (std::isnan(row.scatter_hours[0])) return "";
-  std::string text = fmt::format("<br><span class=\"soft\">p50 {}<br>p90 {}", printed_life(row.planned_hours[1]),
-                                 printed_life(row.planned_hours[2]));
+  std::string text = fmt::format("<br><span class=\"soft\">p50 {}<br>p90 {}",
+                                 printed_life(row.planned_hours[1]), printed_life(row.planned_hours[2]));
   if (row.outlives_next)
-    text += fmt::format("<span class=\"certainty\">outlives the next in {:.0f} % of draws</span>", 100 * *row.outlives_next);
+    text += fmt::format("<span class=\"certainty\">outlives the next in {:.0f} % of draws</span>",
+                        100 * *row.outlives_next);
   return text + "</span>";
 }
 
@@ -151,8 +155,8 @@ std::string stale_note(const RankingRow& row) {
 }
 
 /// Of rows [first, end).
-std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed, std::size_t first,
-                         std::size_t end) {
+std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed,
+                         std::size_t first, std::size_t end) {
   std::string text;
   for (std::size_t i = first; i < std::min(end, rows.size()); ++i) {
     const RankingRow& row = rows[i];
@@ -177,17 +181,19 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
                   (row.worst_joint.empty()
                        ? ""
                        : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
-    const auto bounds = std::pair(row.hours_of(row.life_repeats_all_stick),
-                                  row.hours_of(row.life_repeats_all_free));
+    const auto bounds =
+        std::pair(row.hours_of(row.life_repeats_all_stick), row.hours_of(row.life_repeats_all_free));
     const auto count = static_cast<double>(warnings_of(row).size());
-    text += fmt::format("{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
-                        number_cell(static_cast<double>(i + 1), row.stale ? "-" : std::to_string(i + 1)),
-                        name + stale_note(row),
-                        number_cell(row.headline_hours(), "<b>" + printed_life(row.headline_hours()) + "</b>" + certainty_cell(row)),
-                        number_cell(bounds.first, printed_life(bounds.first) + " .. " + printed_life(bounds.second)),
-                        number_cell(row.first_wire_hours[0], first_break_cell(row)),
-                        number_cell(row.headline_months(), calendar_text(row.headline_months())), where, moved,
-                        sorted_by(count), warning_cell(row));
+    text += fmt::format(
+        "{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
+        number_cell(static_cast<double>(i + 1), row.stale ? "-" : std::to_string(i + 1)),
+        name + stale_note(row),
+        number_cell(row.headline_hours(),
+                    "<b>" + printed_life(row.headline_hours()) + "</b>" + certainty_cell(row)),
+        number_cell(bounds.first, printed_life(bounds.first) + " .. " + printed_life(bounds.second)),
+        number_cell(row.first_wire_hours[0], first_break_cell(row)),
+        number_cell(row.headline_months(), calendar_text(row.headline_months())), where, moved,
+        sorted_by(count), warning_cell(row));
   }
   return text;
 }
@@ -197,16 +203,17 @@ const std::array<double, 3>& spread_of(const RankingRow& row) {
   return row.planned() ? row.planned_hours : row.first_wire_hours;
 }
 
-/// Lives beside each other on one axis of decades: a dot, the bounds as a bar behind it, and what 10 to 90 % of such
-/// dresspacks reach.
+/// Lives beside each other on one axis of decades: a dot, the bounds as a bar behind it, and what 10 to 90 %
+/// of such dresspacks reach.
 std::string comparison_chart(const std::vector<RankingRow>& rows) {
   std::vector<const RankingRow*> shown;
   double low = INFINITY, high = 0;
   for (const RankingRow& row : rows) {
     if (!row.done() || !damaged(row) || shown.size() == most_compared) continue;
     shown.push_back(&row);
-    for (const double hours : {row.headline_hours(), row.hours_of(row.life_repeats_all_stick),
-                               row.hours_of(row.life_repeats_all_free), spread_of(row)[0], spread_of(row)[2]}) {
+    for (const double hours :
+         {row.headline_hours(), row.hours_of(row.life_repeats_all_stick),
+          row.hours_of(row.life_repeats_all_free), spread_of(row)[0], spread_of(row)[2]}) {
       if (!(hours > 0) || std::isinf(hours)) continue;
       low = std::min(low, hours);
       high = std::max(high, hours);
@@ -255,7 +262,8 @@ std::string more_rows(const std::vector<RankingRow>& rows, const std::vector<boo
 std::string ranking_section(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   const std::string chart = comparison_chart(rows);
   const std::string matrix = life_matrix(rows, [&](std::size_t k) {
-    return detailed[k] ? fmt::format("#job-{}", k + 1) : page_address(rows[k], rows[k].has_result() ? "page.html" : "preview.html");
+    return detailed[k] ? fmt::format("#job-{}", k + 1)
+                       : page_address(rows[k], rows[k].has_result() ? "page.html" : "preview.html");
   });
   return fmt::format(
       "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">p10 life [h]</th>"
@@ -271,10 +279,11 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "Wires scatter, and a dresspack has thousands: its first break comes earlier, in 10 to 90 % of such dresspacks "
       "between the hours given. Material constants are medians.</p>\n",
       ranking_rows(rows, detailed, 0, rows_at_once), more_rows(rows, detailed), matrix,
-      chart.empty() ? ""
-                    : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the life that 10 % of such dresspacks do not "
-                      "reach. Blue bar: the worst wire's, stuck to free inside. Orange: what 10 to 90 % reach.</p>\n" +
-                          chart_in_page(chart));
+      chart.empty()
+          ? ""
+          : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the life that 10 % of such dresspacks do not "
+            "reach. Blue bar: the worst wire's, stuck to free inside. Orange: what 10 to 90 % reach.</p>\n" +
+                chart_in_page(chart));
 }
 
 // ---- one job ----------------------------------------------------------------------------------------------
@@ -309,17 +318,19 @@ std::string facts(const RankingRow& row) {
   };
   if (row.planned()) {
     const std::array<double, 3>& lives = row.planned_hours;
-    fact("life", std::isinf(lives[0])
-                     ? "no damage at any place to the share of wires with which a conductor fails"
-                     : fmt::format("<b>{} h</b> of motion = {} by the calendar until 10 % of such dresspacks have a "
-                                   "conductor that has lost its share of wires at one place; {} until half have, {} until "
-                                   "90 %{}",
-                                   printed(lives[0]), calendar_words(row.planned_months), printed_hours(lives[1]),
-                                   printed_hours(lives[2]),
-                                   row.failing_conductor.empty()
-                                       ? ""
-                                       : fmt::format("; likeliest {}, {:.2f} m from the tool",
-                                                     escaped(row.failing_conductor), row.failing_position_from_tool)));
+    fact("life",
+         std::isinf(lives[0])
+             ? "no damage at any place to the share of wires with which a conductor fails"
+             : fmt::format(
+                   "<b>{} h</b> of motion = {} by the calendar until 10 % of such dresspacks have a "
+                   "conductor that has lost its share of wires at one place; {} until half have, {} until "
+                   "90 %{}",
+                   printed(lives[0]), calendar_words(row.planned_months), printed_hours(lives[1]),
+                   printed_hours(lives[2]),
+                   row.failing_conductor.empty()
+                       ? ""
+                       : fmt::format("; likeliest {}, {:.2f} m from the tool", escaped(row.failing_conductor),
+                                     row.failing_position_from_tool)));
   }
   fact(row.planned() ? "worst wire" : "life",
        std::isinf(row.life_hours)
@@ -329,41 +340,45 @@ std::string facts(const RankingRow& row) {
                          row.planned() ? "" : "<b>", printed(row.life_hours), row.planned() ? "" : "</b>",
                          printed(row.life_repeats), row.repeat_seconds, calendar_words(row.life_months)));
   if (!std::isnan(row.scatter_hours[0]))
-    fact("by the scatter of wires alone", fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, all else as the job has it",
-                                                      printed_hours(row.scatter_hours[0]), printed_hours(row.scatter_hours[1]),
-                                                      printed_hours(row.scatter_hours[2])));
+    fact("by the scatter of wires alone",
+         fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, all else as the job has it",
+                     printed_hours(row.scatter_hours[0]), printed_hours(row.scatter_hours[1]),
+                     printed_hours(row.scatter_hours[2])));
   if (!row.life_shares.empty()) fact("its spread comes from", escaped(row.life_shares));
-  if (const std::string certainty = certainty_words(row); !certainty.empty()) fact("how sure", escaped(certainty));
+  if (const std::string certainty = certainty_words(row); !certainty.empty())
+    fact("how sure", escaped(certainty));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
-  fact("bounds",
-       fmt::format("worst wire {} (inside of the cables stuck) .. {} (free)",
-                   printed_hours(row.hours_of(row.life_repeats_all_stick)),
-                   printed_hours(row.hours_of(row.life_repeats_all_free))));
+  fact("bounds", fmt::format("worst wire {} (inside of the cables stuck) .. {} (free)",
+                             printed_hours(row.hours_of(row.life_repeats_all_stick)),
+                             printed_hours(row.hours_of(row.life_repeats_all_free))));
   if (row.hours_mean_stress_kept)
     fact("mean stress", fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
                                     printed_hours(*row.hours_mean_stress_kept),
                                     printed_hours(*row.hours_without_mean_stress)));
   if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
-  for (const Warning& warning : warnings_of(row))
-    fact("warning", "<b>" + escaped(warning.text()) + "</b>");
+  for (const Warning& warning : warnings_of(row)) fact("warning", "<b>" + escaped(warning.text()) + "</b>");
   if (row.clamp_moment_share) {
     const std::string tears =
-        row.largest_force_share ? fmt::format("at most {:.2f} of what tears a cable", *row.largest_force_share)
-                                : "strength not known (tensile_strength_MPa of its wires' material)";
+        row.largest_force_share
+            ? fmt::format("at most {:.2f} of what tears a cable", *row.largest_force_share)
+            : "strength not known (tensile_strength_MPa of its wires' material)";
     fact("forces of cables",
          fmt::format("{}; at the clamps {:.2g} times the moment that the hose carries{}", tears,
                      *row.clamp_moment_share,
-                     row.force_ok() ? ""
-                                    : ". <b>Above a fifth of either, strains rest on forces that nobody sees in "
-                                      "a dresspack: check slack, play and grips</b>"));
+                     row.force_ok()
+                         ? ""
+                         : ". <b>Above a fifth of either, strains rest on forces that nobody sees in "
+                           "a dresspack: check slack, play and grips</b>"));
   }
   if (row.loose_mesh_error)
-    fact("mesh of loose cables", fmt::format("{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
-                                             100 * *row.loose_mesh_error));
+    fact("mesh of loose cables",
+         fmt::format(
+             "{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
+             100 * *row.loose_mesh_error));
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;
-    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks", printed_hours(lives[0]),
-                           printed_hours(lives[1]), printed_hours(lives[2])));
+    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks",
+                           printed_hours(lives[0]), printed_hours(lives[1]), printed_hours(lives[2])));
   };
   scatter("first broken wire", row.first_wire_hours);
   scatter("first failed conductor", row.conductor_hours);
@@ -393,16 +408,18 @@ std::string facts(const RankingRow& row) {
 
 std::string charts(const RankingRow& row) {
   // A stage that ran again since may have left other strains beside the last result.
-  const LifeSummary life = read_life(row.life_file, row.stale ? "" : row.life_file.parent_path() / "strain.h5");
+  const LifeSummary life =
+      read_life(row.life_file, row.stale ? "" : row.life_file.parent_path() / "strain.h5");
   return dresspack_table(life, row) +
-         chart_section("Strain of the worst wire over time",
-               "Where its history was not kept whole, of a wire of that segment of which it was. Below the strain, the lines of "
-               "the program (rest the pointer on one for its text); those that cost most are marked and named.",
-               strain_chart(life)) +
+         chart_section(
+             "Strain of the worst wire over time",
+             "Where its history was not kept whole, of a wire of that segment of which it was. Below the strain, the lines of "
+             "the program (rest the pointer on one for its text); those that cost most are marked and named.",
+             strain_chart(life)) +
          damage_along(life, row) +
          chart_section("Cycles of the worst wire",
-               "How often each strain range occurs in a repeat, and its share of the damage.",
-               cycle_chart(life)) +
+                       "How often each strain range occurs in a repeat, and its share of the damage.",
+                       cycle_chart(life)) +
          damage_tables(life, row) +
          fmt::format(
              "<details><summary>Settings</summary>\n<pre class=\"settings\">{}</pre></details>\n<details><summary>History</"
@@ -415,11 +432,13 @@ std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
   std::error_code ignored;
   if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
-  const std::string picture = scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
-  return picture.empty() ? ""
-                         : "<h3>The moment</h3>\n<p class=\"soft\">Robot and dresspack when the most damaging cycle closes; the "
-                           "worst segment is marked.</p>\n" +
-                               picture_in_page(picture);
+  const std::string picture =
+      scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
+  return picture.empty()
+             ? ""
+             : "<h3>The moment</h3>\n<p class=\"soft\">Robot and dresspack when the most damaging cycle closes; the "
+               "worst segment is marked.</p>\n" +
+                   picture_in_page(picture);
 }
 
 /// What a cell designer asks; none when the motion file has been cleared away.
@@ -441,18 +460,22 @@ std::string job_section(const RankingRow& row, std::size_t rank) {
   } catch (const InputError& problem) {
     body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
   }
-  const std::string stale = row.stale ? fmt::format("<p class=\"failed\">{}</p>\n", escaped(stale_words(row))) : "";
-  return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}{}</section>\n", rank, rank, escaped(row.job), stale,
-                     body);
+  const std::string stale =
+      row.stale ? fmt::format("<p class=\"failed\">{}</p>\n", escaped(stale_words(row))) : "";
+  return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}{}</section>\n", rank, rank,
+                     escaped(row.job), stale, body);
 }
 
 std::string summary(const std::vector<RankingRow>& rows) {
-  const auto count = [&](const auto& counts) { return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), counts)); };
+  const auto count = [&](const auto& counts) {
+    return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), counts));
+  };
   const std::size_t done = count([](const RankingRow& row) { return row.done(); });
   const std::size_t stale = count([](const RankingRow& row) { return row.stale; });
   const std::size_t waiting = count([](const RankingRow& row) { return !row.stale && row.waits(); });
   std::string text = fmt::format("{} of {} jobs done", done, rows.size());
-  if (stale > 0) text += fmt::format(", <span class=\"failed\">{} stale</span>: their last results stand below", stale);
+  if (stale > 0)
+    text += fmt::format(", <span class=\"failed\">{} stale</span>: their last results stand below", stale);
   if (waiting > 0) text += fmt::format(", {} to do", waiting);
   if (const std::size_t failed = rows.size() - done - stale - waiting; failed > 0)
     text += fmt::format(", <span class=\"failed\">{} failed</span>", failed);
@@ -485,9 +508,11 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
   page += summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (detailed[i]) page += job_section(rows[i], i + 1);
-  return page + fmt::format("<p class=\"soft\">dresslife {}</p>\n<script>\n\"use strict\";\n(() => {{\n{}}})();\n</script>\n"
-                            "</body>\n</html>\n",
-                            version(), study_script());
+  return page +
+         fmt::format(
+             "<p class=\"soft\">dresslife {}</p>\n<script>\n\"use strict\";\n(() => {{\n{}}})();\n</script>\n"
+             "</body>\n</html>\n",
+             version(), study_script());
 }
 
 void write_report(const std::filesystem::path& file, const std::string& study,

@@ -1,6 +1,7 @@
 // report.html: what a study found, for who programs the robots or plans their maintenance. One page that
-// needs nothing else: no requests, and a script only to sort, filter and compare; light or dark as the reader's machine is. Reads the life
-// files, and for the picture of the worst moment the motion file beside each, where there is one.
+// needs nothing else: no requests, and a script only to sort, filter and compare; light or dark as the
+// reader's machine is. Reads the life files, and for the picture of the worst moment the motion file beside
+// each, where there is one.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +20,8 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
 void write_report(const std::filesystem::path& file, const std::string& study,
                   const std::vector<RankingRow>& rows);
 
-/// Which jobs have a section in the report and a page of their own: all that have a result, or of more than 40 the 20
-/// best and the 20 worst of them.
+/// Which jobs have a section in the report and a page of their own: all that have a result, or of more than
+/// 40 the 20 best and the 20 worst of them.
 std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

@@ -15,28 +15,29 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr int steps = 15;                         // four bits, and none
-constexpr double least_share = 1e-4;              // of the largest damage
-constexpr std::size_t most_bytes = 260'000;       // a third more as base64
-constexpr std::size_t listed_wires = 5;           // of each segment
+constexpr int steps = 15;                    // four bits, and none
+constexpr double least_share = 1e-4;         // of the largest damage
+constexpr std::size_t most_bytes = 260'000;  // a third more as base64
+constexpr std::size_t listed_wires = 5;      // of each segment
 constexpr std::size_t no_wire = static_cast<std::size_t>(-1);
 
 std::string parts_json(const std::vector<Component>& components) {
   std::string list;
   for (const Component& part : components)
-    list += fmt::format("{}{{\"name\":{},\"layer\":{},\"count\":{},\"radius\":{},\"at\":{},\"phase\":{},\"plain\":{},\"parts\":{}}}",
-                        list.empty() ? "" : ",", json(part.name), json(part.layer), part.count, json(part.radius),
-                        json(part.helix_radius), json(part.phase), part.plain ? "true" : "false",
-                        parts_json(part.components));
+    list += fmt::format(
+        "{}{{\"name\":{},\"layer\":{},\"count\":{},\"radius\":{},\"at\":{},\"phase\":{},\"plain\":{},\"parts\":{}}}",
+        list.empty() ? "" : ",", json(part.name), json(part.layer), part.count, json(part.radius),
+        json(part.helix_radius), json(part.phase), part.plain ? "true" : "false",
+        parts_json(part.components));
   return '[' + list + ']';
 }
 
 std::string dresspack_json(const Setup& setup, std::size_t d) {
   const Dresspack& dresspack = setup.dresspacks[d].dresspack;
   const double outer = dresspack.diameter / 2;
-  return fmt::format("{{\"name\":{},\"radius\":{},\"inner\":{},\"core\":{},\"parts\":{}}}", json(name_among(setup, d)), json(outer),
-                     json(inner_radius(dresspack).value_or(outer)), json(dresspack.core_diameter / 2),
-                     parts_json(dresspack.components));
+  return fmt::format("{{\"name\":{},\"radius\":{},\"inner\":{},\"core\":{},\"parts\":{}}}",
+                     json(name_among(setup, d)), json(outer), json(inner_radius(dresspack).value_or(outer)),
+                     json(dresspack.core_diameter / 2), parts_json(dresspack.components));
 }
 
 /// Sites of a segment lie together, those of one dresspack's segments alike.
@@ -46,10 +47,12 @@ struct Wires {
 };
 
 /// By the sites of one of its segments; without wires where they are not those of the dresspack.
-Wires wires_of(const FileReader& life, const Setup& setup, std::size_t d, std::size_t first_site, std::size_t sites) {
+Wires wires_of(const FileReader& life, const Setup& setup, std::size_t d, std::size_t first_site,
+               std::size_t sites) {
   const std::string name = name_among(setup, d), before = name.empty() ? "" : name + "/";
   std::unordered_map<std::string, std::size_t> number;
-  for (const std::string& path : wire_paths(setup.dresspacks[d].dresspack)) number.emplace(before + path, number.size());
+  for (const std::string& path : wire_paths(setup.dresspacks[d].dresspack))
+    number.emplace(before + path, number.size());
   std::vector<std::string> paths;
   life.read_rows("/site/component", first_site, sites, paths);
   Wires wires{std::vector<std::size_t>(sites, no_wire), number.size()};
@@ -75,7 +78,8 @@ std::string levels_of(const std::vector<double>& damage, double most) {
   for (std::size_t k = 0; k < damage.size(); ++k) {
     const double share = damage[k] / most;
     if (!(share >= least_share)) continue;
-    const int level = 1 + static_cast<int>(std::lround((steps - 1) * (1 - std::log(share) / std::log(least_share))));
+    const int level =
+        1 + static_cast<int>(std::lround((steps - 1) * (1 - std::log(share) / std::log(least_share))));
     bytes[k / 2] = static_cast<char>(bytes[k / 2] | std::min(level, steps) << (k % 2 * 4));
   }
   return bytes;
@@ -99,7 +103,8 @@ std::string section_data(const FileReader& life, const Setup& setup) {
   const auto damage = life.read<double>("/damage"), of_segment = life.read<double>("/segment/damage");
   const double most = life.number_attribute("damage_per_repeat");
   const std::vector<std::size_t> dresspack = dresspack_of_segments(life);
-  if (!(most > 0) || dresspack.size() != of_segment.size() || !std::is_sorted(segment.begin(), segment.end())) return "";
+  if (!(most > 0) || dresspack.size() != of_segment.size() || !std::is_sorted(segment.begin(), segment.end()))
+    return "";
   std::vector<std::size_t> order(of_segment.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return of_segment[a] > of_segment[b]; });
@@ -110,19 +115,20 @@ std::string section_data(const FileReader& life, const Setup& setup) {
     const std::size_t d = dresspack[at];
     if (!(of_segment[at] > 0) || d >= wires.size()) break;
     const auto [first, end] = std::equal_range(segment.begin(), segment.end(), static_cast<std::int32_t>(at));
-    const auto first_site = static_cast<std::size_t>(first - segment.begin()), sites = static_cast<std::size_t>(end - first);
+    const auto first_site = static_cast<std::size_t>(first - segment.begin()),
+               sites = static_cast<std::size_t>(end - first);
     if (wires[d].count == 0) wires[d] = wires_of(life, setup, d, first_site, sites);
     if (wires[d].count == 0 || wires[d].of_site.size() != sites) return "";
     if ((bytes += wires[d].count / 2) > most_bytes) break;
     const std::vector<double> here = damage_of_wires(wires[d], &damage[first_site]);
-    rows += fmt::format("{}{{\"segment\":{},\"dresspack\":{},\"worst\":{},\"levels\":\"{}\"}}", rows.empty() ? "" : ",", at, d,
-                        worst_json(here), base64(levels_of(here, most)));
+    rows += fmt::format("{}{{\"segment\":{},\"dresspack\":{},\"worst\":{},\"levels\":\"{}\"}}",
+                        rows.empty() ? "" : ",", at, d, worst_json(here), base64(levels_of(here, most)));
   }
   std::string dresspacks;
   for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
     dresspacks += (d > 0 ? "," : "") + dresspack_json(setup, d);
-  return fmt::format("{{\"steps\":{},\"low\":{},\"high\":{},\"dresspacks\":[{}],\"rows\":[{}]}}", steps, json(least_share * most),
-                     json(most), dresspacks, rows);
+  return fmt::format("{{\"steps\":{},\"low\":{},\"high\":{},\"dresspacks\":[{}],\"rows\":[{}]}}", steps,
+                     json(least_share * most), json(most), dresspacks, rows);
 }
 
 }  // namespace dresslife::pipeline

@@ -30,7 +30,8 @@ class Rows {
  public:
   explicit Rows(std::size_t count)
       : picture_(left + plot_width + verdicts, top + row_height * static_cast<double>(count) + 52,
-                 "Predicted and observed lives", "One line per observation: range of predictions, and what was seen"),
+                 "Predicted and observed lives",
+                 "One line per observation: range of predictions, and what was seen"),
         panel_{left, top, plot_width, row_height * static_cast<double>(count), {}, {}} {
     panel_.x = decades_axis("life [cycles of the test]", least, most);
   }
@@ -38,13 +39,16 @@ class Rows {
   void axis() {
     for (const Tick& tick : panel_.x.ticks(8)) {
       picture_.line(panel_.across(tick.value), top, panel_.across(tick.value), panel_.bottom(), "grid");
-      picture_.text(panel_.across(tick.value), panel_.bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
+      picture_.text(panel_.across(tick.value), panel_.bottom() + 17, tick.label, "tick",
+                    Picture::Anchor::middle);
     }
-    picture_.text(left + plot_width / 2, panel_.bottom() + 38, panel_.x.title, "axis-title", Picture::Anchor::middle);
-    picture_.text(left, 18,
-                  "bar: predicted, 10 .. 90 % over all that is not known; lines in it: medians of the variants; thin: all "
-                  "stuck .. all free inside",
-                  "tick");
+    picture_.text(left + plot_width / 2, panel_.bottom() + 38, panel_.x.title, "axis-title",
+                  Picture::Anchor::middle);
+    picture_.text(
+        left, 18,
+        "bar: predicted, 10 .. 90 % over all that is not known; lines in it: medians of the variants; thin: all "
+        "stuck .. all free inside",
+        "tick");
     picture_.text(left, 34, "dot: observed; arrow to the right: at least, to the left: at most", "tick");
   }
 
@@ -57,7 +61,8 @@ class Rows {
     }
     const auto at = [&](double life) { return panel_.across(shown_life(life)); };
     picture_.line(at(prediction.stuck), y, at(prediction.free), y, "bounds");
-    picture_.box(at(prediction.low), y - 6, std::max(2.0, at(prediction.high) - at(prediction.low)), 12, "range");
+    picture_.box(at(prediction.low), y - 6, std::max(2.0, at(prediction.high) - at(prediction.low)), 12,
+                 "range");
     for (const double median : {prediction.shortest, prediction.median, prediction.longest})
       picture_.line(at(median), y - 7, at(median), y + 7, "median");
     const double life = observation.cycles ? *observation.cycles : *observation.hours;
@@ -78,7 +83,8 @@ class Rows {
   std::string svg() const {
     std::string text = picture_.svg();
     const std::size_t open = text.find('>');
-    text.insert(open, fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\"", picture_.width()));
+    text.insert(open,
+                fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\"", picture_.width()));
     return text.insert(text.find('>') + 1, std::string("\n") + style);
   }
 

@@ -1,4 +1,5 @@
-// Predicted beside measured: one line per observation on a common axis of lives, as a picture that stands alone (SVG).
+// Predicted beside measured: one line per observation on a common axis of lives, as a picture that stands
+// alone (SVG).
 #pragma once
 
 #include <string>

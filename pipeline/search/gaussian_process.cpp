@@ -13,8 +13,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double least_noise = 1e-8;  // of the variance: a Cholesky factor of some hundred near places still exists
-constexpr double flat = 1e-12;        // variance below it: a constant
+constexpr double least_noise =
+    1e-8;                       // of the variance: a Cholesky factor of some hundred near places still exists
+constexpr double flat = 1e-12;  // variance below it: a constant
 
 double correlation(double squared) {
   const double r = std::sqrt(5 * squared);
@@ -27,7 +28,8 @@ MatrixXd correlations(const MatrixXd& scaled, double noise) {
   const MatrixXd columns = scaled.transpose();
   for (Index i = 0; i < n; ++i) {
     k(i, i) = 1 + noise;
-    for (Index j = 0; j < i; ++j) k(i, j) = k(j, i) = correlation((columns.col(i) - columns.col(j)).squaredNorm());
+    for (Index j = 0; j < i; ++j)
+      k(i, j) = k(j, i) = correlation((columns.col(i) - columns.col(j)).squaredNorm());
   }
   return k;
 }
@@ -36,7 +38,9 @@ VectorXd per_length(const GaussianProcess::Shape& shape) {
   return (-shape.head(shape.size() - 1)).array().exp();
 }
 
-double noise_of(const GaussianProcess::Shape& shape) { return std::exp(shape[shape.size() - 1]) + least_noise; }
+double noise_of(const GaussianProcess::Shape& shape) {
+  return std::exp(shape[shape.size() - 1]) + least_noise;
+}
 
 /// -2 ln(likelihood x prior), but for constants, with the likeliest s^2.
 double unlikeliness(const MatrixXd& points, const VectorXd& centred, const GaussianProcess::Shape& shape) {
@@ -54,12 +58,14 @@ double unlikeliness(const MatrixXd& points, const VectorXd& centred, const Gauss
 
 GaussianProcess::Shape GaussianProcess::usual_shape(Index variables) {
   Shape shape(variables + 1);
-  shape.setConstant(std::log(0.5 * std::sqrt(static_cast<double>(variables))));  // across a unit box in all variables
+  shape.setConstant(
+      std::log(0.5 * std::sqrt(static_cast<double>(variables))));  // across a unit box in all variables
   shape[variables] = std::log(1e-4);
   return shape;
 }
 
-GaussianProcess::GaussianProcess(const MatrixXd& points, const VectorXd& values, const Shape& shape, const Scale& scale)
+GaussianProcess::GaussianProcess(const MatrixXd& points, const VectorXd& values, const Shape& shape,
+                                 const Scale& scale)
     : scaled_(points * per_length(shape).asDiagonal()),
       per_length_(per_length(shape)),
       covariance_(correlations(scaled_, noise_of(shape))),
@@ -67,7 +73,8 @@ GaussianProcess::GaussianProcess(const MatrixXd& points, const VectorXd& values,
   const VectorXd centred = values.array() - mean_;
   weights_ = covariance_.solve(centred);
   const double believed = scale.worth * scale.deviation * scale.deviation;
-  variance_ = std::max(flat, (believed + centred.dot(weights_)) / (scale.worth + static_cast<double>(values.size())));
+  variance_ =
+      std::max(flat, (believed + centred.dot(weights_)) / (scale.worth + static_cast<double>(values.size())));
 }
 
 GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, const VectorXd& values,
@@ -79,8 +86,8 @@ GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, 
   SearchBox box{usual.array() - widest, usual.array() + widest};
   box.low[usual.size() - 1] = std::log(least_noise);
   box.high[usual.size() - 1] = 0;
-  return minimised([&](const VectorXd& shape) { return unlikeliness(points, centred, shape); }, {}, box, start, 0.5,
-                   evaluations);
+  return minimised([&](const VectorXd& shape) { return unlikeliness(points, centred, shape); }, {}, box,
+                   start, 0.5, evaluations);
 }
 
 GaussianProcess::Told GaussianProcess::at(const VectorXd& place) const {

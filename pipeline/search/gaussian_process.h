@@ -1,9 +1,11 @@
 // A smooth function through what was seen at some places, and how sure it is between them.
 //
-// (Q4) values = m + f + noise, f a Gaussian process: cov f(x) f(x') = s^2 k(r), r^2 = sum ((x_i - x'_i)/l_i)^2,
-//      k(r) = (1 + sqrt(5) r + 5 r^2/3) exp(-sqrt(5) r)  (Matern 5/2; Rasmussen and Williams, Gaussian Processes for
-//      Machine Learning, 2006, eq. 4.17), noise variance s^2 n. m is the mean of the values, s^2 the likeliest given
-//      the rest; l and n maximise the likelihood (eq. 5.8) times a wide lognormal prior on each.
+// (Q4) values = m + f + noise, f a Gaussian process: cov f(x) f(x') = s^2 k(r), r^2 = sum ((x_i -
+// x'_i)/l_i)^2,
+//      k(r) = (1 + sqrt(5) r + 5 r^2/3) exp(-sqrt(5) r)  (Matern 5/2; Rasmussen and Williams, Gaussian
+//      Processes for Machine Learning, 2006, eq. 4.17), noise variance s^2 n. m is the mean of the values,
+//      s^2 the likeliest given the rest; l and n maximise the likelihood (eq. 5.8) times a wide lognormal
+//      prior on each.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -25,11 +27,12 @@ class GaussianProcess {
   /// points: (place, variable), values: (place), finite, at least one.
   GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape)
       : GaussianProcess(points, values, shape, Scale{}) {}
-  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape, const Scale& scale);
+  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape,
+                  const Scale& scale);
 
   /// The likeliest shape, sought from `start` with so many evaluations.
-  static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& start,
-                               int evaluations);
+  static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::VectorXd& values,
+                               const Shape& start, int evaluations);
 
   struct Told {
     double mean = 0, deviation = 0;  ///< of the function at a place, without noise

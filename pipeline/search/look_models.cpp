@@ -13,8 +13,8 @@ using Shape = GaussianProcess::Shape;
 
 namespace {
 
-constexpr std::size_t most_rehearsals = 250;   // in a model: its cost grows with their cube
-constexpr Index most_for_shape = 120;          // likewise
+constexpr std::size_t most_rehearsals = 250;  // in a model: its cost grows with their cube
+constexpr Index most_for_shape = 120;         // likewise
 constexpr int shape_evaluations = 60;
 constexpr double same = 1e-9;  // values and places that differ by less are one
 
@@ -31,7 +31,9 @@ std::vector<const Look*> chosen(const std::vector<Look>& rehearsals, const std::
                                 const VectorXd& centre) {
   std::vector<std::pair<double, const Look*>> some;
   for (const Look& rehearsal : rehearsals) {
-    const auto is_here = [&](const Look& look) { return (look.place - rehearsal.place).cwiseAbs().maxCoeff() < same; };
+    const auto is_here = [&](const Look& look) {
+      return (look.place - rehearsal.place).cwiseAbs().maxCoeff() < same;
+    };
     const bool looked_at = std::any_of(looks.begin(), looks.end(), is_here);
     some.emplace_back(looked_at ? -1 : (rehearsal.place - centre).squaredNorm(), &rehearsal);
   }
@@ -74,8 +76,8 @@ GaussianProcess::Told LookModels::Limit::at(const VectorXd& place) const {
   return told;
 }
 
-LookModels::LookModels(const std::vector<Look>& looks, const std::vector<Look>& rehearsals, const VectorXd& centre,
-                       Shapes shapes)
+LookModels::LookModels(const std::vector<Look>& looks, const std::vector<Look>& rehearsals,
+                       const VectorXd& centre, Shapes shapes)
     : shapes_(std::move(shapes)) {
   std::size_t limits = 0;
   for (const std::vector<Look>* list : {&looks, &rehearsals})
@@ -109,14 +111,16 @@ void LookModels::add_rehearsal(const Look& rehearsal) {
   }
   if (!rehearsal.ran) return;
   for (std::size_t k = 0; k < limits_.size(); ++k)
-    if (!std::isnan(rehearsal.beyond[k])) limits_[k].rehearsed.add(rehearsal.place, tamed(rehearsal.beyond[k]));
+    if (!std::isnan(rehearsal.beyond[k]))
+      limits_[k].rehearsed.add(rehearsal.place, tamed(rehearsal.beyond[k]));
 }
 
 void LookModels::fit() {
   const auto refit = [](Shape& shape, const Known& of, Index most) {
     const Index n = std::min(most, of.values.size());
     if (n > 1)
-      shape = GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.head(n), shape, shape_evaluations);
+      shape =
+          GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.head(n), shape, shape_evaluations);
   };
   const Index looks = aim_.values.size();
   refit(shapes_[of_aim], aim_, looks);
@@ -165,7 +169,8 @@ void LookModels::believe(const VectorXd& place) {
 
 void LookModels::believe_rehearsal(const VectorXd& place) {
   for (Limit& limit : limits_)
-    if (limit.varies && limit.rehearsed.model) limit.rehearsed.add(place, limit.rehearsed.model->at(place).mean);
+    if (limit.varies && limit.rehearsed.model)
+      limit.rehearsed.add(place, limit.rehearsed.model->at(place).mean);
   if (failed_.model) failed_.add(place, failed_.model->at(place).mean);
   build_all();
 }
@@ -177,7 +182,9 @@ void LookModels::learn(const std::vector<Look>& rehearsals) {
 
 VectorXd LookModels::beyond(const VectorXd& place, double deviations) const {
   std::vector<double> g;
-  const auto bound = [&](const GaussianProcess::Told& told) { g.push_back(told.mean + deviations * told.deviation); };
+  const auto bound = [&](const GaussianProcess::Told& told) {
+    g.push_back(told.mean + deviations * told.deviation);
+  };
   for (const Limit& limit : limits_)
     if (limit.varies) bound(limit.at(place));
   if (failed_.model) bound(failed_.model->at(place));

@@ -1,10 +1,11 @@
 // Models of all looks so far: of the aim, of each limit, and of whether a place runs.
 //
-// (Q5) A limit of which rehearsals tell is modelled in two parts, g(x) = r(x) + d(x): r through all rehearsals near the
-//      centre of the search, d through what looks differed from it; both Gaussian processes (Q4), independent, so
-//      that their variances add up (M. Kennedy and A. O'Hagan, Biometrika 87 (2000) 1, eq. 2 with rho = 1). Where a
-//      place was rehearsed, r is known. Before looks tell, d is believed to be about a tenth, as limits are graded.
-//      Other limits, and the aim, are modelled through the looks alone.
+// (Q5) A limit of which rehearsals tell is modelled in two parts, g(x) = r(x) + d(x): r through all
+// rehearsals near the
+//      centre of the search, d through what looks differed from it; both Gaussian processes (Q4),
+//      independent, so that their variances add up (M. Kennedy and A. O'Hagan, Biometrika 87 (2000) 1, eq. 2
+//      with rho = 1). Where a place was rehearsed, r is known. Before looks tell, d is believed to be about a
+//      tenth, as limits are graded. Other limits, and the aim, are modelled through the looks alone.
 #pragma once
 
 #include <optional>
@@ -22,16 +23,17 @@ class LookModels {
  public:
   using Shapes = std::vector<GaussianProcess::Shape>;
 
-  /// At least one look or rehearsal that ran. Of more rehearsals than a few hundred those nearest to `centre` count.
-  /// shapes: as shapes() of an earlier one told; empty: usual ones.
-  LookModels(const std::vector<Look>& looks, const std::vector<Look>& rehearsals, const Eigen::VectorXd& centre,
-             Shapes shapes);
+  /// At least one look or rehearsal that ran. Of more rehearsals than a few hundred those nearest to `centre`
+  /// count. shapes: as shapes() of an earlier one told; empty: usual ones.
+  LookModels(const std::vector<Look>& looks, const std::vector<Look>& rehearsals,
+             const Eigen::VectorXd& centre, Shapes shapes);
 
   /// Looks for likelier shapes.
   void fit();
   const Shapes& shapes() const { return shapes_; }
 
-  /// As if the place had been looked at, or rehearsed, and been as expected, so that the next pick goes elsewhere.
+  /// As if the place had been looked at, or rehearsed, and been as expected, so that the next pick goes
+  /// elsewhere.
   void believe(const Eigen::VectorXd& place);
   void believe_rehearsal(const Eigen::VectorXd& place);
   void learn(const std::vector<Look>& rehearsals);
@@ -41,7 +43,8 @@ class LookModels {
   bool holds(const Eigen::VectorXd& place) const;
   bool knows_aim() const { return aim_.model.has_value(); }
 
-  /// (limit that is not everywhere the same) mean + deviations x deviation, tamed; last whether it runs, <= 0: it does.
+  /// (limit that is not everywhere the same) mean + deviations x deviation, tamed; last whether it runs, <=
+  /// 0: it does.
   Eigen::VectorXd beyond(const Eigen::VectorXd& place, double deviations) const;
   double excess(const Eigen::VectorXd& place, double deviations) const;  ///< sum of what of that is above 0
   /// mean - deviations x deviation; 0 where no look ran.

@@ -1,7 +1,7 @@
 // A search that looks where it is told to expect most: asked for places, told what was seen there.
 //
-// Places have their variables between 0 and 1. A search is a function of its seed and of what it was told: who
-// tells a new one the same again is asked for the same, which is how a search that was killed goes on.
+// Places have their variables between 0 and 1. A search is a function of its seed and of what it was told:
+// who tells a new one the same again is asked for the same, which is how a search that was killed goes on.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,14 +25,15 @@ struct Look {
 /// smaller aim, where there are aims.
 bool better(const Look& a, const Look& b);
 
-/// Indices of the feasible looks than which none is as good in all aims and better in one, by their first aim.
+/// Indices of the feasible looks than which none is as good in all aims and better in one, by their first
+/// aim.
 std::vector<std::size_t> front(const std::vector<Look>& looks);
 
 /// (place) how far each is surely beyond its limits, before anything runs; 0: it may work.
 using Screen = std::function<std::vector<double>(const std::vector<Eigen::VectorXd>&)>;
 
-/// (place) what a cheaper look tells of each: whether it runs, and limits in the order of Look::beyond, which err; not
-/// a number: of that limit it knows nothing. Without aims. Equal places, equal answers.
+/// (place) what a cheaper look tells of each: whether it runs, and limits in the order of Look::beyond, which
+/// err; not a number: of that limit it knows nothing. Without aims. Equal places, equal answers.
 using Rehearse = std::function<std::vector<Look>(const std::vector<Eigen::VectorXd>&)>;
 
 class Search {

@@ -23,11 +23,12 @@ constexpr std::size_t screened_at_once = 24;
 constexpr std::size_t rehearsed_for_a_look = 4;
 constexpr int rehearsed_together = 8;
 constexpr int rehearsed_again = 24;  // for a look, while none keeps its limits: a look costs about as much
-constexpr int spread_share = 4;      // of the first looks: places that keep their limits are spread by chance, too
-constexpr double cautious = 1;       // deviations of limits, while none is known to be kept
-constexpr double least_ahead = 0.02; // width, then the search ahead begins anew elsewhere
-constexpr double least_gain = 1e-3;  // of a limit, by which a place is nearer
-constexpr double much_more = 1.3;    // rehearsals than shapes were found from
+constexpr int spread_share =
+    4;                          // of the first looks: places that keep their limits are spread by chance, too
+constexpr double cautious = 1;  // deviations of limits, while none is known to be kept
+constexpr double least_ahead = 0.02;  // width, then the search ahead begins anew elsewhere
+constexpr double least_gain = 1e-3;   // of a limit, by which a place is nearer
+constexpr double much_more = 1.3;     // rehearsals than shapes were found from
 
 const Look& best_of(const std::vector<Look>& looks) {
   return *std::min_element(looks.begin(), looks.end(), better);
@@ -54,7 +55,8 @@ SearchBox around(const VectorXd& centre, double width) {
 
 }  // namespace
 
-SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& settings, Screen screen, Rehearse rehearse)
+SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& settings, Screen screen,
+                                 Rehearse rehearse)
     : variables_(variables),
       settings_(settings),
       screen_(std::move(screen)),
@@ -102,7 +104,8 @@ bool SurrogateSearch::is_known(const VectorXd& place) const {
 }
 
 /// A share of the variables, at least one, lie anywhere in the box, the others as at the centre.
-std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const VectorXd& centre, double share) {
+std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const VectorXd& centre,
+                                                  double share) {
   std::vector<VectorXd> some;
   while (some.size() < candidate_count) {
     VectorXd place = centre;
@@ -125,8 +128,8 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
   return some[static_cast<std::size_t>(std::min_element(beyond.begin(), beyond.end()) - beyond.begin())];
 }
 
-/// Best first, by what is beyond the limits, then by the aim: places about the best, and what a local search finds from
-/// the best of those.
+/// Best first, by what is beyond the limits, then by the aim: places about the best, and what a local search
+/// finds from the best of those.
 std::vector<VectorXd> SurrogateSearch::ranked(const LookModels& models, const VectorXd& best, double width,
                                               const Trust& trust) {
   const SearchBox whole{VectorXd::Zero(variables_), VectorXd::Ones(variables_)};
@@ -175,7 +178,8 @@ void SurrogateSearch::rehearse_looks(const std::vector<Look>& looks) {
   if (!places.empty()) rehearse(places);
 }
 
-/// The first few are rehearsed; then that is taken which is best by what is known now, of all that were rehearsed.
+/// The first few are rehearsed; then that is taken which is best by what is known now, of all that were
+/// rehearsed.
 VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<VectorXd>& by_merit,
                                          const Trust& trust) {
   std::vector<VectorXd> some;
@@ -206,7 +210,8 @@ std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const
   return places;
 }
 
-/// That runs and that the models find least beyond its limits, of those from `first` on. Precondition: one ran.
+/// That runs and that the models find least beyond its limits, of those from `first` on. Precondition: one
+/// ran.
 VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models, std::size_t first) const {
   Merit least;
   const Look* nearest = nullptr;
@@ -237,11 +242,13 @@ void SurrogateSearch::rehearse_spread(int count) {
 }
 
 /// Each where the models are nearest to keeping all limits, if the ones before turn out as believed.
-std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const VectorXd& centre, std::size_t count) {
+std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const VectorXd& centre,
+                                                       std::size_t count) {
   static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
   std::vector<VectorXd> batch;
   while (batch.size() < count) {
-    const std::vector<VectorXd> some = ranked(models, centre, ahead_width_, trusts[batch.size() % std::size(trusts)]);
+    const std::vector<VectorXd> some =
+        ranked(models, centre, ahead_width_, trusts[batch.size() % std::size(trusts)]);
     const auto is_new = [&](const VectorXd& place) { return !is_known(place) && !is_rehearsed(place); };
     const auto found = std::find_if(some.begin(), some.end(), is_new);
     batch.push_back(found == some.end() ? first_look() : *found);
@@ -271,7 +278,8 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
     const VectorXd centre = nearest_rehearsal(models, ahead_from_);
     const Merit now = nearness(models, centre);
     if (nearest)
-      ahead_width_ = clearly_less(now, *nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
+      ahead_width_ =
+          clearly_less(now, *nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     nearest = now;
     const int count = std::min(rehearsed_together, left);
     rehearse(next_rehearsals(models, centre, static_cast<std::size_t>(count)));
@@ -279,12 +287,14 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
   }
 }
 
-/// The looks with one aim made of two: the larger of both, each as a share of what it spans among the best, weighed;
-/// and a little of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006) 50).
+/// The looks with one aim made of two: the larger of both, each as a share of what it spans among the best,
+/// weighed; and a little of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006)
+/// 50).
 std::vector<Look> SurrogateSearch::by_weight(double weight) const {
   std::vector<Look> looks = looks_;
   if (settings_.aims == 1) return looks;
-  const bool any_feasible = std::any_of(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
+  const bool any_feasible =
+      std::any_of(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
   std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
   for (const Look& look : looks)
     for (std::size_t k = 0; look.ran && look.feasible() == any_feasible && k < 2; ++k) {
@@ -293,7 +303,9 @@ std::vector<Look> SurrogateSearch::by_weight(double weight) const {
     }
   for (Look& look : looks) {
     if (!look.ran) continue;
-    const auto share = [&](std::size_t k) { return (look.aims[k] - low[k]) / std::max(high[k] - low[k], near); };
+    const auto share = [&](std::size_t k) {
+      return (look.aims[k] - low[k]) / std::max(high[k] - low[k], near);
+    };
     constexpr double of_sum = 0.05;
     const double a = weight * share(0), b = (1 - weight) * share(1);
     look.aims = {std::max(a, b) + of_sum * (a + b)};
@@ -301,8 +313,8 @@ std::vector<Look> SurrogateSearch::by_weight(double weight) const {
   return looks;
 }
 
-/// Of looks, and of rehearsals near the best that is known, of rehearsals from `first` on; of shapes that are looked for when there is much more to
-/// find them from.
+/// Of looks, and of rehearsals near the best that is known, of rehearsals from `first` on; of shapes that are
+/// looked for when there is much more to find them from.
 LookModels SurrogateSearch::models_of(const std::vector<Look>& looks, std::size_t first) {
   const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
   const std::vector<Look> those = by_looks ? looks : rehearsals_from(first);
@@ -336,7 +348,8 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   const auto wanted = static_cast<std::size_t>(count);
   if (rehearse_) rehearse_ahead(count);
   const bool can_model = any_ran(looks_) || any_ran(rehearsals_);
-  while (places.size() < wanted && (!can_model || (!rehearse_ && asked_ < settings_.first_looks))) take(first_look());
+  while (places.size() < wanted && (!can_model || (!rehearse_ && asked_ < settings_.first_looks)))
+    take(first_look());
   if (places.size() == wanted) return places;
 
   region_ = (region_ + 1) % regions_.size();

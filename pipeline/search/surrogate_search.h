@@ -21,8 +21,10 @@ struct SurrogateSettings {
 
 class SurrogateSearch : public Search {
  public:
-  /// rehearse: empty, or looks that cost a small part of one; what they tell, nothing is rejected beforehand for.
-  SurrogateSearch(Eigen::Index variables, const SurrogateSettings& settings, Screen screen, Rehearse rehearse = {});
+  /// rehearse: empty, or looks that cost a small part of one; what they tell, nothing is rejected beforehand
+  /// for.
+  SurrogateSearch(Eigen::Index variables, const SurrogateSettings& settings, Screen screen,
+                  Rehearse rehearse = {});
   std::vector<Eigen::VectorXd> ask(int count) override;
   void tell(const std::vector<Look>& looks) override;
 
@@ -54,7 +56,8 @@ class SurrogateSearch : public Search {
   Eigen::VectorXd nearest_rehearsal(const LookModels& models, std::size_t first = 0) const;
   std::vector<Look> rehearsals_from(std::size_t first) const;
   void rehearse_spread(int count);
-  std::vector<Eigen::VectorXd> next_rehearsals(LookModels& models, const Eigen::VectorXd& centre, std::size_t count);
+  std::vector<Eigen::VectorXd> next_rehearsals(LookModels& models, const Eigen::VectorXd& centre,
+                                               std::size_t count);
   void rehearse_ahead(int wanted);
   void rehearse_looks(const std::vector<Look>& looks);
   void rehearse(const std::vector<Eigen::VectorXd>& places);
@@ -69,15 +72,15 @@ class SurrogateSearch : public Search {
   Screen screen_;
   Rehearse rehearse_;
   NormalNumbers numbers_;
-  std::vector<Look> looks_;                     // told
+  std::vector<Look> looks_;  // told
   std::vector<Look> rehearsals_;
   std::vector<Eigen::VectorXd> pending_;        // asked for, not yet told
   std::vector<GaussianProcess::Shape> shapes_;  // of the models, the last found
   std::size_t shapes_of_looks_ = 0;             // that they were found from
   double shapes_of_ = 0;                        // likewise, with rehearsals
   std::vector<Region> regions_;
-  std::size_t region_ = 0;  // of the last places asked for
-  double ahead_width_;      // of the region about the rehearsal that is nearest to keeping its limits ...
+  std::size_t region_ = 0;      // of the last places asked for
+  double ahead_width_;          // of the region about the rehearsal that is nearest to keeping its limits ...
   std::size_t ahead_from_ = 0;  // ... of those from here on
   int asked_ = 0, picks_ = 0;
 };

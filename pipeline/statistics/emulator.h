@@ -2,9 +2,9 @@
 //
 //     f(z) = f(c) + sum over j of g_j(z_j - c_j)                                          (P1)
 //
-// g_j is the parabola through the three values on axis j, and straight beyond them: with the parabola's slope there,
-// within none and twice that of the chord, so that nothing turns back where nobody has looked. What parameters do
-// together beyond their sum is left out; a calibration moves the centre to where it ends up.
+// g_j is the parabola through the three values on axis j, and straight beyond them: with the parabola's slope
+// there, within none and twice that of the chord, so that nothing turns back where nobody has looked. What
+// parameters do together beyond their sum is left out; a calibration moves the centre to where it ends up.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +26,8 @@ class Emulator {
  private:
   double value_ = 0;
   Eigen::VectorXd centre_, step_;
-  Eigen::VectorXd slope_, bend_;           ///< (axis) of the parabola in steps: slope d + bend d^2
-  Eigen::VectorXd slope_low_, slope_high_; ///< (axis) of what is straight beyond
+  Eigen::VectorXd slope_, bend_;            ///< (axis) of the parabola in steps: slope d + bend d^2
+  Eigen::VectorXd slope_low_, slope_high_;  ///< (axis) of what is straight beyond
 };
 
 }  // namespace dresslife::pipeline

@@ -9,10 +9,12 @@
 namespace dresslife::pipeline {
 namespace {
 
-double log_density(double x, double deviation) { return -x * x / (2 * deviation * deviation) - std::log(deviation); }
+double log_density(double x, double deviation) {
+  return -x * x / (2 * deviation * deviation) - std::log(deviation);
+}
 
-/// Sum over y of phi(y) dy Phi((margin + c y)/o)^n: equal steps of a tenth, as accurate as the integrand is smooth; where
-/// o is less than a tenth of c it nears a step, and the sum is off by a step's 2 % at most.
+/// Sum over y of phi(y) dy Phi((margin + c y)/o)^n: equal steps of a tenth, as accurate as the integrand is
+/// smooth; where o is less than a tenth of c it nears a step, and the sum is off by a step's 2 % at most.
 double log_all_within(double margin, double common, double own, int specimens) {
   constexpr double reach = 8, width = 0.1;
   constexpr int steps = static_cast<int>(2 * reach / width);
@@ -61,7 +63,8 @@ double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z) {
 
 double said_by_model(const Measurement& measurement, const MeasuredNumber& number, const Eigen::VectorXd& z) {
   double sum = 0;
-  for (const auto& [quantity, factor] : number.parts) sum += factor * std::exp(measurement.log_quantities[quantity](z));
+  for (const auto& [quantity, factor] : number.parts)
+    sum += factor * std::exp(measurement.log_quantities[quantity](z));
   return sum;
 }
 

@@ -1,15 +1,16 @@
-// How likely an observation is where the model's parameters are z: of lives that ended or had not yet ended, and of
-// measured quantities.
+// How likely an observation is where the model's parameters are z: of lives that ended or had not yet ended,
+// and of measured quantities.
 //
-// A life is lognormal about the model's median m(z), with the spread s(z) of what failed (a wire, a conductor that lost
-// its share of wires). Of s^2 the share w is common to all specimens of a test, one spool or batch; u^2 is what the test
-// has of its own that the model does not know and no other test shares. With x = ln(observed), c^2 = w s^2 + u^2,
-// o^2 = (1 - w) s^2, n specimens:
-//     broken     n lives, of which x is the mean:  N(x; m, c^2 + o^2/n)                                   (P2)
-//     at least   n not failed until then:          integral of Phi((m + c y - x)/o)^n phi(y) dy           (P3)
-//     at most    none lived longer:                integral of Phi((x - m - c y)/o)^n phi(y) dy
+// A life is lognormal about the model's median m(z), with the spread s(z) of what failed (a wire, a conductor
+// that lost its share of wires). Of s^2 the share w is common to all specimens of a test, one spool or batch;
+// u^2 is what the test has of its own that the model does not know and no other test shares. With x =
+// ln(observed), c^2 = w s^2 + u^2, o^2 = (1 - w) s^2, n specimens:
+//     broken     n lives, of which x is the mean:  N(x; m, c^2 + o^2/n) (P2) at least   n not failed until
+//     then:          integral of Phi((m + c y - x)/o)^n phi(y) dy           (P3) at most    none lived
+//     longer:                integral of Phi((x - m - c y)/o)^n phi(y) dy
 // A rating is an at-least of one specimen: its maker's promise holds for a cable that somebody buys.
-// What of a test is not known is a list of variants, each as likely as the others: the mean of their likelihoods.
+// What of a test is not known is a list of variants, each as likely as the others: the mean of their
+// likelihoods.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,8 +35,8 @@ struct ObservedLife {
   double log_life = 0;  ///< x
   LifeEnd end = LifeEnd::broken;
   int specimens = 1;
-  double common_share = 0;    ///< w, 0 .. 1
-  double unshared_spread = 0; ///< u, of ln life
+  double common_share = 0;     ///< w, 0 .. 1
+  double unshared_spread = 0;  ///< u, of ln life
   std::vector<LifeVariant> variants;
 };
 

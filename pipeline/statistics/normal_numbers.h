@@ -1,5 +1,5 @@
-// Normal numbers that are the same everywhere: after Box and Muller, as the standard library's differ from one library to
-// the next.
+// Normal numbers that are the same everywhere: after Box and Muller, as the standard library's differ from
+// one library to the next.
 #pragma once
 
 #include <Eigen/Core>

@@ -16,7 +16,8 @@ using Eigen::VectorXd;
 
 // ---- the maximum ------------------------------------------------------------------------------------------
 
-/// Slope and curvature of minus ln posterior. The emulator's parabolas end at kinks; a step this wide hardly sees them.
+/// Slope and curvature of minus ln posterior. The emulator's parabolas end at kinks; a step this wide hardly
+/// sees them.
 constexpr double difference = 1e-3;
 
 struct Local {
@@ -103,8 +104,8 @@ class Chain {
 
 constexpr int chains = 4;
 
-/// Split R-hat and the worth of the draws of one axis, from eight halves of chains: variance between them over that
-/// within; worth by the variance of the means of batches.
+/// Split R-hat and the worth of the draws of one axis, from eight halves of chains: variance between them
+/// over that within; worth by the variance of the means of batches.
 void judge(const VectorXd& axis, Posterior& posterior) {
   constexpr Index halves = 2 * chains;
   const Index length = axis.size() / halves;
@@ -123,7 +124,8 @@ void judge(const VectorXd& axis, Posterior& posterior) {
   const Index batch = axis.size() / batches;
   VectorXd of_batches(batches);
   for (Index k = 0; k < batches; ++k) of_batches[k] = axis.segment(k * batch, batch).mean();
-  const double scatter = (of_batches.array() - of_batches.mean()).square().sum() / static_cast<double>(batches - 1);
+  const double scatter =
+      (of_batches.array() - of_batches.mean()).square().sum() / static_cast<double>(batches - 1);
   const double worth = all / scatter * static_cast<double>(batches);
   posterior.worth = posterior.worth == 0 ? worth : std::min(posterior.worth, worth);
 }
@@ -183,7 +185,8 @@ Laplace laplace_of(const std::vector<LogLikelihood>& terms, const VectorXd& star
   return found;
 }
 
-Posterior posterior_of(const std::vector<LogLikelihood>& terms, const VectorXd& start, const SamplerSettings& settings) {
+Posterior posterior_of(const std::vector<LogLikelihood>& terms, const VectorXd& start,
+                       const SamplerSettings& settings) {
   constexpr int most_rounds = 3;
   constexpr double agree = 1.03;
   Posterior posterior;
@@ -196,7 +199,8 @@ Posterior posterior_of(const std::vector<LogLikelihood>& terms, const VectorXd& 
     for (int c = 0; c < chains; ++c) {
       NormalNumbers sides(settings.seed * 1000 + static_cast<std::uint64_t>(c));
       const VectorXd from = posterior.laplace.most_likely + 1.5 * spread * sides.vector(axes);
-      Chain chain(terms, from, posterior.laplace.covariance, settings.seed * 1000 + 100 + static_cast<std::uint64_t>(c));
+      Chain chain(terms, from, posterior.laplace.covariance,
+                  settings.seed * 1000 + 100 + static_cast<std::uint64_t>(c));
       chain.warm_up(draws / 3);
       chain.walk(posterior.draws.middleRows(c * draws, draws));
     }
@@ -212,7 +216,8 @@ double quantile(std::vector<double> numbers, double share) {
   std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(below), numbers.end());
   const double first = numbers[below];
   if (below + 1 >= numbers.size()) return first;
-  const double next = *std::min_element(numbers.begin() + static_cast<std::ptrdiff_t>(below) + 1, numbers.end());
+  const double next =
+      *std::min_element(numbers.begin() + static_cast<std::ptrdiff_t>(below) + 1, numbers.end());
   return first + (place - static_cast<double>(below)) * (next - first);
 }
 

@@ -1,13 +1,14 @@
-// What observations leave of a standard normal prior, z ~ N(0, 1) along each axis: its most likely place, the normal
-// distribution that fits there (Laplace), and draws.
+// What observations leave of a standard normal prior, z ~ N(0, 1) along each axis: its most likely place, the
+// normal distribution that fits there (Laplace), and draws.
 //
-// The maximum by Newton's method with differences, damped after Levenberg. Neither sums of squares nor many variables: a
-// dozen variables, likelihoods of what had not yet failed, mixtures. So a page of Eigen, and no solver of least squares.
+// The maximum by Newton's method with differences, damped after Levenberg. Neither sums of squares nor many
+// variables: a dozen variables, likelihoods of what had not yet failed, mixtures. So a page of Eigen, and no
+// solver of least squares.
 //
-// Draws by adaptive Metropolis (Haario, Saksman, Tamminen 2001): four chains from four sides of the maximum, steps of
-// 2.38/sqrt(d) in the shape of what was drawn so far, which is fixed when the draws that count begin. Chains that do not
-// agree (split R-hat, Gelman et al., Bayesian Data Analysis, 11.4) are drawn longer, twice at most. The same numbers come
-// out every time.
+// Draws by adaptive Metropolis (Haario, Saksman, Tamminen 2001): four chains from four sides of the maximum,
+// steps of 2.38/sqrt(d) in the shape of what was drawn so far, which is fixed when the draws that count
+// begin. Chains that do not agree (split R-hat, Gelman et al., Bayesian Data Analysis, 11.4) are drawn
+// longer, twice at most. The same numbers come out every time.
 #pragma once
 
 #include <Eigen/Core>

@@ -80,7 +80,9 @@ void follow_receipts(JobState& state, const fs::path& folder) {
   for (state.next = 0; state.next < stage_count; ++state.next) {
     const Stage& stage = stages[state.next];
     std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
-    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != state.inputs[state.next]) return;
+    if (!receipt || receipt->recipe != state.recipes[state.next] ||
+        receipt->input != state.inputs[state.next])
+      return;
     // After a failure no state spares the look at the bytes: a stage may have found what no time shows.
     if (!state.failure.empty()) receipt->state = {};
     const FileState now = state_of(folder / stage.output);
@@ -89,14 +91,15 @@ void follow_receipts(JobState& state, const fs::path& folder) {
       if (now.exists()) state.damaged = stage.output;
       return;
     }
-    if (!removed && (now != receipt->state || !receipt->state_suffices())) state.compared.push_back(state.next);
+    if (!removed && (now != receipt->state || !receipt->state_suffices()))
+      state.compared.push_back(state.next);
     if (state.next + 1 < stage_count) state.inputs[state.next + 1] = receipt->output;
     if (state.next + 1 == stage_count) state.told = std::move(receipt->told);
   }
 }
 
-/// The result of other settings that is still there: as its receipt notes it, or, where a stage began to make another
-/// and failed, by its own checksum.
+/// The result of other settings that is still there: as its receipt notes it, or, where a stage began to make
+/// another and failed, by its own checksum.
 void find_last(JobState& state, const fs::path& folder) {
   state.has_last = false;
   state.changed.clear();
@@ -108,7 +111,8 @@ void find_last(JobState& state, const fs::path& folder) {
     state.has_last = there && checksum_of(folder / last.output).has_value();
     return;
   }
-  state.has_last = there ? is_as_noted(*receipt, folder / last.output) : state.keep == Keep::lives && !receipt->told.empty();
+  state.has_last = there ? is_as_noted(*receipt, folder / last.output)
+                         : state.keep == Keep::lives && !receipt->told.empty();
   if (state.has_last) state.told = receipt->told;
 }
 
@@ -125,8 +129,9 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
   return key == failure_key(state) ? reason : "";
 }
 
-/// The words before a stage's program: as Ninja reads them. The stage writes its log where it runs; what launchers say
-/// (srun tells of an exit status, too) stands by itself, as nothing tells which of the two would be first in one file.
+/// The words before a stage's program: as Ninja reads them. The stage writes its log where it runs; what
+/// launchers say (srun tells of an exit status, too) stands by itself, as nothing tells which of the two
+/// would be first in one file.
 std::string launching(const std::string& launcher, const Stage& stage) {
   if (launcher.empty()) return "";
   std::string words = "env -u DRESSLIFE_PARENT -u DRESSLIFE_MEMORY ";
@@ -139,8 +144,9 @@ std::string rules(const StudyPlaces& places, const StageLimits& limits, const st
   for (const Stage& stage : stages) {
     // The stage before is checked against the same job, so the settings come from job.yaml at every stage.
     const std::string job = stage.part == Part::sim ? "" : " --job $job/job.yaml";
-    // `exec`: the shell's process becomes the stage's, which then ends with Ninja. `3>&1`: Ninja takes the end of
-    // its pipe for the end of the stage and waits for that stage alone, so the pipe must live as long as the stage.
+    // `exec`: the shell's process becomes the stage's, which then ends with Ninja. `3>&1`: Ninja takes the
+    // end of its pipe for the end of the stage and waits for that stage alone, so the pipe must live as long
+    // as the stage.
     text += fmt::format(
         "rule {0}\n  command = exec {9}\"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
         "--force "
@@ -152,7 +158,9 @@ std::string rules(const StudyPlaces& places, const StageLimits& limits, const st
   return text;
 }
 
-std::string target_of(const Stage& stage, const std::string& job) { return job + "/" + beside(stage, ".ran").string(); }
+std::string target_of(const Stage& stage, const std::string& job) {
+  return job + "/" + beside(stage, ".ran").string();
+}
 
 /// By job and stage, who else gets what a job makes: lines of folders.
 using Likes = std::vector<std::array<std::string, stage_count>>;
@@ -164,7 +172,8 @@ Likes likes_of(const Study& study, const std::vector<JobState>& states, const st
   return likes;
 }
 
-/// What a job makes itself from the first stage that is to run, each stage behind whoever makes what it reads.
+/// What a job makes itself from the first stage that is to run, each stage behind whoever makes what it
+/// reads.
 std::string chain_of(const Study& study, const StudyPlaces& places, const JobState& state, std::size_t k,
                      const std::vector<Makers>& makers, const Likes& likes) {
   std::string text;
@@ -173,7 +182,8 @@ std::string chain_of(const Study& study, const StudyPlaces& places, const JobSta
     if (makers[k][stage] != k) continue;
     const std::string before =
         stage == state.next ? "" : ' ' + target_of(stages[stage - 1], study.jobs[makers[k][stage - 1]].name);
-    text += fmt::format("build {}: {}{}\n  job = {}\n", target_of(stages[stage], job), stages[stage].name, before, job);
+    text += fmt::format("build {}: {}{}\n  job = {}\n", target_of(stages[stage], job), stages[stage].name,
+                        before, job);
     if (likes[k][stage].empty()) continue;
     const std::string list = job + '/' + beside(stages[stage], ".likes").string();
     write_text_if_changed(places.folder / list, likes[k][stage], Sync::never);
@@ -226,7 +236,8 @@ void join_logs(const fs::path& folder) {
     std::error_code ignored;
     if (fs::is_regular_file(folder / log_file(stage), ignored))
       text += fmt::format("== {}\n{}", program_name(stage), read_text(folder / log_file(stage)));
-    if (fs::is_regular_file(folder / launcher_log(stage), ignored)) text += read_text(folder / launcher_log(stage));
+    if (fs::is_regular_file(folder / launcher_log(stage), ignored))
+      text += read_text(folder / launcher_log(stage));
   }
   write_text_if_changed(folder / "log", text, Sync::never);
 }
@@ -276,7 +287,8 @@ class Ninja {
  private:
   static constexpr int not_installed = 127;
 
-  [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, const std::string& digests, int said) {
+  [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, const std::string& digests,
+                                        int said) {
     const pid_t runner = ::getppid();
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != runner) ::_exit(1);   // it died before that was said
@@ -290,7 +302,8 @@ class Ninja {
     ::dup2(said, STDERR_FILENO);
     const std::string jobs = std::to_string(parallel), graph = places.graph().string();
     if (::chdir(places.folder.c_str()) == 0)
-      ::execlp("ninja", "ninja", "-f", graph.c_str(), "-k", "0", "-j", jobs.c_str(), static_cast<char*>(nullptr));
+      ::execlp("ninja", "ninja", "-f", graph.c_str(), "-k", "0", "-j", jobs.c_str(),
+               static_cast<char*>(nullptr));
     ::_exit(not_installed);
   }
 
@@ -309,7 +322,9 @@ std::string JobState::words() const {
   return changed.empty() ? "stale" : "stale    " + changed;
 }
 
-StageFiles files_of_stage(std::size_t stage) { return {stages[stage].output, receipt_file(stages[stage]), log_file(stages[stage])}; }
+StageFiles files_of_stage(std::size_t stage) {
+  return {stages[stage].output, receipt_file(stages[stage]), log_file(stages[stage])};
+}
 
 bool may_lack(Keep keep, std::size_t stage) {
   switch (keep) {
@@ -343,7 +358,8 @@ void look_at(JobState& state, const fs::path& folder) {
   follow_receipts(state, folder);
   find_last(state, folder);
   // What is to run reads the output before it, which may have been removed.
-  while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists()) --state.next;
+  while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists())
+    --state.next;
 }
 
 std::vector<Makers> makers_of(const Study& study, const std::vector<JobState>& states) {
@@ -423,7 +439,8 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     write_text_if_changed(folder / "job.yaml", job_text(*job.job), Sync::never);
     if (states[k].done()) continue;
     for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
-      for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])}) fs::remove(folder / log);
+      for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])})
+        fs::remove(folder / log);
     graph += chain_of(study, places, states[k], k, makers, likes);
   }
   write_text_if_changed(places.folder / places.graph(), graph);
@@ -465,13 +482,15 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
   for (const std::size_t k : unfinished) {
     const fs::path folder = places.job(study.jobs[k].name);
     for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
-      if (makers[k][stage] != k) give_log(places.job(study.jobs[makers[k][stage]].name), folder, stages[stage]);
+      if (makers[k][stage] != k)
+        give_log(places.job(study.jobs[makers[k][stage]].name), folder, stages[stage]);
     fs::remove(folder / failure_file);
     look_at(states[k], folder);
     for (const Stage& stage : stages) remove_leftovers(folder / stage.output);
     join_logs(folder);
   }
-  for (const std::size_t k : unfinished) {  // when all have been looked at: a name less changes what others' times are
+  for (const std::size_t k :
+       unfinished) {  // when all have been looked at: a name less changes what others' times are
     const fs::path folder = places.job(study.jobs[k].name);
     remove_unkept(states[k], folder);
     if (states[k].done()) continue;

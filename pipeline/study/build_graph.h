@@ -28,7 +28,7 @@ inline constexpr std::size_t stage_count = 3;
 struct StudyPlaces {
   std::filesystem::path folder;    ///< DIR/<study>
   std::filesystem::path programs;  ///< where dresslife-sim, -strain and -fatigue are
-  std::string shard{};             ///< "2_of_8": a graph beside those of other runs in this folder; empty: the whole
+  std::string shard{};  ///< "2_of_8": a graph beside those of other runs in this folder; empty: the whole
 
   /// Within the folder: what of a run is not for people, and its graph.
   std::filesystem::path notes() const { return shard.empty() ? ".stage" : ".stage/shard_" + shard; }
@@ -43,23 +43,24 @@ struct JobState {
   std::string settings;  ///< digest of the job and the files beside it, twelve digits; programs do not matter
   std::size_t next = 0;  ///< the first stage to run; stage_count: the job is done
   std::array<std::string, stage_count> inputs;  ///< checksums of what the stages up to the next read
-  std::string damaged;   ///< "life.h5": is not what its stage wrote
-  std::string failure;   ///< why the last attempt with these recipes failed
-  bool has_results = false;           ///< of any settings
-  std::vector<Told> told;             ///< what its life.h5 says, where its receipt tells
-  /// Of a job that is not done: whether there is a result of other settings, files or programs, whole as it was made.
+  std::string damaged;                          ///< "life.h5": is not what its stage wrote
+  std::string failure;                          ///< why the last attempt with these recipes failed
+  bool has_results = false;                     ///< of any settings
+  std::vector<Told> told;                       ///< what its life.h5 says, where its receipt tells
+  /// Of a job that is not done: whether there is a result of other settings, files or programs, whole as it
+  /// was made.
   bool has_last = false;
-  std::string changed;                ///< since that result, in words (changes.h); empty: not looked at
+  std::string changed;  ///< since that result, in words (changes.h); empty: not looked at
   Keep keep = Keep::all;
   std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared, as no times vouch for them
   bool done() const { return next == stage_count; }
-  /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings and what changed, "to do"
-  /// without any.
+  /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings and what changed,
+  /// "to do" without any.
   std::string words() const;
 };
 
-/// The state of every job that can run (of others only their last results), from what lies in the folder; nothing is
-/// written. Errors: InputError when a program is missing.
+/// The state of every job that can run (of others only their last results), from what lies in the folder;
+/// nothing is written. Errors: InputError when a program is missing.
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places);
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, Digests& digests);
 
@@ -72,8 +73,8 @@ StageFiles files_of_stage(std::size_t stage);
 /// Brings a state up to date whose recipes are known.
 void look_at(JobState& state, const std::filesystem::path& folder);
 
-/// Which job of the study makes the output of each stage that is not up to date: itself, or the first of those that make
-/// the same from the same. The last stage is each job's own.
+/// Which job of the study makes the output of each stage that is not up to date: itself, or the first of
+/// those that make the same from the same. The last stage is each job's own.
 using Makers = std::array<std::size_t, stage_count>;
 std::vector<Makers> makers_of(const Study& study, const std::vector<JobState>& states);
 
@@ -86,9 +87,10 @@ std::uintmax_t remove_unkept(const JobState& state, const std::filesystem::path&
 /// Notes of outputs whose bytes had to be compared that they need no look the next time.
 void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states);
 
-/// Writes every job's job.yaml and build.ninja. launcher: shell words before each stage's command, that start it
-/// elsewhere and end with its exit status ("srun -n1"); a stage that is launched does not end with this program and
-/// minds no memory that others were promised. Errors: InputError when the folder cannot be written.
+/// Writes every job's job.yaml and build.ninja. launcher: shell words before each stage's command, that start
+/// it elsewhere and end with its exit status ("srun -n1"); a stage that is launched does not end with this
+/// program and minds no memory that others were promised. Errors: InputError when the folder cannot be
+/// written.
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
                        const StageLimits& limits = {}, const std::string& launcher = "");
 

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_plain(const Node& node) {
-  return node.is_list() && std::all_of(node.items.begin(), node.items.end(), [](const Node& item) { return item.is_scalar(); });
+  return node.is_list() &&
+         std::all_of(node.items.begin(), node.items.end(), [](const Node& item) { return item.is_scalar(); });
 }
 
 std::string value_words(const Node* value) {
@@ -35,7 +36,8 @@ class Comparison {
  public:
   void compare(const Node* was, const Node* now, const std::string& path) {
     const bool maps = was && now && was->is_map() && now->is_map();
-    const bool lists = was && now && was->is_list() && now->is_list() && was->items.size() == now->items.size();
+    const bool lists =
+        was && now && was->is_list() && now->is_list() && was->items.size() == now->items.size();
     if (maps)
       compare_maps(*was, *now, path);
     else if (lists && !(is_plain(*was) && is_plain(*now)))
@@ -60,14 +62,16 @@ class Comparison {
 std::vector<std::string> changed_settings(const StudyJob& job, const StudyPlaces& places) {
   const fs::path life = places.life(job.name);
   if (!state_of(life).exists()) return {};
-  const std::string was = FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("job");
-  const fs::path settings = places.job(job.name) / "job.yaml";  // of a study that was not expanded, as it is now
+  const std::string was =
+      FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("job");
+  const fs::path settings =
+      places.job(job.name) / "job.yaml";  // of a study that was not expanded, as it is now
   const std::string now = job.job ? job_text(*job.job) : read_text(settings);
   return changed_keys(parse_yaml(was, life.string()), parse_yaml(now, settings.string()));
 }
 
-/// Programs and files that are not those of which the last result was made. A stage that ran again since has a receipt
-/// of another result.
+/// Programs and files that are not those of which the last result was made. A stage that ran again since has
+/// a receipt of another result.
 std::vector<std::string> changed_files(const fs::path& folder, const StudyPlaces& places, Digests& digests) {
   std::vector<std::string> changed;
   std::optional<Receipt> later;
@@ -95,7 +99,8 @@ bool is_prose(const std::string& change) {
 
 std::string words_of(std::vector<std::string> changed) {
   constexpr std::size_t named = 3;
-  std::stable_partition(changed.begin(), changed.end(), [](const std::string& change) { return !is_prose(change); });
+  std::stable_partition(changed.begin(), changed.end(),
+                        [](const std::string& change) { return !is_prose(change); });
   if (changed.empty()) return "what it was made of is not noted any more";
   const std::size_t more = changed.size() - std::min(changed.size(), named);
   changed.resize(changed.size() - more);
@@ -120,7 +125,8 @@ void tell_changes(const Study& study, const StudyPlaces& places, std::vector<Job
     ++told;
     try {
       std::vector<std::string> changed = changed_settings(job, places);
-      for (std::string& file : changed_files(places.job(job.name), places, digests)) changed.push_back(std::move(file));
+      for (std::string& file : changed_files(places.job(job.name), places, digests))
+        changed.push_back(std::move(file));
       states[k].changed = words_of(std::move(changed));
     } catch (const InputError& problem) {
       states[k].changed = problem.what();

@@ -40,7 +40,8 @@ class TableReader {
       const bool comment = text_[at_] == '#';
       Row row = comment ? Row{} : cells();
       if (comment) skip_line();
-      if (std::any_of(row.begin(), row.end(), [](const Cell& cell) { return !cell.text.empty(); })) return row;
+      if (std::any_of(row.begin(), row.end(), [](const Cell& cell) { return !cell.text.empty(); }))
+        return row;
     }
     return {};
   }
@@ -78,7 +79,8 @@ class TableReader {
   Cell quoted(const Where& begin) {
     Cell cell{"", begin};
     for (++at_;; ++at_) {
-      if (at_end_of_line()) throw InputError(begin, "a quote that opens here is never closed in its line", "close it");
+      if (at_end_of_line())
+        throw InputError(begin, "a quote that opens here is never closed in its line", "close it");
       if (text_[at_] != '"') {
         cell.text += text_[at_];
       } else if (at_ + 1 < text_.size() && text_[at_ + 1] == '"') {
@@ -106,12 +108,15 @@ void check_columns(const Row& titles) {
   std::map<std::string, int> seen;
   for (const Cell& title : titles) {
     if (title.text.empty())
-      throw InputError(title.where, "a column has no title", "name the key that it sets, as in 'routing.free_length_m'");
+      throw InputError(title.where, "a column has no title",
+                       "name the key that it sets, as in 'routing.free_length_m'");
     if (++seen[title.text] > 1)
-      throw InputError(title.where, fmt::format("two columns are titled '{}'", title.text), "keep one of the two");
+      throw InputError(title.where, fmt::format("two columns are titled '{}'", title.text),
+                       "keep one of the two");
   }
   if (!seen.contains(name_column))
-    throw InputError(titles.front().where, "the table has no column 'name'", "give each row a name of its own");
+    throw InputError(titles.front().where, "the table has no column 'name'",
+                     "give each row a name of its own");
 }
 
 /// Where `program` stands for it.
@@ -127,7 +132,8 @@ Node value_of(const Cell& cell) {
   try {
     value = parse_yaml(cell.text, cell.where.file);
   } catch (const InputError&) {
-    throw InputError(cell.where, fmt::format("'{}' is no value", cell.text), "write it as in a job, in quotes if need be");
+    throw InputError(cell.where, fmt::format("'{}' is no value", cell.text),
+                     "write it as in a job, in quotes if need be");
   }
   place_at(value, cell.where);
   return value;
@@ -135,7 +141,8 @@ Node value_of(const Cell& cell) {
 
 Variant variant_of(const Row& titles, const Row& row) {
   if (row.size() != titles.size())
-    throw InputError(row.back().where, fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()),
+    throw InputError(row.back().where,
+                     fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()),
                      "fill or quote its cells");
   Variant variant;
   for (std::size_t k = 0; k < row.size(); ++k) {
@@ -154,7 +161,9 @@ Variant variant_of(const Row& titles, const Row& row) {
 std::vector<Variant> table_variants(const std::filesystem::path& file) {
   TableReader reader(read_source(file), file.string());
   const Row titles = reader.next();
-  if (titles.empty()) throw InputError({file.string(), 1, 1}, "holds no table", "write a line of column titles, then a row per job");
+  if (titles.empty())
+    throw InputError({file.string(), 1, 1}, "holds no table",
+                     "write a line of column titles, then a row per job");
   check_columns(titles);
   std::vector<Variant> variants;
   std::map<std::string, int> lines;
@@ -162,12 +171,15 @@ std::vector<Variant> table_variants(const std::filesystem::path& file) {
     variants.push_back(variant_of(titles, row));
     const auto [known, fresh] = lines.try_emplace(variants.back().name, row.front().where.line);
     if (!fresh)
-      throw InputError(row.front().where, fmt::format("'{}' is the name of line {}, too", known->first, known->second),
+      throw InputError(row.front().where,
+                       fmt::format("'{}' is the name of line {}, too", known->first, known->second),
                        "give each row a name of its own");
     if (variants.size() > most_jobs)
-      throw InputError(row.front().where, fmt::format("the table has more than {} rows", most_jobs), "split it");
+      throw InputError(row.front().where, fmt::format("the table has more than {} rows", most_jobs),
+                       "split it");
   }
-  if (variants.empty()) throw InputError({file.string(), 1, 1}, "has titles and no row", "write a row per job");
+  if (variants.empty())
+    throw InputError({file.string(), 1, 1}, "has titles and no row", "write a row per job");
   return variants;
 }
 

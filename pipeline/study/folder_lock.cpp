@@ -35,7 +35,8 @@ bool lives(long process) {
 }
 
 std::string run_of(long process) {
-  return process > 0 ? fmt::format("another run (process {})", process) : "a run of some of its jobs (--shard)";
+  return process > 0 ? fmt::format("another run (process {})", process)
+                     : "a run of some of its jobs (--shard)";
 }
 
 void take(int descriptor, const fs::path& folder, int how) {

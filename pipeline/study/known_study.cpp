@@ -22,15 +22,18 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path memory_of(const StudyPlaces& places) { return places.folder / ".stage" / "study"; }
-fs::path settings_of(const StudyPlaces& places, const std::string& job) { return places.job(job) / "job.yaml"; }
+fs::path settings_of(const StudyPlaces& places, const std::string& job) {
+  return places.job(job) / "job.yaml";
+}
 
 /// Of whatever decides what a study expands to and is in no file that is looked at.
 std::string digest_of(const StudyRequest& request) {
   Xxh3 digest;
-  const auto add = [&](const std::string& text) {  // lengths before texts: no two lists run into the same bytes
-    const std::string whole = fmt::format("{}:{}", text.size(), text);
-    digest.add(whole.data(), whole.size());
-  };
+  const auto add =
+      [&](const std::string& text) {  // lengths before texts: no two lists run into the same bytes
+        const std::string whole = fmt::format("{}:{}", text.size(), text);
+        digest.add(whole.data(), whole.size());
+      };
   add(xxh3_of_file(program_file()));  // which expands it
   add(fs::absolute(request.file).string());
   add(fs::absolute(request.programs).string());
@@ -90,7 +93,8 @@ std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces&
       FileState settings;
       standing.states.push_back(state_from(lines, job.name, settings));
       standing.states.back().keep = standing.study.keep;
-      if (settings.changed_ns >= written || state_of(settings_of(places, job.name)) != settings) return std::nullopt;
+      if (settings.changed_ns >= written || state_of(settings_of(places, job.name)) != settings)
+        return std::nullopt;
     }
   }
   look_again(standing);

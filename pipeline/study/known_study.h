@@ -1,10 +1,10 @@
-// What a run noted of its study when it had expanded it: names, recipes and settings of all jobs, and everything
-// that was looked at for them. As long as every look finds the same, the study expands to the same, and who only
-// wants to know how it stands need not expand it.
+// What a run noted of its study when it had expanded it: names, recipes and settings of all jobs, and
+// everything that was looked at for them. As long as every look finds the same, the study expands to the
+// same, and who only wants to know how it stands need not expand it.
 //
 // Nothing is believed by its time: texts count by their digests, other looks by what they find. Only of the
-// settings that the run wrote out, each job's job.yaml, size, inode and both times spare the look, as in receipts
-// (pipeline/files/receipt.h): while they are what was noted, and the note is younger than they.
+// settings that the run wrote out, each job's job.yaml, size, inode and both times spare the look, as in
+// receipts (pipeline/files/receipt.h): while they are what was noted, and the note is younger than they.
 #pragma once
 
 #include <filesystem>
@@ -46,7 +46,8 @@ Standing expanded(const StudyRequest& request);
 /// Brings the states up to date: another run may have been at work.
 void look_again(Standing& standing);
 
-/// Notes an expanded study in its folder, after write_build_graph(). One with a job that cannot be run is forgotten.
+/// Notes an expanded study in its folder, after write_build_graph(). One with a job that cannot be run is
+/// forgotten.
 void remember(const StudyRequest& request, const Standing& standing);
 
 }  // namespace dresslife::pipeline

@@ -1,5 +1,5 @@
-// The outcome of a study: its jobs by life, best first. What the root of each life.h5 says (formats.cpp) stands in its
-// receipt, too, so that a study of ten thousand jobs is gathered in less than a second.
+// The outcome of a study: its jobs by life, best first. What the root of each life.h5 says (formats.cpp)
+// stands in its receipt, too, so that a study of ten thousand jobs is gathered in less than a second.
 #pragma once
 
 #include <array>
@@ -20,11 +20,11 @@ namespace dresslife::pipeline {
 struct JobResult {
   std::string name;
   std::filesystem::path life_file;
-  std::string failure;     ///< why there is no life file, one line; empty: the job is done
-  std::string settings{};  ///< of which it is the result (JobState)
+  std::string failure;       ///< why there is no life file, one line; empty: the job is done
+  std::string settings{};    ///< of which it is the result (JobState)
   std::vector<Told> told{};  ///< by its receipt; empty: to be read from the file
-  bool stale = false;        ///< the file is its last result, of other settings; `failure` says how the job stands
-  std::string changed{};     ///< since then
+  bool stale = false;  ///< the file is its last result, of other settings; `failure` says how the job stands
+  std::string changed{};  ///< since then
 };
 
 /// The hose's wall of a job, whose life is told beside that of the wires.
@@ -47,10 +47,10 @@ struct RelativeLife {
 struct RankingRow {
   std::string job;
   std::filesystem::path life_file;
-  std::string failure;                  ///< empty: done, and the rest holds
-  bool stale = false;                   ///< not done, and the rest tells the job's last result
-  std::string changed;                  ///< since that result, in words; empty: not known
-  std::string settings;                 ///< of which the row tells; empty: not known
+  std::string failure;   ///< empty: done, and the rest holds
+  bool stale = false;    ///< not done, and the rest tells the job's last result
+  std::string changed;   ///< since that result, in words; empty: not known
+  std::string settings;  ///< of which the row tells; empty: not known
   /// What its study varies, and in words of the job's name which value it has; empty: not of a study.
   std::vector<std::pair<std::string, std::string>> varied;
   double life_repeats = 0;              ///< repeats of the motion until the worst wire breaks
@@ -73,24 +73,27 @@ struct RankingRow {
   std::array<double, 3> planned_hours{unknown, unknown, unknown};
   /// The same over the scatter of wires alone; NaN: nothing else was uncertain.
   std::array<double, 3> scatter_hours{unknown, unknown, unknown};
-  std::string life_response;         ///< how its life hangs on what is not known (life_response.h); empty: not told
-  std::string life_shares;           ///< which parameters explain its spread: "friction_inside 53 %; strength 29 %"
-  std::string measure_next;          ///< the parameter that explains most; empty: none but the scatter of wires
+  std::string life_response;  ///< how its life hangs on what is not known (life_response.h); empty: not told
+  std::string life_shares;    ///< which parameters explain its spread: "friction_inside 53 %; strength 29 %"
+  std::string measure_next;   ///< the parameter that explains most; empty: none but the scatter of wires
   double measure_next_share = 0;
-  std::optional<double> outlives_next;  ///< share of draws in which it lives longer than the next row's job
-  double planned_months = unknown;   ///< of the first of them, by the calendar
-  std::string failing_conductor;     ///< where that is likeliest; empty: unknown or nowhere
+  std::optional<double> outlives_next;    ///< share of draws in which it lives longer than the next row's job
+  double planned_months = unknown;        ///< of the first of them, by the calendar
+  std::string failing_conductor;          ///< where that is likeliest; empty: unknown or nowhere
   double failing_position_from_tool = 0;  ///< [m]
   std::array<double, 3> conductor_hours{unknown, unknown, unknown};
   double worst_shear_range = 0;  ///< of the worst wire's surface; 0: unknown
   std::string worst_joint;  ///< whose motion costs most; "carrying": none between the clamps; empty: unknown
   double worst_joint_share = 0;  ///< of the worst wire's damage; above 1 where other joints relieve
   std::optional<HoseLife> hose;  ///< absent: not evaluated
-  /// What the strains ask of the cables: largest force over that at which one tears, and moment of all of them
-  /// on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not known.
+  /// What the strains ask of the cables: largest force over that at which one tears, and moment of all of
+  /// them on the hose at a clamp over the largest that it carries there. Absent: no cable slides, or not
+  /// known.
   std::optional<double> largest_force_share, clamp_moment_share;
-  std::optional<double> loose_mesh_error;  ///< share of loose cables' curvature that their mesh misses; absent: none lies loose
-  /// The worst wire's life if its mean stress never relaxed, and if mean stress did nothing; absent: not known.
+  std::optional<double>
+      loose_mesh_error;  ///< share of loose cables' curvature that their mesh misses; absent: none lies loose
+  /// The worst wire's life if its mean stress never relaxed, and if mean stress did nothing; absent: not
+  /// known.
   std::optional<double> hours_mean_stress_kept, hours_without_mean_stress;
   /// Of all its stages; absent: the files do not tell.
   std::optional<std::vector<Warning>> warnings;
@@ -99,7 +102,9 @@ struct RankingRow {
 
   bool done() const { return failure.empty(); }
   bool has_result() const { return done() || stale; }
-  bool waits() const { return failure == "stale" || failure == "to do"; }  ///< has not failed with the settings of now
+  bool waits() const {
+    return failure == "stale" || failure == "to do";
+  }  ///< has not failed with the settings of now
   bool force_ok() const {
     return largest_force_share.value_or(0) <= believable_share &&
            clamp_moment_share.value_or(0) <= believable_share;
@@ -107,29 +112,34 @@ struct RankingRow {
   double hours_of(double repeats) const { return repeats * repeat_seconds / 3600; }
   bool planned() const { return !std::isnan(planned_hours[0]); }
   /// The planner's lives with all but the wires' scatter as the job has it.
-  const std::array<double, 3>& by_scatter() const { return std::isnan(scatter_hours[0]) ? planned_hours : scatter_hours; }
+  const std::array<double, 3>& by_scatter() const {
+    return std::isnan(scatter_hours[0]) ? planned_hours : scatter_hours;
+  }
   /// What jobs are ranked by: the planner's life in 10 % of dresspacks; of older files the worst wire's.
   double headline_hours() const { return planned() ? planned_hours[0] : life_hours; }
   double headline_months() const { return planned() ? planned_months : life_months; }
-  double headline_repeats() const { return planned() ? planned_hours[0] * 3600 / repeat_seconds : life_repeats; }
+  double headline_repeats() const {
+    return planned() ? planned_hours[0] * 3600 / repeat_seconds : life_repeats;
+  }
 };
 
 /// One row per job, best life first, equal lives by name, failed jobs last. A life file that is missing or
 /// cannot be read makes a failed row with the reason; nothing is thrown.
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
 
-/// Of a study: what is done, behind it the last results of jobs that are stale; of the others the rows say how they
-/// stand.
+/// Of a study: what is done, behind it the last results of jobs that are stale; of the others the rows say
+/// how they stand.
 std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
                                    const std::vector<JobState>& states);
 
 /// ranking.csv: a header and one row per job, quoted after RFC 4180 with line feeds; numbers read back
-/// exactly, "inf" where there is no damage. `status` is done; stale: the cells tell the job's last result, where there
-/// is one, and `message` what changed since; failed, with the reason, or "to do", both with empty cells. Text that a
-/// spreadsheet would take for a formula begins with an apostrophe.
+/// exactly, "inf" where there is no damage. `status` is done; stale: the cells tell the job's last result,
+/// where there is one, and `message` what changed since; failed, with the reason, or "to do", both with empty
+/// cells. Text that a spreadsheet would take for a formula begins with an apostrophe.
 std::string ranking_csv(const std::vector<RankingRow>& rows);
 
-/// "stale: since this result routing.free_length_m 2.035 -> 2.1", and why a job failed with the settings of now.
+/// "stale: since this result routing.free_length_m 2.035 -> 2.1", and why a job failed with the settings of
+/// now.
 std::string stale_words(const RankingRow& row);
 
 /// "3,400 h", "more than 1,000,000 h" beyond all plans, "not damaged".
@@ -141,7 +151,8 @@ std::string relative_words(const RelativeLife& relative);
 /// What the worst joint's motion costs, in words: "41 % by joint_6", "all by joint_4, which others relieve".
 std::string joint_words(const RankingRow& row);
 
-/// "outlives the next in 93 % of draws; friction_inside makes 53 % of its spread: measure ..."; empty where nothing is uncertain.
+/// "outlives the next in 93 % of draws; friction_inside makes 53 % of its spread: measure ..."; empty where
+/// nothing is uncertain.
 std::string certainty_words(const RankingRow& row);
 
 /// "cables pull with 0.34 of what tears them, ..." where forces are not believable; else nothing.

@@ -34,8 +34,10 @@ std::string fit_for_a_folder(std::string text) {
 
 class Maker {
  public:
-  Maker(const fs::path& file, const std::vector<std::string>& sets) : file_(file), sets_{"uncertainty.enabled=false"} {
-    sets_.insert(sets_.end(), sets.begin(), sets.end());  // a rating stands beside the model's own, by the scatter of wires
+  Maker(const fs::path& file, const std::vector<std::string>& sets)
+      : file_(file), sets_{"uncertainty.enabled=false"} {
+    sets_.insert(sets_.end(), sets.begin(),
+                 sets.end());  // a rating stands beside the model's own, by the scatter of wires
   }
 
   RateStudy make(const fs::path& rigs) {
@@ -45,12 +47,14 @@ class Maker {
     job["dresspack"] = read_yaml(file_);
     const Node& written = *job.find("dresspack");
     if (!written.is_map() || written.find("motion"))
-      throw InputError({file_.string()}, "holds no dresspack and no cable", "name a file of the keys of job.dresspack");
+      throw InputError({file_.string()}, "holds no dresspack and no cable",
+                       "name a file of the keys of job.dresspack");
     resolve_job(job);
     const Node dresspack = *job.find("dresspack");
     const std::vector<std::string> cables = cables_of(dresspack);
     if (cables.empty())
-      throw InputError({file_.string()}, "holds no cable (a part that holds parts)", "name another dresspack");
+      throw InputError({file_.string()}, "holds no cable (a part that holds parts)",
+                       "name another dresspack");
     for (const std::string& cable : cables) add_cable(dresspack, cable, cables.size() > 1, rigs);
     return std::move(made_);
   }
@@ -67,8 +71,8 @@ class Maker {
       Node job = read_yaml(file);
       const Node* motion = job.find("motion");
       const Node* words = motion ? motion->find("name") : nullptr;
-      add({prefix + file.stem().string(), name, words ? words->text : file.stem().string(), 0, ""}, std::move(job),
-          cable);
+      add({prefix + file.stem().string(), name, words ? words->text : file.stem().string(), 0, ""},
+          std::move(job), cable);
     }
     const Node* ratings = cable.find("components")->items.front().find("ratings");
     int number = 0;
@@ -79,7 +83,8 @@ class Maker {
       job.kind = Node::Kind::map;
       job.where = written.where;
       job["motion"]["rig"] = *written.find("rig");
-      add({fmt::format("{}rating_{}", prefix, ++number), name, rig_words(rating.rig), rating.cycles, rating.source},
+      add({fmt::format("{}rating_{}", prefix, ++number), name, rig_words(rating.rig), rating.cycles,
+           rating.source},
           std::move(job), cable);
     }
   }
@@ -104,7 +109,8 @@ class Maker {
 };
 
 const RankingRow* row_of(const std::vector<RankingRow>& rows, const std::string& job) {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& row) { return row.job == job; });
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const RankingRow& row) { return row.job == job; });
   return found == rows.end() ? nullptr : &*found;
 }
 
@@ -142,7 +148,8 @@ std::string rig_words(const Rig& rig) {
   const Node keys = echo_fields(rig);
   std::vector<std::string> words;
   for (const Entry& entry : keys.entries)
-    if (entry.key != "kind" && entry.key != "cycles_per_minute") words.push_back(entry.key + " " + entry.value.text);
+    if (entry.key != "kind" && entry.key != "cycles_per_minute")
+      words.push_back(entry.key + " " + entry.value.text);
   return fmt::format("{}: {}", word(rig.kind), fmt::join(words, ", "));
 }
 
@@ -152,7 +159,9 @@ RateStudy rate_study(const fs::path& file, const fs::path& rigs, const std::vect
 
 CycleLives cycles_of(const RankingRow& row) {
   CycleLives lives{row.life_repeats, row.life_repeats_all_stick, row.life_repeats_all_free, {}};
-  for (std::size_t i = 0; i < 3; ++i) lives.conductor[i] = (row.planned() ? row.by_scatter() : row.conductor_hours)[i] * 3600 / row.repeat_seconds;
+  for (std::size_t i = 0; i < 3; ++i)
+    lives.conductor[i] =
+        (row.planned() ? row.by_scatter() : row.conductor_hours)[i] * 3600 / row.repeat_seconds;
   return lives;
 }
 
@@ -161,8 +170,8 @@ std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& ro
   for (const RatedTest& test : rated.tests) {
     if (test.cable != cable) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", test.cable);
     if (test.cable != cable)
-      text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", "rig", "cycles", "10 .. 90 %", "inside stuck .. free",
-                          "maker");
+      text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", "rig", "cycles", "10 .. 90 %",
+                          "inside stuck .. free", "maker");
     cable = test.cable;
     const RankingRow* row = row_of(rows, test.job);
     if (!row || !row->done()) {
@@ -173,12 +182,14 @@ std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& ro
     std::string maker = test.rated_cycles > 0 ? readable(test.rated_cycles) : "";
     if (const std::string words = verdict(test.rated_cycles, lives.conductor[1]); !words.empty())
       maker += " (" + words + ")";
-    text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", shortened(test.rig, 46), life_text(lives.conductor[1]),
+    text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", shortened(test.rig, 46),
+                        life_text(lives.conductor[1]),
                         life_text(lives.conductor[0]) + " .. " + life_text(lives.conductor[2]),
                         life_text(lives.all_stick) + " .. " + life_text(lives.all_free), maker);
   }
-  return text + "\ncycles: by which half of such cables have a conductor that lost its share of wires "
-                "(fatigue.failed_wires_percent) at one place, 10 .. 90 % of them by scatter;\nbounds: of the worst wire. rolling_flex: round trips.\n";
+  return text +
+         "\ncycles: by which half of such cables have a conductor that lost its share of wires "
+         "(fatigue.failed_wires_percent) at one place, 10 .. 90 % of them by scatter;\nbounds: of the worst wire. rolling_flex: round trips.\n";
 }
 
 std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows) {

@@ -14,9 +14,9 @@ namespace dresslife::pipeline {
 
 /// One cable in one rig.
 struct RatedTest {
-  std::string job;    ///< in the study
-  std::string cable;  ///< its name
-  std::string rig;    ///< in words: "torsion, 180 deg/m to either side"
+  std::string job;          ///< in the study
+  std::string cable;        ///< its name
+  std::string rig;          ///< in words: "torsion, 180 deg/m to either side"
   double rated_cycles = 0;  ///< that its maker promises in it; 0: nothing is known
   std::string source;       ///< where that stands
 };
@@ -26,14 +26,14 @@ struct RateStudy {
   std::vector<RatedTest> tests;  ///< as many as the study has jobs, in their order
 };
 
-/// Every cable of a dresspack's file in every rig of `rigs` (a folder of jobs) and in those of its ratings. Conductors
-/// and wires slide with friction where the cable says how hard, else freely. sets: `--set` for every job.
-/// Errors: InputError for a file without cables.
+/// Every cable of a dresspack's file in every rig of `rigs` (a folder of jobs) and in those of its ratings.
+/// Conductors and wires slide with friction where the cable says how hard, else freely. sets: `--set` for
+/// every job. Errors: InputError for a file without cables.
 RateStudy rate_study(const std::filesystem::path& file, const std::filesystem::path& rigs,
                      const std::vector<std::string>& sets);
 
-/// Cycles of a rig in the units of a ranking's row: of the worst wire's median, of the bounds, and of the cable by
-/// which 10, 50 and 90 % of such cables have a conductor that lost its share of wires at one place.
+/// Cycles of a rig in the units of a ranking's row: of the worst wire's median, of the bounds, and of the
+/// cable by which 10, 50 and 90 % of such cables have a conductor that lost its share of wires at one place.
 struct CycleLives {
   double worst_wire = 0, all_stick = 0, all_free = 0;
   std::array<double, 3> conductor{};  ///< NaN: the file does not tell
@@ -44,8 +44,8 @@ CycleLives cycles_of(const RankingRow& row);
 std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows);
 std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows);
 
-/// What strain.slip to give a job of this cable by itself: free, then friction where all that lies in it says how
-/// hard, else free.
+/// What strain.slip to give a job of this cable by itself: free, then friction where all that lies in it says
+/// how hard, else free.
 std::string slip_of_cable(const Node& cable_alone);
 
 /// Levels of parts in a component, itself counted.

@@ -24,7 +24,8 @@ std::string slip_alone(const Job& job, const Node& alone, bool is_part, bool was
   std::vector<Slip> slip = job.strain.slip;
   const auto levels = static_cast<std::size_t>(levels_of(alone.find("components")->items.front()));
   if (slip.size() == 1) slip.resize(levels, slip.front());
-  if (!is_part && !was_alone) slip.insert(slip.begin(), Slip::free);  // its jacket has become a level of its own
+  if (!is_part && !was_alone)
+    slip.insert(slip.begin(), Slip::free);  // its jacket has become a level of its own
   slip.resize(levels, slip.back());
   std::vector<std::string> words;
   for (const Slip one : slip) words.emplace_back(word(one));
@@ -40,7 +41,8 @@ class Maker {
       const Node& mounted = list ? list->items[k] : written;
       const Node& dresspack = *mounted.find("dresspack");
       const std::string among_others = list ? mounted.find("name")->text : "";
-      for (const std::string& cable : cables_of(dresspack)) add_cable(job, written, dresspack, cable, among_others);
+      for (const std::string& cable : cables_of(dresspack))
+        add_cable(job, written, dresspack, cable, among_others);
     }
   }
   RatedStudy take() { return std::move(made_); }
@@ -60,7 +62,8 @@ class Maker {
     }
   }
 
-  std::string rig_job(const Job& job, const Node& written, const Node& alone, const Node& rig, bool is_part, bool was_alone) {
+  std::string rig_job(const Job& job, const Node& written, const Node& alone, const Node& rig, bool is_part,
+                      bool was_alone) {
     Node made;
     made.kind = Node::Kind::map;
     made.where = rig.where;
@@ -119,7 +122,8 @@ double place_life(const std::filesystem::path& life, const RatedCable& where) {
 }
 
 RankingRow* row_of(std::vector<RankingRow>& rows, const std::string& job) {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const RankingRow& row) { return row.job == job; });
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const RankingRow& row) { return row.job == job; });
   return found == rows.end() ? nullptr : &*found;
 }
 
@@ -127,7 +131,8 @@ RankingRow* row_of(std::vector<RankingRow>& rows, const std::string& job) {
 std::string relate_one(const RatedCable& rated, const RankingRow& rig, RankingRow& row) {
   if (!rig.done()) return rig.failure;
   const double program = place_life(row.life_file, rated), cycles = place_life(rig.life_file, {});
-  if (std::isnan(program) || std::isnan(cycles)) return "life.h5 does not tell when conductors fail at one place";
+  if (std::isnan(program) || std::isnan(cycles))
+    return "life.h5 does not tell when conductors fail at one place";
   if (std::isinf(cycles)) return "the model sees no damage in its rig, to which a program could be related";
   const double per_hour = 3600 / row.repeat_seconds * (cycles / program);
   const RelativeLife relative{rated.name, rated.rig, per_hour, rated.rated_cycles};
@@ -141,26 +146,32 @@ bool has_ratings(const Job& job) {
   return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [](const MountedDresspack& mounted) {
     const auto& parts = mounted.dresspack.components;
     return !mounted.dresspack.ratings.empty() ||
-           std::any_of(parts.begin(), parts.end(), [](const Component& part) { return !part.ratings.empty(); });
+           std::any_of(parts.begin(), parts.end(),
+                       [](const Component& part) { return !part.ratings.empty(); });
   });
 }
 
 RatedStudy rated_study(const Study& study) {
   Maker maker;
-  if (study.keep == Keep::lives) return maker.take();  // a relative life needs the damage of every place, in life.h5
+  if (study.keep == Keep::lives)
+    return maker.take();  // a relative life needs the damage of every place, in life.h5
   for (const StudyJob& job : study.jobs)
     if (job.failure.empty() && job.job && has_ratings(*job.job)) maker.add(job);
   return maker.take();
 }
 
-std::vector<std::string> relate(const RatedStudy& rated, const std::vector<RankingRow>& rigs, std::vector<RankingRow>& rows) {
+std::vector<std::string> relate(const RatedStudy& rated, const std::vector<RankingRow>& rigs,
+                                std::vector<RankingRow>& rows) {
   std::vector<std::string> silent;
   for (const RatedCable& cable : rated.cables) {
     RankingRow* const row = row_of(rows, cable.job);
     if (!row || !row->done()) continue;
-    const auto rig = std::find_if(rigs.begin(), rigs.end(), [&](const RankingRow& one) { return one.job == cable.rig_job; });
+    const auto rig = std::find_if(rigs.begin(), rigs.end(),
+                                  [&](const RankingRow& one) { return one.job == cable.rig_job; });
     const std::string reason = rig == rigs.end() ? "its rig has not run" : relate_one(cable, *rig, *row);
-    if (!reason.empty()) silent.push_back(fmt::format("{}: no relative life of {} ({}): {}", cable.job, cable.name, cable.rig, reason));
+    if (!reason.empty())
+      silent.push_back(
+          fmt::format("{}: no relative life of {} ({}): {}", cable.job, cable.name, cable.rig, reason));
   }
   return silent;
 }

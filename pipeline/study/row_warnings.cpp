@@ -17,8 +17,8 @@ std::vector<WarningKind> kinds_with_columns() {
 }
 
 std::size_t count_of(const std::vector<Warning>& warnings, WarningKind kind) {
-  return static_cast<std::size_t>(
-      std::count_if(warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.kind == kind; }));
+  return static_cast<std::size_t>(std::count_if(
+      warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.kind == kind; }));
 }
 
 std::string line_of(const RankingRow& row, const Warning& warning) {
@@ -31,8 +31,8 @@ std::string line_of_kind(const std::vector<RankingRow>& rows, WarningKind kind) 
   std::size_t jobs = 0;
   for (const RankingRow& row : rows) {
     const std::vector<Warning> warnings = warnings_of(row);
-    const auto found =
-        std::find_if(warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.kind == kind; });
+    const auto found = std::find_if(warnings.begin(), warnings.end(),
+                                    [&](const Warning& warning) { return warning.kind == kind; });
     if (found == warnings.end()) continue;
     if (++jobs == 1) first = line_of(row, *found);
   }
@@ -73,7 +73,8 @@ std::vector<std::string> warning_cells(const RankingRow& row) {
   cells[0] = std::to_string(words.size());
   cells[1] = fmt::format("{}", fmt::join(words, "; "));
   std::size_t column = 2;
-  for (const WarningKind kind : kinds_with_columns()) cells[column++] = count_of(*row.warnings, kind) ? "no" : "yes";
+  for (const WarningKind kind : kinds_with_columns())
+    cells[column++] = count_of(*row.warnings, kind) ? "no" : "yes";
   return cells;
 }
 
@@ -87,7 +88,8 @@ std::string warning_lines(const std::vector<RankingRow>& rows) {
   if (count <= most_lines) return text;
   text.clear();
   for (int k = 0; k < warning_kinds_count; ++k) text += line_of_kind(rows, static_cast<WarningKind>(k));
-  return text + fmt::format("{} warnings in all: in ranking.csv, in the report and in the jobs' logs\n", count);
+  return text +
+         fmt::format("{} warnings in all: in ranking.csv, in the report and in the jobs' logs\n", count);
 }
 
 }  // namespace dresslife::pipeline

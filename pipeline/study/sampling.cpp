@@ -16,7 +16,8 @@ namespace dresslife::pipeline {
 
 namespace {
 
-constexpr const char* ways = "write !normal {mean: M, deviation: S}, !uniform [LOW, HIGH] or !choice [A, B, ...]";
+constexpr const char* ways =
+    "write !normal {mean: M, deviation: S}, !uniform [LOW, HIGH] or !choice [A, B, ...]";
 
 /// Of a standard normal number to be below z.
 double share_below(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
@@ -52,9 +53,10 @@ struct Sample {
 void describe(Fields& f, Sample& sample) {
   f.integer("jobs", sample.jobs, Need::required, between(1, most_jobs), "draws");
   f.integer("seed", sample.seed, Need::optional, between(0, 1e9), "another one gives other draws");
-  f.choice("method", sample.method,
-           "latin_hypercube: each nth of a distribution once; random: each draw by itself, so that more `jobs` leave those "
-           "before as they were");
+  f.choice(
+      "method", sample.method,
+      "latin_hypercube: each nth of a distribution once; random: each draw by itself, so that more `jobs` leave those "
+      "before as they were");
 }
 
 }  // namespace
@@ -68,13 +70,15 @@ void describe(Fields& f, Distribution::Normal& normal) {
 
 Distribution::Normal Distribution::normal_from(const std::string& path, const Node& written) {
   Normal normal;
-  read_fields(under("normal", written), Describe([&](Fields& f) { f.group("normal", normal, Need::required, ""); }));
+  read_fields(under("normal", written),
+              Describe([&](Fields& f) { f.group("normal", normal, Need::required, ""); }));
   const auto below = [&](double value) { return share_below((value - normal.mean) / normal.deviation); };
   normal.share_below = normal.at_least ? below(*normal.at_least) : 0;
   normal.share_within = (normal.at_most ? below(*normal.at_most) : 1) - normal.share_below;
   constexpr double least_share = 1e-6;  // below it quantiles would be made of the rounding of shares
   if (!(normal.share_within >= least_share))
-    throw InputError(written.where, fmt::format("between at_least and at_most of {} lies none of its !normal", path),
+    throw InputError(written.where,
+                     fmt::format("between at_least and at_most of {} lies none of its !normal", path),
                      "let them enclose the mean or come near it");
   return normal;
 }
@@ -112,16 +116,19 @@ Node Distribution::value_at(double u) const {
   if (!normal_) return scalar(shortest_text(low_ + u * (high_ - low_)));
   const double share = normal_->share_below + u * normal_->share_within;
   const double value = normal_->mean + normal_->deviation * normal_quantile(share);
-  return scalar(shortest_text(std::clamp(value, normal_->at_least.value_or(value), normal_->at_most.value_or(value))));
+  return scalar(
+      shortest_text(std::clamp(value, normal_->at_least.value_or(value), normal_->at_most.value_or(value))));
 }
 
-std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path, std::size_t count) {
+std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path,
+                                 std::size_t count) {
   const std::string digest = xxh3(fmt::format("{} {}", seed, path));
   NormalNumbers numbers(std::stoull(digest.substr(0, 16), nullptr, 16));
   std::vector<double> drawn(count);
   for (double& u : drawn) u = numbers.uniform();
   if (method == SamplingMethod::random) return drawn;
-  for (std::size_t k = 0; k < count; ++k) drawn[k] = (static_cast<double>(k) + drawn[k]) / static_cast<double>(count);
+  for (std::size_t k = 0; k < count; ++k)
+    drawn[k] = (static_cast<double>(k) + drawn[k]) / static_cast<double>(count);
   for (std::size_t k = count; k > 1; --k)  // after Fisher and Yates
     std::swap(drawn[k - 1], drawn[static_cast<std::size_t>(numbers.uniform() * static_cast<double>(k))]);
   return drawn;
@@ -129,14 +136,17 @@ std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, cons
 
 std::vector<Variant> sampled_variants(const Node& section) {
   if (!section.is_map())
-    throw InputError(section.where, "sample must be a map", "write 'sample: {jobs: N, keys: {KEY.PATH: !uniform [A, B]}}'");
+    throw InputError(section.where, "sample must be a map",
+                     "write 'sample: {jobs: N, keys: {KEY.PATH: !uniform [A, B]}}'");
   Node settings = section;
   std::erase_if(settings.entries, [](const Entry& entry) { return entry.key == "keys"; });
   Sample sample;
-  read_fields(under("sample", settings), Describe([&](Fields& f) { f.group("sample", sample, Need::required, ""); }));
+  read_fields(under("sample", settings),
+              Describe([&](Fields& f) { f.group("sample", sample, Need::required, ""); }));
   const Node* keys = section.find("keys");
   if (!keys || !keys->is_map() || keys->entries.empty())
-    throw InputError(keys ? keys->where : section.where, "sample.keys must be a map of keys to distributions", ways);
+    throw InputError(keys ? keys->where : section.where, "sample.keys must be a map of keys to distributions",
+                     ways);
   std::vector<Variant> variants(static_cast<std::size_t>(sample.jobs));
   for (std::size_t k = 0; k < variants.size(); ++k) variants[k].name = fmt::format("draw_{}", k + 1);
   for (const Entry& key : keys->entries) {
@@ -153,7 +163,8 @@ std::vector<Variant> sampled_variants(const Node& section) {
 }
 
 std::string sampling_manual() {
-  return field_manual<Sample>("study.sample (beside its `keys`: key paths with `!normal`, `!uniform` or `!choice`)");
+  return field_manual<Sample>(
+      "study.sample (beside its `keys`: key paths with `!normal`, `!uniform` or `!choice`)");
 }
 
 }  // namespace dresslife::pipeline

@@ -9,10 +9,11 @@
 //       dresspack.bending_stiffness_Nm2: !uniform [4, 6]
 //       motion: !choice [easy, hard]
 //
-// A value is the quantile of its distribution at a number u between 0 and 1. random: u is uniform. latin_hypercube: of n jobs
-// one has its u in each nth of (0, 1), in an order of its own for every key (McKay, Beckman and Conover, Technometrics 21
-// (1979) 239): means over the jobs scatter less for the same n. Every key has a stream of numbers of its own, from the seed
-// and its path: another key changes no value of the others, and with `random` further jobs change none of those before.
+// A value is the quantile of its distribution at a number u between 0 and 1. random: u is uniform.
+// latin_hypercube: of n jobs one has its u in each nth of (0, 1), in an order of its own for every key
+// (McKay, Beckman and Conover, Technometrics 21 (1979) 239): means over the jobs scatter less for the same n.
+// Every key has a stream of numbers of its own, from the seed and its path: another key changes no value of
+// the others, and with `random` further jobs change none of those before.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +30,8 @@ class Fields;
 
 class Distribution {
  public:
-  /// From `!normal {mean, deviation, at_least, at_most}`, `!uniform [LOW, HIGH]` or `!choice [A, B, ...]`. path: of the key
-  /// that it is for. Errors: InputError for anything else.
+  /// From `!normal {mean, deviation, at_least, at_most}`, `!uniform [LOW, HIGH]` or `!choice [A, B, ...]`.
+  /// path: of the key that it is for. Errors: InputError for anything else.
   static Distribution from(const std::string& path, const Node& written);
 
   /// The quantile. Precondition: 0 < u < 1.
@@ -62,7 +63,8 @@ constexpr std::string_view word(SamplingMethod value) {
 }
 
 /// `count` numbers between 0 and 1, neither of them, for the key at a path.
-std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path, std::size_t count);
+std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path,
+                                 std::size_t count);
 
 /// The section `sample` of a study as variants draw_1, draw_2, ... Errors: InputError.
 std::vector<Variant> sampled_variants(const Node& section);

@@ -33,7 +33,8 @@ int shards_needed(const Standing& standing, int most_stages) {
     left += stage_count - standing.states[k].next;
     ++jobs;
   }
-  const std::size_t most = static_cast<std::size_t>(most_stages), jobs_each = std::max<std::size_t>(1, most / stage_count);
+  const std::size_t most = static_cast<std::size_t>(most_stages),
+                    jobs_each = std::max<std::size_t>(1, most / stage_count);
   return left <= most ? 1 : static_cast<int>((jobs + jobs_each - 1) / jobs_each);
 }
 
@@ -41,9 +42,11 @@ void keep_shard(Standing& standing, const Shard& shard) {
   const std::size_t jobs = standing.states.size();
   std::unordered_map<std::string, std::size_t> firsts;  // of each simulation
   std::vector<std::size_t> order(jobs), group(jobs);
-  for (std::size_t k = 0; k < jobs; ++k) group[k] = firsts.emplace(standing.states[k].recipes[0], k).first->second;
+  for (std::size_t k = 0; k < jobs; ++k)
+    group[k] = firsts.emplace(standing.states[k].recipes[0], k).first->second;
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return group[a] < group[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return group[a] < group[b]; });
   const auto begin_of = [&](int index) {
     return jobs * static_cast<std::size_t>(index - 1) / static_cast<std::size_t>(shard.count);
   };

@@ -23,11 +23,13 @@ std::string recipes_up_to(const JobState& state, std::size_t stage) {
   return all;
 }
 
-/// Whether the job has what its stages up to this one made: the last of it as a file, and before it what is kept.
+/// Whether the job has what its stages up to this one made: the last of it as a file, and before it what is
+/// kept.
 bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage) {
   if (state.next <= stage) return false;
   for (std::size_t k = 0; k <= stage; ++k)
-    if ((k == stage || !may_lack(state.keep, k)) && !state_of(folder / files_of_stage(k).output).exists()) return false;
+    if ((k == stage || !may_lack(state.keep, k)) && !state_of(folder / files_of_stage(k).output).exists())
+      return false;
   return true;
 }
 
@@ -46,7 +48,8 @@ void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std:
     std::error_code none;
     fs::copy_file(from / files.log, to / files.log, fs::copy_options::overwrite_existing, none);
   }
-  if (is_there) renew_receipt(from / files.receipt, from / files.output);  // another name changed one of its times
+  if (is_there)
+    renew_receipt(from / files.receipt, from / files.output);  // another name changed one of its times
   const std::optional<Receipt> receipt = read_receipt(from / files.receipt);
   for (const fs::path& to : folders)
     if (receipt) write_receipt(to / files.receipt, *receipt, to / files.output);
@@ -55,12 +58,14 @@ void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std:
 }  // namespace
 
 void share_stages(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
-  if (std::all_of(states.begin(), states.end(), [](const JobState& state) { return state.done() || state.recipes[0].empty(); }))
+  if (std::all_of(states.begin(), states.end(),
+                  [](const JobState& state) { return state.done() || state.recipes[0].empty(); }))
     return;
   std::unordered_map<std::string, std::size_t> havers;
   for (std::size_t k = 0; k < states.size(); ++k)
     for (std::size_t stage = 0; study.jobs[k].failure.empty() && stage < shared_count; ++stage)
-      if (has_up_to(states[k], places.job(study.jobs[k].name), stage)) havers.emplace(recipes_up_to(states[k], stage), k);
+      if (has_up_to(states[k], places.job(study.jobs[k].name), stage))
+        havers.emplace(recipes_up_to(states[k], stage), k);
   std::map<std::size_t, std::vector<Gift>> gifts;  // by who gives
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;

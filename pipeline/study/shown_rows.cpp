@@ -30,18 +30,22 @@ ShownRows shown_rows(const std::vector<RankingRow>& rows) {
   std::vector<std::size_t> all(rows.size());
   std::iota(all.begin(), all.end(), 0);
   if (rows.size() <= short_ranking) return {all, ""};
-  const auto first_failed = std::partition_point(rows.begin(), rows.end(), [](const auto& row) { return row.done(); });
+  const auto first_failed =
+      std::partition_point(rows.begin(), rows.end(), [](const auto& row) { return row.done(); });
   const auto done = static_cast<std::size_t>(first_failed - rows.begin());
   const auto any = [](const RankingRow&) { return true; };
   std::set<std::size_t> shown;
   take(rows, 0, done, best, shown, any);
   take(rows, done - std::min(done, worst), done, worst, shown, any);
-  const std::size_t of_warning = take(rows, 0, done, warned, shown, [](const RankingRow& row) { return !warnings_of(row).empty(); });
+  const std::size_t of_warning =
+      take(rows, 0, done, warned, shown, [](const RankingRow& row) { return !warnings_of(row).empty(); });
   take(rows, done, rows.size(), failed, shown, any);
-  return {{shown.begin(), shown.end()},
-          fmt::format("{} jobs: {} done, {} of them warned of, {} not done; shown are the best {}, the worst {} and the first "
-                      "{} warned of and {} not done, all are in ranking.csv and the report\n",
-                      rows.size(), done, of_warning, rows.size() - done, best, worst, warned, failed)};
+  return {
+      {shown.begin(), shown.end()},
+      fmt::format(
+          "{} jobs: {} done, {} of them warned of, {} not done; shown are the best {}, the worst {} and the first "
+          "{} warned of and {} not done, all are in ranking.csv and the report\n",
+          rows.size(), done, of_warning, rows.size() - done, best, worst, warned, failed)};
 }
 
 }  // namespace dresslife::pipeline

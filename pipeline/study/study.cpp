@@ -58,8 +58,10 @@ std::vector<Variant> named_changes(const Node* jobs) {
   return variants;
 }
 
-/// Every variant of the one with every one of the other, the latter fastest. where: of the section that is at fault.
-std::vector<Variant> combined(const std::vector<Variant>& variants, const std::vector<Variant>& others, const Where& where) {
+/// Every variant of the one with every one of the other, the latter fastest. where: of the section that is at
+/// fault.
+std::vector<Variant> combined(const std::vector<Variant>& variants, const std::vector<Variant>& others,
+                              const Where& where) {
   if (variants.size() * others.size() > most_jobs)
     throw InputError(where, fmt::format("the study has more than {} jobs", most_jobs), "split it");
   std::vector<Variant> longer;
@@ -85,7 +87,8 @@ std::vector<Variant> all_combinations(std::vector<Variant> variants, const Node*
                        "write [A, B, ...]");
     std::vector<Variant> values;
     for (std::size_t i = 0; i < key.value.items.size(); ++i)
-      values.push_back({value_name(key.key, key.value.items[i], i), {{key.key, key.value.items[i], key.where}}, {}});
+      values.push_back(
+          {value_name(key.key, key.value.items[i], i), {{key.key, key.value.items[i], key.where}}, {}});
     variants = combined(variants, values, key.where);
   }
   return variants;
@@ -94,11 +97,13 @@ std::vector<Variant> all_combinations(std::vector<Variant> variants, const Node*
 std::vector<Variant> variants_of(const Node& study) {
   std::vector<Variant> variants = named_changes(study.find("jobs"));
   if (const Node* table = study.find("table")) {
-    if (!table->is_scalar()) throw InputError(table->where, "table must be a file", "write 'table: FLEET.csv'");
+    if (!table->is_scalar())
+      throw InputError(table->where, "table must be a file", "write 'table: FLEET.csv'");
     variants = combined(variants, table_variants(folder_of(table->where) / table->text), table->where);
   }
   variants = all_combinations(std::move(variants), study.find("vary"));
-  if (const Node* sample = study.find("sample")) variants = combined(variants, sampled_variants(*sample), sample->where);
+  if (const Node* sample = study.find("sample"))
+    variants = combined(variants, sampled_variants(*sample), sample->where);
   return variants;
 }
 
@@ -130,13 +135,14 @@ StudyJob make_job(const Node& base, const Variant& variant, const std::string& f
 
 void check_keys(const Node& study) {
   if (!study.is_map()) throw InputError(study.where, "holds no study", "write base: and vary: or jobs:");
-  const std::vector<std::string> known{"name", "base", "vary", "jobs", "table", "sample", "keep", "free", "limits"};
+  const std::vector<std::string> known{"name",   "base", "vary", "jobs",  "table",
+                                       "sample", "keep", "free", "limits"};
   for (const Entry& entry : study.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     const std::string near = nearest_word(entry.key, known);
-    throw InputError(
-        entry.where, fmt::format("unknown key '{}' of a study", entry.key),
-        near.empty() ? "keys here: name, base, vary, jobs, table, sample, keep, free, limits" : fmt::format("did you mean '{}'?", near));
+    throw InputError(entry.where, fmt::format("unknown key '{}' of a study", entry.key),
+                     near.empty() ? "keys here: name, base, vary, jobs, table, sample, keep, free, limits"
+                                  : fmt::format("did you mean '{}'?", near));
   }
   if (!study.find("base"))
     throw InputError(study.where, "base is missing",
@@ -154,9 +160,7 @@ struct Disk {
   Keep keep = Keep::all;
 };
 
-void describe(Fields& f, Disk& disk) {
-  f.choice("keep", disk.keep, "");
-}
+void describe(Fields& f, Disk& disk) { f.choice("keep", disk.keep, ""); }
 
 /// A study's own settings.
 Disk disk_of(const Node& study) {

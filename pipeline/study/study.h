@@ -23,9 +23,9 @@ namespace dresslife::pipeline {
 struct Job;
 
 struct StudyJob {
-  std::string name;                ///< unique in the study, fit for a folder
-  std::shared_ptr<const Job> job;  ///< when it can be run, in a study that was expanded
-  std::string failure;             ///< else why not, a line for each problem
+  std::string name;                   ///< unique in the study, fit for a folder
+  std::shared_ptr<const Job> job;     ///< when it can be run, in a study that was expanded
+  std::string failure;                ///< else why not, a line for each problem
   std::vector<std::string> values{};  ///< (varied) of what the study varies, in words of the name
 };
 

@@ -92,7 +92,7 @@ class ListingParser {
   void statement() {
     const std::string_view line = trimmed(line_);
     if (line.starts_with("---")) return;  // the end of what runs at a move's end
-    if (line == ";") return;  // an empty line, of which editors lose the number
+    if (line == ";") return;              // an empty line, of which editors lose the number
     if (!number_of(line_)) {
       complain("is no statement (a number, ':', the statement, ';')", "list the program again");
       return;

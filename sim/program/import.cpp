@@ -368,8 +368,8 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
     const std::string more = fmt::format(" (and {} more: line {}{})", group.more, group.lines,
                                          group.more > listed_lines ? ", ..." : "");
     warnings.push_back({pipeline::WarningKind::program, group.first.text(),
-                        fmt::format("skipped: {}{}{}", group.name.empty() ? "" : group.name + ": ", group.reason,
-                                    group.more == 0 ? "" : more)});
+                        fmt::format("skipped: {}{}{}", group.name.empty() ? "" : group.name + ": ",
+                                    group.reason, group.more == 0 ? "" : more)});
   }
   return warnings;
 }

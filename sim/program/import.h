@@ -35,7 +35,8 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
 /// The motion that is run: itself, or its program's.
 pipeline::Motion resolved_motion(const pipeline::Motion& motion);
 
-/// What was skipped and may move the robot, or change how it moves: each thing once, with the lines where it stands.
+/// What was skipped and may move the robot, or change how it moves: each thing once, with the lines where it
+/// stands.
 std::vector<pipeline::Warning> moves_left_out(const Program& program);
 
 /// These and all else that was skipped, one line each: "file:line: skipped: what".

@@ -1,5 +1,5 @@
-// Statement after statement; what it says of them. Other members: interpreter_branches.cpp, _loops, _calls, _effects;
-// expressions: evaluation.cpp.
+// Statement after statement; what it says of them. Other members: interpreter_branches.cpp, _loops, _calls,
+// _effects; expressions: evaluation.cpp.
 #include "sim/program/interpreter.h"
 
 #include <algorithm>

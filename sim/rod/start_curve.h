@@ -13,8 +13,8 @@ struct StartCurve {
 /// A cubic between the clamps along their directions, with as much speed there as its length allows; length
 /// still missing goes into a sag (with gravity, where it has a part across the chord). When even the straight
 /// line is longer than the hose, the segments are spaced evenly along it.
-/// most_speed: in lengths; more makes a rounder arch and less sag. halvings: of what the speed or the sag may be, until it
-/// fits the length: 60 are exact, so many take most of the time.
+/// most_speed: in lengths; more makes a rounder arch and less sag. halvings: of what the speed or the sag may
+/// be, until it fits the length: 60 are exact, so many take most of the time.
 StartCurve start_curve(const Rod& rod, const ClampFrames& clamps, double most_speed = 1, int halvings = 60);
 
 }  // namespace dresslife::sim

@@ -20,14 +20,16 @@ struct Descent {
 };
 
 /// The part of step k in its parent `rod`, once its free strain is known. held: what friction holds of its
-/// deviation, at this sample. One copy: inlined wherever it is called, it is most of what there is to compile.
+/// deviation, at this sample. One copy: inlined wherever it is called, it is most of what there is to
+/// compile.
 __attribute__((noinline, flatten)) Rod<Pack> step_down(const Rod<Pack>& rod, const NestingLevel& step,
                                                        const Placement& place, const Rod<double>& rest,
                                                        const Pack& free_strain, const double* held) {
   const Rod<Pack> glued = child(rod, place);
   if (step.slide.sliding == Sliding::glued) {
     if (step.slide.radial_share == 1) return glued;
-    Series<Pack> strain = step.slide.radial_share * (glued.stretch * (constant_series(1.0, rest.stretch.order) / rest.stretch));
+    Series<Pack> strain =
+        step.slide.radial_share * (glued.stretch * (constant_series(1.0, rest.stretch.order) / rest.stretch));
     strain.at[0] -= step.slide.radial_share;
     return slid_unevenly(glued, strain, rest, place.kinematics);
   }
@@ -623,8 +625,7 @@ struct LayerAt : ParentAt {
     const FloatPack X = bend1 * n.sine - bend2 * n.cosine, radial = bend1 * n.cosine + bend2 * n.sine;
     if constexpr (thesis)
       return {layer.radial_share * ((thesis_strain(layer.radius * X) - n.strain0) * n.inverse_rest_stretch),
-              -cosine * radial,
-              cosine_squared * X, sine_cosine * X, FloatPack{} + 1.0f};
+              -cosine * radial, cosine_squared * X, sine_cosine * X, FloatPack{} + 1.0f};
     const FloatPack y = stretch + layer.radius * X, V2 = turning * turning + y * y,
                     inverse_V = inverse_root(V2);
     const FloatPack y_change = stretch_by + layer.radius * (bend1_by * n.sine - bend2_by * n.cosine);
@@ -807,7 +808,8 @@ void deviations_of_layer(const FiveNodes& layer, const PartState& part, std::siz
     const LayerAt<thesis, false> at(layer, part, t);
     FloatPack sliding[waves_per_layer], away[waves_per_layer];
     at.sliding(how, out, stride, sliding);
-    for (int n = 0; n < waves_per_layer; ++n) away[n] = factor_of_wall * at(layer.node[n]).strain - sliding[n];
+    for (int n = 0; n < waves_per_layer; ++n)
+      away[n] = factor_of_wall * at(layer.node[n]).strain - sliding[n];
     to_waves.store_waves(sliding, out + mean_strain * waves_per_layer * stride + t, stride);
     to_waves.store_waves(away, out + deviation * waves_per_layer * stride + t, stride);
   }
@@ -992,7 +994,10 @@ struct Sliders {
 
   Sliders() = default;
   Sliders(const MixedLanes& state, int lane)
-      : slip(load<FloatPack>(state.slip + lane)), cap0(state.cap), cap_per_mean(state.cap_per_mean), share(1 - state.elastic) {}
+      : slip(load<FloatPack>(state.slip + lane)),
+        cap0(state.cap),
+        cap_per_mean(state.cap_per_mean),
+        share(1 - state.elastic) {}
 
   /// What they hold. Return mapping: the deviation less the slip, cut at the cap; the slip follows.
   inline FloatPack next(const FloatPack& mean, const FloatPack& away) {

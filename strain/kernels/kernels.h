@@ -155,8 +155,8 @@ struct StrainMeasures {
   /// Something like the damage of Smith, Watson and Topper: sum of (range times tensile peak)^3 between
   /// neighbours, a power between those of short (1.4) and long (4.5) lives of the thesis' copper.
   float cycle_sum;
-  /// The same where the mean stress has relaxed or the metal yields: sum of range^3, between the powers of short (1.7)
-  /// and long (8.9) lives.
+  /// The same where the mean stress has relaxed or the metal yields: sum of range^3, between the powers of
+  /// short (1.7) and long (8.9) lives.
   float range_sum;
 };
 
@@ -169,7 +169,7 @@ struct LaneRanks {
   alignas(64) float high[lanes];
   alignas(64) float cycle_sum_to_turn[lanes];  ///< up to the last turning point
   alignas(64) float range_sum_to_turn[lanes];
-  alignas(64) float cycle_sum[lanes];          ///< up to the last sample
+  alignas(64) float cycle_sum[lanes];  ///< up to the last sample
   alignas(64) float range_sum[lanes];
 };
 
@@ -191,8 +191,8 @@ struct LaneRun {
 
 /// What a wire's strain is made of before friction, one after the other: the mean along its path, the glued
 /// strain's deviation from it, the shear strain gamma/sqrt(3) of its torsion at its surface, and the bending
-/// strain of each fibre. The last two hold what the undeformed wire has too, as glued, and count per length of
-/// the undeformed axis; what a fibre feels counts per length of its own (W12).
+/// strain of each fibre. The last two hold what the undeformed wire has too, as glued, and count per length
+/// of the undeformed axis; what a fibre feels counts per length of its own (W12).
 enum Ingredient { mean_strain, deviation, shear, first_bending };
 constexpr int ingredients(int fibres) { return first_bending + fibres; }
 
@@ -202,10 +202,10 @@ struct MixedLanes {
   alignas(64) float slip[lanes];               ///< how far each wire has slid against its parent [strain]
   std::vector<std::array<float, lanes>> rest;  ///< of shear and of the fibres' bending, (1 + fibres)
   std::vector<std::array<float, lanes>> fibre_scale;  ///< FibreShape::scale, (fibres)
-  float cap = 0, cap_per_mean = 0;             ///< cap infinite: glued, 0: free
+  float cap = 0, cap_per_mean = 0;                    ///< cap infinite: glued, 0: free
   float elastic = 0;               ///< share of the deviation that is held whatever the cap (W30)
   float inverse_radial_share = 1;  ///< (W31)
-  bool scales = true;                          ///< curvature and torsion per path length stay (W11)
+  bool scales = true;              ///< curvature and torsion per path length stay (W11)
   bool with_shear = false, on_axis = false;
 };
 
@@ -249,7 +249,8 @@ struct Kernels {
   /// wave) * stride + t].
   void (*ingredient_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                            std::size_t count, float* out, std::size_t stride);
-  /// Those of mean strain and deviation alone, to out[(layer * 2 + ingredient) * waves_per_layer * stride + wave * stride + t].
+  /// Those of mean strain and deviation alone, to out[(layer * 2 + ingredient) * waves_per_layer * stride +
+  /// wave * stride + t].
   void (*deviation_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                           std::size_t count, float* out, std::size_t stride);
   /// Puts the strains of sixteen wires together, fibre by fibre, to out[(fibre * count + t) * lanes + lane].

@@ -98,10 +98,9 @@ void closed_strains_of_fibre(const SlidingLayer& layer, const SlidingFibre& fibr
   const SlidingLayer of = layer;  // copies: the compiler sees that `out` is not in them
   const SlidingFibre by = fibre;
   for (std::size_t t = 0; t < count; t += float_pack_size) {
-    // harmonics of strain + rho (f (1 + strain) - f0), those of f in their rows' numbers, and of their product
-    // with G
-    const FloatPack mean =
-        state(SlidingState::axial, t) + by.mean * state(SlidingState::mean, t);
+    // harmonics of strain + rho (f (1 + strain) - f0), those of f in their rows' numbers, and of their
+    // product with G
+    const FloatPack mean = state(SlidingState::axial, t) + by.mean * state(SlidingState::mean, t);
     const FloatPack first = state(SlidingState::first, t), second = state(SlidingState::second, t);
     const FloatPack third = by.second_of_third * state(SlidingState::third, t);
     const FloatPack sine = first * shape(BendShape::sine, t);

@@ -1,8 +1,9 @@
 // A cable that lies loose in its hose: what it is, and its state at one sample.
 //
-// It runs along the hose at a0(s) + b(s), s the arc of the hose's axis: a0 is the place that the dresspack gives
-// it, on a helix where it is laid (back-twisted: it does not turn about itself), b the offset to where it rests now. Both are in the hose's frame (d1, d2), so that the path of a cable
-// that keeps its place follows the hose's twist. Per length of the axis the path gains (README W32)
+// It runs along the hose at a0(s) + b(s), s the arc of the hose's axis: a0 is the place that the dresspack
+// gives it, on a helix where it is laid (back-twisted: it does not turn about itself), b the offset to where
+// it rests now. Both are in the hose's frame (d1, d2), so that the path of a cable that keeps its place
+// follows the hose's twist. Per length of the axis the path gains (README W32)
 //     g = e + k1 a2 - k2 a1 + |a' + tau J a|^2 / 2,    J a = (-a2, a1),
 // with the hose's elongation e, curvatures k1, k2 and twist tau.
 #pragma once
@@ -21,11 +22,11 @@ struct LooseCable {
   double lay_rate = 0;            ///< by which its place turns about the hose's axis along it [rad/m]
   double radius = 0;              ///< [m]
   double axial_stiffness = 0;     ///< E A, of its wires [N]
-  double bending_stiffness = 0;  ///< E I, as its wires slide [N m2]
-  double mass_per_length = 0;    ///< [kg/m]
-  double slack = 0;              ///< length beyond the path on which it was laid in, over it
-  double wall_stiffness = 1e7;   ///< k_w, of what it lies against, force per length and depth [N/m2]
-  double grip = without_limit;   ///< force at which a clamp lets it slip [N]
+  double bending_stiffness = 0;   ///< E I, as its wires slide [N m2]
+  double mass_per_length = 0;     ///< [kg/m]
+  double slack = 0;               ///< length beyond the path on which it was laid in, over it
+  double wall_stiffness = 1e7;    ///< k_w, of what it lies against, force per length and depth [N/m2]
+  double grip = without_limit;    ///< force at which a clamp lets it slip [N]
   /// Force per length and sideways speed that holds it [N s/m2] (README W36): at 50 mm/s friction of 0.3
   /// under 0.2 kg/m. It only decides which way the cable goes where several are open.
   double drag = 12;

@@ -54,9 +54,11 @@ void CableLines::point_at_rows() {
   batch_.play = lanes(play), batch_.farthest = lanes(farthest), batch_.nearest = lanes(nearest);
   batch_.gap = lanes(gap), batch_.per_radius = lanes(per_radius), batch_.drag = lanes(drag);
   batch_.free_length_rate = lanes(free_length_rate), batch_.slipped = lanes(slipped);
-  batch_.least_strain = lanes(least_strain), batch_.most_strain = lanes(most_strain), batch_.counts = lanes(counts);
+  batch_.least_strain = lanes(least_strain), batch_.most_strain = lanes(most_strain),
+  batch_.counts = lanes(counts);
   batch_.strain = lanes(strain), batch_.tension = lanes(tension), batch_.stiffness = lanes(stiffness);
-  batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before), batch_.path = nodes(path);
+  batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before),
+  batch_.path = nodes(path);
   batch_.slope = nodes(slope), batch_.gained = nodes(gained), batch_.press = press_.data();
 }
 
@@ -82,7 +84,8 @@ void CableLines::lay(std::size_t k) {
     put(laid, i, k, angle == 0 ? a0 : turned(a0, {std::cos(angle), std::sin(angle)}));
   }
   for (std::size_t i = 0; i <= last; ++i) {  // beyond a clamp lies the mirror image, as in follow()
-    const Vector2d one = vector(laid, i > 0 ? i - 1 : 1, k), other = vector(laid, i < last ? i + 1 : last - 1, k);
+    const Vector2d one = vector(laid, i > 0 ? i - 1 : 1, k),
+                   other = vector(laid, i < last ? i + 1 : last - 1, k);
     put(laid_bent, i, k, inverse * (one - 2 * vector(laid, i, k) + other));
   }
 }
@@ -102,7 +105,8 @@ void CableLines::feed_in(double share) {
   for (CableTension& pulled : tensions_) pulled.feed_in(share);
 }
 
-void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time, bool goes_on) {
+void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time,
+                       bool goes_on) {
   batch_.curvature = hose.curvature.front().data();
   batch_.pull = hose.pull.front().data();
   batch_.elongation = hose.elongation.data();
@@ -121,7 +125,8 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
     for (std::size_t k = 0; k < count(); ++k) {
       const Vector2d& frame = (*frames[k])[i];
       put(rest, i, k, hose.rest[i] + turned(vector(laid_bent, i, k), hose.turn[i]));
-      const Vector2d place = turned(vector(laid, i, k), frame), at = vector(path, i, k);  // the path waits in the frame
+      const Vector2d place = turned(vector(laid, i, k), frame),
+                     at = vector(path, i, k);  // the path waits in the frame
       put(place_at, i, k, place);
       put(before, i, k, turned(at, frame));
       const bool clamped = i == 0 || i == last;
@@ -192,7 +197,8 @@ void CableLines::end(const HoseLine& hose, std::span<const Frame* const> frames,
     }
     const Frame& frame = *frames[k];
     for (std::size_t i = 0; i < batch_.nodes; ++i) {
-      if (time > 0) put(velocity, i, k, turned_back(Vector2d(at_[i] - vector(before, i, k)), frame[i]) / time);
+      if (time > 0)
+        put(velocity, i, k, turned_back(Vector2d(at_[i] - vector(before, i, k)), frame[i]) / time);
       put(path, i, k, turned_back(at_[i], frame[i]));
     }
   }

@@ -42,7 +42,8 @@ void LineBench::relax(std::span<CableLines* const> lines, int most) {
     assert(of->batch().nodes == bench_.nodes && !of->batch().press == !bench_.press);
     for (std::size_t k = 0; k < of->count(); ++k) waiting_.push_back({&of->batch(), k, &of->iterations()[k]});
   }
-  std::ranges::stable_sort(waiting_, std::ranges::greater(), [](const WaitingCable& cable) { return *cable.iterations; });
+  std::ranges::stable_sort(waiting_, std::ranges::greater(),
+                           [](const WaitingCable& cable) { return *cable.iterations; });
   loose_kernels().relax(bench_, waiting_.data(), waiting_.size(), most);
 }
 

@@ -1,5 +1,5 @@
-// Where cables come to rest: so many side by side, and as one rests the next one takes its lane. How long each takes is as it
-// comes, from 2 to 60 of Newton's iterations; those that took longest before go first.
+// Where cables come to rest: so many side by side, and as one rests the next one takes its lane. How long
+// each takes is as it comes, from 2 to 60 of Newton's iterations; those that took longest before go first.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ class LineBench {
   LineBench(const HoseLine& hose, bool presses);
   LineBench(LineBench&&) = default;  // rows stay where they are
 
-  /// Takes all cables to the minimum of their energies, in at most so many iterations. Lines of one hose, all begun at one
-  /// sample.
+  /// Takes all cables to the minimum of their energies, in at most so many iterations. Lines of one hose, all
+  /// begun at one sample.
   void relax(std::span<CableLines* const> lines, int most);
 
  private:

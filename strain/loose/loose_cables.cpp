@@ -10,11 +10,13 @@ namespace {
 
 constexpr int feeding_rounds = 100;  // in which 1 % of slack in 2 m grows by 0.2 mm each
 constexpr int most_rounds = 200;     // after that, until all lie still: 8 s at 25 Hz
-constexpr double settled = 1e-7;   // change of strain in a round: 0.1 N of a cable of 1 MN
+constexpr double settled = 1e-7;     // change of strain in a round: 0.1 N of a cable of 1 MN
 
-/// Radius in which a cable can wind: by its play about its place, or with its whole ring, or alone, about the hose's axis [m].
+/// Radius in which a cable can wind: by its play about its place, or with its whole ring, or alone, about the
+/// hose's axis [m].
 double room_of(const LooseCable& cable) {
-  return std::min(cable.play, cable.ring == no_ring ? cable.farthest : std::hypot(cable.place[0], cable.place[1]));
+  return std::min(cable.play,
+                  cable.ring == no_ring ? cable.farthest : std::hypot(cable.place[0], cable.place[1]));
 }
 
 }  // namespace
@@ -24,7 +26,8 @@ std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double leng
   double piece = length / least;
   for (const LooseCable& cable : cables)
     if (const double room = room_of(cable); room > 0)
-      piece = std::min(piece, std::sqrt(12 * missed) / (std::sqrt(2 * cable.slack) / room + std::abs(cable.lay_rate)));
+      piece = std::min(
+          piece, std::sqrt(12 * missed) / (std::sqrt(2 * cable.slack) / room + std::abs(cable.lay_rate)));
   return static_cast<std::size_t>(std::ceil(length / piece));
 }
 
@@ -74,8 +77,8 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
   for (LooseCables* const of : all) of->restless_ += !of->rests_;
 }
 
-/// From their places to rest at the first sample. What is too long for its place can lie in many ways; the one
-/// that is found is where it comes to lie when its excess length is fed in bit by bit.
+/// From their places to rest at the first sample. What is too long for its place can lie in many ways; the
+/// one that is found is where it comes to lie when its excess length is fed in bit by bit.
 void LooseCables::settle(double step) {
   double before = without_limit;
   for (int round = 0; round < feeding_rounds + most_rounds; ++round) {

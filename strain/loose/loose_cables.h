@@ -21,11 +21,11 @@ struct LooseSettings {
   bool operator==(const LooseSettings&) const = default;
 };
 
-/// Pieces into which cables as fit_in_hose() leaves them are to be cut for their waves to be seen. What is too long by a
-/// share s winds in a room of radius c with k c = sqrt(2 s), about a place that its lay turns, and second differences miss
-/// (k h)^2/12 of its curvature: 0.5 % at most, so that waves half as long, between a core and a wall that leave less room,
-/// still miss no more than the 2 % that are warned of. At least 64: with 32 the worst wire of `side_panel` was wrong by
-/// decades. length: of the axis [m].
+/// Pieces into which cables as fit_in_hose() leaves them are to be cut for their waves to be seen. What is
+/// too long by a share s winds in a room of radius c with k c = sqrt(2 s), about a place that its lay turns,
+/// and second differences miss (k h)^2/12 of its curvature: 0.5 % at most, so that waves half as long,
+/// between a core and a wall that leave less room, still miss no more than the 2 % that are warned of. At
+/// least 64: with 32 the worst wire of `side_panel` was wrong by decades. length: of the axis [m].
 std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double length);
 
 class LooseCables {
@@ -43,8 +43,8 @@ class LooseCables {
   void shorten(std::size_t cable, double share);
   /// Takes all cables to where they rest at the next sample. hose: (node). step: since the sample before [s].
   void advance(std::span<const HoseNode> hose, double step);
-  /// The same for several that share nothing but the hose and its samples: side by side they take less time, and lie as they would
-  /// alone.
+  /// The same for several that share nothing but the hose and its samples: side by side they take less time,
+  /// and lie as they would alone.
   static void advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step);
 
   /// The next sample follows on none: cables start from where they are, at rest.
@@ -54,8 +54,8 @@ class LooseCables {
   /// Samples at which a ring or a cable was still moving when the work was cut short.
   std::size_t restless() const { return restless_; }
   std::size_t iterations() const { return iterations_; }  ///< of all cables so far
-  /// Share of the curvature of cables that their nodes are too far apart to see, root of mean squares over nodes and
-  /// samples; the largest of all cables.
+  /// Share of the curvature of cables that their nodes are too far apart to see, root of mean squares over
+  /// nodes and samples; the largest of all cables.
   double mesh_error() const;
 
  private:
@@ -69,7 +69,7 @@ class LooseCables {
   CableLines lines_;
   LineBench bench_;
   std::vector<Ring> rings_;
-  std::vector<const CableLines::Frame*> frames_;  ///< (cable)
+  std::vector<const CableLines::Frame*> frames_;        ///< (cable)
   std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and number there; null: in none
   std::vector<CableState> states_;
   std::size_t restless_ = 0, iterations_ = 0;

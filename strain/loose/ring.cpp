@@ -33,10 +33,12 @@ std::size_t factor(std::vector<double>& bands, std::size_t rows) {
 void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::VectorXd& right) {
   const auto at = [&](std::size_t i) -> double& { return right[static_cast<Eigen::Index>(i)]; };
   for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t below = 1; below <= 2 && i + below < rows; ++below) at(i + below) -= bands[3 * i + below] * at(i);
+    for (std::size_t below = 1; below <= 2 && i + below < rows; ++below)
+      at(i + below) -= bands[3 * i + below] * at(i);
   for (std::size_t i = rows; i-- > 0;) {
     at(i) /= bands[3 * i];
-    for (std::size_t below = 1; below <= 2 && i + below < rows; ++below) at(i) -= bands[3 * i + below] * at(i + below);
+    for (std::size_t below = 1; below <= 2 && i + below < rows; ++below)
+      at(i) -= bands[3 * i + below] * at(i + below);
   }
 }
 
@@ -69,13 +71,15 @@ Eigen::VectorXd Ring::newton_turn() {
   loose_kernels().assemble_turn(lines_.batch(), {bands_.data(), gained_.data(), slope_.data()});
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto by_cable = [&](const LaneRows& of, std::size_t in_all) {
-    return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(of.data(), static_cast<Eigen::Index>(in_all), count,
-                                                            Eigen::OuterStride<>(static_cast<Eigen::Index>(lanes)));
+    return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(
+        of.data(), static_cast<Eigen::Index>(in_all), count,
+        Eigen::OuterStride<>(static_cast<Eigen::Index>(lanes)));
   };
   const auto gained = by_cable(gained_, rows), solved = by_cable(solved_, rows);
   const auto soft = by_cable(products_, lines_.count());
   Eigen::VectorXd root(count);  // of each cable's stiffness against its mean gain
-  for (Eigen::Index k = 0; k < count; ++k) root[k] = std::sqrt(lines_.batch().stiffness[k] / lines_.batch().length);
+  for (Eigen::Index k = 0; k < count; ++k)
+    root[k] = std::sqrt(lines_.batch().stiffness[k] / lines_.batch().length);
   double largest = 0;
   for (std::size_t i = 0; i < rows; ++i) largest = std::max(largest, std::abs(bands_[3 * i]));
   for (double shift = 0;; shift = shift == 0 ? least_shift * largest : 4 * shift) {

@@ -18,7 +18,9 @@ class Ring {
  public:
   Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature);
   void feed_in(double share) { lines_.feed_in(share); }  ///< see CableTension
-  void shorten(std::size_t cable, double share) { lines_.shorten(cable, share); }  ///< of its own; see CableTension
+  void shorten(std::size_t cable, double share) {
+    lines_.shorten(cable, share);
+  }  ///< of its own; see CableTension
 
   /// Turns to the minimum at the next sample. time: since the sample before [s]. goes_on: as it turned then.
   /// Returns whether it has come to rest.
@@ -34,9 +36,10 @@ class Ring {
   CableLines lines_;                    ///< as they lie when each keeps to its place
   std::vector<double> psi_, velocity_;  ///< (node) against the hose [rad], [rad/s]
   std::vector<Eigen::Vector2d> frame_;
-  std::vector<double> bands_, factors_;    ///< (row, 3) diagonal and the two beside it; row: a node inside
-  LaneRows gained_, solved_, products_;    ///< (row, lane) of the cables' mean gains, their solutions; (lane, lane)
-  std::vector<double> slope_;              ///< (row) of the sum of the energies
+  std::vector<double> bands_, factors_;  ///< (row, 3) diagonal and the two beside it; row: a node inside
+  LaneRows gained_, solved_,
+      products_;               ///< (row, lane) of the cables' mean gains, their solutions; (lane, lane)
+  std::vector<double> slope_;  ///< (row) of the sum of the energies
 };
 
 }  // namespace dresslife::strain

@@ -3,8 +3,8 @@
 //
 // The cable is gripped at both ends and slides along its path in between:
 //     strain = (1 + g) / ((1 + slack) (1 + g0) (1 - s)) - 1 - slipped,   T = E A strain,   |T| <= grip,
-// g the mean gain of its path, g0 that of the path on which it was laid in, s what twist takes from its length (W37). Where T would exceed the grip,
-// the cable slips: it has another free length from then on.
+// g the mean gain of its path, g0 that of the path on which it was laid in, s what twist takes from its
+// length (W37). Where T would exceed the grip, the cable slips: it has another free length from then on.
 #pragma once
 
 #include "strain/loose/cable.h"

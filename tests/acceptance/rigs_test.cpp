@@ -1,5 +1,5 @@
-// Prescribed deformations and test rigs from the job to the wire: what is given must be found again, and what has a
-// closed form must come out of the whole chain.
+// Prescribed deformations and test rigs from the job to the wire: what is given must be found again, and what
+// has a closed form must come out of the whole chain.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -20,7 +20,8 @@ void strain_of(const Scratch& scratch, const std::string& job, const std::string
   const Outcome sim = run(scratch, "dresslife-sim", job + " --quiet -o motion.h5");
   INFO(sim.err);
   REQUIRE(sim.status == 0);
-  const Outcome strain = run(scratch, "dresslife-strain", "motion.h5 --quiet -o strain.h5 " + strain_settings);
+  const Outcome strain =
+      run(scratch, "dresslife-strain", "motion.h5 --quiet -o strain.h5 " + strain_settings);
   INFO(strain.err);
   REQUIRE(strain.status == 0);
 }
@@ -49,7 +50,8 @@ std::string wire_job(const std::string& motion, double helix_radius_mm, double l
   diameter_mm: 10
   components: [{name: wire, count: )" +
          std::to_string(helix_radius_mm > 0 ? 6 : 1) + ", radius_mm: " + std::to_string(radius_mm) +
-         ", helix_radius_mm: " + std::to_string(helix_radius_mm) + ", lay_angle_deg: " + std::to_string(lay_deg) +
+         ", helix_radius_mm: " + std::to_string(helix_radius_mm) +
+         ", lay_angle_deg: " + std::to_string(lay_deg) +
          ", material: copper}]\nstrain: {slip: stick, gate: 0}\nsimulation: {segments: 30}\n";
 }
 
@@ -57,13 +59,15 @@ std::string wire_job(const std::string& motion, double helix_radius_mm, double l
 
 TEST_CASE("prescribed deformation: what is uniform along the dresspack is found again to rounding") {
   Scratch scratch;
-  scratch.write("d.csv",
-                "t_s,kappa_1_1_per_m,kappa_2_1_per_m,twist_deg_per_m,elongation\n0,0,0,0,0\n1,12,-7,180,0.004\n"
-                "2,-3,20,-360,-0.01\n3,0,0,0,0\n");
+  scratch.write(
+      "d.csv",
+      "t_s,kappa_1_1_per_m,kappa_2_1_per_m,twist_deg_per_m,elongation\n0,0,0,0,0\n1,12,-7,180,0.004\n"
+      "2,-3,20,-360,-0.01\n3,0,0,0,0\n");
   scratch.write("job.yaml", wire_job("{deformation: d.csv}", 2, 20, 0.1));
   strain_of(scratch, "job.yaml");
   const Found found = found_in(scratch);
-  const double k1[] = {0, 12, -3, 0}, k2[] = {0, -7, 20, 0}, twist[] = {0, pi, -2 * pi, 0}, e[] = {0, .004, -.01, 0};
+  const double k1[] = {0, 12, -3, 0}, k2[] = {0, -7, 20, 0}, twist[] = {0, pi, -2 * pi, 0},
+               e[] = {0, .004, -.01, 0};
   constexpr double rounding = 1e-10;  // of positions of 1 m kept in double precision, over links of 10 mm
   for (int t = 0; t < 4; ++t)
     for (int i = 0; i < 30; ++i) {
@@ -81,7 +85,8 @@ TEST_CASE("prescribed deformation: what changes along it is found again as of a 
     for (int t = 0; t < 2; ++t)
       for (int k = 0; k <= 600; ++k) {
         const double s = k / 1000.0;
-        csv += std::to_string(t) + "," + std::to_string(s) + "," + std::to_string(5 * std::sin(2 * pi * s / 0.6)) + "," +
+        csv += std::to_string(t) + "," + std::to_string(s) + "," +
+               std::to_string(5 * std::sin(2 * pi * s / 0.6)) + "," +
                std::to_string(3 * std::cos(2 * pi * s / 0.6)) + "\n";
       }
     scratch.write("d.csv", csv);
@@ -115,7 +120,8 @@ TEST_CASE("torsion rig: a glued wire's strain is the closed one") {
   const auto closed = [&](double twist) {
     return std::cos(lay) * std::hypot(std::tan(lay) + 2e-3 * twist, 1) - 1;
   };
-  constexpr double single = 3e-6;  // of the largest strain, which the stage works out in single precision (W26)
+  constexpr double single =
+      3e-6;  // of the largest strain, which the stage works out in single precision (W26)
   CHECK(history[1] == Approx(closed(pi)).epsilon(single));
   CHECK(history[2] == Approx(closed(-pi)).epsilon(single));
 }
@@ -175,7 +181,8 @@ TEST_CASE("rolling flex: its worst wire lives as long as one bent and straighten
   const std::string cable = "dresspack: {cable: {from: spot_welding}}\n";
   scratch.write("rig.yaml", "motion: {rig: {kind: rolling_flex, radius_mm: 50, travel_m: 1}}\n" + cable);
   scratch.write("d.csv", "t_s,kappa_2_1_per_m\n0,0\n0.5,20\n1,0\n1.5,20\n2,0\n");
-  scratch.write("plain.yaml", "motion: {deformation: d.csv}\nrouting: {free_length_m: 1}\nstrain: {gate: 1e-6}\n" + cable);
+  scratch.write("plain.yaml",
+                "motion: {deformation: d.csv}\nrouting: {free_length_m: 1}\nstrain: {gate: 1e-6}\n" + cable);
   const double rig = life_of(scratch, "rig.yaml"), plain = life_of(scratch, "plain.yaml");
   // 1 % more curvature at the bend's edges, and damage with its seventh to ninth power at these strains.
   CHECK(rig == Approx(plain).epsilon(0.15));

@@ -43,7 +43,8 @@ std::map<std::string, Row> run_study(const Scratch& scratch, const std::string& 
 
 const std::string config = std::string(DRESSLIFE_SOURCE_DIR) + "/config/";
 double hours_of(const fs::path& life, const std::string& attribute) {
-  return dresslife::pipeline::FileReader(life, dresslife::pipeline::life_format()).number_attribute(attribute);
+  return dresslife::pipeline::FileReader(life, dresslife::pipeline::life_format())
+      .number_attribute(attribute);
 }
 
 constexpr double free_third = 0.68;  // a third of the free length of 2.035 m, from the tool [m]
@@ -57,20 +58,24 @@ TEST_CASE("two robots, shipped study: robot 1 wears its dresspack out before rob
   CHECK(rows["spot_robot_1"].repeats < rows["spot_robot_2"].repeats);
   CHECK(rows["easy"].repeats > rows["spot_robot_1"].repeats);
   CHECK(rows["hard"].repeats < rows["spot_robot_1"].repeats);
-  // The thesis' place near the head is that of cables glued to the hose (below). Where cables lie loose the hose's
-  // own bending decides, which the arch over the forearm has in its middle.
+  // The thesis' place near the head is that of cables glued to the hose (below). Where cables lie loose the
+  // hose's own bending decides, which the arch over the forearm has in its middle.
 
   const Outcome again = run(scratch, "dresslife", "run '" + config + "studies/two_robots.yaml'");
   CHECK(again.err.find("nothing to do") != std::string::npos);
 
-  // Its bounds are what the same cables live with their inside stuck and free. They are judged by some wires of each
-  // layer and segment; those whose cycles do most must be among them, whether their tension counts or has relaxed.
+  // Its bounds are what the same cables live with their inside stuck and free. They are judged by some wires
+  // of each layer and segment; those whose cycles do most must be among them, whether their tension counts or
+  // has relaxed.
   constexpr double told = 0.02;  // what strain/README.md says of bounds; measured 0.006 at most
-  for (const auto& [inside, name] : {std::pair<std::string, std::string>{"stick", "spot_robot_2"}, {"free", "hard"}}) {
+  for (const auto& [inside, name] :
+       {std::pair<std::string, std::string>{"stick", "spot_robot_2"}, {"free", "hard"}}) {
     const fs::path job = scratch / "runs/two_robots" / name;
     const std::string strain = inside + "_strain.h5", life = inside + "_life.h5";
-    REQUIRE(run(scratch, "dresslife-strain", "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[free, " +
-                                                 inside + ", " + inside + "]' -o " + strain).status == 0);
+    REQUIRE(run(scratch, "dresslife-strain",
+                "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[free, " + inside + ", " +
+                    inside + "]' -o " + strain)
+                .status == 0);
     REQUIRE(run(scratch, "dresslife-fatigue", strain + " --quiet -o " + life).status == 0);
     REQUIRE(std::isfinite(hours_of(scratch / life, "life_hours")));
     CHECK(hours_of(job / "life.h5", "life_hours_all_" + inside) ==
@@ -100,7 +105,8 @@ TEST_CASE(
 }
 
 TEST_CASE("the life of robot 1 is converged in segments and time step") {
-  constexpr double most_change = 0.1;  // 1 % in strain, at a fatigue exponent near 9: less than stiffness is known to
+  constexpr double most_change =
+      0.1;  // 1 % in strain, at a fatigue exponent near 9: less than stiffness is known to
   Scratch scratch;
   const fs::path study =
       scratch.write("convergence.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml

@@ -9,8 +9,8 @@
 // gather_10k_s: to rank what all jobs' receipts and life files tell.
 // study_10k_mb: the runner's largest memory in all this.
 //
-// ..._processor_...: of the same the processor time, which other work on the machine changes little: the runner's own,
-// and of running that of all stages and Ninja.
+// ..._processor_...: of the same the processor time, which other work on the machine changes little: the
+// runner's own, and of running that of all stages and Ninja.
 //
 // bench_pipeline SIDE: of SIDE x SIDE jobs instead, with figures scaled to ten thousand.
 #include <sys/resource.h>
@@ -32,7 +32,6 @@ namespace {
 
 using namespace dresslife::pipeline;
 namespace fs = std::filesystem;
-
 
 /// A folder that lives as long as this.
 struct Folder {
@@ -90,7 +89,8 @@ int main(int argc, char** argv) {
   const std::string text =
       fmt::format("base: job.yaml\nvary:\n  dresspack.bending_stiffness_Nm2: {}\n  simulation.segments: {}\n",
                   values(side, 2, 0.01), values(side, 20, 1));
-  const StudyRequest request{folder.write("many.yaml", text), {}, folder.path / "runs", folder.path / "programs"};
+  const StudyRequest request{
+      folder.write("many.yaml", text), {}, folder.path / "runs", folder.path / "programs"};
   Standing standing;
   const auto write = [&] {
     write_build_graph(standing.study, standing.places, standing.states);
@@ -113,7 +113,8 @@ int main(int argc, char** argv) {
   if (built.executed != 3 * jobs) return 1;
   std::printf("overhead_ms_per_job %.3f\n", 1e3 * wall / jobs);
   std::printf("overhead_processor_ms_per_job %.3f\n", 1e3 * processor / jobs);
-  processor = processor_seconds(RUSAGE_SELF, [&] { wall = seconds([&] { standing = standing_of(request); }); });
+  processor =
+      processor_seconds(RUSAGE_SELF, [&] { wall = seconds([&] { standing = standing_of(request); }); });
   if (!standing.remembered || !standing.all_done()) return 1;
   std::printf("noop_10k_s %.3f\nnoop_10k_processor_s %.3f\n", scale * wall, scale * processor);
   folder.write("many.yaml", "# changed\n" + text);
@@ -124,7 +125,8 @@ int main(int argc, char** argv) {
   if (standing.remembered || !standing.all_done()) return 1;
   std::printf("regraph_10k_s %.3f\n", scale * again);
   std::string csv;
-  const double gathering = seconds([&] { csv = ranking_csv(ranking_of(standing.study, standing.places, standing.states)); });
+  const double gathering =
+      seconds([&] { csv = ranking_csv(ranking_of(standing.study, standing.places, standing.states)); });
   if (std::count(csv.begin(), csv.end(), '\n') != jobs + 1) return 1;
   std::printf("gather_10k_s %.3f\n", scale * gathering);
   struct rusage used {};

@@ -34,7 +34,8 @@ double learned(const std::string& calibration, const std::string& parameter, con
 }
 
 double life_hours(const Scratch& scratch, const std::string& sets) {
-  const Outcome outcome = run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.enabled=false " + sets);
+  const Outcome outcome =
+      run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.enabled=false " + sets);
   INFO(outcome.err);
   REQUIRE(outcome.status == 0);
   const std::string csv = content(scratch / "runs/job/ranking.csv");
@@ -54,8 +55,10 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   scratch.write("job.yaml", wire_job);
   const double before = life_hours(scratch, "");
   const double cycles = before * 3600 / 2;  // 30 a minute
-  scratch.write("o.yaml", "observations:\n" + row("long", "    cycles: " + std::to_string(10 * cycles) +
-                                                              "\n    outcome: broken\n    specimens: 3\n    unshared_log10: 0.05\n"));
+  scratch.write("o.yaml",
+                "observations:\n" +
+                    row("long", "    cycles: " + std::to_string(10 * cycles) +
+                                    "\n    outcome: broken\n    specimens: 3\n    unshared_log10: 0.05\n"));
   const Outcome outcome = run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(outcome.err);
   REQUIRE(outcome.status == 0);
@@ -71,11 +74,13 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
   CHECK(after > 4 * before);
   CHECK(after < 13 * before);
-  // A second time nothing is left to do, and the same is said; by other rows it is learned anew, and the job runs again.
+  // A second time nothing is left to do, and the same is said; by other rows it is learned anew, and the job
+  // runs again.
   const Outcome again = run(scratch, "dresslife", "calibrate o.yaml");
   CHECK(again.out == outcome.out);
   CHECK(again.err.find("stages ran") == std::string::npos);
-  scratch.write("o.yaml", "observations:\n" + row("as_foretold", "    cycles: " + std::to_string(cycles) + "\n    outcome: broken\n"));
+  scratch.write("o.yaml", "observations:\n" + row("as_foretold", "    cycles: " + std::to_string(cycles) +
+                                                                     "\n    outcome: broken\n"));
   REQUIRE(run(scratch, "dresslife", "calibrate o.yaml --quiet").status == 0);
   const double other = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
   CHECK(other > 0.5 * before);
@@ -88,10 +93,12 @@ TEST_CASE("calibrate: run-outs that were foretold teach hardly anything, and non
   const double before = life_hours(scratch, ""), cycles = before * 3600 / 2;
   double least = 0.999 * before;
   for (const double times : {1e-4, 1.0, 10.0}) {
-    scratch.write("o.yaml", "observations:\n" + row("ended", "    cycles: " + std::to_string(times * cycles) + "\n    outcome: run_out\n"));
+    scratch.write("o.yaml", "observations:\n" + row("ended", "    cycles: " + std::to_string(times * cycles) +
+                                                                 "\n    outcome: run_out\n"));
     REQUIRE(run(scratch, "dresslife", "calibrate o.yaml --quiet").status == 0);
     const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
-    constexpr double by_lot = 0.95;  // medians of draws are good to some hundredths of a deviation, which is a factor of 3
+    constexpr double by_lot =
+        0.95;  // medians of draws are good to some hundredths of a deviation, which is a factor of 3
     CHECK(after > by_lot * least);
     if (times < 1e-3) CHECK(after < before / by_lot);
     least = after;
@@ -99,26 +106,36 @@ TEST_CASE("calibrate: run-outs that were foretold teach hardly anything, and non
   CHECK(least > 2 * before);
 }
 
-TEST_CASE("calibrate: a bending test with 5 % of noise tells the friction, at ten times the shipped pressures") {
-  // The shipped cable's stiffness of 0.2 N m2 asks for 10.4 times its pressures (strain/README.md, W29); here they are another
-  // 1.6 times as high. Thirty weights on a first bend and the way back.
+TEST_CASE(
+    "calibrate: a bending test with 5 % of noise tells the friction, at ten times the shipped pressures") {
+  // The shipped cable's stiffness of 0.2 N m2 asks for 10.4 times its pressures (strain/README.md, W29); here
+  // they are another 1.6 times as high. Thirty weights on a first bend and the way back.
   Scratch scratch;
-  const std::string cable = "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]";
-  scratch.write("job.yaml", "motion: {rig: {kind: axial, elongation_percent: 0.01}}\n" + cable + ", friction_factor: 1.6}\n");
+  const std::string cable =
+      "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]";
+  scratch.write("job.yaml", "motion: {rig: {kind: axial, elongation_percent: 0.01}}\n" + cable +
+                                ", friction_factor: 1.6}\n");
   REQUIRE(run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --quiet").status == 0);
   REQUIRE(run(scratch, "dresslife-strain", "motion.h5 -o strain.h5 --quiet").status == 0);
   const FileReader strain(scratch / "strain.h5", strain_format());
-  const auto curvature = strain.read<double>("/bending/curvature"), moment = strain.read<double>("/bending/moment");
+  const auto curvature = strain.read<double>("/bending/curvature"),
+             moment = strain.read<double>("/bending/moment");
   CHECK(moment.front() < moment.back());
   const auto first = [&](double k) { return std::exp(log_moment(curvature, moment, k)); };
   std::mt19937 random(4);
   std::normal_distribution<double> number;
   std::string table = "curvature_1_per_m,moment_Nm\n";
-  const auto add = [&](double k, double m) { table += fmt::format("{},{}\n", k, m * (1 + 0.05 * number(random))); };
+  const auto add = [&](double k, double m) {
+    table += fmt::format("{},{}\n", k, m * (1 + 0.05 * number(random)));
+  };
   for (double k = 0.1; k < 1.55; k += 0.1) add(k, first(k));
   for (double k = 1.4; k > -0.05; k -= 0.1) add(k, first(1.5) - 2 * first((1.5 - k) / 2));
   scratch.write("bend.csv", table);
-  scratch.write("o.yaml", "observations:\n" + row("bend", "    bending: bend.csv\n", "{dresspack: {cable: {from: spot_welding, part: signal cable}}, strain: {slip: [free, friction, friction]}}"));
+  scratch.write(
+      "o.yaml",
+      "observations:\n" +
+          row("bend", "    bending: bend.csv\n",
+              "{dresspack: {cable: {from: spot_welding, part: signal cable}}, strain: {slip: [free, friction, friction]}}"));
   const Outcome outcome = run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(outcome.err);
   REQUIRE(outcome.status == 0);
@@ -130,10 +147,14 @@ TEST_CASE("calibrate: a bending test with 5 % of noise tells the friction, at te
   CHECK(learned(file, "friction_inside", "value_p90") > 1.6);
   CHECK(file.find("name: strength") == std::string::npos);
 
-  // A swing that dies away as such a cable's does tells it, too, if less: how much it loses hangs less on friction.
+  // A swing that dies away as such a cable's does tells it, too, if less: how much it loses hangs less on
+  // friction.
   const double decrement = std::exp(log_decrement_by_slip(curvature, moment, 1)) + 0.03;
-  scratch.write("o.yaml", "observations:\n" + row("swing", fmt::format("    decrement: {}\n    decrement_without_slip: 0.03\n", decrement),
-                                                  "{dresspack: {cable: {from: spot_welding, part: signal cable}}, strain: {slip: [free, friction, friction]}}"));
+  scratch.write(
+      "o.yaml",
+      "observations:\n" +
+          row("swing", fmt::format("    decrement: {}\n    decrement_without_slip: 0.03\n", decrement),
+              "{dresspack: {cable: {from: spot_welding, part: signal cable}}, strain: {slip: [free, friction, friction]}}"));
   const Outcome swing = run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(swing.err + swing.out);
   REQUIRE(swing.status == 0);
@@ -144,8 +165,10 @@ TEST_CASE("calibrate: a bending test with 5 % of noise tells the friction, at te
   scratch.write("o.yaml", "observations:\n" + row("bend", "    stiffness_Nm2: 0.2\n", wire_job));
   const Outcome wire = run(scratch, "dresslife", "calibrate o.yaml --quiet");
   CHECK(wire.status == 1);
-  CHECK(wire.err.find("o.yaml:2:5: error: 'bend': nothing is told of how its cable bends") != std::string::npos);
-  CHECK(run(scratch, "dresslife", "validate o.yaml").err.find("holds no observed lives") != std::string::npos);
+  CHECK(wire.err.find("o.yaml:2:5: error: 'bend': nothing is told of how its cable bends") !=
+        std::string::npos);
+  CHECK(run(scratch, "dresslife", "validate o.yaml").err.find("holds no observed lives") !=
+        std::string::npos);
 }
 
 TEST_CASE("calibrate: rows that cannot be used are named at their place") {
@@ -156,8 +179,12 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
     CHECK(bad.status == 1);
     return bad.err;
   };
-  const auto has = [](const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; };
-  CHECK(has(refused("observations:\n" + row("x", "    outcome: broken\n")), "o.yaml:2:5: error: 'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending)"));
+  const auto has = [](const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+  };
+  CHECK(has(
+      refused("observations:\n" + row("x", "    outcome: broken\n")),
+      "o.yaml:2:5: error: 'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending)"));
   CHECK(has(refused("observations:\n" + row("d", "    decrement: 0.1\n    decrement_without_slip: 0.1\n")),
             "o.yaml:2:5: error: 'd': nothing of decrement is left for slip; give"));
   CHECK(has(refused("observations:\n" + row("e", "    cycles: 5\n    decrement_without_slip: 0.1\n")),
@@ -169,8 +196,9 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
   CHECK(has(refused("observations:\n" + row("z", "    cycles: 5\n", "nowhere.yaml")), "nowhere.yaml"));
   job = wire_job;
   job.insert(job.size() - 1, ", uncertainty: {friction_inside: 2}");
-  CHECK(has(refused("observations:\n" + row("u", "    cycles: 5\n", job)),
-            "o.yaml:2:5: error: 'u': its job gives spreads of its own, but what is learned has one prior for all rows; leave"));
+  CHECK(has(
+      refused("observations:\n" + row("u", "    cycles: 5\n", job)),
+      "o.yaml:2:5: error: 'u': its job gives spreads of its own, but what is learned has one prior for all rows; leave"));
   job = wire_job;
   job.replace(job.find("copper_halved"), 13, "unobtainium");
   CHECK(has(refused("observations:\n" + row("m", "    cycles: 5\n", job)), "'m': its job cannot be made"));

@@ -43,7 +43,8 @@ TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has 
   INFO(drawn.err);
   REQUIRE(drawn.status == 0);
   // pi/4 (12^2 - 8^2) mm2 of 1200 kg/m3 and pi/4 8^2 of water; 50 MPa pi/64 (12^4 - 8^4) mm4.
-  CHECK(drawn.out.find("hose for water, bore 8 mm, 0.126 kg/m, E I 0.0408 N m2 (ESTIMATE); no life here") != std::string::npos);
+  CHECK(drawn.out.find("hose for water, bore 8 mm, 0.126 kg/m, E I 0.0408 N m2 (ESTIMATE); no life here") !=
+        std::string::npos);
   CHECK(drawn.out.find("fibre, 0.015 kg/m") != std::string::npos);
   CHECK(drawn.out.find("1792 wires") != std::string::npos);  // 4 cables of 7 cores of 64
   const std::string picture = content(scratch / "hose.svg");
@@ -52,14 +53,17 @@ TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has 
   CHECK(count_of(picture, "class=\"air\"") == 1);
 }
 
-TEST_CASE("draw shows two cables that lie in each other in the colour of a warning, and refuses two in one place") {
+TEST_CASE(
+    "draw shows two cables that lie in each other in the colour of a warning, and refuses two in one place") {
   Scratch scratch;
   const auto hose = [&](int angle) {
-    std::string text = "name: hose\nsource: made up\ndiameter_mm: 40\ninner_diameter_mm: 34\nhose_material: hose_polyamide\ncomponents:\n";
+    std::string text =
+        "name: hose\nsource: made up\ndiameter_mm: 40\ninner_diameter_mm: 34\nhose_material: hose_polyamide\ncomponents:\n";
     for (const auto& [name, phase] : {std::pair("a", 0), std::pair("b", angle)})
-      text += fmt::format("  - {{name: {}, radius_mm: 5, helix_radius_mm: 10, phase_deg: {}, components: [{{name: wire, count: 6, radius_mm: "
-                          "0.3, helix_radius_mm: 2, lay_angle_deg: 15, material: copper}}]}}\n",
-                          name, phase);
+      text += fmt::format(
+          "  - {{name: {}, radius_mm: 5, helix_radius_mm: 10, phase_deg: {}, components: [{{name: wire, count: 6, radius_mm: "
+          "0.3, helix_radius_mm: 2, lay_angle_deg: 15, material: copper}}]}}\n",
+          name, phase);
     scratch.write("hose.yaml", text);
     return run(scratch, "dresslife", "draw hose.yaml -o hose.svg");
   };

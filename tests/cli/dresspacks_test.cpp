@@ -91,11 +91,13 @@ TEST_CASE("two dresspacks far apart live as long as each alone") {
 
 TEST_CASE("the relative life of a rated cable is the same beside another dresspack") {
   Scratch scratch;
-  const std::string rated = thin.substr(0, thin.size() - 1) +
-                            ", ratings: [{rig: {kind: torsion, twist_deg_per_m: 360}, cycles: 1e+6, source: data sheet}]}";
+  const std::string rated =
+      thin.substr(0, thin.size() - 1) +
+      ", ratings: [{rig: {kind: torsion, twist_deg_per_m: 360}, cycles: 1e+6, source: data sheet}]}";
   const std::string there = routing(1.15, 0.6);
-  scratch.write("both.yaml", job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " + routing(1.1, 0) +
-                                    "}\n  - {name: cable, dresspack: " + rated + ", routing: " + there + "}\n"));
+  scratch.write("both.yaml",
+                job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " + routing(1.1, 0) +
+                       "}\n  - {name: cable, dresspack: " + rated + ", routing: " + there + "}\n"));
   scratch.write("alone.yaml", job_of("dresspack: " + rated + "\nrouting: " + there + "\n"));
   const auto per_hour = [&](const std::string& job) {
     const Outcome outcome = run(scratch, "dresslife", "run " + job + ".yaml --quiet");

@@ -61,7 +61,8 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(table.find("\n0,1,") != std::string::npos);
   CHECK(fs::exists(scratch / "runs/better_improve/report.html"));
   CHECK(fs::exists(scratch / "runs/better_improve/before/life.h5"));
-  // Its page has both side by side, and what the length forgives (this job's clamps are moved by a recording).
+  // Its page has both side by side, and what the length forgives (this job's clamps are moved by a
+  // recording).
   CHECK(told.out.find("With a clamp or the length off by 10 mm it lives at least ") != std::string::npos);
   const std::string page = content(scratch / "runs/better_improve/improve.html");
   CHECK(page.find("<iframe src=\"before/page.html\"") != std::string::npos);
@@ -79,7 +80,8 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(again.out == told.out);
   CHECK(notes_of(scratch / "runs/better_improve") == notes);
   CHECK(run(scratch, "dresslife", "run better.yaml --quiet").status == 0);
-  const Outcome chance = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet --method random -o chance");
+  const Outcome chance =
+      run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet --method random -o chance");
   CHECK(chance.status == 0);
   CHECK(content(scratch / "chance/better_improve/improve.csv") != table);
 }
@@ -90,23 +92,27 @@ TEST_CASE("a search that is killed ends where it would have ended") {
   const std::string line = "improve better.yaml --trials 10 --quiet -j 2 -o ";
   REQUIRE(run(scratch, "dresslife", line + "whole").status == 0);
   // Killed once the sixth trial is there, then begun again.
-  const Outcome killed = run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line +
-                                                "killed & pid=$!\n"
-                                                "for k in $(seq 600); do\n"
-                                                "  [ -e killed/better_improve/trial_0006/.stage/fatigue.receipt ] && break\n"
-                                                "  sleep 0.1\n"
-                                                "done\n"
-                                                "kill -9 $pid; wait $pid; echo $?");
+  const Outcome killed =
+      run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line +
+                             "killed & pid=$!\n"
+                             "for k in $(seq 600); do\n"
+                             "  [ -e killed/better_improve/trial_0006/.stage/fatigue.receipt ] && break\n"
+                             "  sleep 0.1\n"
+                             "done\n"
+                             "kill -9 $pid; wait $pid; echo $?");
   REQUIRE(killed.out == "137\n");
   REQUIRE_FALSE(fs::exists(scratch / "killed/better_improve/improve.csv"));
   REQUIRE(run(scratch, "dresslife", line + "killed").status == 0);
-  CHECK(content(scratch / "killed/better_improve/improve.csv") == content(scratch / "whole/better_improve/improve.csv"));
+  CHECK(content(scratch / "killed/better_improve/improve.csv") ==
+        content(scratch / "whole/better_improve/improve.csv"));
 }
 
 TEST_CASE("improve tells the front of two aims, of which the jobs as they are may be one") {
   Scratch scratch;
   write_small_study(scratch);
-  const Outcome told = run(scratch, "dresslife", "improve better.yaml --trials 6 --rehearsals 0 --second hose_length --off 0 --quiet");
+  const Outcome told =
+      run(scratch, "dresslife",
+          "improve better.yaml --trials 6 --rehearsals 0 --second hose_length --off 0 --quiet");
   INFO(told.out << told.err);
   REQUIRE(told.status == 0);
   CHECK(told.out.find("\nLongest lives for their hose_length:\n") != std::string::npos);
@@ -118,7 +124,8 @@ TEST_CASE("improve keeps trials whole where the study says so") {
   Scratch scratch;
   write_small_study(scratch);
   scratch.write("whole.yaml", content(scratch / "better.yaml") + "keep: all\n");
-  REQUIRE(run(scratch, "dresslife", "improve whole.yaml --trials 3 --rehearsals 0 --off 0 --quiet").status == 0);
+  REQUIRE(run(scratch, "dresslife", "improve whole.yaml --trials 3 --rehearsals 0 --off 0 --quiet").status ==
+          0);
   CHECK(results_of(scratch / "runs/whole_improve", "trial_").size() == 9);
 }
 
@@ -128,29 +135,37 @@ TEST_CASE("improve takes a job, and names of shipped ones") {
   // One that is moved by a recording has only its length to change.
   const Outcome job = run(scratch, "dresslife", "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet");
   INFO(job.out << job.err);
-  CHECK(content(scratch / "runs/job_improve/improve.csv").find(",routing.free_length_m\n") != std::string::npos);
+  CHECK(content(scratch / "runs/job_improve/improve.csv").find(",routing.free_length_m\n") !=
+        std::string::npos);
   const Outcome shipped = run(scratch, "dresslife", "improve irb6640_spot_welding --free nonsense");
   CHECK(shipped.err.find("--free nonsense: error: ") == 0);
-  CHECK(run(scratch, "dresslife", "status irb6640_spot_welding").out.find("irb6640_spot_welding") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "status irb6640_spot_welding").out.find("irb6640_spot_welding") !=
+        std::string::npos);
 }
 
 TEST_CASE("improve refuses what it cannot search") {
   Scratch scratch;
   write_small_study(scratch);
-  CHECK(run(scratch, "dresslife", "improve better.yaml --free routing.free_length_m=2").err ==
-        "--free routing.free_length_m=2: error: free.routing.free_length_m is '2'; write LOW .. HIGH, SPREAD around, ANGLE "
-        "deg around, LOW .. HIGH along LINK (or along [x, y, z]), or a list [A, B, ...]\n");
+  CHECK(
+      run(scratch, "dresslife", "improve better.yaml --free routing.free_length_m=2").err ==
+      "--free routing.free_length_m=2: error: free.routing.free_length_m is '2'; write LOW .. HIGH, SPREAD around, ANGLE "
+      "deg around, LOW .. HIGH along LINK (or along [x, y, z]), or a list [A, B, ...]\n");
   CHECK(run(scratch, "dresslife", "improve better.yaml --free nonsense").status == 1);
   CHECK(run(scratch, "dresslife", "improve better.yaml --trials 1").status == 2);
   scratch.write("bad.yaml", "base: job.yaml\nfree: {routing.free_length_m: 1 .. 2}\nlimits: {force_N: 4}\n");
-  CHECK(run(scratch, "dresslife", "improve bad.yaml").err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") == 0);
+  CHECK(run(scratch, "dresslife", "improve bad.yaml")
+            .err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") == 0);
   // Nothing keeps a limit: the exit status says so.
-  const Outcome none = run(scratch, "dresslife", "improve better.yaml --trials 3 --rehearsals 20 --quiet --set dresspack.least_bend_radius_mm=5000");
+  const Outcome none =
+      run(scratch, "dresslife",
+          "improve better.yaml --trials 3 --rehearsals 20 --quiet --set dresspack.least_bend_radius_mm=5000");
   CHECK(none.status == 1);
   CHECK(none.out.find("No feasible job was found in 3 trials and ") != std::string::npos);
   CHECK(none.out.find("\nNo trial keeps bend radius: the best passes it by ") != std::string::npos);
-  CHECK(none.out.find("\nIt stands at the end of what may be changed: routing.free_length_m, at least 0.85; widen it\n") !=
-        std::string::npos);
+  CHECK(
+      none.out.find(
+          "\nIt stands at the end of what may be changed: routing.free_length_m, at least 0.85; widen it\n") !=
+      std::string::npos);
 }
 
 TEST_CASE("reprogram tries the costly lines in other ways, and names them by file and line") {

@@ -111,8 +111,10 @@ TEST_CASE("studies and jobs of the catalogue go by their names") {
   const Outcome unknown = run(scratch, "dresslife", "status two_robot");
   CHECK(unknown.status == 1);
   CHECK(unknown.err.find("two_robot: error: is no file, and ") == 0);
-  CHECK(unknown.err.find("config holds no studies/two_robot.yaml or jobs/two_robot.yaml; write the path of a YAML file\n") !=
-        std::string::npos);
+  CHECK(
+      unknown.err.find(
+          "config holds no studies/two_robot.yaml or jobs/two_robot.yaml; write the path of a YAML file\n") !=
+      std::string::npos);
 }
 
 TEST_CASE("programs without their catalogue say what is missing, unless the job needs none") {

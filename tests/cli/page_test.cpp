@@ -102,7 +102,8 @@ TEST_CASE(
     const std::string text = content(page), open = "<p class=\"failed\" id=\"stale\">";
     const std::size_t at = text.find(open);
     CHECK(text.find(open, at + 1) == std::string::npos);
-    return at == std::string::npos ? "" : text.substr(at + open.size(), text.find("</p>", at) - at - open.size());
+    return at == std::string::npos ? ""
+                                   : text.substr(at + open.size(), text.find("</p>", at) - at - open.size());
   };
   CHECK(mark("0.9") == "");
   const std::string unmarked = content(page);
@@ -137,7 +138,8 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   double damage = 0, hours = 0, of_cycles = 0;
   std::string across, worst, sampled;
   double of_worst = 0;
-  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours >> frame >> coloured >> shapes >> of_cycles >> across >> worst >> of_worst >> sampled;
+  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours >>
+      frame >> coloured >> shapes >> of_cycles >> across >> worst >> of_worst >> sampled;
   WARN("a frame took " << frame << " ms");
   CHECK(colours == "true");
   CHECK(segment == "3");
@@ -169,7 +171,8 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
   write_small_job(scratch);
   scratch.write("lengths.yaml", "base: job.yaml\nvary: {routing.free_length_m: [0.88, 0.92]}\n");
   REQUIRE(run(scratch, "dresslife", "run lengths.yaml --quiet").status == 0);
-  const std::string report = content(scratch / "runs/lengths/report.html"), table = content(scratch / "runs/lengths/ranking.csv");
+  const std::string report = content(scratch / "runs/lengths/report.html"),
+                    table = content(scratch / "runs/lengths/ranking.csv");
   const auto holds = [](const std::string& page, const std::string& words) {
     INFO(words);
     CHECK(page.find(words) != std::string::npos);
@@ -181,7 +184,8 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
     holds(page, fmt::format("<p><b>{}</b>", printed_hours(hours)));
     holds(page, fmt::format("{} until half have", printed_hours(life.number_attribute("life_hours_p50"))));
     holds(page, fmt::format("worst wire's own median is {} h", printed(life.number_attribute("life_hours"))));
-    holds(report, fmt::format("data-value=\"{}\"><b>{}</b>", dresslife::pipeline::shortest_text(hours), printed(hours)));
+    holds(report, fmt::format("data-value=\"{}\"><b>{}</b>", dresslife::pipeline::shortest_text(hours),
+                              printed(hours)));
     // Shares of what clamps and layers have of the damage.
     const auto clamps = life.read<double>("/clamp/damage"), layers = life.read<double>("/layer/damage");
     const auto names = life.read<std::string>("/clamp/name");
@@ -241,7 +245,8 @@ TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by 
   CHECK(settings.find("routing.free_length_m_0.92_0.88") != std::string::npos);
 }
 
-TEST_CASE("the page of a study of 2,000 jobs in a browser: a hundred rows at once, sorted and filtered over all") {
+TEST_CASE(
+    "the page of a study of 2,000 jobs in a browser: a hundred rows at once, sorted and filtered over all") {
   Scratch scratch;
   dresslife::pipeline::RankingRow row;
   row.damage_per_repeat = 1e-4;

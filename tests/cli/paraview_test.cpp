@@ -21,7 +21,8 @@ void write_spindle_job(const Scratch& scratch) {
     lay_angle_deg: 20, material: copper}]})";
   const auto routing = [](const std::string& y) {
     return "{free_length_m: 1.1, base_clamp: {link: bench, position_m: [0, " + y +
-           ", 1], direction: [1, 0, 0]}, tool_clamp: {link: spindle, position_m: [1, " + y + ", 0], direction: [1, 0, 0]}}";
+           ", 1], direction: [1, 0, 0]}, tool_clamp: {link: spindle, position_m: [1, " + y +
+           ", 0], direction: [1, 0, 0]}}";
   };
   scratch.write("job.yaml", R"(robot:
   name: spindle
@@ -37,7 +38,8 @@ motion:
   name: turn
   steps: [{text: start, joints_deg: [0]}, {text: turn, joints_deg: [40]}, {text: back, joints_deg: [0]}]
 dresspacks:
-  - {name: one, dresspack: )" + hose + ", routing: " + routing("0") + "}\n  - {name: two, dresspack: " + hose +
+  - {name: one, dresspack: )" + hose +
+                                ", routing: " + routing("0") + "}\n  - {name: two, dresspack: " + hose +
                                 ", routing: " + routing("0.6") + R"(}
 simulation: {segments: 8, sample_rate_Hz: 25}
 strain: {slip: stick}
@@ -87,8 +89,8 @@ Read read_by_paraview(const Scratch& scratch) {
 }
 
 /// Of rows of `width` numbers, every `stride`-th from `first`.
-std::vector<double> part(const std::vector<double>& all, std::size_t row, std::size_t width, std::size_t first = 0,
-                         std::size_t stride = 1) {
+std::vector<double> part(const std::vector<double>& all, std::size_t row, std::size_t width,
+                         std::size_t first = 0, std::size_t stride = 1) {
   std::vector<double> taken;
   for (std::size_t k = row * width + first; k < (row + 1) * width; k += stride) taken.push_back(all[k]);
   return taken;
@@ -115,8 +117,10 @@ TEST_CASE("ParaView reads every moment of a job: places, fields and links as its
       strain(job / "strain.h5", pipeline::strain_format()), life(job / "life.h5", pipeline::life_format());
   const auto times = motion.read<double>("/time"), position = motion.read<double>("/segment/position"),
              tension = motion.read<double>("/tension"), pose = motion.read<double>("/robot/link_pose"),
-             curvature = strain.read<double>("/deformation/curvature"), twist = strain.read<double>("/deformation/twist"),
-             elongation = strain.read<double>("/deformation/elongation"), damage = life.read<double>("/segment/damage");
+             curvature = strain.read<double>("/deformation/curvature"),
+             twist = strain.read<double>("/deformation/twist"),
+             elongation = strain.read<double>("/deformation/elongation"),
+             damage = life.read<double>("/segment/damage");
   REQUIRE(read.times.size() == times.size());
   const std::size_t segments = damage.size();
   REQUIRE(segments == 16);
@@ -141,9 +145,10 @@ TEST_CASE("ParaView reads every moment of a job: places, fields and links as its
     const Eigen::Quaterniond turned(p[3], p[4], p[5], p[6]);
     const Eigen::Vector3d at(p[0], p[1], p[2]);
     for (const auto& [point, own] : {std::pair{0, capsule[0]}, {1, capsule[1]}, {2, corner}})
-      REQUIRE((Eigen::Map<const Eigen::Vector3d>(&links[3 * static_cast<std::size_t>(point)]) - at - turned * own)
-                  .cwiseAbs()
-                  .maxCoeff() < text_rounding);
+      REQUIRE(
+          (Eigen::Map<const Eigen::Vector3d>(&links[3 * static_cast<std::size_t>(point)]) - at - turned * own)
+              .cwiseAbs()
+              .maxCoeff() < text_rounding);
     farthest = std::max(farthest, std::abs(links[1] - read.rows.at("robot places")[0][1]));
     REQUIRE(row("robot link") == std::vector<double>{1, 1});
     REQUIRE(row("robot radius_[m]")[0] == Approx(0.05).epsilon(1e-6));

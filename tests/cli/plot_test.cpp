@@ -56,7 +56,8 @@ TEST_CASE("show tells what lies in a file, with shapes, units, ranges and meanin
     CHECK(shown.out.find("dresslife-" + kind + " version 1") != std::string::npos);
     CHECK(shown.out.find("made by\n  dresslife-sim") != std::string::npos);
   }
-  CHECK(run(scratch, "dresslife", "show runs/job/job").out == run(scratch, "dresslife", "show runs/job/job/life.h5").out);
+  CHECK(run(scratch, "dresslife", "show runs/job/job").out ==
+        run(scratch, "dresslife", "show runs/job/job/life.h5").out);
   const std::string motion = run(scratch, "dresslife", "show runs/job/job/motion.h5").out;
   CHECK(motion.find("/segment/length          (segment 12) 0.075") != std::string::npos);  // 0.9 m
   CHECK(motion.find("  m\n") != std::string::npos);

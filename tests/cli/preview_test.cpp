@@ -16,8 +16,10 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   INFO(told.err);
   REQUIRE(told.status == 0);
   // The clamps begin 0.8 m apart and come as near as hypot(0.7, 0.05).
-  CHECK(told.out.find("Dresspack is 0.900 m long between clamps that are 0.702 .. 0.800 m apart: neither too short nor too long. "
-                      "0.82 .. 1.20 m work at the first pose, 0.82 .. 1.20 m over this program") == 0);
+  CHECK(
+      told.out.find(
+          "Dresspack is 0.900 m long between clamps that are 0.702 .. 0.800 m apart: neither too short nor too long. "
+          "0.82 .. 1.20 m work at the first pose, 0.82 .. 1.20 m over this program") == 0);
   CHECK(told.out.find("Preview: job_preview.html\n") != std::string::npos);
   const std::string page = content(scratch / "job_preview.html");
   CHECK(page.find("The simulation takes this job.") != std::string::npos);

@@ -6,8 +6,8 @@
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
-using dresslife::pipeline::ImprovementStory;
 using dresslife::pipeline::improvement_page;
+using dresslife::pipeline::ImprovementStory;
 
 namespace {
 
@@ -74,8 +74,10 @@ constexpr const char* faults = R"(
 
 void check_page(const Scratch& scratch, const std::string& page) {
   INFO(page);
-  const std::string seen = in_browser(
-      scratch, page, fmt::format("{}{}const paper = await settled();\n{}return paper + ' | ' + await settled();", faults, on_paper, on_a_phone));
+  const std::string seen =
+      in_browser(scratch, page,
+                 fmt::format("{}{}const paper = await settled();\n{}return paper + ' | ' + await settled();",
+                             faults, on_paper, on_a_phone));
   if (seen.empty()) return;
   INFO(seen);
   CHECK(result_of(seen) == " | ");
@@ -90,7 +92,9 @@ TEST_CASE("pages of a job, a study and a preview can be printed and read on a ph
   scratch.write("a_job_whose_name_does_not_fit_on_a_phone.yaml", content(scratch / "job.yaml"));
   scratch.write("lengths.yaml", "base: job.yaml\nvary: {routing.free_length_m: [0.88, 0.9]}\n");
   REQUIRE(run(scratch, "dresslife", "run lengths.yaml --quiet").status == 0);
-  REQUIRE(run(scratch, "dresslife", "preview a_job_whose_name_does_not_fit_on_a_phone.yaml --set routing.free_length_m=0.75").status == 0);
+  REQUIRE(run(scratch, "dresslife",
+              "preview a_job_whose_name_does_not_fit_on_a_phone.yaml --set routing.free_length_m=0.75")
+              .status == 0);
   check_page(scratch, "runs/lengths/free_length_m=0.9/page.html");
   check_page(scratch, "runs/lengths/report.html");
   check_page(scratch, "a_job_whose_name_does_not_fit_on_a_phone_preview.html");
@@ -101,7 +105,8 @@ TEST_CASE("the page of an improvement can be printed and read on a phone, its ch
   dresslife::pipeline::ImprovementStory story;
   story.name = "hose";
   story.second_title = "free length [m]";
-  story.changes = {{"dresspack.components.1.routing.base_clamp.position_m", "[0.1, 0.2, 0.3]", "[0.15, 0.2, 0.3]"}};
+  story.changes = {
+      {"dresspack.components.1.routing.base_clamp.position_m", "[0.1, 0.2, 0.3]", "[0.15, 0.2, 0.3]"}};
   story.before = story.after = ImprovementStory::Lives{"", "all kept", 100, 1000, 1e9};
   for (int trial = 0; trial < 60; ++trial)
     story.looks.push_back({trial, true, trial % 3 != 0, 100.0 * (1 + trial * 37 % 60), "bend radius"});

@@ -91,7 +91,8 @@ TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's r
                                  "inner_diameter_mm: 5\n");
   const Outcome empty = run(scratch, "dresslife", "rate hose.yaml");
   CHECK(empty.status == 1);
-  CHECK(empty.err.find("hose.yaml: error: holds no cable (a part that holds parts); name another") != std::string::npos);
+  CHECK(empty.err.find("hose.yaml: error: holds no cable (a part that holds parts); name another") !=
+        std::string::npos);
 }
 
 TEST_CASE("validate: run-outs and breaks are judged, and a model that says for ever is caught") {
@@ -100,7 +101,9 @@ TEST_CASE("validate: run-outs and breaks are judged, and a model that says for e
       "    job: {motion: {rig: {kind: axial, elongation_percent: 0.2}}, dresspack: {cable: {name: wire, source: test, "
       "radius_mm: 0.1, components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper}]}}}\n"
       "    what: pulled\n    source: made for the tests\n    criterion: first_wire\n";
-  const auto one = [&](const std::string& name, const std::string& more) { return "  - name: " + name + "\n" + job + more; };
+  const auto one = [&](const std::string& name, const std::string& more) {
+    return "  - name: " + name + "\n" + job + more;
+  };
   scratch.write("o.yaml", "observations:\n" + one("early", "    cycles: 10\n    outcome: run_out\n") +
                               one("late", "    cycles: 1e+11\n    outcome: rating\n") +
                               one("soon", "    cycles: 10\n    outcome: broken_by\n") +
@@ -124,12 +127,15 @@ TEST_CASE("validate: run-outs and breaks are judged, and a model that says for e
   };
   CHECK(refused("observations: []\n").find("holds no observations; write 'observations:' and a list") !=
         std::string::npos);
-  CHECK(refused("observations:\n" + one("x", "    outcome: broken\n"))
-            .find("'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending); give one of them") != std::string::npos);
+  CHECK(
+      refused("observations:\n" + one("x", "    outcome: broken\n"))
+          .find(
+              "'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending); give one of them") !=
+      std::string::npos);
   CHECK(refused("observations:\n" + one("a", "    cycles: 5\n") + one("a", "    cycles: 5\n"))
             .find("two observations are named 'a'") != std::string::npos);
-  CHECK(refused("observations:\n" + one("a/b", "    cycles: 5\n")).find("is not made of letters, digits and _") !=
-        std::string::npos);
+  CHECK(refused("observations:\n" + one("a/b", "    cycles: 5\n"))
+            .find("is not made of letters, digits and _") != std::string::npos);
 }
 
 TEST_CASE("validate: the shipped table is what the code says") {
@@ -155,8 +161,9 @@ TEST_CASE("validate: the shipped table is what the code says") {
     REQUIRE(shipped.size() > 7);
     CHECK(shipped[3] == now[3]);
     CHECK(shipped[7] == now[7]);
-    // Instruction sets round strains differently in the seventh digit, and lives go with their tenth power; two figures
-    // are printed: 10 %. What the constants, the kinematics or friction say moves lives by much more.
+    // Instruction sets round strains differently in the seventh digit, and lives go with their tenth power;
+    // two figures are printed: 10 %. What the constants, the kinematics or friction say moves lives by much
+    // more.
     const auto before = numbers_in(shipped[4]), after = numbers_in(now[4]);
     REQUIRE(before.size() == after.size());
     for (std::size_t i = 0; i < before.size(); ++i) CHECK(after[i] == Approx(before[i]).epsilon(0.1));

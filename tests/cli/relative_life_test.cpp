@@ -20,14 +20,15 @@ std::string core(int count) {
 
 /// Of twist in either direction [deg/m].
 std::string rating(int twist, const std::string& cycles) {
-  return "{rig: {kind: torsion, twist_deg_per_m: " + std::to_string(twist) + "}, cycles: " + cycles + ", source: data sheet}";
+  return "{rig: {kind: torsion, twist_deg_per_m: " + std::to_string(twist) + "}, cycles: " + cycles +
+         ", source: data sheet}";
 }
 
 /// A cable that is twisted, and what is promised of it.
 std::string twisted(int twist, const std::string& ratings) {
   return "motion: {rig: {kind: torsion, twist_deg_per_m: " + std::to_string(twist) +
-         "}}\ndresspack: {cable: {name: lead, source: test, radius_mm: 3, components: [" + core(3) + "], ratings: [" + ratings +
-         "]}}\n";
+         "}}\ndresspack: {cable: {name: lead, source: test, radius_mm: 3, components: [" + core(3) +
+         "], ratings: [" + ratings + "]}}\n";
 }
 
 struct Relative {
@@ -66,31 +67,41 @@ Relative run_one(const Scratch& scratch, const std::string& name, const std::str
 
 }  // namespace
 
-TEST_CASE("relative life: a program that is the rig itself does one rated cycle per cycle, whatever the settings") {
+TEST_CASE(
+    "relative life: a program that is the rig itself does one rated cycle per cycle, whatever the settings") {
   Scratch scratch;
-  for (const std::string settings : {"", "strain: {slip: stick, gate: 1e-5, surface_fibres: 3}\nfatigue: {failed_wires_percent: 50, "
-                                         "scatter_log10: 0.4, material: copper_annealed}\n"}) {
-    const Relative own = run_one(scratch, settings.empty() ? "own" : "other", twisted(180, rating(180, "1e+6")) + settings);
+  for (const std::string settings :
+       {"",
+        "strain: {slip: stick, gate: 1e-5, surface_fibres: 3}\nfatigue: {failed_wires_percent: 50, "
+        "scatter_log10: 0.4, material: copper_annealed}\n"}) {
+    const Relative own =
+        run_one(scratch, settings.empty() ? "own" : "other", twisted(180, rating(180, "1e+6")) + settings);
     CHECK(own.cable == "lead");
-    // The gate of a rig is 1e-6 at most; these turning points are much larger, so that no gate here moves anything.
+    // The gate of a rig is 1e-6 at most; these turning points are much larger, so that no gate here moves
+    // anything.
     CHECK(std::stod(own.per_hour) == Approx(cycles_per_hour).epsilon(1e-12));
     CHECK(std::stod(own.hours) == Approx(1e6 / cycles_per_hour).epsilon(1e-12));
   }
   // Nothing is computed twice, and what only reports says the same.
   CHECK(run(scratch, "dresslife", "run own.yaml").err.find("own: nothing to do") != std::string::npos);
   const std::string before = content(scratch / "runs/own/ranking.csv");
-  CHECK(run(scratch, "dresslife", "report own.yaml").out.find("1,800 rated cycles of lead") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "report own.yaml").out.find("1,800 rated cycles of lead") !=
+        std::string::npos);
   CHECK(content(scratch / "runs/own/ranking.csv") == before);
 }
 
-TEST_CASE("relative life: two tests are each other's reciprocal, and of two ratings the one reached soonest counts") {
+TEST_CASE(
+    "relative life: two tests are each other's reciprocal, and of two ratings the one reached soonest counts") {
   Scratch scratch;
   const Relative up = run_one(scratch, "up", twisted(180, rating(270, "1e+6")));
   const Relative down = run_one(scratch, "down", twisted(270, rating(180, "1e+6")));
   CHECK(std::stod(up.per_hour) < cycles_per_hour);
-  CHECK(std::stod(up.per_hour) * std::stod(down.per_hour) == Approx(cycles_per_hour * cycles_per_hour).epsilon(1e-9));
-  CHECK(run_one(scratch, "both", twisted(180, rating(270, "1e+6") + ", " + rating(180, "1e+6"))).per_hour == "1800");
-  const Relative strict = run_one(scratch, "strict", twisted(180, rating(270, "1e+3") + ", " + rating(180, "1e+9")));
+  CHECK(std::stod(up.per_hour) * std::stod(down.per_hour) ==
+        Approx(cycles_per_hour * cycles_per_hour).epsilon(1e-9));
+  CHECK(run_one(scratch, "both", twisted(180, rating(270, "1e+6") + ", " + rating(180, "1e+6"))).per_hour ==
+        "1800");
+  const Relative strict =
+      run_one(scratch, "strict", twisted(180, rating(270, "1e+3") + ", " + rating(180, "1e+9")));
   CHECK(strict.per_hour == up.per_hour);
   CHECK(std::stod(strict.hours) == Approx(1e3 / std::stod(up.per_hour)).epsilon(1e-12));
 }

@@ -95,21 +95,27 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   INFO(shown.out + shown.err);
   CHECK(shown.status == 0);
   CHECK(shown.out.find("dresslife-screening version 1") != std::string::npos);
-  const auto refusals = FileReader(scratch / "screening.h5", screening_format()).read<std::string>("/candidate/refusal");
+  const auto refusals =
+      FileReader(scratch / "screening.h5", screening_format()).read<std::string>("/candidate/refusal");
   REQUIRE(refusals.size() == 3);
   CHECK(refusals[0].empty());
   CHECK(refusals[2].find("routing.free_length_m is -1") != std::string::npos);
 
   // In a run the first sags, as geometry does not know; the others never run.
-  const auto beyond = [&] { return FileReader(scratch / "screening.h5", screening_format()).read<double>("/candidate/beyond"); };
+  const auto beyond = [&] {
+    return FileReader(scratch / "screening.h5", screening_format()).read<double>("/candidate/beyond");
+  };
   const std::vector<double> by_geometry = beyond();
-  REQUIRE(run(scratch, "dresslife-sim", "job.yaml --screen list.yaml --rehearse -o screening.h5 --quiet").status == 0);
+  REQUIRE(run(scratch, "dresslife-sim", "job.yaml --screen list.yaml --rehearse -o screening.h5 --quiet")
+              .status == 0);
   const std::vector<double> in_a_run = beyond();
   REQUIRE(in_a_run.size() == by_geometry.size());
   constexpr std::size_t bend = 2, limits = 6;
   CHECK(in_a_run[bend] != by_geometry[bend]);
-  CHECK(std::vector(in_a_run.begin() + limits, in_a_run.end()) == std::vector(by_geometry.begin() + limits, by_geometry.end()));
-  const auto refused = FileReader(scratch / "screening.h5", screening_format()).read<std::string>("/candidate/refusal");
+  CHECK(std::vector(in_a_run.begin() + limits, in_a_run.end()) ==
+        std::vector(by_geometry.begin() + limits, by_geometry.end()));
+  const auto refused =
+      FileReader(scratch / "screening.h5", screening_format()).read<std::string>("/candidate/refusal");
   CHECK(refused[0].empty());
   CHECK(refused[1].find("too short") != std::string::npos);
   CHECK(run(scratch, "dresslife-sim", "job.yaml --screen job.yaml -o screening.h5 --quiet").status == 1);

@@ -151,7 +151,8 @@ TEST_CASE("a stale job keeps its last result, and status says which key, file or
   const auto lives_of = [](const std::string& csv) {  // per row: job and lives, best first
     std::vector<std::string> rows;
     std::istringstream lines(csv);
-    for (std::string line; std::getline(lines, line);) rows.push_back(line.substr(0, std::min(line.find(",done,"), line.find(",stale,"))));
+    for (std::string line; std::getline(lines, line);)
+      rows.push_back(line.substr(0, std::min(line.find(",done,"), line.find(",stale,"))));
     return rows;
   };
   const auto status = [&] { return run(scratch, "dresslife", "status study.yaml").out; };
@@ -165,7 +166,8 @@ TEST_CASE("a stale job keeps its last result, and status says which key, file or
   const std::string marked = report();
   CHECK(lives_of(marked) == lives_of(ranking));
   CHECK(marked.find(",done,") == std::string::npos);
-  CHECK(marked.find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") != std::string::npos);
+  CHECK(marked.find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") !=
+        std::string::npos);
   const std::string page = content(scratch / "runs/study/report.html");
   CHECK(page.find("2 stale") != std::string::npos);
   CHECK(page.find("Damage along the dresspack") != std::string::npos);

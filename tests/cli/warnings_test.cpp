@@ -39,24 +39,28 @@ const std::string dresspack = R"(dresspack:
 void write_jobs(const Scratch& scratch) {
   write_small_job(scratch);  // for its poses
   const std::string small_steps = "segments: 12, sample_rate_Hz: 50, most_repeats: 2";
-  scratch.write("cable.yaml", "motion: {clamp_poses: poses.csv}\n" + dresspack + "routing: {free_length_m: 0.9}\nsimulation: {" +
-                                  small_steps + "}\nstrain: {slip: stick}\n");
-  scratch.write("spot.mod",
-                "MODULE spot\n"
-                "CONST jointtarget a:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
-                "CONST jointtarget b:=[[5,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
-                "PROC main()\n  MoveAbsJ a,v1000,fine,tool0;\n  SpeedRefresh 0;\n  MoveAbsJ b,v1000,fine,tool0;\n"
-                "  MoveAbsJ a,v1000,fine,tool0;\nENDPROC\nENDMODULE\n");
-  scratch.write("robot.yaml", "robot: abb_irb6640_185_280\nmotion: {program: spot.mod}\n" + dresspack +
-                                  "routing:\n"
-                                  "  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}\n"
-                                  "  tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}\n"
-                                  "  free_length_m: 2.035\nsimulation: {contact: false, floor: false, " +
-                                  small_steps + "}\nstrain: {slip: stick}\n");
+  scratch.write("cable.yaml", "motion: {clamp_poses: poses.csv}\n" + dresspack +
+                                  "routing: {free_length_m: 0.9}\nsimulation: {" + small_steps +
+                                  "}\nstrain: {slip: stick}\n");
+  scratch.write(
+      "spot.mod",
+      "MODULE spot\n"
+      "CONST jointtarget a:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+      "CONST jointtarget b:=[[5,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+      "PROC main()\n  MoveAbsJ a,v1000,fine,tool0;\n  SpeedRefresh 0;\n  MoveAbsJ b,v1000,fine,tool0;\n"
+      "  MoveAbsJ a,v1000,fine,tool0;\nENDPROC\nENDMODULE\n");
+  scratch.write("robot.yaml",
+                "robot: abb_irb6640_185_280\nmotion: {program: spot.mod}\n" + dresspack +
+                    "routing:\n"
+                    "  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}\n"
+                    "  tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}\n"
+                    "  free_length_m: 2.035\nsimulation: {contact: false, floor: false, " +
+                    small_steps + "}\nstrain: {slip: stick}\n");
 }
 
 std::vector<Warning> warnings_in(const fs::path& life) {
-  return warnings_from(FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("warnings"));
+  return warnings_from(
+      FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("warnings"));
 }
 
 }  // namespace
@@ -72,7 +76,8 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
       {"cable", "--set dresspack.most_tension_N=0.01 --set dresspack.bending_stiffness_Nm2=0.02", "tension",
        "largest tension: "},
       {"cable", "--set routing.free_length_m=1.3", "slack", "least slack: too long above"},
-      {"cable", "--set simulation.periodic_tolerance_mm=1e-9", "periodic", "after 2 repeats the motion still begins"},
+      {"cable", "--set simulation.periodic_tolerance_mm=1e-9", "periodic",
+       "after 2 repeats the motion still begins"},
       {"cable", "", "overlap", "the 66 parts 'wire' are 0.1839 mm apart"},
       {"robot", "", "force", "nobody sees in a dresspack"},
       {"cable", "", "material", "material odd: K' 100 MPa"},

@@ -1,5 +1,5 @@
-// The shipped materials of copper wire: that they follow from what their `source:` says, and how far they lie from what was
-// measured. Nothing is tuned to the measurements; fatigue/README.md shows the misses.
+// The shipped materials of copper wire: that they follow from what their `source:` says, and how far they lie
+// from what was measured. Nothing is tuned to the measurements; fatigue/README.md shows the misses.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -39,7 +39,9 @@ UniversalSlopes universal_slopes(double tensile_strength, double reduction_of_ar
   return {3.5 / 2 * std::pow(2, 0.12) * tensile_strength, std::pow(2 * d, 0.6) / 2};
 }
 
-double cycles(const Material& m, MeanStress rule, const Load& load) { return StrainLife(m, rule).reversals(load) / 2; }
+double cycles(const Material& m, MeanStress rule, const Load& load) {
+  return StrainLife(m, rule).reversals(load) / 2;
+}
 
 double reversed_strain(const Material& m, double amplitude) {
   return cycles(m, MeanStress::none, {amplitude, 0, 0});
@@ -89,7 +91,7 @@ TEST_CASE("copper: predicted beside measured, as fatigue/README.md tells it") {
   constexpr double as_printed = 0.006;  // three digits
   struct Told {
     const char* name;
-    double at_76_MPa, at_3_8e_4, at_5e_4;           // reversed
+    double at_76_MPa, at_3_8e_4, at_5e_4;                     // reversed
     double at_300_MPa, at_300_MPa_R_01, at_300_MPa_reversed;  // largest stress, R = 0, 0.1, -1
   };
   for (const Told& told : {Told{"copper", 4.22e9, 5.08e11, 4.42e10, 8.77e5, 1.33e6, 2.00e4},
@@ -108,8 +110,9 @@ TEST_CASE("copper: predicted beside measured, as fatigue/README.md tells it") {
 }
 
 TEST_CASE("copper: 0.14 mm wire bent at a clip, one bending length for three angles") {
-  // At most 5.5e4 cycles at +-5 deg, fewer at 10, more than 1e5 at 1 deg (fatigue/README.md). The length over which
-  // it bends is not told: that which gives 5.5e4 at 5 deg must respect the other two, and be a few diameters.
+  // At most 5.5e4 cycles at +-5 deg, fewer at 10, more than 1e5 at 1 deg (fatigue/README.md). The length over
+  // which it bends is not told: that which gives 5.5e4 at 5 deg must respect the other two, and be a few
+  // diameters.
   for (const char* name : {"copper", "copper_halved", "copper_annealed", "copper_hard_drawn"}) {
     INFO(name);
     const Material m = shipped(name);

@@ -135,8 +135,8 @@ TEST_CASE("published strain blocks: loops, stresses, lives and damage") {
 }
 
 TEST_CASE("stress along a history is that of its cycles where it turns, whatever lies between") {
-  constexpr int between = 7;           // samples from turn to turn
-  constexpr double left = 0.4;         // of the offset
+  constexpr int between = 7;    // samples from turn to turn
+  constexpr double left = 0.4;  // of the offset
   std::mt19937 random(5);
   std::uniform_real_distribution<double> strain(-0.01, 0.015);
   std::vector<double> history{strain(random)};
@@ -145,7 +145,8 @@ TEST_CASE("stress along a history is that of its cycles where it turns, whatever
     for (int k = 1; k <= between; ++k) history.push_back(from + (to - from) * k / between);
   }
   std::vector<Reversal> turns;
-  for (std::size_t k = 0; k < history.size(); k += between) turns.push_back({history[k], static_cast<std::int64_t>(k)});
+  for (std::size_t k = 0; k < history.size(); k += between)
+    turns.push_back({history[k], static_cast<std::int64_t>(k)});
   for (const auto counting : {pipeline::Counting::repeating, pipeline::Counting::half_cycles})
     for (const auto rule : {pipeline::Stress::cyclic, pipeline::Stress::elastic}) {
       pipeline::Fatigue settings;

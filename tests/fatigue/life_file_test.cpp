@@ -288,8 +288,8 @@ TEST_CASE("life.h5: the bounds are the lives of their own sites") {
         Approx(free * duration / 3600).epsilon(DamageCounter::table_error));
 }
 
-// The worst wire's own relaxation counts, and what another layer's worst does says nothing of it: judged by segment alone a
-// free bound was 4.6 % too long.
+// The worst wire's own relaxation counts, and what another layer's worst does says nothing of it: judged by
+// segment alone a free bound was 4.6 % too long.
 TEST_CASE("life.h5: mean stress relaxes in a bound as it does in the job") {
   const Folder folder;
   pipeline::Job job = test_job();
@@ -302,7 +302,8 @@ TEST_CASE("life.h5: mean stress relaxes in a bound as it does in the job") {
     f.sites.clear();
     for (const char* layer : {"layer 1", "layer 2"})
       for (int wire = 1; wire <= 3; ++wire) {
-        // One large loop and some within it, about a mean: what relaxes of the large one moves the others with it.
+        // One large loop and some within it, about a mean: what relaxes of the large one moves the others
+        // with it.
         Site& site = f.sites.emplace_back(swing(1, fmt::format("cable 1/{}/wire {}", layer, wire), 0));
         const float mean = 0.004f * (part(random) - 0.5f), large = 0.001f + 2e-4f * part(random);
         site.strain = {mean}, site.sample = {0};
@@ -346,22 +347,27 @@ TEST_CASE("life.h5: percentiles of the first wire and of the conductors") {
   // Four wires; each by its worst segment.
   const std::vector<double> wires{damage[2], damage[1], damage[3], damage[4]};
   const double half = life_until(wires, 1, {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.5);
-  CHECK(life.number_attribute("first_wire_life_hours_p50") == Approx(hours(half, duration)).epsilon(same_sum));
+  CHECK(life.number_attribute("first_wire_life_hours_p50") ==
+        Approx(hours(half, duration)).epsilon(same_sum));
   CHECK(half < life.number_attribute("life_repeats"));
   const auto lives = life.read<double>("/conductor/life");
   REQUIRE(lives.size() == 2 * 9);
-  CHECK(lives[9 + 6 + 2] == life_until(std::vector{damage[3], damage[4]}, 2, {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.9));
+  CHECK(lives[9 + 6 + 2] == life_until(std::vector{damage[3], damage[4]}, 2,
+                                       {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.9));
 
   job.fatigue.scatter_log10 = 0;
   const Result exact = run(folder, example(), job, "exact.h5");
   const FileReader sharp(exact.file, pipeline::life_format());
   for (const char* end : {"p10", "p50", "p90"}) {
-    CHECK(sharp.number_attribute(fmt::format("first_wire_life_hours_{}", end)) == sharp.number_attribute("life_hours"));
+    CHECK(sharp.number_attribute(fmt::format("first_wire_life_hours_{}", end)) ==
+          sharp.number_attribute("life_hours"));
     // Two wires in a conductor: 10 % are one of them, and one at one place is one anywhere.
-    CHECK(sharp.number_attribute(fmt::format("life_hours_{}", end)) == Approx(sharp.number_attribute("life_hours")));
+    CHECK(sharp.number_attribute(fmt::format("life_hours_{}", end)) ==
+          Approx(sharp.number_attribute("life_hours")));
   }
   CHECK(sharp.text_attribute("failing_conductor") == "cable 2");
-  CHECK(sharp.number_attribute("failing_position_from_tool") == sharp.number_attribute("worst_position_from_tool"));
+  CHECK(sharp.number_attribute("failing_position_from_tool") ==
+        sharp.number_attribute("worst_position_from_tool"));
   CHECK(sharp.number_attribute("life_months_p10") == Approx(sharp.number_attribute("life_months")));
   job.fatigue.load_sharing = true;
   const Result shared = run(folder, example(), job, "shared.h5");
@@ -772,12 +778,14 @@ TEST_CASE("uncertainty: the planner's lives widen about those of the scatter, wh
   CHECK_FALSE(without.has_attribute("scatter_life_hours_p10"));
   CHECK_FALSE(without.has_attribute("life_response"));
   for (const std::string end : {"p10", "p50", "p90"})
-    CHECK(with.number_attribute("scatter_life_hours_" + end) == without.number_attribute("life_hours_" + end));
+    CHECK(with.number_attribute("scatter_life_hours_" + end) ==
+          without.number_attribute("life_hours_" + end));
   CHECK(with.number_attribute("life_hours_p10") < without.number_attribute("life_hours_p10"));
   CHECK(with.number_attribute("life_hours_p90") > without.number_attribute("life_hours_p90"));
   CHECK(with.number_attribute("life_hours") == without.number_attribute("life_hours"));
   CHECK(with.read<double>("/damage") == without.read<double>("/damage"));
-  CHECK(with.text_attribute("measure_next") == "model");  // at these strains the slope of life is nearly that of (8)'s ductile part
+  CHECK(with.text_attribute("measure_next") ==
+        "model");  // at these strains the slope of life is nearly that of (8)'s ductile part
 }
 
 TEST_CASE("uncertainty: the response is what the stage tells with the keys that it stands for") {
@@ -792,11 +800,14 @@ TEST_CASE("uncertainty: the response is what the stage tells with the keys that 
       pipeline::ParameterPoint z{};
       z[index_of(pipeline::Uncertain::strength)] = strength, z[index_of(pipeline::Uncertain::slope)] = slope;
       pipeline::Job moved = test_job();
-      moved.fatigue.strength_factor = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::strength)].value(strength);
-      moved.fatigue.slope_change = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::slope)].value(slope);
+      moved.fatigue.strength_factor =
+          pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::strength)].value(strength);
+      moved.fatigue.slope_change =
+          pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::slope)].value(slope);
       const FileReader again(run(folder, example(), moved, "moved.h5").file, pipeline::life_format());
       constexpr double digits = 1e-5;  // of the text, in decades
-      CHECK(response.change(z) == Approx(std::log10(again.number_attribute("life_repeats") / life)).margin(digits));
+      CHECK(response.change(z) ==
+            Approx(std::log10(again.number_attribute("life_repeats") / life)).margin(digits));
     }
   pipeline::Job lasting = test_job();
   lasting.fatigue.model_factor = 3;

@@ -1,4 +1,5 @@
-// The planner's life: a conductor that has lost its share of wires at one place, between bounds, by drawing and in its limits.
+// The planner's life: a conductor that has lost its share of wires at one place, between bounds, by drawing
+// and in its limits.
 #include "fatigue/places.h"
 
 #include <algorithm>
@@ -60,7 +61,8 @@ TEST_CASE("places: one segment is the conductors' own share, in one place or any
     const Scatter scatter{0.2, shared};
     const FirstPlace first = lives_of(pack, 25, scatter);
     const Percentiles anywhere = first_conductor_lives(pack.bundles, 25, scatter);
-    for (std::size_t i = 0; i < first.lives.size(); ++i) CHECK(first.lives[i] == Approx(anywhere[i]).epsilon(left_out));
+    for (std::size_t i = 0; i < first.lives.size(); ++i)
+      CHECK(first.lives[i] == Approx(anywhere[i]).epsilon(left_out));
     CHECK(first.conductor == 0);
     CHECK(first.segment == 0);
   }
@@ -117,11 +119,13 @@ TEST_CASE("places: told lives are on the safe side of drawn ones, and near") {
         double first = infinity;
         for (std::size_t c = 0; c < 5; ++c) {
           std::vector<double> factors;
-          for (int w = 0; w < 30; ++w) factors.push_back(std::pow(10, common + scatter.own() * normal(random)));
+          for (int w = 0; w < 30; ++w)
+            factors.push_back(std::pow(10, common + scatter.own() * normal(random)));
           for (std::size_t g = 0; g < 15; ++g) {
             breaks.clear();
             for (std::size_t w = 0; w < 30; ++w) breaks.push_back(factors[w] / turning(c, g, w));
-            std::nth_element(breaks.begin(), breaks.begin() + static_cast<std::ptrdiff_t>(count - 1), breaks.end());
+            std::nth_element(breaks.begin(), breaks.begin() + static_cast<std::ptrdiff_t>(count - 1),
+                             breaks.end());
             first = std::min(first, breaks[count - 1]);
           }
         }
@@ -131,11 +135,13 @@ TEST_CASE("places: told lives are on the safe side of drawn ones, and near") {
       for (std::size_t i = 0; i < percentiles.size(); ++i) {
         const double share = percentiles[i], sampling = 4.5 * std::sqrt(share * (1 - share) / draws);
         const auto sooner = [&](double life) {
-          return double(std::count_if(lives.begin(), lives.end(), [&](double drawn) { return drawn < life; })) / draws;
+          return double(
+                     std::count_if(lives.begin(), lives.end(), [&](double drawn) { return drawn < life; })) /
+                 draws;
         };
         INFO(percent << " " << shared << " " << share << " " << told.lives[i]);
-        CHECK(sooner(told.lives[i]) < share + sampling);         // told no later than drawn
-        CHECK(sooner(told.lives[i] * 1.1) > share - sampling);   // and by less than a tenth sooner
+        CHECK(sooner(told.lives[i]) < share + sampling);        // told no later than drawn
+        CHECK(sooner(told.lives[i] * 1.1) > share - sampling);  // and by less than a tenth sooner
       }
       // Drawing itself, which needs no bounds: rates of 1 share nothing.
       Pack drawn = pack;
@@ -158,7 +164,8 @@ TEST_CASE("places: those left out do not move the life") {
   CHECK(some.judged < 400);
   CHECK(some.judged >= 20);
   CHECK(some.segment == 3);
-  // The same with all of them, one by one: 1 - product over conductors and segments, spread by the common factor.
+  // The same with all of them, one by one: 1 - product over conductors and segments, spread by the common
+  // factor.
   std::vector<LifeDistribution> all;
   const Scatter scatter{0.2, 0.5};
   const double own = scatter.own() * std::log(10);
@@ -173,14 +180,16 @@ TEST_CASE("places: those left out do not move the life") {
         double none = 1;
         for (std::size_t c = 0; c < 20; ++c) {
           double of_it = 1;
-          for (std::size_t g = 0; g < 50; ++g) of_it *= 1 - wires[c * 50 + g].failed(log_time, 2, own, memory);
+          for (std::size_t g = 0; g < 50; ++g)
+            of_it *= 1 - wires[c * 50 + g].failed(log_time, 2, own, memory);
           none *= std::max(of_it, 1 - anywhere[c].failed(log_time, 2, own, memory));
         }
         return 1 - none;
       },
       std::log(1e3) - 9, std::log(1e3) + 9, scatter.common() * std::log(10));
   const Percentiles whole = first_of(all);
-  for (std::size_t i = 0; i < whole.size(); ++i) CHECK(some.lives[i] == Approx(whole[i]).epsilon(straight_pieces));
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    CHECK(some.lives[i] == Approx(whole[i]).epsilon(straight_pieces));
 }
 
 TEST_CASE("places: dresspacks scatter apart, and broken wires that leave their load shorten lives") {
@@ -206,16 +215,20 @@ TEST_CASE("places: damage of all wires everywhere, by conductor, segment and wir
   TextColumn component;
   component.values = {"a/layer 1/w 1", "a/layer 2/w 1", "b/w 1", "hose 1"};
   component.index = {0, 1, 2, 0, 1, 0, 3};
-  const std::vector<std::size_t> segment{0, 0, 0, 1, 1, 1, 1};  // the wire of two fibres counts by its worse one
+  const std::vector<std::size_t> segment{0, 0, 0, 1,
+                                         1, 1, 1};  // the wire of two fibres counts by its worse one
   const Conductors conductors = conductors_of(all, component, layers);
-  const auto places = places_of(all, component, conductors, 2, [&](std::size_t site) { return segment[site]; });
+  const auto places =
+      places_of(all, component, conductors, 2, [&](std::size_t site) { return segment[site]; });
   REQUIRE(places.size() == 2);
   CHECK(places[0].damage == std::vector<double>{0.1, 0.5, 0.7, 0.4});
   CHECK(places[1].damage == std::vector<double>{0.3, 0.0});
 }
 
-TEST_CASE("places: by medians a conductor fails with its k-th wire in its worst segment, broken ones elsewhere do not count") {
-  // Five wires of which the second is to break: 40 % rounds to 2. Conductor 1 is never damaged in two wires at one place.
+TEST_CASE(
+    "places: by medians a conductor fails with its k-th wire in its worst segment, broken ones elsewhere do not count") {
+  // Five wires of which the second is to break: 40 % rounds to 2. Conductor 1 is never damaged in two wires
+  // at one place.
   const Pack pack = pack_of(2, 3, 5, [](auto c, auto g, auto w) {
     if (c == 1) return w == g ? 1.0 : 0.0;
     return std::vector<std::vector<double>>{{8, 1, 1, 1, 1}, {4, 5, 0, 0, 0}, {0, 0, 2, 2, 2}}[g][w] * 1e-3;

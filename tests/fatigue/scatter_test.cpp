@@ -177,7 +177,8 @@ TEST_CASE("conductors: which wires lie in which part") {
 }
 
 TEST_CASE("scatter: one wire scatters the same whatever share of it is common") {
-  constexpr double straight_pieces = 3e-3;  // of a life: pieces of a seventh of a deviation h add h^2/6 to the variance, 0.35 %
+  constexpr double straight_pieces =
+      3e-3;  // of a life: pieces of a seventh of a deviation h add h^2/6 to the variance, 0.35 %
   for (const double shared : {0.0, 1e-9, 0.2, 0.5, 0.9, 1 - 1e-9, 1.0})
     for (const double share : percentiles) {
       INFO(shared << " " << share);
@@ -221,7 +222,8 @@ TEST_CASE("scatter: percentiles are continuous in the common share, and spread w
   Percentiles before{};
   for (double shared = 0; shared <= 1; shared += 0.02) {
     Percentiles now;
-    for (std::size_t i = 0; i < now.size(); ++i) now[i] = life_until(damage, 1, {0.2, shared}, percentiles[i]);
+    for (std::size_t i = 0; i < now.size(); ++i)
+      now[i] = life_until(damage, 1, {0.2, shared}, percentiles[i]);
     if (shared > 0) {
       CHECK(now[2] / now[0] > before[2] / before[0]);
       for (std::size_t i = 0; i < now.size(); ++i) CHECK(now[i] == Approx(before[i]).epsilon(0.25));
@@ -234,10 +236,12 @@ TEST_CASE("scatter: dresspacks have no factor in common") {
   const Scatter scatter{0.2, 1};
   const std::vector<std::vector<double>> two{{1e-3, 1e-3}, {}, {1e-3}};
   // The first of two independent ones: 1 - (1 - p)^2 = 1/2.
-  CHECK(broken_share(first_wire_lives(two, scatter)[1], 1000, 0.2) == Approx(1 - std::sqrt(0.5)).epsilon(1e-6));
+  CHECK(broken_share(first_wire_lives(two, scatter)[1], 1000, 0.2) ==
+        Approx(1 - std::sqrt(0.5)).epsilon(1e-6));
   std::vector<Bundle> bundles{wires({1000, 2000}), wires({1000})};
   bundles[1].dresspack = 2;
-  CHECK(first_conductor_lives(bundles, 10, scatter)[1] == Approx(first_wire_lives(two, scatter)[1]).epsilon(1e-6));
+  CHECK(first_conductor_lives(bundles, 10, scatter)[1] ==
+        Approx(first_wire_lives(two, scatter)[1]).epsilon(1e-6));
   CHECK(first_wire_lives(std::vector<std::vector<double>>{{0, 0}}, scatter)[0] == infinity);
 }
 
@@ -249,6 +253,7 @@ TEST_CASE("scatter: drawing with a common part agrees with the closed form") {
   const Percentiles first = first_conductor_lives(bundles, 40, scatter);
   for (std::size_t i = 0; i < percentiles.size(); ++i) {
     const double q = percentiles[i], place = 4.5 * std::sqrt(q * (1 - q) / draws);
-    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) < 0.2 * place / 0.1);  // density >= 0.1 / s
+    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) <
+          0.2 * place / 0.1);  // density >= 0.1 / s
   }
 }

@@ -11,9 +11,12 @@ namespace {
 constexpr int long_enough_s = 120;
 
 void write_cluster(const Scratch& scratch, const std::string& name, int tasks, int most_stages) {
-  scratch.write(name, fmt::format("name: test\nsource: made for the tests\ntasks: {}\nmemory_MB: 256\nmost_stages: {}\n"
-                                  "launcher: srun --quiet --ntasks=1 --cpus-per-task=1 --exact\nsubmit: timeout 20 sbatch --parsable\n",
-                                  tasks, most_stages));
+  scratch.write(
+      name,
+      fmt::format(
+          "name: test\nsource: made for the tests\ntasks: {}\nmemory_MB: 256\nmost_stages: {}\n"
+          "launcher: srun --quiet --ntasks=1 --cpus-per-task=1 --exact\nsubmit: timeout 20 sbatch --parsable\n",
+          tasks, most_stages));
 }
 
 /// The last number behind "job " in what a submission says.
@@ -91,13 +94,15 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   CHECK(calls("segments=22") == "sim\nstrain\nstrain\nstrain\nfatigue\n");
   CHECK(slurm.shell(submit).out.find("nothing to do") != std::string::npos);
 
-  // The real stages: more of them than an allocation may start, so that each job is a shard, an allocation of its own.
+  // The real stages: more of them than an allocation may start, so that each job is a shard, an allocation of
+  // its own.
   write_small_job(scratch);
   write_cluster(scratch, "small.yaml", 1, 3);
   scratch.write("shards.yaml", "base: job.yaml\nvary: {dresspack.bending_stiffness_Nm2: [2, 3, 4]}\n");
   const Outcome whole = run(scratch, "dresslife", "run shards.yaml -o whole --quiet");
   REQUIRE(whole.status == 0);
-  const Outcome array = slurm.shell("'" DRESSLIFE_BIN_DIR "/dresslife' submit shards.yaml --cluster small.yaml");
+  const Outcome array =
+      slurm.shell("'" DRESSLIFE_BIN_DIR "/dresslife' submit shards.yaml --cluster small.yaml");
   INFO(array.out << array.err);
   CHECK(array.out.find(" of 3 shards") != std::string::npos);
   const std::string ranks = job_of(array);
@@ -106,7 +111,8 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   INFO(content(scratch / "runs/shards/submit.log"));
   REQUIRE(ranked);
   for (const char* shard : {"1_of_3", "2_of_3", "3_of_3"}) {
-    const std::string graph = content(scratch / "runs/shards/.stage" / (std::string("shard_") + shard) / "build.ninja");
+    const std::string graph =
+        content(scratch / "runs/shards/.stage" / (std::string("shard_") + shard) / "build.ninja");
     CHECK(graph.find(": fatigue ") != std::string::npos);
     CHECK(graph.find(": fatigue ") == graph.rfind(": fatigue "));
   }

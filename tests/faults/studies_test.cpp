@@ -62,8 +62,8 @@ std::vector<pid_t> descendants(pid_t process) {
   return found;
 }
 
-/// Whether the process is gone within ten seconds: it dies at once, but its new parent may take its time to bury
-/// it on a busy machine.
+/// Whether the process is gone within ten seconds: it dies at once, but its new parent may take its time to
+/// bury it on a busy machine.
 bool ends(pid_t process) {
   for (int k = 0; k < 1000; ++k) {
     if (::kill(process, 0) != 0 && errno == ESRCH) return true;
@@ -178,7 +178,8 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   CHECK(changed.status == 1);
   CHECK(changed.out.find("stale") != std::string::npos);
   const std::string marked = content(scratch / "runs/study/ranking.csv");
-  CHECK(marked.find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") != std::string::npos);
+  CHECK(marked.find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") !=
+        std::string::npos);
   CHECK(run(scratch, "dresslife", "status study.yaml --set fatigue.stress=elastic")
             .out.find("0 of 3 jobs done") != std::string::npos);
   CHECK(content(scratch / "runs/study/ranking.csv") == marked);

@@ -45,9 +45,10 @@ TEST_CASE("installation: without /proc a program is found by its path, or where 
   CHECK(program_called(scratch / "link") == program);
   const Variable path("PATH", "/nowhere::" + (scratch / "bin").string());
   CHECK(program_called("some-program") == program);
-  CHECK(message_of([] { program_called("absent-program"); }) ==
-        "absent-program: error: is not found again (/proc is not there, and the name does not lead to it); mount "
-        "/proc, or start it by its whole path");
+  CHECK(
+      message_of([] { program_called("absent-program"); }) ==
+      "absent-program: error: is not found again (/proc is not there, and the name does not lead to it); mount "
+      "/proc, or start it by its whole path");
   CHECK(message_of([] { program_called(""); }).starts_with("this program: error: is not found again"));
 }
 

@@ -18,9 +18,11 @@ struct SampleLife {
   int worst_from_tool = 3;
   bool causes = false;    ///< whether it tells which joint costs the life
   double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
-  double planned_hours = 0;  ///< until 10 % have a conductor without its share of wires at one place; 0: as of an older file
-  std::string life_response{};  ///< LifeResponse::text(); empty: nothing is uncertain. Only with planned_hours
-  bool wires = true;      ///< false: the dresspack holds none
+  double planned_hours =
+      0;  ///< until 10 % have a conductor without its share of wires at one place; 0: as of an older file
+  std::string
+      life_response{};  ///< LifeResponse::text(); empty: nothing is uncertain. Only with planned_hours
+  bool wires = true;    ///< false: the dresspack holds none
   std::vector<std::string>
       dresspacks{};  ///< two: each has half of the segments, the worst lies in the second
   std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
@@ -171,12 +173,14 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   writer.attribute("worst_time", damaged ? time[end[0]] : 0.0);
   writer.attribute("worst_step", damaged ? text[static_cast<std::size_t>(step[end[0]])] : "");
   if (sample.planned_hours > 0) {
-    for (const auto& [percentile, factor] : {std::pair{"p10", 1.0}, std::pair{"p50", 1.5}, std::pair{"p90", 2.5}}) {
+    for (const auto& [percentile, factor] :
+         {std::pair{"p10", 1.0}, std::pair{"p50", 1.5}, std::pair{"p90", 2.5}}) {
       writer.attribute(std::string("life_hours_") + percentile, factor * sample.planned_hours);
       writer.attribute(std::string("first_wire_life_hours_") + percentile, factor * sample.planned_hours / 4);
     }
     if (!sample.life_response.empty()) {
-      for (const auto& [percentile, factor] : {std::pair{"p10", 2.0}, std::pair{"p50", 2.5}, std::pair{"p90", 3.0}})
+      for (const auto& [percentile, factor] :
+           {std::pair{"p10", 2.0}, std::pair{"p50", 2.5}, std::pair{"p90", 3.0}})
         writer.attribute(std::string("scatter_life_hours_") + percentile, factor * sample.planned_hours);
       writer.attribute("life_response", sample.life_response);
       writer.attribute("life_shares", "friction_inside 53 %; strength 29 %");

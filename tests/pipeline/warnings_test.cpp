@@ -21,7 +21,8 @@ TEST_CASE("warnings: what separates them is taken out of their words, many and l
   CHECK(back[0].words == "one two");
   std::string umlauts;
   for (int k = 0; k < 30'000; ++k) umlauts += "\u00fc";
-  const std::string text = warnings_text(std::vector<Warning>(5000, {WarningKind::program, umlauts, umlauts}));
+  const std::string text =
+      warnings_text(std::vector<Warning>(5000, {WarningKind::program, umlauts, umlauts}));
   CHECK(text.size() < 64 * 1024 * 2);
   const auto cut = warnings_from(text);
   REQUIRE(cut.size() > 1);

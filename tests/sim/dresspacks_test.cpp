@@ -265,7 +265,8 @@ TEST_CASE("messages and warnings name the dresspack among several") {
       run(job_text("dresspacks:\n" + hose + item("dress cable", hose_text(60, 0.2), routing_text(2.4, 0.6)),
                    ", most_repeats: 1"));
   std::string told;
-  for (const pipeline::Warning& warning : warnings_of(*both.simulation, both.summary)) told += warning.line() + "\n";
+  for (const pipeline::Warning& warning : warnings_of(*both.simulation, both.summary))
+    told += warning.line() + "\n";
   CHECK_THAT(told, Catch::Contains("warning: dress cable, smallest bend radius: ") &&
                        Catch::Contains("warning: dress cable, least slack: too long above: ") &&
                        !Catch::Contains("warning: hose, least slack"));

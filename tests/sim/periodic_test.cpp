@@ -78,8 +78,9 @@ TEST_CASE("periodic: a motion is repeated until two repeats begin alike, and the
     CHECK(state_distance(simulation.rod(), r.begin[k], r.begin[k + 1]) > 1e-4);
   CHECK(static_cast<int>(r.times.size()) == simulation.description().samples);
   CHECK(r.times.front() == 0);
-  CHECK_THAT(repeats_note(r.summary), Catch::Matchers::Contains(fmt::format(
-                                "note: the motion is periodic after {} repeats", r.summary.repeats)));
+  CHECK_THAT(repeats_note(r.summary),
+             Catch::Matchers::Contains(
+                 fmt::format("note: the motion is periodic after {} repeats", r.summary.repeats)));
 }
 
 TEST_CASE("periodic: what never becomes periodic is run as often as allowed, and warned of") {
@@ -121,7 +122,7 @@ TEST_CASE("periodic: the repeat that leads in leaves the result that exact repea
   pipeline::Job job = simple_job();
   job.motion.steps = {move_to(0, "start"), move_to(2, "turn"), dwell_for(0.52), move_to(0, "back")};
   job.motion.steps[1].duration = job.motion.steps[3].duration = 2;  // 4.52 s: a whole number of samples
-  constexpr double forgotten = 1e-6;                                 // [m]
+  constexpr double forgotten = 1e-6;                                // [m]
   job.simulation.periodic_tolerance = forgotten;
   job.simulation.most_repeats = 40;
   const Run led = run(Simulation(job));

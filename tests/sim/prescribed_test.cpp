@@ -29,7 +29,9 @@ dresspack:
 )" + more;
 }
 
-pipeline::Job job_of(const std::string& text) { return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml")); }
+pipeline::Job job_of(const std::string& text) {
+  return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"));
+}
 
 PrescribedDeformation rig(const std::string& keys, const std::string& more = "") {
   return deformation_of(job_of(cable_job("{rig: {" + keys + "}}", more)));
@@ -73,7 +75,8 @@ TEST_CASE("prescribed: rates that change along the dresspack are integrated as b
   Quaternion plain = Quaternion::Identity();
   const int fine = 200000;
   for (int k = 0; k < fine; ++k) plain = plain * rotation(bent.at(0, (k + 0.5) / fine).rate / fine);
-  // Fourth order: (20 1/m x 2.5 mm)^5 / 720 a step, 400 steps; the plain sum errs by (w h)^3/24 a step, 8e-9 in all.
+  // Fourth order: (20 1/m x 2.5 mm)^5 / 720 a step, 400 steps; the plain sum errs by (w h)^3/24 a step, 8e-9
+  // in all.
   CHECK(state.clamps.tool.orientation.angularDistance(plain) < 2e-7);
 }
 
@@ -94,9 +97,11 @@ TEST_CASE("prescribed: a twisted cable of one hand that hangs without weight kee
   // 1 kg: stretched by g m / (E A cos^3 of six wires), 117 GPa as in the material's file.
   const auto job = job_of(cable_job("{rig: {kind: torsion, twist_deg_per_m: 360, weight_kg: 1}}"));
   const auto& dresspack = job.dresspacks.front().dresspack;
-  const double stiffness = 6 * dresspack.materials.front().youngs_modulus * pi * 1e-8 * std::pow(std::cos(lay), 3);
+  const double stiffness =
+      6 * dresspack.materials.front().youngs_modulus * pi * 1e-8 * std::pow(std::cos(lay), 3);
   CHECK(axial_stiffness(dresspack) == Approx(stiffness));
-  CHECK(deformation_of(job).states.front().elongation == Approx(9.80665 / stiffness).epsilon(2e-3));  // quadratic terms
+  CHECK(deformation_of(job).states.front().elongation ==
+        Approx(9.80665 / stiffness).epsilon(2e-3));  // quadratic terms
 }
 
 TEST_CASE("prescribed: rolling flex bends and straightens the share of the cable that passes the bend") {
@@ -145,7 +150,8 @@ TEST_CASE("prescribed: the curvature at a clip is that of the elastica that dies
   const std::string keys = "kind: swivel, angle_deg: 40, weight_kg: 0.1";
   const std::string stiff = "simulation: {segments: 200}\n";
   const auto job = job_of(cable_job("{rig: {" + keys + "}}", stiff));
-  const double bending = dresslife::pipeline::bending_stiffness(job.dresspacks.front().dresspack), pull = 0.1 * 9.80665;
+  const double bending = dresslife::pipeline::bending_stiffness(job.dresspacks.front().dresspack),
+               pull = 0.1 * 9.80665;
   const PrescribedDeformation bent = deformation_of(job);
   double theta = 40 * pi / 180, kappa = 0;
   for (const auto& state : bent.states) kappa = std::max(kappa, state.rate.y());
@@ -160,28 +166,36 @@ TEST_CASE("prescribed: the curvature at a clip is that of the elastica that dies
   CHECK(std::abs(theta) < 4 * 40 * pi / 180 * std::exp(-6));
   // A clip's edge limits it.
   double edged = 0;
-  for (const auto& state : rig(keys + ", radius_mm: 50", stiff).states) edged = std::max(edged, state.rate.y());
+  for (const auto& state : rig(keys + ", radius_mm: 50", stiff).states)
+    edged = std::max(edged, state.rate.y());
   CHECK(edged == Approx(std::min(kappa, 1 / 0.054)));
 }
 
 TEST_CASE("prescribed: a rig that cannot be is refused with what to do") {
-  CHECK(refused("kind: torsion") == "job.yaml:1:15: error: a rig of kind torsion needs twist_deg_per_m; give it");
-  CHECK(refused("kind: torsion, twist_deg_per_m: 90, travel_m: 1") ==
-        "job.yaml:1:15: error: a rig of kind torsion has no travel_m (it has length_m, twist_deg_per_m, weight_kg); "
-        "leave it out, or choose another kind");
-  CHECK(refused("kind: tick_tock, radius_mm: 10, radius_diameters: 2").find("both radius_mm and") != std::string::npos);
+  CHECK(refused("kind: torsion") ==
+        "job.yaml:1:15: error: a rig of kind torsion needs twist_deg_per_m; give it");
+  CHECK(
+      refused("kind: torsion, twist_deg_per_m: 90, travel_m: 1") ==
+      "job.yaml:1:15: error: a rig of kind torsion has no travel_m (it has length_m, twist_deg_per_m, weight_kg); "
+      "leave it out, or choose another kind");
+  CHECK(refused("kind: tick_tock, radius_mm: 10, radius_diameters: 2").find("both radius_mm and") !=
+        std::string::npos);
   CHECK(refused("kind: rolling_flex, travel_m: 1").find("has no radius_mm; give radius_mm, or radius_diam") !=
         std::string::npos);
-  CHECK(refused("kind: rolling_flex, travel_m: 0.01, radius_mm: 100").find("too short to bend or straighten") !=
-        std::string::npos);
-  CHECK(refused("kind: torsion, twist_deg_per_m: 90000") ==
-        "job.yaml:1:15: error: the rig turns a segment of 20 mm by 1800 deg (at most 120); check the rig's twist, angle and "
-        "weight, or raise simulation.segments");
+  CHECK(
+      refused("kind: rolling_flex, travel_m: 0.01, radius_mm: 100").find("too short to bend or straighten") !=
+      std::string::npos);
+  CHECK(
+      refused("kind: torsion, twist_deg_per_m: 90000") ==
+      "job.yaml:1:15: error: the rig turns a segment of 20 mm by 1800 deg (at most 120); check the rig's twist, angle and "
+      "weight, or raise simulation.segments");
   CHECK(refused("kind: swivel, angle_deg: 5, weight_kg: 0").find("weight_kg is 0") != std::string::npos);
   const std::string twist = "kind: torsion, twist_deg_per_m: 90";
-  CHECK(refused(twist, "robot: abb_irb2600_12_165\n").find("robot is given beside motion.rig") != std::string::npos);
+  CHECK(refused(twist, "robot: abb_irb2600_12_165\n").find("robot is given beside motion.rig") !=
+        std::string::npos);
   CHECK(refused(twist, "cell: {boxes: []}\n").find("cell is given beside motion.rig") != std::string::npos);
-  CHECK(refused(twist, "routing: {free_length_m: 2}\n").find("routing is given beside motion.rig") != std::string::npos);
+  CHECK(refused(twist, "routing: {free_length_m: 2}\n").find("routing is given beside motion.rig") !=
+        std::string::npos);
 }
 
 TEST_CASE("prescribed: a job with a rig, written out, is the same job") {
@@ -199,7 +213,8 @@ TEST_CASE("deformation file: what is wrong is told by line and column") {
   const Scratch scratch;
   const auto job_with = [&](const std::string& csv) {
     scratch.write("d.csv", csv);
-    return job_of(cable_job("{deformation: " + (scratch / "d.csv").string() + "}", "routing: {free_length_m: 1}\n"));
+    return job_of(
+        cable_job("{deformation: " + (scratch / "d.csv").string() + "}", "routing: {free_length_m: 1}\n"));
   };
   const auto read = [&](const std::string& csv) { return deformation_of(job_with(csv)); };
   const auto problem = [&](const std::string& csv) {
@@ -209,29 +224,33 @@ TEST_CASE("deformation file: what is wrong is told by line and column") {
   CHECK(problem("t_s,kappa_1_1_per_m\n0,0\n1,2\n1,3\n") ==
         "d.csv:4:1: error: time 1 s stands twice; drop a row, or give its place in a column position_m");
   CHECK(problem("t_s,kappa_1_per_m\n0,0\n").find("d.csv:1:5: error: 'kappa_1_per_m' is no column") == 0);
-  CHECK(problem("t_s,twist_deg_per_m,twist_rad_per_m\n0,0,0\n").find("d.csv:1:21: error: column twist_rad_per_m beside") ==
-        0);
+  CHECK(problem("t_s,twist_deg_per_m,twist_rad_per_m\n0,0,0\n")
+            .find("d.csv:1:21: error: column twist_rad_per_m beside") == 0);
   CHECK(problem("kappa_1_1_per_m\n0\n").find("has no column t_s") != std::string::npos);
   CHECK(problem("t_s\n0\n").find("nothing that deforms") != std::string::npos);
-  CHECK(problem("t_s,elongation\n0,x\n").find("d.csv:2:3: error: 'x' is not a finite number (elongation)") == 0);
+  CHECK(problem("t_s,elongation\n0,x\n").find("d.csv:2:3: error: 'x' is not a finite number (elongation)") ==
+        0);
   CHECK(problem("t_s,elongation\n0,1\n").find("elongation is 1 (must be -0.5 .. 0.5") != std::string::npos);
   CHECK(problem("t_s,elongation\n0,0,0\n").find("d.csv:2:5: error: row has 3 cells (its header has 2)") == 0);
   CHECK(problem("t_s,elongation\n1,0\n").find("first time is 1 s (must be 0)") != std::string::npos);
-  CHECK(problem("t_s,elongation\n0,0\n2,0\n1,0\n").find("d.csv:4:1: error: time 1 s does not follow 2 s") == 0);
-  CHECK(problem("t_s,kappa_1_1_per_m\n0,300\n").find("d.csv:2:3: error: curvature and twist turn a segment of 20 mm by") ==
+  CHECK(problem("t_s,elongation\n0,0\n2,0\n1,0\n").find("d.csv:4:1: error: time 1 s does not follow 2 s") ==
         0);
-  CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,2,0\n").find("d.csv:3:3: error: position_m is 2 (must lie in 0 .. 1") ==
-        0);
-  CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,1,0\n1,0,0\n2,0,0\n").find("time 1 s has 1 places (the first has 2)") !=
-        std::string::npos);
-  CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,1,0\n1,0,0\n1,0.5,0\n").find("position_m 0.5 is not the place") !=
-        std::string::npos);
+  CHECK(problem("t_s,kappa_1_1_per_m\n0,300\n")
+            .find("d.csv:2:3: error: curvature and twist turn a segment of 20 mm by") == 0);
+  CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,2,0\n")
+            .find("d.csv:3:3: error: position_m is 2 (must lie in 0 .. 1") == 0);
+  CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,1,0\n1,0,0\n2,0,0\n")
+            .find("time 1 s has 1 places (the first has 2)") != std::string::npos);
+  CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,1,0\n1,0,0\n1,0.5,0\n")
+            .find("position_m 0.5 is not the place") != std::string::npos);
   CHECK(problem("t_s,elongation\n").find("deformation holds no row") != std::string::npos);
   CHECK(message_of([&] {
           read_deformation(job_of(cable_job("{deformation: none.csv}", "routing: {free_length_m: 1}\n")));
-        }).find("none.csv: error: deformation cannot be read; check the file's name and rights") != std::string::npos);
+        }).find("none.csv: error: deformation cannot be read; check the file's name and rights") !=
+        std::string::npos);
 
-  const PrescribedDeformation one = read("# twisted\nelongation , t_s, twist_deg_per_m\r\n0.01,0,180\n\n0.02,0.5,-90\n");
+  const PrescribedDeformation one =
+      read("# twisted\nelongation , t_s, twist_deg_per_m\r\n0.01,0,180\n\n0.02,0.5,-90\n");
   CHECK(one.times == std::vector<double>{0, 0.5});
   CHECK(one.states[1].rate.z() == Approx(-pi / 2));
   CHECK(one.at(0, 0.7).elongation == 0.01);

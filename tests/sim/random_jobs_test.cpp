@@ -1,7 +1,7 @@
 // Random but feasible jobs on the shipped robots: all end finite and calm, or stop with a message that a user
 // can act on. Six of them run with every test; two hundred with DRESSLIFE_RANDOM_JOBS=200.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -114,8 +114,8 @@ std::string outcome(unsigned seed) {
     CHECK(highest - at_rest < 0.1 + 0.01 * elastic);
     return "ended";
   } catch (const pipeline::InputError& error) {
-    for (const char* kind : {"is drawn taut", "mm too short", "mm deep through",
-                             "does not come to rest", "finds no equilibrium"})
+    for (const char* kind : {"is drawn taut", "mm too short", "mm deep through", "does not come to rest",
+                             "finds no equilibrium"})
       if (std::string(error.what()).find(kind) != std::string::npos) return kind;
     return error.what();
   }

@@ -36,7 +36,8 @@ TEST_CASE("a rehearsal grades what the run's checks saw") {
   const auto check = [&](const char* name) {
     return *std::find_if(checks.begin(), checks.end(), [&](const Check& of) { return of.name == name; });
   };
-  CHECK(std::exp(beyond(found, ScreenedLimit::bend)) * check("smallest bend radius").value == Approx(10 * 0.04));
+  CHECK(std::exp(beyond(found, ScreenedLimit::bend)) * check("smallest bend radius").value ==
+        Approx(10 * 0.04));
   // 2 rad in 1 m; the hose sags, so that links take shares of it that differ a little.
   constexpr double of_its_sag = 0.1;
   CHECK(beyond(found, ScreenedLimit::twist) == Approx(2 / std::numbers::pi - 1).margin(of_its_sag));

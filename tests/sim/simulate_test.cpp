@@ -166,7 +166,8 @@ TEST_CASE("simulate: a dresspack that is too short is refused with time, line an
           Catch::Matchers::Contains(" mm too short at 1.") &&
           Catch::Matchers::Contains("s, program step 3 'dwell 3' (routing.free_length_m is 1, the "
                                     "clamps are 1.0") &&
-          Catch::Matchers::EndsWith("; give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)"));
+          Catch::Matchers::EndsWith(
+              "; give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)"));
 }
 
 TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
@@ -236,10 +237,10 @@ TEST_CASE("simulate: a slack hose lies on the floor") {
 TEST_CASE("simulate: a clamp inside the robot is refused") {
   pipeline::Job job = simple_job();
   job.robot.links[0].capsules = {{{0.3, 0, 1}, {0.6, 0, 1}, 0.3}};
-  CHECK_THROWS_WITH(Simulation(job), Catch::Matchers::StartsWith("job.yaml:8:3: error: dresspack runs ") &&
-                                         Catch::Matchers::Contains(
-                                             " mm deep through " + job.robot.links[0].name +
-                                             " in the mounting pose, 0."));
+  CHECK_THROWS_WITH(Simulation(job),
+                    Catch::Matchers::StartsWith("job.yaml:8:3: error: dresspack runs ") &&
+                        Catch::Matchers::Contains(" mm deep through " + job.robot.links[0].name +
+                                                  " in the mounting pose, 0."));
 }
 
 }  // namespace

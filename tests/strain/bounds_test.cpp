@@ -99,8 +99,8 @@ TEST_CASE("a bound's shortest life is that of all wires under that slip") {
     check_agree(free.free, free.sites, waves);
     CHECK(stick.stick.component == stick.sites.component);
     CHECK(free.free.component == free.sites.component);
-    // The wires of a bound are picked by sums over their cycles that stand for damage, twelve and more of each layer
-    // and segment: where many middling cycles do it, one that was left out can be worse.
+    // The wires of a bound are picked by sums over their cycles that stand for damage, twelve and more of
+    // each layer and segment: where many middling cycles do it, one that was left out can be worse.
     constexpr double picked = 0.02;
     check_agree(inside.stick, inside.sites, picked);
     check_agree(free.stick, inside.sites, picked);

@@ -76,20 +76,23 @@ struct Run {
               {.rub = slip == Slip::friction, .elements_per_segment = pieces}, lengths, arcs, samples) {
     for (std::size_t t = 0; t < samples; ++t)
       for (std::size_t i = 0; i < segments; ++i)
-        history.set(i, t, size * swing(arcs[i] / length, static_cast<double>(t) / static_cast<double>(cycle)));
+        history.set(i, t,
+                    size * swing(arcs[i] / length, static_cast<double>(t) / static_cast<double>(cycle)));
     paths.add({history});
     paths.finish();
   }
   static std::vector<double> centres() {
     std::vector<double> arcs;
-    for (std::size_t i = 0; i < segments; ++i) arcs.push_back((static_cast<double>(i) + 0.5) * length / segments);
+    for (std::size_t i = 0; i < segments; ++i)
+      arcs.push_back((static_cast<double>(i) + 0.5) * length / segments);
     return arcs;
   }
   double strain(std::size_t cable, std::size_t segment, std::size_t sample) {
     CablePaths::Keeper keeper;
     return keeper.of(paths, segment, history.columns(segment), 0, history.samples()).strain[cable][sample];
   }
-  /// Strain that pulls: a cable that kept its length would be stretched by its wires' turning with the hose, too.
+  /// Strain that pulls: a cable that kept its length would be stretched by its wires' turning with the hose,
+  /// too.
   double pulling_strain(std::size_t cable, std::size_t segment, std::size_t sample) {
     double twist = 0;
     for (std::size_t i = 0; i < segments; ++i) twist += history.columns(i).twist[sample] / segments;
@@ -124,8 +127,9 @@ Dresspack held_hose() {
 
 }  // namespace
 
-TEST_CASE("a part without wires takes room, stays in its ring and pulls as a tube, and no wire of it is evaluated") {
-  constexpr double beside = 0.7;  // [rad]
+TEST_CASE(
+    "a part without wires takes room, stays in its ring and pulls as a tube, and no wire of it is evaluated") {
+  constexpr double beside = 0.7;                    // [rad]
   const auto widest_way = [](double tube_radius) {  // of a cable along the circle, beside that of the tube
     Dresspack dresspack = thesis_hose();
     dresslife::pipeline::Component cable = dresspack.components[0], tube;
@@ -193,8 +197,9 @@ TEST_CASE("a held cable has the mean stretch of its place, less its slack") {
 TEST_CASE("a loose cable with next to no play has the strain of a held one") {
   Dresspack dresspack = thesis_hose();
   dresspack.components[0].laying.play = 1e-5;
-  // A tenth of the swing: pressed cables stay below 2 sqrt(E I k_w) = 2.8 kN, where they would buckle into a wall
-  // of 1e7 N/m2, and pulled ones press into it by 1.3 kN x 0.12 1/m, 16 um, of 18.45 mm as the 10 um of play.
+  // A tenth of the swing: pressed cables stay below 2 sqrt(E I k_w) = 2.8 kN, where they would buckle into a
+  // wall of 1e7 N/m2, and pulled ones press into it by 1.3 kN x 0.12 1/m, 16 um, of 18.45 mm as the 10 um of
+  // play.
   constexpr double size = 0.1;
   Run loose(dresspack, Slip::free, 10, 20, size), held(held_hose(), Slip::free, 10, 20, size);
   double largest = 0;
@@ -255,11 +260,11 @@ TEST_CASE("strains change smoothly with the lay from straight to ten degrees") {
   const double largest = *std::max_element(ranges.begin(), ranges.end());
   // A turn more between the clamps every 3.3 degrees takes the range from its largest to nearly nothing: over
   // 0.05 degrees by pi x 0.05/3.3, 5 % of the largest; a jump would be of its whole size.
-  for (std::size_t i = 1; i < ranges.size(); ++i)
-    CHECK(std::abs(ranges[i] - ranges[i - 1]) < 0.05 * largest);
+  for (std::size_t i = 1; i < ranges.size(); ++i) CHECK(std::abs(ranges[i] - ranges[i - 1]) < 0.05 * largest);
 }
 
-TEST_CASE("strains of loose cables change no more than slack does, whatever grips, friction and play beside it") {
+TEST_CASE(
+    "strains of loose cables change no more than slack does, whatever grips, friction and play beside it") {
   constexpr double step = 0.001;  // of slack
   for (const double grip : {50.0, 500.0, without_limit})
     for (const Slip slip : {Slip::free, Slip::friction})
@@ -274,18 +279,21 @@ TEST_CASE("strains of loose cables change no more than slack does, whatever grip
             for (const std::size_t segment : {std::size_t{0}, segments / 2})
               for (std::size_t t = 0; t < 10; ++t) strains.push_back(run.strain(k, segment, t));
           double moved = 0;
-          for (std::size_t i = 0; i < before.size(); ++i) moved = std::max(moved, std::abs(strains[i] - before[i]));
-          INFO("grip " << grip << " N, play " << play << " m, slack " << slack << ", friction " << (slip == Slip::friction));
+          for (std::size_t i = 0; i < before.size(); ++i)
+            moved = std::max(moved, std::abs(strains[i] - before[i]));
+          INFO("grip " << grip << " N, play " << play << " m, slack " << slack << ", friction "
+                       << (slip == Slip::friction));
           for (const double strain : strains) REQUIRE(std::isfinite(strain));
-          // Length that is let in shortens a strain by itself at most. What pulls two ways, by a grip at its either bound
-          // and friction toward its either end, has memory of both.
+          // Length that is let in shortens a strain by itself at most. What pulls two ways, by a grip at its
+          // either bound and friction toward its either end, has memory of both.
           CHECK(moved < 2 * step);
           before = strains;
         }
       }
 }
 
-TEST_CASE("where loose cables bend converges with the square of their pieces' length, within twice what is told") {
+TEST_CASE(
+    "where loose cables bend converges with the square of their pieces' length, within twice what is told") {
   constexpr std::size_t samples = 20;
   Dresspack dresspack = thesis_hose();
   dresspack.components[0].laying.slack = 1;
@@ -347,7 +355,8 @@ TEST_CASE("forces of held cables are told beside their moment on the hose") {
   CHECK(pulls_of(loose.paths).force_share < 0.2);
 }
 
-TEST_CASE("a twisted cable that shortens as its wires ask for pulls at nothing, one that is held as they do") {
+TEST_CASE(
+    "a twisted cable that shortens as its wires ask for pulls at nothing, one that is held as they do") {
   // Wires on one helix keep their length where hypot(tan(alpha) + R t, 1 + e) = 1 / cos(alpha).
   constexpr double R = 0.003, alpha = 20 * test_dresspacks::degree, twist = 2 * pi;  // [rad/m]: 360 deg/m
   Dresspack dresspack = thesis_hose();
@@ -372,7 +381,8 @@ TEST_CASE("a twisted cable that shortens as its wires ask for pulls at nothing, 
         const double tension = pulls_of(paths).tension[0][0];
         const double by_length = force.force(elongation);  // what its axis alone would tell
         if (elongation == 0) {
-          // Of a strain x of the cable a wire has cos^2 x; what a turn a metre does besides is of second order, R t = 0.02.
+          // Of a strain x of the cable a wire has cos^2 x; what a turn a metre does besides is of second
+          // order, R t = 0.02.
           constexpr double second_order = 0.04;
           const double wire = std::cos(alpha) * std::hypot(turning, 1) - 1;
           CHECK(tension == Approx(force.force(wire / std::pow(std::cos(alpha), 2))).epsilon(second_order));
@@ -411,7 +421,8 @@ TEST_CASE("a loose cable with slack gives the length that twist takes, and pulls
     const double taken = construction.layers()[0].shortening.at(twist);
     REQUIRE(std::abs(taken) > 5e-4);
     const auto [strain, force] = lies(twist);
-    // What is left of the slack lies in waves, whose push of 200 N changes with it by a fifth: 4e-5 of strain.
+    // What is left of the slack lies in waves, whose push of 200 N changes with it by a fifth: 4e-5 of
+    // strain.
     CHECK(strain - still == Approx(-taken).epsilon(0.05));
     CHECK(std::abs(force) < std::abs(pushed) * 1.5);
   }
@@ -465,7 +476,8 @@ TEST_CASE("a free end of the hose does not pull at its cables") {
   Dresspack dresspack = held_hose();
   // of 10 kN at most that the strains would ask for, the soft end of sliding_line keeps a millionth
   CHECK(largest(dresspack, Slip::free) < 1e-6 * 1e4);
-  // With friction of 0.3 under 5 N/m it gathers toward the base clamp, and by the turning of bends a little faster.
+  // With friction of 0.3 under 5 N/m it gathers toward the base clamp, and by the turning of bends a little
+  // faster.
   dresspack.components[0].friction = 0.3;
   dresspack.components[0].radial_line_load = 5;
   const double gathered = 0.3 * 5 * length;
@@ -491,7 +503,8 @@ TEST_CASE("with friction along it a cable's largest force counts, wherever it is
   double ends = 0;
   for (std::size_t k = 0; k < 10; ++k)
     for (const std::size_t i : {std::size_t{0}, segments - 1})
-      for (std::size_t t = 0; t < 20; ++t) ends = std::max(ends, std::abs(force.force(run.pulling_strain(k, i, t))));
+      for (std::size_t t = 0; t < 20; ++t)
+        ends = std::max(ends, std::abs(force.force(run.pulling_strain(k, i, t))));
   CHECK(ends < 0.99 * largest);  // else this would not tell the two apart
 }
 
@@ -542,11 +555,13 @@ TEST_CASE("a closed motion of loose cables closes without friction, and with it 
   for (std::size_t k = 0; k < row; ++k)
     open = std::max(open, std::abs(smooth[4 * cycle * row + k] - smooth[3 * cycle * row + k]));
   for (const double strain : smooth) largest = std::max(largest, std::abs(strain));
-  // at rest to 1e-7 m of place, which are 5e-7 of strain; drag alone tells one cycle from the next, and fades in the first
+  // at rest to 1e-7 m of place, which are 5e-7 of strain; drag alone tells one cycle from the next, and fades
+  // in the first
   CHECK(open < 1e-6);
   CHECK(largest > 20 * 1e-6);
 
-  // What the hose does to the cables is tension times the strain of the path, which is what cables have that cannot slide.
+  // What the hose does to the cables is tension times the strain of the path, which is what cables have that
+  // cannot slide.
   dresspack.components[0].friction = 1e9;
   dresspack.components[0].radial_line_load = 5;
   const std::vector<double> path = strains_of(Run(dresspack, Slip::friction, samples, cycle), samples);

@@ -86,8 +86,8 @@ double worst_error(const Chain& chain, const Rate& rate, DeformationMeasure meas
   return worst;
 }
 
-/// A chain of the simulator's kind, turned at the links by `rotation`: rigid segments whose ends meet, a little
-/// further out where they bend (sim/README.md, S17).
+/// A chain of the simulator's kind, turned at the links by `rotation`: rigid segments whose ends meet, a
+/// little further out where they bend (sim/README.md, S17).
 Chain jointed_chain(double segment_length, const std::vector<Vector3d>& rotation) {
   Chain chain;
   Quaterniond q = Quaterniond::Identity();

@@ -104,7 +104,8 @@ double glued_strain(const Construction& construction, const std::vector<Link>& l
   const double radius = construction.layers()[links.back().layer].part_radius;
   const bool exact = construction.kinematics() == Kinematics::exact;
   if (!exact) return rod.stretch.at[0] / rest.stretch.at[0] - 1 + radius * rod.bend1.at[0];
-  return (rod.stretch.at[0] + radius * rod.bend2.at[0]) / (rest.stretch.at[0] + radius * rest.bend2.at[0]) - 1;
+  return (rod.stretch.at[0] + radius * rod.bend2.at[0]) / (rest.stretch.at[0] + radius * rest.bend2.at[0]) -
+         1;
 }
 
 /// Worst difference of all sites' turning points from `reference(site's links, segment, sample)`, over the
@@ -330,7 +331,8 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
     }
     return largest;
   };
-  constexpr std::size_t most_picked = 5 * (6 + 2 * 128);  // layers of wires; measures, and the most by either sum
+  constexpr std::size_t most_picked =
+      5 * (6 + 2 * 128);  // layers of wires; measures, and the most by either sum
   for (std::size_t segment = 0; segment < few_segments; ++segment) {
     constexpr float close = 1e-3f;  // strains of all wires are waves, without a third harmonic (W13)
     CHECK(largest_range(free.stick, segment) == Approx(largest_range(inside.sites, segment)).epsilon(close));

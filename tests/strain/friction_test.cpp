@@ -119,8 +119,8 @@ double difference(const Results& a, const Results& b) {
 constexpr double no_friction = 0, endless_friction = 1e6;
 constexpr double rounding = 1e-9;       // of strains computed from stretches near one
 constexpr double wave_rounding = 2e-6;  // of strains in single precision
-// Wires put together one by one have their fibre's length (W12) whole, waves of glued ones its product with the
-// strain up to the second harmonic: half of a second harmonic of 1e-3 times 0.005 is left out.
+// Wires put together one by one have their fibre's length (W12) whole, waves of glued ones its product with
+// the strain up to the second harmonic: half of a second harmonic of 1e-3 times 0.005 is left out.
 constexpr double third_of_length = 2.5e-6;
 
 }  // namespace
@@ -197,8 +197,7 @@ TEST_CASE("what friction holds of a part is the same after any other and lies wh
   };
   HeldStrains one_after_other(construction, means);
   constexpr int conductor_rows = 2, scratch_rows = 3;  // powers, and what they come from
-  CHECK(one_after_other.bytes(samples) ==
-        (conductor_rows + scratch_rows) * padded(samples) * sizeof(double));
+  CHECK(one_after_other.bytes(samples) == (conductor_rows + scratch_rows) * padded(samples) * sizeof(double));
   std::vector<const double*> place(construction.levels(), nullptr);
   one_after_other.begin(arcs[1], motion);
   std::mt19937 random(7);
@@ -554,7 +553,8 @@ TEST_CASE("a jacket that gives nothing holds all, and one that gives holds its s
   CHECK(off_their_probes(evaluate(dresspack, rubs)) < third_harmonic);
   // Nobody reads it where slip is something else.
   for (const Slip slip : {Slip::stick, Slip::free})
-    CHECK(evaluate(dresspack, settings_with({slip})).strain == evaluate(rubbing(0), settings_with({slip})).strain);
+    CHECK(evaluate(dresspack, settings_with({slip})).strain ==
+          evaluate(rubbing(0), settings_with({slip})).strain);
 
   CHECK(elastic_share(0, 2000, 0.05) == 0);
   // Of the deviation eps(x) = A sin(2 pi x/s) of a bar (E A) on a spring bed (k): E A u'' = k (u - u_parent)
@@ -620,7 +620,11 @@ TEST_CASE("a helix keeps its share of strain where its bed gives") {
 
 TEST_CASE("a bed that gives takes its share of conductors and wires in every way of sliding") {
   using enum Slip;
-  for (const std::vector<Slip>& slip : {std::vector{stick}, {free}, {friction}, {free, stick, free}, {stick, free, stick},
+  for (const std::vector<Slip>& slip : {std::vector{stick},
+                                        {free},
+                                        {friction},
+                                        {free, stick, free},
+                                        {stick, free, stick},
                                         {free, friction, stick}}) {
     CAPTURE(static_cast<int>(slip[0]), slip.size());
     Settings settings = settings_with(slip);
@@ -662,7 +666,8 @@ TEST_CASE("a bed that gives takes its share of conductors and wires in every way
     const Layer& of = construction.layers()[layer];
     share *= radial_share(of.axial_stiffness, of.lay_angle, of.helix_radius, 3e8);
   }
-  // The conductor's twist changes otherwise than its stretch, by 5e-4 rad/m; R^2 x 19 rad/m of that in its wires.
+  // The conductor's twist changes otherwise than its stretch, by 5e-4 rad/m; R^2 x 19 rad/m of that in its
+  // wires.
   constexpr double twisting = 2.5e-3;
   CHECK(strain_of_pulled(dresspack, free) == Approx(share * rigid).epsilon(twisting));
 }

@@ -230,14 +230,16 @@ TEST_CASE("wires ranked without turning points have the measures of their turnin
         const std::vector<float> points = filter(history[j], gate).strain;
         double sum = 0, of_ranges = 0, largest = 0;
         for (std::size_t k = 1; k < points.size(); ++k)
-          of_ranges += cube(std::abs(points[k] - points[k - 1])), sum += cube(std::abs(std::max({points[k - 1], points[k], 0.0f}) * (points[k] - points[k - 1])));
+          of_ranges += cube(std::abs(points[k] - points[k - 1])),
+              sum += cube(std::abs(std::max({points[k - 1], points[k], 0.0f}) * (points[k] - points[k - 1])));
         for (const float point : points) largest = std::max<double>(largest, std::abs(point));
         const StrainMeasures of = scan.measures(j);
         CHECK(of.lowest == *std::min_element(history[j].begin(), history[j].end()));
         CHECK(of.highest == *std::max_element(history[j].begin(), history[j].end()));
         constexpr double rounding = 1e-4;  // some hundred sums of third powers in single precision
-        // Which way a wire goes first is guessed: where it goes the other way by less than the gate, its first turning
-        // point, which the list has, is missed, and the range that begins there begins at the first sample.
+        // Which way a wire goes first is guessed: where it goes the other way by less than the gate, its
+        // first turning point, which the list has, is missed, and the range that begins there begins at the
+        // first sample.
         const double next = points.size() > 2 ? std::abs(points[2] - points[1]) : 0.0f;
         const double first = std::max<double>(std::abs(points[1] - points[0]), next) + gate;
         CHECK(std::abs(of.cycle_sum - sum) <= rounding * sum + cube(largest * (first + gate)) -

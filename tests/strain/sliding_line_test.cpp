@@ -1,5 +1,5 @@
-// A part that slides along its path with friction and grips, against the conditions that hold at its solution,
-// closed forms, and energy.
+// A part that slides along its path with friction and grips, against the conditions that hold at its
+// solution, closed forms, and energy.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -32,7 +32,8 @@ double mean(const std::vector<double>& of, const std::vector<double>& lengths) {
 
 TEST_CASE("without friction a sliding part has one strain, with boundless friction its own everywhere") {
   std::mt19937 random(1);
-  const auto lengths = random_numbers(random, 20, 0.01, 0.05), unslid = random_numbers(random, 20, -0.02, 0.02);
+  const auto lengths = random_numbers(random, 20, 0.01, 0.05),
+             unslid = random_numbers(random, 20, -0.02, 0.02);
   SlidingLine free(lengths, stiffness, without_limit, without_limit);
   free.next(unslid, std::vector<double>(20, 0.0));
   SlidingLine glued(lengths, stiffness, without_limit, without_limit);
@@ -104,7 +105,8 @@ TEST_CASE("over closed loops friction only takes energy, and without it a part c
   constexpr std::size_t n = 30;
   const std::vector<double> lengths(n, 0.05);
   for (int trial = 0; trial < 20; ++trial) {
-    const auto one = random_numbers(random, n, -0.003, 0.003), other = random_numbers(random, n, -0.003, 0.003);
+    const auto one = random_numbers(random, n, -0.003, 0.003),
+               other = random_numbers(random, n, -0.003, 0.003);
     const auto limits = random_numbers(random, n, 0, trial == 0 ? 0 : 100);
     SlidingLine line(lengths, stiffness, trial % 2 ? 500 : without_limit, without_limit);
     double work = 0;  // of the path on the part over one loop after those that settle
@@ -133,8 +135,8 @@ TEST_CASE("over closed loops friction only takes energy, and without it a part c
 }
 
 TEST_CASE("soft parts whose limits are reached together come to an end, within all limits") {
-  // Elements that are stretched alike, and ends that let go: knots lie on each other but for rounding, which in the
-  // 1921st of these sent the search to and fro between two of them.
+  // Elements that are stretched alike, and ends that let go: knots lie on each other but for rounding, which
+  // in the 1921st of these sent the search to and fro between two of them.
   constexpr double soft = 100, grip = 2, length = 0.1;  // [N, N, m]
   for (unsigned seed = 0; seed < 3000; ++seed) {
     std::mt19937_64 random(seed);
@@ -148,7 +150,8 @@ TEST_CASE("soft parts whose limits are reached together come to an end, within a
       if (seed % 5 == 0)
         for (double& one : unslid) one = 0.2 * draw();
       line.next(unslid, limits);
-      REQUIRE(std::abs(line.force()[0]) <= grip * (1 + 1e-5) + rounding);  // the soft end's millionth and more
+      REQUIRE(std::abs(line.force()[0]) <=
+              grip * (1 + 1e-5) + rounding);  // the soft end's millionth and more
       for (std::size_t i = 1; i < n; ++i)
         REQUIRE(std::abs(line.force()[i] - line.force()[i - 1]) <= limits[i] + rounding);
     }

@@ -1,5 +1,5 @@
-// What a user tells of cables moves strains of their wires smoothly: no jump between neighbouring values of any key,
-// whatever another one is at. Wires of two cables of two conductors, through the whole evaluation.
+// What a user tells of cables moves strains of their wires smoothly: no jump between neighbouring values of
+// any key, whatever another one is at. Wires of two cables of two conductors, through the whole evaluation.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -48,8 +48,9 @@ DeformationHistory swinging() {
   for (std::size_t i = 0; i < segments; ++i)
     for (std::size_t t = 0; t < samples; ++t) {
       const double z = (i + 0.5) / segments, w = 2 * pi * t / (samples - 1);
-      history.set(i, t, {(1.2 + 0.8 * std::sin(w)) * std::sin(pi * z), 0.8 * std::cos(w) * std::cos(pi * z / 2),
-                         0.8 * std::sin(w), 1e-4 * std::cos(w)});
+      history.set(i, t,
+                  {(1.2 + 0.8 * std::sin(w)) * std::sin(pi * z), 0.8 * std::cos(w) * std::cos(pi * z / 2),
+                   0.8 * std::sin(w), 1e-4 * std::cos(w)});
     }
   return history;
 }
@@ -92,9 +93,12 @@ std::vector<Key> keys(Position position) {
       {"grip_N", 30, 1000, [](Component& c, double v) { c.laying.base_grip = c.laying.tool_grip = v; }},
       {"friction_coefficient", 0.05, 0.6, [](Component& c, double v) { c.friction = v; }},
       {"radial_line_load_N_per_m", 1, 100, [](Component& c, double v) { c.radial_line_load = v; }},
-      {"measured_bending_stiffness_Nm2", 0.05, 0.08, [](Component& c, double v) { c.measured_bending_stiffness = v; }},
-      {"radial_stiffness_N_per_m2", 1e9, 1e11, [](Component& c, double v) { c.components[0].radial_stiffness = v; }},
-      {"jacket_stiffness_N_per_m2", 1e5, 3e7, [](Component& c, double v) { c.components[0].jacket_stiffness = v; }},
+      {"measured_bending_stiffness_Nm2", 0.05, 0.08,
+       [](Component& c, double v) { c.measured_bending_stiffness = v; }},
+      {"radial_stiffness_N_per_m2", 1e9, 1e11,
+       [](Component& c, double v) { c.components[0].radial_stiffness = v; }},
+      {"jacket_stiffness_N_per_m2", 1e5, 3e7,
+       [](Component& c, double v) { c.components[0].jacket_stiffness = v; }},
       {"lay_angle_rad", 0.5 * degree, 8 * degree, [](Component& c, double v) { c.lay_angle = v; }}};
   if (position == Position::loose)
     all.push_back({"play_m", 1e-3, 8e-3, [](Component& c, double v) { c.laying.play = v; }});
@@ -103,7 +107,8 @@ std::vector<Key> keys(Position position) {
 
 }  // namespace
 
-TEST_CASE("a lay of nearly nothing is none, in a hose that says where its cables lie and in one that leaves it to them") {
+TEST_CASE(
+    "a lay of nearly nothing is none, in a hose that says where its cables lie and in one that leaves it to them") {
   for (const Position position : {Position::automatic, Position::held}) {
     Dresspack dresspack = two_cables(position);
     const double straight = largest_range(dresspack);
@@ -115,12 +120,14 @@ TEST_CASE("a lay of nearly nothing is none, in a hose that says where its cables
 
 TEST_CASE("strains of wires move smoothly with every key of loose and held cables, whatever another is at") {
   constexpr double step = 0.01;
-  // Strains go with no more than the cube of a key: what presses a cable into waves with the square of its play
-  // (4 E I delta / c^2), what a lay twists with that of its angle, what friction holds with a measured stiffness less
-  // that of polymer (0.05 / 0.02), and friction answers to each of them. A law that switches moves them several times.
+  // Strains go with no more than the cube of a key: what presses a cable into waves with the square of its
+  // play (4 E I delta / c^2), what a lay twists with that of its angle, what friction holds with a measured
+  // stiffness less that of polymer (0.05 / 0.02), and friction answers to each of them. A law that switches
+  // moves them several times.
   constexpr double steepest = 3;
-  // What is too long rests in one of several ways, and which hangs on little: at 8 mm of play a cable lies 3 mm elsewhere at
-  // one sample between stiffnesses 0.1 % apart. That goes to and fro and does not add up, as a law that switches would.
+  // What is too long rests in one of several ways, and which hangs on little: at 8 mm of play a cable lies 3
+  // mm elsewhere at one sample between stiffnesses 0.1 % apart. That goes to and fro and does not add up, as
+  // a law that switches would.
   constexpr double other_way = 0.015;
   for (const Position position : {Position::loose, Position::held}) {
     const std::vector<Key> all = keys(position);

@@ -192,7 +192,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("of the strains of cables in the file forces follow, which are warned of where nobody would see them") {
+TEST_CASE(
+    "of the strains of cables in the file forces follow, which are warned of where nobody would see them") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
   struct Forces {
@@ -203,10 +204,12 @@ TEST_CASE("of the strains of cables in the file forces follow, which are warned 
   const auto forces_with = [&](const std::vector<std::string>& sets, double strength = 1) {
     evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with(sets));
     const FileReader strain(scratch / "strain.h5", pipeline::strain_format());
-    CHECK(strain.read<std::string>("/cable/name") == std::vector<std::string>{"cable 1", "cable 2", "cable 3"});
+    CHECK(strain.read<std::string>("/cable/name") ==
+          std::vector<std::string>{"cable 1", "cable 2", "cable 3"});
     Forces forces{.slip = strain.read<double>("/cable/grip_slip")};
     pipeline::Job job = job_with(sets);
-    for (pipeline::Material& metal : job.dresspacks[0].dresspack.materials) metal.fatigue_strength *= strength;
+    for (pipeline::Material& metal : job.dresspacks[0].dresspack.materials)
+      metal.fatigue_strength *= strength;
     forces.warnings = judge(strain, job, scratch / "life.h5");
     const FileReader life(scratch / "life.h5", pipeline::life_format());
     forces.share = life.number_attribute("largest_force_share");
@@ -233,23 +236,26 @@ TEST_CASE("of the strains of cables in the file forces follow, which are warned 
       {"strain.slip=free", "dresspack.components.1.base_grip_N=1", "dresspack.components.1.tool_grip_N=1"});
   CHECK(gripped.warnings.find("what tears a cable") == std::string::npos);
   CHECK(std::none_of(gripped.slip.begin(), gripped.slip.end(), is_zero));
-  // cables that stick to the hose need more than those that even out along it: each segment's own strain has its force
+  // cables that stick to the hose need more than those that even out along it: each segment's own strain has
+  // its force
   const Forces stuck = forces_with({});
   CHECK(stuck.warnings.find("what tears a cable") != std::string::npos);
   CHECK(stuck.share > held.share);
   CHECK(std::all_of(stuck.slip.begin(), stuck.slip.end(), is_zero));
 }
 
-TEST_CASE("pieces of loose cables that miss their waves are told with how many to take, and none that are left to the waves do") {
+TEST_CASE(
+    "pieces of loose cables that miss their waves are told with how many to take, and none that are left to the waves do") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
   const std::string cable = "dresspack.components.1.";
   for (const int pieces : {1, 3, 0}) {
-    const pipeline::Job job = job_with({"strain.slip=free", "dresspack.inner_diameter_mm=50", cable + "position=loose",
-                                        cable + "slack_percent=3",
-                                        "strain.cable_elements_per_segment=" + std::to_string(pieces)});
+    const pipeline::Job job =
+        job_with({"strain.slip=free", "dresspack.inner_diameter_mm=50", cable + "position=loose",
+                  cable + "slack_percent=3", "strain.cable_elements_per_segment=" + std::to_string(pieces)});
     const std::string told = evaluate(scratch / "motion.h5", scratch / "strain.h5", job);
-    const double missed = FileReader(scratch / "strain.h5", pipeline::strain_format()).number_attribute("loose_mesh_error");
+    const double missed =
+        FileReader(scratch / "strain.h5", pipeline::strain_format()).number_attribute("loose_mesh_error");
     if (pieces == 0) {
       CHECK(missed <= 0.02);
       CHECK_THAT(told, !Catch::Contains("they miss"));
@@ -306,18 +312,21 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
     return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), std::move(sets));
   };
   evaluate(scratch / "motion.h5", scratch / "all.h5", job({"uncertainty.enabled=true"}));
-  evaluate(scratch / "motion.h5", scratch / "threads.h5", job({"uncertainty.enabled=true"}), strain::default_history_bytes, 3);
+  evaluate(scratch / "motion.h5", scratch / "threads.h5", job({"uncertainty.enabled=true"}),
+           strain::default_history_bytes, 3);
   const FileReader all(scratch / "all.h5", pipeline::strain_format());
   const auto z = all.read<double>("/variation/z");
-  const auto variation = all.read<std::uint32_t>("/variation/row/variation"), site = all.read<std::uint32_t>("/variation/row/site"),
+  const auto variation = all.read<std::uint32_t>("/variation/row/variation"),
+             site = all.read<std::uint32_t>("/variation/row/site"),
              turning = all.read<std::uint32_t>("/variation/row/turning");
   const auto strain = all.read<float>("/variation/strain");
-  CHECK(FileReader(scratch / "threads.h5", pipeline::strain_format()).read<float>("/variation/strain") == strain);
+  CHECK(FileReader(scratch / "threads.h5", pipeline::strain_format()).read<float>("/variation/strain") ==
+        strain);
   constexpr std::size_t no_room = 1;  // where cables bend waits in files, segments are read one by one
   evaluate(scratch / "motion.h5", scratch / "no_room.h5", job({"uncertainty.enabled=true"}), no_room);
   CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "all.h5"));
   CHECK(scratch.entries() == 4);  // the motion and three results: those files have gone
-  REQUIRE(z.size() == 15 * 5);  // friction and slack crossed
+  REQUIRE(z.size() == 15 * 5);    // friction and slack crossed
   for (std::size_t v = 0; v < 15; ++v) {
     std::array<double, pipeline::uncertain_count> at{};
     std::copy_n(z.begin() + v * 5, 5, at.begin());
@@ -334,13 +343,17 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
     double worst = 0;
     for (std::size_t row = 0; row < site.size(); next += turning[row++]) {
       if (variation[row] != v) continue;
-      const auto [low, high] = std::minmax_element(strain.begin() + next, strain.begin() + next + turning[row]);
-      const auto [own_low, own_high] = std::minmax_element(own.begin() + offset[site[row]], own.begin() + offset[site[row] + 1]);
-      worst = std::max<double>({worst, std::abs(*low - *own_low) / (*own_high - *own_low), std::abs(*high - *own_high) / (*own_high - *own_low)});
+      const auto [low, high] =
+          std::minmax_element(strain.begin() + next, strain.begin() + next + turning[row]);
+      const auto [own_low, own_high] =
+          std::minmax_element(own.begin() + offset[site[row]], own.begin() + offset[site[row] + 1]);
+      worst = std::max<double>({worst, std::abs(*low - *own_low) / (*own_high - *own_low),
+                                std::abs(*high - *own_high) / (*own_high - *own_low)});
       ++compared;
     }
     CHECK(compared >= segments);
-    constexpr double third_harmonic = 1e-3;  // that the waves of a layer (W13) leave out, of the strain's range
+    constexpr double third_harmonic =
+        1e-3;  // that the waves of a layer (W13) leave out, of the strain's range
     CHECK(worst < third_harmonic);
   }
 }

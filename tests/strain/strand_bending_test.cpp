@@ -175,8 +175,8 @@ TEST_CASE("a strand on contacts that give loses energy in every loop and slides 
     loss = lost;
     CHECK(moment == Approx(top).epsilon(1e-6));
   }
-  // Tape around the strand presses like tension does: with all of the radial load from it instead, layer by layer, the
-  // moment is the same. A jacket that holds wires elastically is refused.
+  // Tape around the strand presses like tension does: with all of the radial load from it instead, layer by
+  // layer, the moment is the same. A jacket that holds wires elastically is refused.
   Strand taped = cardinal();
   double stretch = 0;
   for (const StrandLayer& layer : taped.layers)
@@ -185,7 +185,8 @@ TEST_CASE("a strand on contacts that give loses energy in every loop and slides 
   for (StrandLayer& layer : taped.layers)
     if (layer.helix_radius > 0)
       layer.line_load = taped.tension * layer.youngs_modulus * pi * layer.wire_radius * layer.wire_radius *
-                        std::pow(std::cos(layer.lay_angle) * std::sin(layer.lay_angle), 2) / stretch / layer.helix_radius;
+                        std::pow(std::cos(layer.lay_angle) * std::sin(layer.lay_angle), 2) / stretch /
+                        layer.helix_radius;
   taped.tension = 0;
   CHECK(StrandContact(taped, StrandContact::Contacts::elastic).moment(0.1) ==
         Approx(StrandContact(cardinal(), StrandContact::Contacts::elastic).moment(0.1)));

@@ -1,8 +1,8 @@
-// The hot loops of loose cables, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of which names
-// it (pipeline/simd.h).
+// The hot loops of loose cables, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of
+// which names it (pipeline/simd.h).
 //
-// The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill that
-// wait. Cables take from 2 to 60 iterations: one that rests leaves its lane to the next.
+// The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill
+// that wait. Cables take from 2 to 60 iterations: one that rests leaves its lane to the next.
 #include "pipeline/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/loose/kernels/loose_kernels.h"
@@ -41,9 +41,11 @@ struct Progress {
   double busy[pack_size] = {};    // 1: there is one that does not rest yet
   double trying[pack_size] = {};  // 1: it has a step of Newton's, of which a share is tried
   double share[pack_size] = {}, tries[pack_size] = {};
-  double down[pack_size] = {}, largest[pack_size] = {};  // of the step: the slope along it, its way of a node [m]
-  double shift[pack_size] = {}, shifts[pack_size] = {};  // of stiffness per length [N/m2], and how often it grew
-  double took[pack_size] = {};                           // iterations
+  double down[pack_size] = {},
+         largest[pack_size] = {};  // of the step: the slope along it, its way of a node [m]
+  double shift[pack_size] = {},
+         shifts[pack_size] = {};  // of stiffness per length [N/m2], and how often it grew
+  double took[pack_size] = {};    // iterations
 
   void begin(int lane) {
     busy[lane] = 1;
@@ -133,8 +135,8 @@ struct Lines<packs>::Touch {
 
   inline Touch() : press(0.0), xx(0.0), xy(0.0), yy(0.0), slope{Pack(0.0), Pack(0.0)} {}
 
-  /// Along `normal`, which leads out of what is touched, where `mask`. depth > 0. across: stiffness across the normal
-  /// over that along it.
+  /// Along `normal`, which leads out of what is touched, where `mask`. depth > 0. across: stiffness across
+  /// the normal over that along it.
   inline void add(const DoubleMask& mask, const Pack& stiffness, const Pair& normal, const Pack& depth,
                   const Pack& across) {
     const Pack none(0.0), force = stiffness * depth, rest = 1.0 - across;
@@ -198,7 +200,8 @@ void Lines<packs>::slopes() const {
     tension[p] = at(of.tension, k);
   }
   for (std::size_t i = 0; i < last; ++i) {
-    const Pair hose_bends = same(of.curvature, i + 1), K = Pack(h) * same(of.curvature, i), pull = same(of.pull, i);
+    const Pair hose_bends = same(of.curvature, i + 1), K = Pack(h) * same(of.curvature, i),
+               pull = same(of.pull, i);
     for (int p = 0; p < packs; ++p) {
       const Pair after = i + 2 <= last ? pair(of.path, i + 2, p) : here[p];
       const Pair bent_next =
@@ -206,8 +209,8 @@ void Lines<packs>::slopes() const {
       if (i > 0) {
         const Pair A = here[p], ahead = next[p], behind = pair(of.path, i - 1, p);
         const Pair gained = Pack(per_h) * ((A - behind) - (ahead - A)) - K;
-        Pair slope = bending[p] * ((bent_before[p] - bent_here[p]) + (bent_next - bent_here[p])) + tension[p] * gained -
-                     mass[p] * pull + drag[p] * (A - pair(of.before, i, p));
+        Pair slope = bending[p] * ((bent_before[p] - bent_here[p]) + (bent_next - bent_here[p])) +
+                     tension[p] * gained - mass[p] * pull + drag[p] * (A - pair(of.before, i, p));
         put(gained, of.gained, i, p);
         if constexpr (with_contact) {
           Touch touch;
@@ -229,8 +232,8 @@ void Lines<packs>::slopes() const {
   }
 }
 
-/// L D L^T of bending, tension, drag and contact: of each node the inverse of its pivot, and that times what ties it to
-/// the next one. negative: how many pivots are, which is how many eigenvalues are (Sylvester).
+/// L D L^T of bending, tension, drag and contact: of each node the inverse of its pivot, and that times what
+/// ties it to the next one. negative: how many pivots are, which is how many eigenvalues are (Sylvester).
 template <int packs>
 void Lines<packs>::factor(const Progress* progress, Pack* negative) const {
   const std::size_t last = of.nodes - 1, lanes = of.lanes;
@@ -271,7 +274,8 @@ void Lines<packs>::factor(const Progress* progress, Pack* negative) const {
       here_yy[p] = next_yy[p] - exy * f_xy - eyy * f_yy;
       const Pack far = -(tied2[p] * tied2[p]);
       next_xx[p] = far * ixx, next_xy[p] = far * ixy, next_yy[p] = far * iyy;
-      xx[p] = -(tied2[p] * f_xx), xy[p] = -(tied2[p] * f_yx), yx[p] = -(tied2[p] * f_xy), yy[p] = -(tied2[p] * f_yy);
+      xx[p] = -(tied2[p] * f_xx), xy[p] = -(tied2[p] * f_yx), yx[p] = -(tied2[p] * f_xy),
+      yy[p] = -(tied2[p] * f_yy);
     }
   }
 }
@@ -283,7 +287,8 @@ void Lines<packs>::substitute() const {
   constexpr int sides = 2;
   double* const solution[sides] = {of.solved, of.soft};
   Pack tied2[packs];
-  Pair here[packs][sides], next[packs][sides];  // what is taken off the right-hand sides of this node and the next
+  Pair here[packs][sides],
+      next[packs][sides];  // what is taken off the right-hand sides of this node and the next
   for (int p = 0; p < packs; ++p) {
     tied2[p] = at(of.bending_stiffness, lane(p)) * Pack(1 / (of.spacing * of.spacing * of.spacing));
     for (int s = 0; s < sides; ++s) here[p][s] = next[p][s] = {Pack(0.0), Pack(0.0)};
@@ -305,7 +310,8 @@ void Lines<packs>::substitute() const {
       }
     }
   for (int p = 0; p < packs; ++p)
-    for (int s = 0; s < sides; ++s) here[p][s] = next[p][s] = {Pack(0.0), Pack(0.0)};  // of the two nodes behind
+    for (int s = 0; s < sides; ++s)
+      here[p][s] = next[p][s] = {Pack(0.0), Pack(0.0)};  // of the two nodes behind
   for (std::size_t i = last - 1; i > 0; --i)
     for (int p = 0; p < packs; ++p) {
       const double* const f = of.factors + 7 * i * lanes + lane(p);
@@ -343,8 +349,8 @@ void Lines<packs>::judge(int most, Progress* progress) const {
   }
 }
 
-/// step: to the minimum of the quadratic at hand, of those that do not try one. Where it is not positive the next one has more
-/// stiffness.
+/// step: to the minimum of the quadratic at hand, of those that do not try one. Where it is not positive the
+/// next one has more stiffness.
 template <int packs>
 void Lines<packs>::newton_step(Progress* progress) const {
   const std::size_t last = of.nodes - 1;
@@ -397,9 +403,9 @@ void Lines<packs>::newton_step(Progress* progress) const {
   }
 }
 
-/// path: `share` of the step on from `from`. A node that lies against a round wall goes along it: in polar coordinates
-/// about its centre, since a straight way would press it in by the square of its length. going: where each node is
-/// heading there.
+/// path: `share` of the step on from `from`. A node that lies against a round wall goes along it: in polar
+/// coordinates about its centre, since a straight way would press it in by the square of its length. going:
+/// where each node is heading there.
 template <int packs>
 void Lines<packs>::go(Progress* progress) const {
   Pack share[packs];
@@ -558,7 +564,8 @@ void assemble_turn(const LineBatch& batch, const RingSystem& system) {
       own += counts * (diagonal * dot(A, A) - dot(slope, A));
       if (i + 1 < last) next += counts * (4.0 * bending + pulled) * dot(A, lines.pair(batch.path, i + 1, 0));
       if (i + 2 < last) after += counts * bending * dot(A, lines.pair(batch.path, i + 2, 0));
-      store(Pack(counts * dot(lines.pair(batch.gained, i, 0), across(A))), system.table + (i - 1) * lanes + k);
+      store(Pack(counts * dot(lines.pair(batch.gained, i, 0), across(A))),
+            system.table + (i - 1) * lanes + k);
     }
     double* const row = system.bands + 3 * (i - 1);
     row[0] = sum_of_lanes(own);

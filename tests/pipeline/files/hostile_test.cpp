@@ -134,7 +134,8 @@ TEST_CASE("hostile files: data that lies in other files is not followed") {
   }
 }
 
-TEST_CASE("hostile files: an attribute that is no single value, or longer than its file, is refused before it is read") {
+TEST_CASE(
+    "hostile files: an attribute that is no single value, or longer than its file, is refused before it is read") {
   const auto with_attribute = [](const char* name, hid_t type, hid_t space) {
     Made made;
     H5Adelete(made.file(), name);
@@ -202,7 +203,8 @@ TEST_CASE("rows beyond the largest int are counted and read where they lie") {
     REQUIRE(H5Dset_extent(rows, &length) >= 0);
     for (hsize_t chunk = 1; chunk < chunks; ++chunk) {
       first = chunk * in_a_chunk;
-      if (H5Dwrite_chunk(rows, H5P_DEFAULT, 0, &first, packed.size(), packed.data()) < 0) FAIL("chunk " << chunk);
+      if (H5Dwrite_chunk(rows, H5P_DEFAULT, 0, &first, packed.size(), packed.data()) < 0)
+        FAIL("chunk " << chunk);
     }
     H5Dclose(rows);
     H5Fclose(opened);

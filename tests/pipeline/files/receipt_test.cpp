@@ -1,4 +1,5 @@
-// Digests that one program notes for many: believed of a file while its state is the one that was noted, and else worked out.
+// Digests that one program notes for many: believed of a file while its state is the one that was noted, and
+// else worked out.
 #include "pipeline/files/receipt.h"
 
 #include <catch2/catch.hpp>
@@ -27,7 +28,8 @@ TEST_CASE("a noted digest is believed of a file that is as it was, and of no oth
     read.believe(changed);
     CHECK(read.of(file) == digest);
   }
-  for (const std::string& nothing : {std::string(), std::string("\n\n"), notes.substr(0, digest.size() + 3), "noted -1 0 0 0 " + file.string() + "\n"}) {
+  for (const std::string& nothing : {std::string(), std::string("\n\n"), notes.substr(0, digest.size() + 3),
+                                     "noted -1 0 0 0 " + file.string() + "\n"}) {
     Digests read;
     read.believe(nothing);
     CHECK(read.of(file) == digest);

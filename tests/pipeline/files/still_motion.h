@@ -12,7 +12,8 @@ namespace dresslife::pipeline {
 
 /// more: what else is to be written (file).
 template <class More>
-void write_still_motion(const std::filesystem::path& name, std::size_t segments, std::size_t clamps, const More& more) {
+void write_still_motion(const std::filesystem::path& name, std::size_t segments, std::size_t clamps,
+                        const More& more) {
   FileWriter file(name, motion_format());
   file.set_axis("segment", segments);
   file.set_axis("clamp", clamps);

@@ -1,6 +1,6 @@
 // The oracle of the nested kinematics: helices laid in space on a bent, twisted and stretched rod, their
-// lengths and frames by finite differences of positions. It shares no formula with pipeline/helices/helix.h: only the
-// definition of a helix.
+// lengths and frames by finite differences of positions. It shares no formula with pipeline/helices/helix.h:
+// only the definition of a helix.
 #pragma once
 
 #include <Eigen/Core>

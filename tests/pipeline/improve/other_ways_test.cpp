@@ -81,8 +81,10 @@ TEST_CASE("lines that cost most come first, with their numbers") {
   damage[8] = 0.5;  // the check after 'roll it over again'
   std::vector<std::string> lines;
   for (const OtherWay& way : other_ways(job, damage, 4))
-    if (!way.lines.empty() && (lines.empty() || lines.back() != way.lines.front())) lines.push_back(way.lines.front());
-  CHECK(lines == std::vector<std::string>{"hard.yaml:17 'round: roll the gun over'", "hard.yaml:13 'round: gun out to the left'",
+    if (!way.lines.empty() && (lines.empty() || lines.back() != way.lines.front()))
+      lines.push_back(way.lines.front());
+  CHECK(lines == std::vector<std::string>{"hard.yaml:17 'round: roll the gun over'",
+                                          "hard.yaml:13 'round: gun out to the left'",
                                           "hard.yaml:19 'round: roll it over again'"});
 }
 
@@ -96,14 +98,17 @@ TEST_CASE("a line goes by a point: arm and wrist one after the other, then the l
   REQUIRE(points.size() == 2);
   for (const OtherWay& way : points) {
     const bool arm_first = way.what == "by a point: axes 1 to 3 first";
-    const Job changed = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", {"motion=hard", way.sets.front()});
-    const MotionStep &before = *step_at(job, "motion.steps.2.steps.1"), &block = *step_at(changed, "motion.steps.2.steps.1");
+    const Job changed = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
+                                 {"motion=hard", way.sets.front()});
+    const MotionStep &before = *step_at(job, "motion.steps.2.steps.1"),
+                     &block = *step_at(changed, "motion.steps.2.steps.1");
     const MotionStep& from = *step_at(job, "motion.steps.2.steps.12");  // 'drawn back and rolled'
     REQUIRE(block.steps.size() == 2);
     CHECK(block.steps[1].joints == before.joints);
     CHECK(block.steps[1].text == before.text);
     for (std::size_t k = 0; k < 6; ++k)
-      CHECK(block.steps[0].joints[k] == Approx(((k < 3) == arm_first ? before : from).joints[k]).margin(1e-12));
+      CHECK(block.steps[0].joints[k] ==
+            Approx(((k < 3) == arm_first ? before : from).joints[k]).margin(1e-12));
   }
 }
 
@@ -111,7 +116,8 @@ TEST_CASE("other configurations of the arm: the same pose of the flange, and all
   Job job = shipped("abb_irb6640_185_280", "hard");
   Robot& robot = job.robot;
   REQUIRE(has_wrist(robot));
-  // Without limits an elbow arm with an offset shoulder has four where it reaches back, two where it does not.
+  // Without limits an elbow arm with an offset shoulder has four where it reaches back, two where it does
+  // not.
   constexpr double half_a_turn = 3.14159265;
   for (Joint& joint : robot.joints) joint.lower = -half_a_turn, joint.upper = half_a_turn;
   struct Case {
@@ -120,7 +126,8 @@ TEST_CASE("other configurations of the arm: the same pose of the flange, and all
   };
   std::set<std::string_view> kinds;
   for (const auto& [joints, others] :
-       {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3}, Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1}, Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
+       {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3}, Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1},
+        Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
     const std::vector<OtherArm> arms = other_arms(robot, joints);
     CHECK(arms.size() == others);
     for (const OtherArm& arm : arms) {
@@ -142,7 +149,8 @@ TEST_CASE("other configurations of the arm: the same pose of the flange, and all
 
 TEST_CASE("programs without joint targets are refused") {
   const Job job = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/side_panel.yaml");
-  CHECK_THROWS_WITH(other_ways(job, {1, 1}, 2), Catch::Contains("has no steps with joint targets; read the program"));
+  CHECK_THROWS_WITH(other_ways(job, {1, 1}, 2),
+                    Catch::Contains("has no steps with joint targets; read the program"));
 }
 
 TEST_CASE("each clamp and the length are off to both sides") {
@@ -152,8 +160,8 @@ TEST_CASE("each clamp and the length are off to both sides") {
   CHECK(nudges.front().sets == std::vector<std::string>{"routing.base_clamp.position_m=[-0.11, 0, 0.45]"});
   CHECK(nudges.back().what == "length, + 10 mm");
   CHECK(nudges.back().sets == std::vector<std::string>{"routing.free_length_m=2.045"});
-  const auto other = std::make_shared<const Job>(
-      read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
+  const auto other =
+      std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
   CHECK(nudges_of({{"one", job, ""}, {"two", other, ""}}, 0.01).empty());
 }
 

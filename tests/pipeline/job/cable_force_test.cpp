@@ -55,17 +55,19 @@ TEST_CASE("the thesis' cable tears at 2.4 kN, and a strain of 1.2 .. 2 % would t
   CHECK(force.force(0.02) == Approx(3.8e3).epsilon(0.05));
 }
 
-TEST_CASE("a loose cable's own stiffness is what was measured, else its wires' in the polymer that is given or guessed") {
+TEST_CASE(
+    "a loose cable's own stiffness is what was measured, else its wires' in the polymer that is given or guessed") {
   pipeline::Component cable = signal_cable;
-  const double wires = 644 * 117e9 * pi / 4 * std::pow(75e-6, 4) * std::cos(25 * pi / 180) * std::cos(5 * pi / 180);
+  const double wires =
+      644 * 117e9 * pi / 4 * std::pow(75e-6, 4) * std::cos(25 * pi / 180) * std::cos(5 * pi / 180);
   const double round = 50e6 * pi / 4 * std::pow(5.3e-3, 4);
   CHECK(CableForce(copper_only(), cable).bending_stiffness() == Approx(wires + round));
   cable.polymer_bending_stiffness = 0.02;
   CHECK(CableForce(copper_only(), cable).bending_stiffness() == Approx(wires + 0.02));
   cable.measured_bending_stiffness = 0.2;
   CHECK(CableForce(copper_only(), cable).bending_stiffness() == 0.2);
-  // of the 88.2 mm2 of its section wires of 11.4 mm2 take 12.6, since they cross it at an angle: 0.112 kg/m of copper and
-  // 0.091 of polymer
+  // of the 88.2 mm2 of its section wires of 11.4 mm2 take 12.6, since they cross it at an angle: 0.112 kg/m
+  // of copper and 0.091 of polymer
   CHECK(CableForce(copper_only(), cable).mass_per_length() == Approx(0.203).margin(0.0005));
 }
 

@@ -75,13 +75,20 @@ TEST_CASE("calibration: draws are its own, of what it does not know the prior's"
 
 TEST_CASE("calibration: bad files are refused at their place") {
   CHECK(refusal(two_learned) == "");
-  CHECK(refusal(replaced(two_learned, "strength,", "strenght,")).starts_with("learned.yaml:4:5: error: 'strenght' is no uncertain"));
-  CHECK(refusal(replaced(two_learned, "friction_inside", "strength")).find("'strength' stands twice") != std::string::npos);
-  CHECK(refusal(replaced(two_learned, "dresslife-calibration", "dresslife-life")).find("has the format") != std::string::npos);
-  CHECK(refusal(replaced(two_learned, "version: 1", "version: 9")).find("is of version 9") != std::string::npos);
-  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.25]")).find("has 1 covariances") != std::string::npos);
-  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.25, 0.1]")).find("not symmetric") != std::string::npos);
-  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.01, -0.1]")).find("not symmetric and positive") != std::string::npos);
+  CHECK(refusal(replaced(two_learned, "strength,", "strenght,"))
+            .starts_with("learned.yaml:4:5: error: 'strenght' is no uncertain"));
+  CHECK(refusal(replaced(two_learned, "friction_inside", "strength")).find("'strength' stands twice") !=
+        std::string::npos);
+  CHECK(refusal(replaced(two_learned, "dresslife-calibration", "dresslife-life")).find("has the format") !=
+        std::string::npos);
+  CHECK(refusal(replaced(two_learned, "version: 1", "version: 9")).find("is of version 9") !=
+        std::string::npos);
+  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.25]")).find("has 1 covariances") !=
+        std::string::npos);
+  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.25, 0.1]")).find("not symmetric") !=
+        std::string::npos);
+  CHECK(refusal(replaced(two_learned, "[0.25, -0.1]", "[0.01, -0.1]")).find("not symmetric and positive") !=
+        std::string::npos);
   CHECK(refusal(replaced(two_learned, "0.25", ".nan")) != "");
   CHECK(refusal("just words\n").find("holds no calibration") != std::string::npos);
   CHECK(refusal(replaced(two_learned, "parameters", "parameter")).find("unknown key") != std::string::npos);
@@ -97,7 +104,8 @@ TEST_CASE("calibration: tells where a job goes beyond what it was learned from")
   within.largest_curvature = 10;
   within.materials = "copper, silver";
   CHECK(beyond(within, {3e-3, 8, 100, {"copper"}}).empty());
-  CHECK(beyond(within, {1.2e-2, 8, 0, {"copper"}}).at(0) == "a strain range of 0.012 (at most 0.0060 in its tests)");
+  CHECK(beyond(within, {1.2e-2, 8, 0, {"copper"}}).at(0) ==
+        "a strain range of 0.012 (at most 0.0060 in its tests)");
   CHECK(beyond(within, {3e-4, 8, 0, {"silver"}}).size() == 1);
   CHECK(beyond(within, {3e-3, 12, 0, {"opper"}}).size() == 2);
   CHECK(beyond({}, {1, 1, 1, {"gold"}}).empty());

@@ -60,7 +60,8 @@ TEST_CASE("catalogue: an entry may be a file, named relative to who names it") {
 
 TEST_CASE("catalogue: a path that no system takes is refused like any other") {
   const Scratch scratch;
-  const auto job = scratch.write("job.yaml", edited(sample_job, motion_block, "motion: " + std::string(300, 'x') + ".yaml\n"));
+  const auto job = scratch.write(
+      "job.yaml", edited(sample_job, motion_block, "motion: " + std::string(300, 'x') + ".yaml\n"));
   CHECK(message_of([&] { read_job(job); }).find("cannot be read (File name too long)") != std::string::npos);
 }
 
@@ -70,8 +71,9 @@ TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
   const auto job = scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nod.csv\n"));
   CHECK(read_job(job).motion.program == scratch / "jobs/nod.csv");
   scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nid.csv\n"));
-  CHECK(message_of([&] { read_job(job); }).find("'nid.csv' is not in the catalogue (config/programs), and there is no file '" +
-                                                  (scratch / "jobs/nid.csv").string() + "'") != std::string::npos);
+  CHECK(message_of([&] { read_job(job); })
+            .find("'nid.csv' is not in the catalogue (config/programs), and there is no file '" +
+                  (scratch / "jobs/nid.csv").string() + "'") != std::string::npos);
 }
 
 TEST_CASE("catalogue: the shipped entries are always there") {

@@ -149,11 +149,16 @@ TEST_CASE("a sheet's line is what its keys are") {
     expand_data_sheets(dresspack);
     return to_yaml(dresspack);
   };
-  CHECK(expanded("7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm") ==
-        expanded("{" + seven + "}"));
-  CHECK(expanded("4x2x0.25mm², Wire 0.1 mm, pair lay 25 mm, wire lay length 12 mm, core 1.2 mm, OD 9 mm, jacket 0.9 mm TPU") ==
-        expanded("{cores: 4, cores_per_group: 2, cross_section_mm2: 0.25, wire_diameter_mm: 0.1, group_lay_length_mm: 25, "
-                 "wire_lay_length_mm: 12, core_diameter_mm: 1.2, outer_diameter_mm: 9, jacket_thickness_mm: 0.9}"));
+  CHECK(
+      expanded(
+          "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm") ==
+      expanded("{" + seven + "}"));
+  CHECK(
+      expanded(
+          "4x2x0.25mm², Wire 0.1 mm, pair lay 25 mm, wire lay length 12 mm, core 1.2 mm, OD 9 mm, jacket 0.9 mm TPU") ==
+      expanded(
+          "{cores: 4, cores_per_group: 2, cross_section_mm2: 0.25, wire_diameter_mm: 0.1, group_lay_length_mm: 25, "
+          "wire_lay_length_mm: 12, core_diameter_mm: 1.2, outer_diameter_mm: 9, jacket_thickness_mm: 0.9}"));
   const auto refusal = [&](const std::string& sheet) {
     try {
       expanded(sheet);
@@ -163,11 +168,15 @@ TEST_CASE("a sheet's line is what its keys are") {
     return std::string();
   };
   CHECK_THAT(refusal("7 x 0.5 mm2, screen 85 %, wire 0.1 mm"),
-             Catch::Contains("'screen 85 %' of a data sheet is not understood") && Catch::Contains("write phrases as in"));
-  CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, wires 0.1 mm"), Catch::Contains("tells wire_diameter_mm a second time"));
-  CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"), Catch::Contains("outer_diameter_mm is missing"));
+             Catch::Contains("'screen 85 %' of a data sheet is not understood") &&
+                 Catch::Contains("write phrases as in"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, wires 0.1 mm"),
+             Catch::Contains("tells wire_diameter_mm a second time"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"),
+             Catch::Contains("outer_diameter_mm is missing"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 1.2.3 mm, jacket 1 mm"), Catch::Contains("sheet:1:1: error: "));
-  CHECK_THAT(refusal("7 x 0.5 mm2, "), Catch::Contains("'' of a data sheet is not understood") || Catch::Contains("missing"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, "),
+             Catch::Contains("'' of a data sheet is not understood") || Catch::Contains("missing"));
 }
 
 TEST_CASE("sheets that cannot be are refused with what does not fit") {

@@ -121,12 +121,13 @@ TEST_CASE("dresspacks: what is wrong with the list is told where it stands") {
         "two");
   check(edited(list, before, routing_block + before), "free_length_m",
         "both dresspacks and routing are given (each of the list has its own routing); keep one of the two");
-  check(edited(edited(sample_job, dresspack_block, ""), routing_block, ""), "robot:",
-        "dresspack is missing (and there is no list dresspacks); give dresspack and routing, or a list "
-        "dresspacks of name, dresspack, routing\n" +
-            place_of_last(sample_job, "robot:") +
-            ": error: routing is missing (and there is no list dresspacks); give dresspack and routing, or a list "
-            "dresspacks of name, dresspack, routing");
+  check(
+      edited(edited(sample_job, dresspack_block, ""), routing_block, ""), "robot:",
+      "dresspack is missing (and there is no list dresspacks); give dresspack and routing, or a list "
+      "dresspacks of name, dresspack, routing\n" +
+          place_of_last(sample_job, "robot:") +
+          ": error: routing is missing (and there is no list dresspacks); give dresspack and routing, or a list "
+          "dresspacks of name, dresspack, routing");
   check(edited(sample_job, routing_block, ""), "robot:",
         "routing is missing (and there is no list dresspacks); give dresspack and routing, or a list "
         "dresspacks "

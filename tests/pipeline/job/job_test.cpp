@@ -79,10 +79,11 @@ TEST_CASE("job: unknown keys are refused with the likeliest key") {
   check_case({"damping_source: guessed", "damping_sorce: guessed", "damping_sorce",
               "unknown key 'dresspack.damping_sorce'; did you mean 'damping_source'?"});
   check_case({"fatigue: {", "fatige: {", "fatige: {", "unknown key 'fatige'; did you mean 'fatigue'?"});
-  check_case({"gate: 1e-4", "xyzzy: 1", "xyzzy",
-              "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, "
-              "surface_fibres, gate, cable_elements_per_segment, friction_factor, hose_friction_factor, slack_factor, "
-              "play_factor, grip_factor, probes"});
+  check_case(
+      {"gate: 1e-4", "xyzzy: 1", "xyzzy",
+       "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, "
+       "surface_fibres, gate, cable_elements_per_segment, friction_factor, hose_friction_factor, slack_factor, "
+       "play_factor, grip_factor, probes"});
 }
 
 TEST_CASE("job: a key with the wrong unit is answered with the right one") {
@@ -193,10 +194,11 @@ TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are to
               "robot's links"});
   check_case({"name: test hose", "name: [a, b]", "[a, b]",
               "dresspack.name must be text; give name of the dresspack"});
-  check_case({"routing:\n", "routing: 3\nunused:\n", "3\nunused",
-              "routing must be a map of settings; give clamps and free length\n"
-              "job.yaml:45:1: error: unknown key 'unused'; keys here: motion, robot, dresspack, routing, cell, "
-              "simulation, strain, fatigue, uncertainty, calibration"});
+  check_case(
+      {"routing:\n", "routing: 3\nunused:\n", "3\nunused",
+       "routing must be a map of settings; give clamps and free length\n"
+       "job.yaml:45:1: error: unknown key 'unused'; keys here: motion, robot, dresspack, routing, cell, "
+       "simulation, strain, fatigue, uncertainty, calibration"});
   check_case({"probes: [{segment_from_tool: 2, component: cable 1/wire 1}]", "probes: all", "all}",
               "strain.probes must be a list; give wires whose whole strain history is kept"});
   check_case({"probes: [{segment_from_tool: 2, component: cable 1/wire 1}]", "probes: [cable 1]", "cable 1]",
@@ -460,11 +462,12 @@ TEST_CASE("job: each stage depends on its own part of the job only") {
   CHECK(changed("simulation.segments=20") == "---");
 }
 
-TEST_CASE("job: strains depend on a metal's stiffness, and on its cyclic curve where a grip bounds a cable's force") {
-  const auto parts = [](const std::string& constants, const std::string& curve, std::vector<std::string> sets = {},
-                        const std::string& modulus = "117") {
-    sets.push_back("dresspack.materials=[{name: copper, source: s, youngs_modulus_GPa: " + modulus + ", " + constants + curve +
-                   "}]");
+TEST_CASE(
+    "job: strains depend on a metal's stiffness, and on its cyclic curve where a grip bounds a cable's force") {
+  const auto parts = [](const std::string& constants, const std::string& curve,
+                        std::vector<std::string> sets = {}, const std::string& modulus = "117") {
+    sets.push_back("dresspack.materials=[{name: copper, source: s, youngs_modulus_GPa: " + modulus + ", " +
+                   constants + curve + "}]");
     const Job job = job_of_text(sample_job, sets);
     return std::array{part_text(job, Part::strain), part_text(job, Part::fatigue), part_text(job, Part::sim)};
   };
@@ -473,7 +476,8 @@ TEST_CASE("job: strains depend on a metal's stiffness, and on its cyclic curve w
   const std::string other =
       "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.12, fatigue_ductility: 0.4, fatigue_ductility_exponent: -0.6";
   const std::string curve = ", cyclic_strength_MPa: 450, cyclic_hardening_exponent: 0.2";
-  for (const std::string& changed : {other, one + ", tensile_strength_MPa: 240", one + curve, one + ", poisson_ratio: 0.3"}) {
+  for (const std::string& changed :
+       {other, one + ", tensile_strength_MPa: 240", one + curve, one + ", poisson_ratio: 0.3"}) {
     CHECK(parts(one, "")[0] == parts(changed, "")[0]);
     CHECK(parts(one, "")[1] != parts(changed, "")[1]);
     CHECK(parts(one, "")[2] == parts(changed, "")[2]);
@@ -485,7 +489,8 @@ TEST_CASE("job: strains depend on a metal's stiffness, and on its cyclic curve w
     CHECK(parts(one, curve, grip)[0] == parts(other, curve, grip)[0]);
     CHECK(parts(one, "", grip)[0] != parts(other, "", grip)[0]);
     CHECK(parts(one, "", grip)[0].find("cyclic_hardening_exponent: 0.2\n") != std::string::npos);
-    CHECK(parts(one, curve, grip)[0] != parts(one, ", cyclic_strength_MPa: 451, cyclic_hardening_exponent: 0.2", grip)[0]);
+    CHECK(parts(one, curve, grip)[0] !=
+          parts(one, ", cyclic_strength_MPa: 451, cyclic_hardening_exponent: 0.2", grip)[0]);
   }
 }
 

@@ -38,18 +38,19 @@ TEST_CASE("laying: cables are loose in a hose whose inside is known, and else on
   CHECK(is_loose({free_cables, "dresspack.inner_diameter_mm=50", cable + "lay_angle_deg=20"}));
   CHECK_FALSE(is_loose({free_cables, "dresspack.inner_diameter_mm=50", cable + "lay_angle_deg=20.1"}));
   CHECK(is_loose({free_cables, cable + "position=loose", cable + "play_mm=3"}));
-  const Dresspack given =
-      job_with({free_cables, "dresspack.inner_diameter_mm=50"}).dresspacks[0].dresspack;
+  const Dresspack given = job_with({free_cables, "dresspack.inner_diameter_mm=50"}).dresspacks[0].dresspack;
   CHECK(*inner_radius(given) == Approx(0.025));
 }
 
 TEST_CASE("laying: what cannot be is refused with its place and a remedy") {
   using Catch::Contains;
-  CHECK_THAT(refusal({cable + "components.1.slack_percent=1"}), Contains("job.yaml:") && Contains("this is a wire"));
+  CHECK_THAT(refusal({cable + "components.1.slack_percent=1"}),
+             Contains("job.yaml:") && Contains("this is a wire"));
   CHECK_THAT(refusal({free_cables, cable + "position=loose"}),
              Contains("how much room it has is not known") && Contains("inner_diameter_mm or its play_mm"));
-  CHECK_THAT(refusal({free_cables, cable + "position=loose", cable + "play_mm=3", cable + "lay_angle_deg=30"}),
-             Contains("lay angle of 30 deg") && Contains("up to 20 deg"));
+  CHECK_THAT(
+      refusal({free_cables, cable + "position=loose", cable + "play_mm=3", cable + "lay_angle_deg=30"}),
+      Contains("lay angle of 30 deg") && Contains("up to 20 deg"));
   CHECK_THAT(refusal({"strain.slip=stick", cable + "position=loose", cable + "play_mm=3"}),
              Contains("is loose, and sticks to the hose (strain.slip of its level is stick)"));
   CHECK_THAT(refusal({"dresspack.inner_diameter_mm=70"}), Contains("the inner one is the smaller"));

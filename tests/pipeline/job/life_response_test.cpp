@@ -13,7 +13,8 @@ constexpr double rounding = 1e-12;
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack),
                       strength = index_of(Uncertain::strength), scatter = index_of(Uncertain::scatter),
                       model = index_of(Uncertain::model);
-// Of a percentile's place among 10,000 draws that are spread evenly over each cause: measured 0.004 at worst over 20 names.
+// Of a percentile's place among 10,000 draws that are spread evenly over each cause: measured 0.004 at worst
+// over 20 names.
 constexpr double draws_error = 0.02;
 const double model_decades = uncertain_parameters()[model].deviation / std::log(10.0);
 
@@ -72,7 +73,8 @@ TEST_CASE("drawn lives of a straight response: normal, with the sum of the varia
   const DrawnLives drawn = drawn_lives(straight(a, b, c), "job");
   const double variance = a * a + b * b + c * c + model_decades * model_decades + by_scatter * by_scatter;
   const double deviation = std::sqrt(variance);
-  for (const auto& [k, z] : {std::pair{0, -1.2815515655446004}, std::pair{1, 0.0}, std::pair{2, 1.2815515655446004}})
+  for (const auto& [k, z] :
+       {std::pair{0, -1.2815515655446004}, std::pair{1, 0.0}, std::pair{2, 1.2815515655446004}})
     CHECK(std::log10(drawn.percentiles[k]) == Approx(5 + deviation * z).margin(draws_error * deviation));
   constexpr double share_error = 0.02;  // 25 groups cut the outermost tails off
   CHECK(drawn.share[friction] == Approx(a * a / variance).margin(share_error));
@@ -96,17 +98,21 @@ TEST_CASE("what is known moves nothing, and what is known better moves less") {
 }
 
 TEST_CASE("what was learned together stays together") {
-  // friction and strength known by their sum alone: a life that hangs on the sum is known, on the difference twice as little
+  // friction and strength known by their sum alone: a life that hangs on the sum is known, on the difference
+  // twice as little
   LifeResponse sum = straight(-0.3, 0, 0.3), difference = straight(0.3, 0, 0.3);
   for (LifeResponse* response : {&sum, &difference}) {
     response->knowledge.covariance.setZero();
-    response->knowledge.covariance(friction, friction) = response->knowledge.covariance(strength, strength) = 1;
-    response->knowledge.covariance(friction, strength) = response->knowledge.covariance(strength, friction) = -1;
+    response->knowledge.covariance(friction, friction) = response->knowledge.covariance(strength, strength) =
+        1;
+    response->knowledge.covariance(friction, strength) = response->knowledge.covariance(strength, friction) =
+        -1;
     response->planned = {{5, 5, 5}};
   }
   const DrawnLives known = drawn_lives(sum, "job"), wide = drawn_lives(difference, "job");
   CHECK(std::log10(known.percentiles[2] / known.percentiles[0]) == Approx(0).margin(1e-6));
-  CHECK(std::log10(wide.percentiles[2] / wide.percentiles[0]) == Approx(2 * 0.6 * 1.2815515655446004).epsilon(0.01));
+  CHECK(std::log10(wide.percentiles[2] / wide.percentiles[0]) ==
+        Approx(2 * 0.6 * 1.2815515655446004).epsilon(0.01));
 }
 
 TEST_CASE("the order of two jobs: what they share cancels, what each has for itself does not") {
@@ -122,7 +128,8 @@ TEST_CASE("the order of two jobs: what they share cancels, what each has for its
         Approx(normal(0.2 / (0.4 * std::sqrt(2.0)))).margin(draws_error));
   LifeResponse first = straight(0, 0.3, 0), second = first;  // slack is each installation's own
   for (LifeResponse* response : {&first, &second}) response->planned = {{5, 5, 5}};
-  CHECK(share_outliving(draw_lives(first, "one"), draw_lives(second, "other")) == Approx(0.5).margin(draws_error));
+  CHECK(share_outliving(draw_lives(first, "one"), draw_lives(second, "other")) ==
+        Approx(0.5).margin(draws_error));
 }
 
 TEST_CASE("what is installed apart is drawn apart, also when it was learned together with what is shared") {
@@ -151,12 +158,15 @@ TEST_CASE("a response and its text lead to each other; no other text is one") {
   const LifeResponse response = straight(0.6, 0.2, 0.4);
   const LifeResponse again = LifeResponse::from_text(response.text());
   CHECK(again.text() == response.text());
-  const std::vector<double> drawn = draw_lives(response, "job", 100), drawn_again = draw_lives(again, "job", 100);
-  for (std::size_t d = 0; d < drawn.size(); ++d) CHECK(drawn_again[d] == Approx(drawn[d]).margin(1e-4));  // six digits each
+  const std::vector<double> drawn = draw_lives(response, "job", 100),
+                            drawn_again = draw_lives(again, "job", 100);
+  for (std::size_t d = 0; d < drawn.size(); ++d)
+    CHECK(drawn_again[d] == Approx(drawn[d]).margin(1e-4));  // six digits each
   CHECK(again.construction == "hose");
   const std::string text = response.text();
-  for (const std::string& wrong : {std::string("nothing"), text.substr(0, text.size() - 8), text + "strength 3 2 1\n", text + "mean x\n",
-                                   text + "point 1\n", std::string()})
+  for (const std::string& wrong :
+       {std::string("nothing"), text.substr(0, text.size() - 8), text + "strength 3 2 1\n", text + "mean x\n",
+        text + "point 1\n", std::string()})
     CHECK_THROWS_AS(LifeResponse::from_text(wrong), std::exception);
 }
 

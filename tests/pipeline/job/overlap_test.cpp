@@ -45,7 +45,8 @@ TEST_CASE("neighbouring helices are as far apart as points laid on them") {
 
 TEST_CASE("parts that overlap on their circle are warned of, with what would fit") {
   std::vector<std::string> warnings;
-  for (const Warning& warning : overlap_warnings(dresspack_of(7, 1.175, 2.825, 25))) warnings.push_back(warning.line());
+  for (const Warning& warning : overlap_warnings(dresspack_of(7, 1.175, 2.825, 25)))
+    warnings.push_back(warning.line());
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0],
              Catch::Contains("pack.yaml:7:3: warning: the 7 parts 'conductor' are 2.254 mm apart") &&
@@ -61,7 +62,8 @@ TEST_CASE("parts that overlap on their circle are warned of, with what would fit
   // Six around one of their own size touch when straight: a lay of 5 degrees takes 0.4 %.
   CHECK(overlap_warnings(dresspack_of(6, 0.075, 0.15, 5)).empty());
   // Straight, no lay angle helps: only fewer.
-  CHECK_THAT(overlap_warnings(dresspack_of(8, 1.175, 2.825, 0)).at(0).words, Catch::EndsWith("; 7 of them fit"));
+  CHECK_THAT(overlap_warnings(dresspack_of(8, 1.175, 2.825, 0)).at(0).words,
+             Catch::EndsWith("; 7 of them fit"));
 }
 
 TEST_CASE("parts that can only be a mistake are refused") {
@@ -82,8 +84,9 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK(overlap_warnings(dresspack).empty());
   parts[1].helix_radius = 1.9e-3;
   REQUIRE(overlap_warnings(dresspack).size() == 1);
-  CHECK_THAT(overlap_warnings(dresspack)[0].words, Catch::Contains("'conductor' and 'ring' come as near as 1.9 mm") &&
-                                                       Catch::Contains("0.100 mm less than their radii together"));
+  CHECK_THAT(overlap_warnings(dresspack)[0].words,
+             Catch::Contains("'conductor' and 'ring' come as near as 1.9 mm") &&
+                 Catch::Contains("0.100 mm less than their radii together"));
   // Three more in their gaps fit while they go on alike, straight or laid, and meet them where they do not.
   parts.erase(parts.begin());
   parts[0].helix_radius = 2e-3;
@@ -100,8 +103,9 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK(overlap_warnings(dresspack).size() == 1);
   parts[1].hand = Hand::right;
   parts[1].phase = 5 * degree;  // nearly in the same place: only a mistake
-  CHECK_THROWS_WITH(overlap_warnings(dresspack), Catch::Contains("'ring' and 'between' come as near as 0.1745 mm") &&
-                                                     Catch::Contains("nearer than half of these"));
+  CHECK_THROWS_WITH(overlap_warnings(dresspack),
+                    Catch::Contains("'ring' and 'between' come as near as 0.1745 mm") &&
+                        Catch::Contains("nearer than half of these"));
   CHECK_THROWS(refuse_gross_overlap(dresspack));
   parts[1].phase = std::numbers::pi / 4;  // 15 deg off: 2 R sin(22.5 deg)
   CHECK(nearest_distance(parts[0], parts[1]) == Approx(4e-3 * std::sin(22.5 * degree)));

@@ -76,10 +76,12 @@ TEST_CASE("parts without wires add mass and stiffness to a hose's construction, 
 
 TEST_CASE("what a part without wires cannot be is refused with its place and a remedy") {
   const auto plain = [](const std::string& words, const std::string& keys = "helix_radius_mm: 8") {
-    return refusal({free_cables, hose, with("{name: x, radius_mm: 4, " + keys + ", without_wires: " + words + "}")});
+    return refusal(
+        {free_cables, hose, with("{name: x, radius_mm: 4, " + keys + ", without_wires: " + words + "}")});
   };
   CHECK_THAT(plain("{kind: hose}"), Contains("nothing refused"));
-  CHECK_THAT(plain("{kind: fibre, bore_mm: 2}"), Contains("'x' is a fibre and has a bore or a filling; set kind: hose"));
+  CHECK_THAT(plain("{kind: fibre, bore_mm: 2}"),
+             Contains("'x' is a fibre and has a bore or a filling; set kind: hose"));
   CHECK_THAT(plain("{filled_with: water}"), Contains("'x' is a filler and has a bore or a filling"));
   CHECK_THAT(plain("{kind: hose, bore_mm: 8}"), Contains("'x' has bore_mm 8 (it is 8 mm wide outside)"));
   CHECK_THAT(plain("{kind: tube}"), Contains("kind"));
@@ -88,7 +90,8 @@ TEST_CASE("what a part without wires cannot be is refused with its place and a r
   CHECK_THAT(plain("{kind: hose}", "helix_radius_mm: 8, measured_bending_stiffness_Nm2: 1"),
              Contains("give without_wires.bending_stiffness_Nm2"));
   CHECK_THAT(plain("{kind: hose}", "helix_radius_mm: 0, count: 2"), Contains("lie on the axis"));
-  CHECK_THAT(refusal({free_cables, part + "components=[{name: x, radius_mm: 1, helix_radius_mm: 2, without_wires: {}}]"}),
+  CHECK_THAT(refusal({free_cables,
+                      part + "components=[{name: x, radius_mm: 1, helix_radius_mm: 2, without_wires: {}}]"}),
              Contains("'x' is without wires and lies in 'cable'; leave it out"));
   CHECK_THAT(refusal({free_cables, hose, with("{name: x, radius_mm: 4, helix_radius_mm: 8}")}),
              Contains("give one of the two, or without_wires: {kind: hose, fibre or filler}"));
@@ -99,9 +102,12 @@ TEST_CASE("the middle of a hose is told once: by the core's keys or by a compone
   CHECK_THAT(refusal({free_cables, hose, middle}), Contains("nothing refused"));
   CHECK_THAT(refusal({free_cables, hose, middle, "dresspack.core_diameter_mm=12"}),
              Contains("'x' lies in the middle, and the keys core_.. tell of something that does too"));
-  CHECK_THAT(refusal({free_cables, hose, middle, "dresspack.core_bending_stiffness_Nm2=2"}), Contains("leave them out"));
-  const std::string beside = with("{name: x, radius_mm: 4, helix_radius_mm: 10, without_wires: {kind: filler}}");
-  CHECK_THAT(refusal({free_cables, hose, beside, "dresspack.core_diameter_mm=12"}), Contains("nothing refused"));
+  CHECK_THAT(refusal({free_cables, hose, middle, "dresspack.core_bending_stiffness_Nm2=2"}),
+             Contains("leave them out"));
+  const std::string beside =
+      with("{name: x, radius_mm: 4, helix_radius_mm: 10, without_wires: {kind: filler}}");
+  CHECK_THAT(refusal({free_cables, hose, beside, "dresspack.core_diameter_mm=12"}),
+             Contains("nothing refused"));
   CHECK_THAT(refusal({free_cables, hose, beside, "dresspack.core_diameter_mm=14"}),
              Contains("'x' begins 6 mm from the axis (core_diameter_mm is 14)"));
 }

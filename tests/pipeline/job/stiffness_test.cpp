@@ -1,4 +1,5 @@
-// A hose's stiffness from its construction: closed forms of each share, the three states, and what a job makes of it.
+// A hose's stiffness from its construction: closed forms of each share, the three states, and what a job
+// makes of it.
 #include "pipeline/job/stiffness.h"
 
 #include <catch2/catch.hpp>
@@ -53,7 +54,9 @@ HoseStiffness in_state(const Dresspack& dresspack, SlipState state) {
   return stiffness_of_construction(dresspack, state, 1);
 }
 
-Job job_with(const std::vector<std::string>& sets) { return job_from(parse_yaml(sample_job, "job.yaml"), sets); }
+Job job_with(const std::vector<std::string>& sets) {
+  return job_from(parse_yaml(sample_job, "job.yaml"), sets);
+}
 
 }  // namespace
 
@@ -120,28 +123,33 @@ TEST_CASE("stiffness: a smooth wall is a tube, a folded one a bellows") {
   constexpr double thick = 2e-3;  // (t/R)^2 / 4
   CHECK(in_state(hose, SlipState::sliding).axial == Approx(1.65e9 * 2 * pi * R * t).epsilon(1e-9));
   CHECK(in_state(hose, SlipState::sliding).bending == Approx(1.65e9 * pi * R * R * R * t).epsilon(thick));
-  CHECK(in_state(hose, SlipState::sliding).torsional == Approx(1.65e9 / 2.8 * 2 * pi * R * R * R * t).epsilon(thick));
+  CHECK(in_state(hose, SlipState::sliding).torsional ==
+        Approx(1.65e9 / 2.8 * 2 * pi * R * R * R * t).epsilon(thick));
   hose.inner_diameter.reset();
-  // The makers' rate of a corrugation (EJMA) is 1.7 D E t^3 / (w^3 C_f), and C_f goes to 1 with the pitch; their 1.7 has
-  // 1 / (1 - 0.3^2) in it, which a beam has not.
+  // The makers' rate of a corrugation (EJMA) is 1.7 D E t^3 / (w^3 C_f), and C_f goes to 1 with the pitch;
+  // their 1.7 has 1 / (1 - 0.3^2) in it, which a beam has not.
   const double w = 0.01, wall = 0.0005, pitch = 4 * wall;
   hose.hose_corrugation = Corrugation{pitch, w + wall, wall, {}};
   const double D = hose.diameter - w - wall;
   const double makers = 1.7 * (1 - 0.09) * D * 1.65e9 * std::pow(wall / w, 3) * pitch;
-  constexpr double round_crests = 0.15;  // 1.5 of the pitch over the depth, halved by what the flanks lose to the crests
+  constexpr double round_crests =
+      0.15;  // 1.5 of the pitch over the depth, halved by what the flanks lose to the crests
   CHECK(in_state(hose, SlipState::sliding).axial == Approx(makers).epsilon(round_crests));
   const HoseStiffness folded = in_state(hose, SlipState::sliding);
   CHECK(folded.bending == Approx(folded.axial * D * D / 8).epsilon(1e-9));
   CHECK(folded.torsional > 10 * folded.bending);  // it bends easily and does not twist
 }
 
-TEST_CASE("stiffness: the shipped hose's lies between sliding and glued, where its cables' measured one puts it") {
+TEST_CASE(
+    "stiffness: the shipped hose's lies between sliding and glued, where its cables' measured one puts it") {
   const Dresspack dresspack = shipped();
   const double wall_and_core = 1.42 + 5;  // W22's wall, and what the file says of its core
-  CHECK(in_state(dresspack, SlipState::sliding).bending == Approx(wall_and_core + 10 * (0.0018 + 0.03)).epsilon(0.01));
+  CHECK(in_state(dresspack, SlipState::sliding).bending ==
+        Approx(wall_and_core + 10 * (0.0018 + 0.03)).epsilon(0.01));
   CHECK(in_state(dresspack, SlipState::friction).bending == Approx(wall_and_core + 10 * 0.2).epsilon(0.01));
   const double glued = 10 * axial_stiffness(dresspack, dresspack.components[0]) * std::pow(0.01845, 2) / 2;
-  CHECK(in_state(dresspack, SlipState::stuck).bending == Approx(glued + wall_and_core + 10 * 4.12).epsilon(0.01));
+  CHECK(in_state(dresspack, SlipState::stuck).bending ==
+        Approx(glued + wall_and_core + 10 * 4.12).epsilon(0.01));
   double before = in_state(dresspack, SlipState::stuck).bending;
   for (const double curvature : {1e-3, 1e-2, 0.1, 1.0, 10.0}) {  // the further bent, the more has slid
     const double bending = stiffness_of_construction(dresspack, SlipState::friction, curvature).bending;
@@ -163,35 +171,43 @@ TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the nu
   const Job again = job_from(parse_yaml(job_text(taken), "job.yaml"));
   CHECK(again.dresspacks[0].dresspack.bending_stiffness == dresspack.bending_stiffness);
   CHECK(part_text(again, Part::sim) == part_text(taken, Part::sim));
-  const Job number = job_with({fmt::format("dresspack.bending_stiffness_Nm2={:.17g}", dresspack.bending_stiffness), wall, profile});
+  const Job number = job_with(
+      {fmt::format("dresspack.bending_stiffness_Nm2={:.17g}", dresspack.bending_stiffness), wall, profile});
   CHECK(part_text(number, Part::sim) == part_text(taken, Part::sim));
   CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), Part::sim) !=
         part_text(taken, Part::sim));
-  CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") && Contains("N m2 from construction (friction at 1 1/m)") &&
+  CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") &&
+                                            Contains("N m2 from construction (friction at 1 1/m)") &&
                                             Contains("G J 4 N m2 given"));
 }
 
 TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and wall") {
-  const double metal = 10 * pi * 1e-8 * 8900 / std::cos(0.2), left = (pi * 25e-6 - 10 * pi * 1e-8 / std::cos(0.2)) * 1200;
+  const double metal = 10 * pi * 1e-8 * 8900 / std::cos(0.2),
+               left = (pi * 25e-6 - 10 * pi * 1e-8 / std::cos(0.2)) * 1200;
   const Component cable = cable_of({wires(10, 1e-4, 2e-3, 0.2)});
   CHECK(mass_of_part(cable) == Approx(metal + left).epsilon(1e-12));
   Dresspack pack = of({cable});
   pack.diameter = 0.012;  // of a jacket, as far as parts leave room
   CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi * (36e-6 - 25e-6)).epsilon(1e-12));
   pack.inner_diameter = 0.011;
-  CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
+  CHECK(mass_of_construction(pack) ==
+        Approx(metal + left + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
   pack.components[0].laying.mass = 0.5;
   CHECK(mass_of_construction(pack) == Approx(0.5 + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
 }
 
-TEST_CASE("stiffness: what a dresspack with parts leaves out is from its construction, its damping the default") {
+TEST_CASE(
+    "stiffness: what a dresspack with parts leaves out is from its construction, its damping the default") {
   const auto without = [](const std::string& keys) {
     Node document = parse_yaml(sample_job, "job.yaml");
     Node& dresspack = *document.find("dresspack");
-    std::erase_if(dresspack.entries, [&](const Entry& entry) { return (" " + keys + " ").find(" " + entry.key + " ") != std::string::npos; });
+    std::erase_if(dresspack.entries, [&](const Entry& entry) {
+      return (" " + keys + " ").find(" " + entry.key + " ") != std::string::npos;
+    });
     return document;
   };
-  const std::string all = "mass_kg_per_m bending_stiffness_Nm2 torsional_stiffness_Nm2 axial_stiffness_N damping_time_ms damping_source";
+  const std::string all =
+      "mass_kg_per_m bending_stiffness_Nm2 torsional_stiffness_Nm2 axial_stiffness_N damping_time_ms damping_source";
   const Job job = job_from(without(all));
   const Dresspack& dresspack = job.dresspacks.front().dresspack;
   CHECK(dresspack.mass_per_length == mass_of_construction(dresspack));
@@ -215,9 +231,11 @@ TEST_CASE("stiffness: what has none, and words that are none, are refused with a
   };
   CHECK_THAT(refusal({"dresspack.bending_stiffness_Nm2=from_the_construction"}),
              Contains("must be a number or from_construction, the unit is in the key: N m2"));
-  CHECK_THAT(refusal({"dresspack.axial_stiffness_N=from_construction", "dresspack.components.1.slack_percent=1"}),
-             Contains("axial_stiffness_N is from_construction, which has none") && Contains("hose_material"));
-  CHECK_THAT(refusal({"dresspack.construction_curvature_1_per_m=0"}), Contains("construction_curvature_1_per_m"));
+  CHECK_THAT(
+      refusal({"dresspack.axial_stiffness_N=from_construction", "dresspack.components.1.slack_percent=1"}),
+      Contains("axial_stiffness_N is from_construction, which has none") && Contains("hose_material"));
+  CHECK_THAT(refusal({"dresspack.construction_curvature_1_per_m=0"}),
+             Contains("construction_curvature_1_per_m"));
   CHECK_THAT(refusal({"dresspack.construction_state=loose"}), Contains("sliding") && Contains("stuck"));
 }
 
@@ -228,7 +246,8 @@ TEST_CASE("stiffness: a given one that its construction cannot have is warned of
     return warnings.empty() ? std::string("nothing") : warnings.front().words;
   };
   // The file's own 25 N m2 is an estimate of a few times what slides.
-  CHECK_THAT(told(), Contains("is 25, 3 times") && Contains("8.41") && Contains("6.73 sliding") && Contains("from_construction"));
+  CHECK_THAT(told(), Contains("is 25, 3 times") && Contains("8.41") && Contains("6.73 sliding") &&
+                         Contains("from_construction"));
   dresspack.bending_stiffness = 12;
   CHECK(told() == "nothing");
   dresspack.bending_stiffness = 6;  // less than without any friction
@@ -256,8 +275,10 @@ TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it 
   const std::vector<Warning> warnings = stiffness_warnings(dresspack);
   REQUIRE(warnings.size() == 1);
   // 9.81 m/s2 of the filled hose's mass per metre over 300 N.
-  CHECK_THAT(warnings[0].words,
-             Contains("too little is from_construction: axial_stiffness_N 300, without its wall (hose_material); it would stretch by " +
-                      fmt::format("{:.2g} %", 100 * 9.81 * dresspack.mass_per_length / 300)) &&
-                 Contains("hose_material: hose_polyamide, or give it as measured"));
+  CHECK_THAT(
+      warnings[0].words,
+      Contains(
+          "too little is from_construction: axial_stiffness_N 300, without its wall (hose_material); it would stretch by " +
+          fmt::format("{:.2g} %", 100 * 9.81 * dresspack.mass_per_length / 300)) &&
+          Contains("hose_material: hose_polyamide, or give it as measured"));
 }

@@ -32,7 +32,9 @@ double amplitude(const Material& m, double reversals) {
 }
 
 double hardening(const Material& m) { return m.fatigue_strength_exponent / m.fatigue_ductility_exponent; }
-double cyclic_strength(const Material& m) { return m.fatigue_strength / std::pow(m.fatigue_ductility, hardening(m)); }
+double cyclic_strength(const Material& m) {
+  return m.fatigue_strength / std::pow(m.fatigue_ductility, hardening(m));
+}
 
 }  // namespace
 
@@ -44,7 +46,8 @@ TEST_CASE("uncertain parameters: z and the key's value lead to each other, and 0
     keys.insert(parameter.key);
     CHECK(parameter.value(0) == (parameter.logarithmic ? 1 : 0));
     CHECK(parameter.value(1) > parameter.value(0));
-    for (const double z : {-2.5, -0.3, 1.7}) CHECK(parameter.z_of(parameter.value(z)) == Approx(z).epsilon(rounding));
+    for (const double z : {-2.5, -0.3, 1.7})
+      CHECK(parameter.z_of(parameter.value(z)) == Approx(z).epsilon(rounding));
   }
   CHECK(names.size() == uncertain_count);
   CHECK(keys.size() == uncertain_count);
@@ -68,7 +71,8 @@ TEST_CASE("uncertain parameters: each one's key is a key of every job, at two de
 
 TEST_CASE("prior: standard normal, narrower or wider by the spread that a job gives") {
   Uncertainty uncertainty;
-  CHECK((prior_of(uncertainty).covariance - Eigen::MatrixXd::Identity(uncertain_count, uncertain_count)).norm() < rounding);
+  CHECK((prior_of(uncertainty).covariance - Eigen::MatrixXd::Identity(uncertain_count, uncertain_count))
+            .norm() < rounding);
   uncertainty.spread[0] = 1;
   uncertainty.spread[1] *= uncertainty.spread[1];
   const ParameterKnowledge prior = prior_of(uncertainty);
@@ -77,21 +81,25 @@ TEST_CASE("prior: standard normal, narrower or wider by the spread that a job gi
   CHECK(prior.covariance(1, 1) == Approx(4).epsilon(rounding));
 }
 
-TEST_CASE("changed material: as it was at the defaults; strains by the first factor, lives by the last, slopes about a life") {
+TEST_CASE(
+    "changed material: as it was at the defaults; strains by the first factor, lives by the last, slopes about a life") {
   Fatigue fatigue;
   CHECK(changed(copper(), fatigue).fatigue_strength == copper().fatigue_strength);
   fatigue.strength_factor = 0.5;
   Material weak = changed(copper(), fatigue);
-  for (const double life : {1e2, 1e5, 1e9}) CHECK(amplitude(weak, life) == Approx(0.5 * amplitude(copper(), life)).epsilon(rounding));
+  for (const double life : {1e2, 1e5, 1e9})
+    CHECK(amplitude(weak, life) == Approx(0.5 * amplitude(copper(), life)).epsilon(rounding));
   fatigue = {};
   fatigue.model_factor = 3;
   const Material old = changed(copper(), fatigue);
-  for (const double life : {1e2, 1e5, 1e9}) CHECK(amplitude(old, 3 * life) == Approx(amplitude(copper(), life)).epsilon(rounding));
+  for (const double life : {1e2, 1e5, 1e9})
+    CHECK(amplitude(old, 3 * life) == Approx(amplitude(copper(), life)).epsilon(rounding));
   CHECK(cyclic_strength(old) == Approx(cyclic_strength(copper())).epsilon(rounding));
   fatigue = {};
   fatigue.slope_change = 0.02;
   const Material flat = changed(copper(), fatigue);
-  CHECK(amplitude(flat, reversals_of_slope) == Approx(amplitude(copper(), reversals_of_slope)).epsilon(rounding));
+  CHECK(amplitude(flat, reversals_of_slope) ==
+        Approx(amplitude(copper(), reversals_of_slope)).epsilon(rounding));
   CHECK(amplitude(flat, 1e9) > amplitude(copper(), 1e9));
 }
 

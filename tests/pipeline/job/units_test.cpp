@@ -73,7 +73,8 @@ TEST_CASE("units: no shorter text of a number reads back, whatever its digits") 
       const double drawn = mantissa(random) * std::pow(10, exponent(random));
       const double si = std::stod(fmt::format("{:.{}g}", drawn, digits(random))) * unit.to_si;
       if (text_in_unit(si, unit) != shortest_by_trying(si, unit))
-        FAIL_CHECK(key << " " << text_in_unit(si, unit) << " where " << shortest_by_trying(si, unit) << " reads back");
+        FAIL_CHECK(key << " " << text_in_unit(si, unit) << " where " << shortest_by_trying(si, unit)
+                       << " reads back");
     }
   }
 }

@@ -1,8 +1,8 @@
 #include "pipeline/learning/measured_bending.h"
 
-#include <catch2/catch.hpp>
 #include <algorithm>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
@@ -55,7 +55,8 @@ TEST_CASE("bending: sums of the first bend say what sliders do on any path") {
     REQUIRE(bent.numbers.size() == points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
       double sum = 0;
-      for (const auto& [quantity, factor] : bent.numbers[k].parts) sum += factor * Sliders::first(bent.curvatures[quantity]);
+      for (const auto& [quantity, factor] : bent.numbers[k].parts)
+        sum += factor * Sliders::first(bent.curvatures[quantity]);
       CHECK(sum == Approx(points[k].moment).margin(1e-12));
     }
   }
@@ -78,13 +79,16 @@ TEST_CASE("bending: tables between their values, straight in logarithms") {
 
 TEST_CASE("bending: a decrement by slip is what a swing of sliders loses, stepped in time") {
   std::vector<double> curvatures, moments;
-  for (double k = 1e-3; k < 20; k *= std::pow(10, 1.0 / 200)) curvatures.push_back(k), moments.push_back(Sliders::first(k));
+  for (double k = 1e-3; k < 20; k *= std::pow(10, 1.0 / 200))
+    curvatures.push_back(k), moments.push_back(Sliders::first(k));
   constexpr int places = 20;
   for (const double largest : {0.3, 1.0, 3.0}) {
-    // One mode of a clamped bar, unit modal mass: the curvature of its natural form, from the bar's equation itself.
+    // One mode of a clamped bar, unit modal mass: the curvature of its natural form, from the bar's equation
+    // itself.
     std::array<Sliders, places> bar;
     std::array<double, places> form;
-    const double beta = 1.875104068711961, sigma = (std::sinh(beta) - std::sin(beta)) / (std::cosh(beta) + std::cos(beta));
+    const double beta = 1.875104068711961,
+                 sigma = (std::sinh(beta) - std::sin(beta)) / (std::cosh(beta) + std::cos(beta));
     for (int i = 0; i < places; ++i) {
       const double x = beta * (i + 0.5) / places;
       form[i] = (std::cosh(x) + std::cos(x) - sigma * (std::sinh(x) + std::sin(x))) / 2;
@@ -94,7 +98,8 @@ TEST_CASE("bending: a decrement by slip is what a swing of sliders loses, steppe
       for (int i = 0; i < places; ++i) sum += form[i] * bar[i].move(form[i] * q) / places;
       return sum;
     };
-    // Bent once to and fro by hand, so that every slider is on its closed loop, then let go: to the next turn but one.
+    // Bent once to and fro by hand, so that every slider is on its closed loop, then let go: to the next turn
+    // but one.
     force(-largest);
     double q = largest, speed = 0, pull = force(q), before = q;
     for (int turns = 0; turns < 2;) {
@@ -108,7 +113,8 @@ TEST_CASE("bending: a decrement by slip is what a swing of sliders loses, steppe
     const double stepped = std::log(largest / q);
     INFO(largest << ": " << stepped);
     // (P5) is the first order in what a swing loses: off by about as much again.
-    CHECK(std::exp(log_decrement_by_slip(curvatures, moments, largest)) == Approx(stepped).epsilon(stepped + 0.02));
+    CHECK(std::exp(log_decrement_by_slip(curvatures, moments, largest)) ==
+          Approx(stepped).epsilon(stepped + 0.02));
   }
 }
 

@@ -108,7 +108,8 @@ TEST_CASE("simple mesh: few triangles stay, many become few near the surface") {
   CHECK(area == Approx(4 * M_PI).epsilon(0.15));  // flat triangles of that size cut the ball
 }
 
-TEST_CASE("cross-section: wires are told by the paths that the files have, layer after layer and part after part") {
+TEST_CASE(
+    "cross-section: wires are told by the paths that the files have, layer after layer and part after part") {
   Dresspack dresspack;
   Component wire, cable, tube;
   wire.name = "wire";
@@ -120,8 +121,9 @@ TEST_CASE("cross-section: wires are told by the paths that the files have, layer
   tube.name = "tube";
   tube.plain = PlainPart{};
   dresspack.components = {tube, cable, wire};
-  CHECK(wire_paths(dresspack) == std::vector<std::string>{"cable 1/layer 1/wire 1", "cable 1/layer 1/wire 2", "cable 2/layer 1/wire 1",
-                                                          "cable 2/layer 1/wire 2", "layer 1/wire 1", "layer 1/wire 2"});
+  CHECK(wire_paths(dresspack) == std::vector<std::string>{"cable 1/layer 1/wire 1", "cable 1/layer 1/wire 2",
+                                                          "cable 2/layer 1/wire 1", "cable 2/layer 1/wire 2",
+                                                          "layer 1/wire 1", "layer 1/wire 2"});
 }
 
 TEST_CASE("scene data: shapes in their frames, and a mesh that is lost is told") {

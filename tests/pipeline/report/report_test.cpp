@@ -49,7 +49,8 @@ std::string first_fault(const std::string& page) {
         return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
       open.pop_back();
     }
-    if ((name == "style" || name == "script") && !tag.starts_with('/')) at = page.find("</" + name + ">", at) - 1;
+    if ((name == "style" || name == "script") && !tag.starts_with('/'))
+      at = page.find("</" + name + ">", at) - 1;
   }
   return open.empty() ? "" : open.back() + " stays open";
 }
@@ -103,7 +104,8 @@ TEST_CASE("report: of several dresspacks each has its shortest life and the wors
   CHECK(rows[0].worst_dresspack == "sensor <cable>");
   const std::string csv = ranking_csv(rows);
   CHECK(csv.substr(0, csv.find('\n'))
-            .find(",worst_dresspack,settings,largest_force_share,clamp_moment_share,force_ok") != std::string::npos);
+            .find(",worst_dresspack,settings,largest_force_share,clamp_moment_share,force_ok") !=
+        std::string::npos);
   CHECK(csv.find(",joint_5,0.8,sensor <cable>,,,,") != std::string::npos);
   const std::string page = report_page("two", rows);
   check_page(page);
@@ -240,7 +242,8 @@ TEST_CASE("report: of thousands of rows the first hundred are laid out, the othe
   CHECK(report_page("few", {rows.begin(), rows.begin() + 100}).find("<template") == std::string::npos);
 }
 
-TEST_CASE("report: a study over two keys is a matrix of lives, numbers in their order, failures and warnings marked") {
+TEST_CASE(
+    "report: a study over two keys is a matrix of lives, numbers in their order, failures and warnings marked") {
   const Scratch scratch;
   const RankingRow row = read_ranking({job_with(scratch, "one", {})}).front();
   std::vector<RankingRow> rows;
@@ -347,10 +350,12 @@ TEST_CASE("report: the planner's life leads, with its spread, its bounds and the
   CHECK(page.find("<b>44.0 h</b> of motion") != std::string::npos);
   CHECK(page.find("66.0 h until half have, 110 h until 90 %") != std::string::npos);
   CHECK(page.find("likeliest signal cable 3/conductor 2, 0.75 m from the tool") != std::string::npos);
-  CHECK(page.find("<dt>worst wire</dt><dd>" + printed(rows[0].life_hours) + " h of motion") != std::string::npos);
+  CHECK(page.find("<dt>worst wire</dt><dd>" + printed(rows[0].life_hours) + " h of motion") !=
+        std::string::npos);
   CHECK(page.find("<b>44.0</b></td>") != std::string::npos);
-  CHECK(page.find("<dt>bounds</dt><dd>worst wire " + printed_hours(rows[0].life_hours / 400) + " (inside of the cables stuck) .. " +
-                  printed_hours(1.5 * rows[0].life_hours) + " (free)") != std::string::npos);
+  CHECK(page.find("<dt>bounds</dt><dd>worst wire " + printed_hours(rows[0].life_hours / 400) +
+                  " (inside of the cables stuck) .. " + printed_hours(1.5 * rows[0].life_hours) +
+                  " (free)") != std::string::npos);
 }
 
 TEST_CASE("report: cycles of one range share one bar") {

@@ -13,7 +13,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Draws are worth some 1,500 independent ones at least: a mean is good to 0.026, a spread to 2 %; three times that.
+/// Draws are worth some 1,500 independent ones at least: a mean is good to 0.026, a spread to 2 %; three
+/// times that.
 constexpr double of_mean = 0.09, of_spread = 0.06;
 
 /// ln life that grows by `slope` along the axes.
@@ -79,8 +80,8 @@ TEST_CASE("posterior: lives that broke, under a straight model, have a closed fo
 }
 
 TEST_CASE("posterior: of run-outs alone the draws tell, Laplace does not") {
-  // z ~ N(0, 1), likelihood Phi((a + b z)/s): mean b/S phi(a/S)/Phi(a/S), S^2 = s^2 + b^2 (extended skew-normal); variance
-  // 1 - (b/S)^2 r (r + a/S), r = phi/Phi.
+  // z ~ N(0, 1), likelihood Phi((a + b z)/s): mean b/S phi(a/S)/Phi(a/S), S^2 = s^2 + b^2 (extended
+  // skew-normal); variance 1 - (b/S)^2 r (r + a/S), r = phi/Phi.
   const double b = 1.5, s = 0.3;
   double worst = 0;
   for (const double a : {2.0, 0.0, -2.0, -5.0}) {
@@ -88,7 +89,8 @@ TEST_CASE("posterior: of run-outs alone the draws tell, Laplace does not") {
     const double ratio = std::exp(-x * x / 2 - log_normal_probability(x)) / std::sqrt(2 * std::numbers::pi);
     const double mean = b / S * ratio, deviation = std::sqrt(1 - b * b / (S * S) * ratio * (ratio + x));
     const Emulator model = straight(10, VectorXd::Constant(1, b));
-    const Posterior posterior = posterior_of({term(life(LifeEnd::at_least, 10 - a, model, s))}, VectorXd::Zero(1));
+    const Posterior posterior =
+        posterior_of({term(life(LifeEnd::at_least, 10 - a, model, s))}, VectorXd::Zero(1));
     CHECK(posterior.mean[0] == Approx(mean).margin(of_mean * deviation));
     CHECK(std::sqrt(posterior.covariance(0, 0)) == Approx(deviation).epsilon(of_spread));
     worst = std::max(worst, std::abs(posterior.laplace.most_likely[0] - mean) / deviation);
@@ -97,8 +99,8 @@ TEST_CASE("posterior: of run-outs alone the draws tell, Laplace does not") {
 }
 
 TEST_CASE("posterior: run-outs never shorten a life, and longer ones lengthen it") {
-  // A likelihood that grows with the life that was tried tilts any prior to longer ones; by sums over a plane, of bent
-  // models as well.
+  // A likelihood that grows with the life that was tried tilts any prior to longer ones; by sums over a
+  // plane, of bent models as well.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(-1, 1);
   for (int trial = 0; trial < 40; ++trial) {
@@ -127,8 +129,9 @@ TEST_CASE("posterior: run-outs never shorten a life, and longer ones lengthen it
 }
 
 TEST_CASE("posterior: true parameters lie in the 80 % interval as often as they should") {
-  // Three parameters from the prior, four rows that the model makes: two that broke, two that were ended at a limit; another
-  // life, of a program, is predicted. Of 400 such trials 80 % with a deviation of 2 %; 75 .. 85 is 2.5 of them.
+  // Three parameters from the prior, four rows that the model makes: two that broke, two that were ended at a
+  // limit; another life, of a program, is predicted. Of 400 such trials 80 % with a deviation of 2 %; 75 ..
+  // 85 is 2.5 of them.
   std::mt19937 random(17);
   std::normal_distribution<double> number;
   constexpr int trials = 400, axes = 3;
@@ -152,7 +155,8 @@ TEST_CASE("posterior: true parameters lie in the 80 % interval as often as they 
     quick.draws = 1000;
     quick.seed = static_cast<std::uint64_t>(trial);
     const Posterior posterior = posterior_of(terms, VectorXd::Zero(axes), quick);
-    for (Index j = 0; j < axes; ++j) within[j] += posterior.low[j] <= truth[j] && truth[j] <= posterior.high[j];
+    for (Index j = 0; j < axes; ++j)
+      within[j] += posterior.low[j] <= truth[j] && truth[j] <= posterior.high[j];
     const VectorXd lives = posterior.draws * program;
     const std::vector<double> drawn(lives.begin(), lives.end());
     const double true_life = program.dot(truth);

@@ -121,15 +121,17 @@ TEST_CASE("build graph: a changed setting reruns what depends on it and nothing 
   CHECK(bench.calls("two") == "sim strain fatigue ");
 }
 
-TEST_CASE("build graph: a metal's strain-life constants rerun the last stage of the jobs that are of it alone") {
+TEST_CASE(
+    "build graph: a metal's strain-life constants rerun the last stage of the jobs that are of it alone") {
   Bench bench;
   const auto study_of = [&](int strength) {
-    return bench.study({{"one", fmt::format("dresspack.materials=[{{name: copper, source: s, youngs_modulus_GPa: 117, "
-                                            "tensile_strength_MPa: 230, fatigue_strength_MPa: {}, "
-                                            "fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
-                                            "fatigue_ductility_exponent: -0.5}}]",
-                                            strength)},
-                        {"two", "simulation.segments=40"}});
+    return bench.study(
+        {{"one", fmt::format("dresspack.materials=[{{name: copper, source: s, youngs_modulus_GPa: 117, "
+                             "tensile_strength_MPa: 230, fatigue_strength_MPa: {}, "
+                             "fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
+                             "fatigue_ductility_exponent: -0.5}}]",
+                             strength)},
+         {"two", "simulation.segments=40"}});
   };
   bench.run(study_of(400));
   CHECK(bench.words(study_of(500)) == Words{"stale", "done"});
@@ -170,7 +172,8 @@ TEST_CASE("build graph: what a study does not keep goes when its job is done, an
   }
 }
 
-TEST_CASE("build graph: a study that keeps lives alone notices a damaged result that is there, and keeps what failed jobs need") {
+TEST_CASE(
+    "build graph: a study that keeps lives alone notices a damaged result that is there, and keeps what failed jobs need") {
   Bench bench;
   Study study = bench.study({{"one", "simulation.segments=20"}});
   study.keep = Keep::lives;
@@ -196,12 +199,14 @@ TEST_CASE("build graph: a launcher starts every stage, and its exit status is th
   const Study study = bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}});
   bench.tell_stage("two", "fail-strain");
   std::vector<JobState> states = states_of(study, bench.places());
-  write_build_graph(study, bench.places(), states, {},
-                    "sh -c 'echo \"${DRESSLIFE_PARENT-none} $1\" >> launched; echo launcher: error: exit >&2; exec \"$@\"' --");
+  write_build_graph(
+      study, bench.places(), states, {},
+      "sh -c 'echo \"${DRESSLIFE_PARENT-none} $1\" >> launched; echo launcher: error: exit >&2; exec \"$@\"' --");
   const BuildResult result = run_build_graph(bench.places(), 1, {});
   close_run(study, bench.places(), result, states);
   CHECK(states[0].done());
-  CHECK(states[1].failure.find("strain broke") != std::string::npos);  // not the launcher's word that comes first
+  CHECK(states[1].failure.find("strain broke") !=
+        std::string::npos);  // not the launcher's word that comes first
   CHECK(bytes_of(bench.places().job("two") / "log").find("launcher: error: exit") != std::string::npos);
   std::istringstream launched(bytes_of(bench.places().folder / "launched"));
   int lines = 0;
@@ -272,7 +277,8 @@ TEST_CASE("build graph: a job that is added takes what is there, and makes what 
     CHECK(fs::exists(bench.places().job("two") / "motion.h5") == (keep == Keep::all));
     CHECK(bench.run_sharing(both).executed == 0);
     CHECK(bench.calls("one") == "sim strain fatigue ");
-    if (keep == Keep::all) CHECK(bytes_of(bench.places().job("two") / "log").find("dresslife-strain") != std::string::npos);
+    if (keep == Keep::all)
+      CHECK(bytes_of(bench.places().job("two") / "log").find("dresslife-strain") != std::string::npos);
   }
 }
 
@@ -450,7 +456,8 @@ TEST_CASE("build graph: when ninja dies, what it did not reach is not done and s
   Bench bench;
   const auto study = [&](int segments) {
     std::vector<std::pair<std::string, std::string>> jobs;
-    for (const char* job : {"a", "b", "c", "d"}) jobs.push_back({job, fmt::format("simulation.segments={}", segments++)});
+    for (const char* job : {"a", "b", "c", "d"})
+      jobs.push_back({job, fmt::format("simulation.segments={}", segments++)});
     return bench.study(jobs);
   };
   bench.run(study(20));

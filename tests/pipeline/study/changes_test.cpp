@@ -20,8 +20,10 @@ TEST_CASE("changes: keys by their paths, in the order of the settings as they we
   CHECK(between("routing: {free_length_m: 2.035}\nfatigue: {stress: cyclic}\n",
                 "fatigue: {stress: elastic}\nrouting: {free_length_m: 2.1}\n") ==
         Lines{"routing.free_length_m 2.035 -> 2.1", "fatigue.stress cyclic -> elastic"});
-  CHECK(between("a: {old: 1}\n", "a: {new: {b: 1, c: 2}}\n") == Lines{"a.old 1 -> nothing", "a.new nothing -> 2 keys"});
-  CHECK(between("clamp: {at: [0, 1, 2]}\n", "clamp: {at: [0, 1, 3]}\n") == Lines{"clamp.at [0, 1, 2] -> [0, 1, 3]"});
+  CHECK(between("a: {old: 1}\n", "a: {new: {b: 1, c: 2}}\n") ==
+        Lines{"a.old 1 -> nothing", "a.new nothing -> 2 keys"});
+  CHECK(between("clamp: {at: [0, 1, 2]}\n", "clamp: {at: [0, 1, 3]}\n") ==
+        Lines{"clamp.at [0, 1, 2] -> [0, 1, 3]"});
 }
 
 TEST_CASE("changes: of lists their items where there are as many, else their lengths") {

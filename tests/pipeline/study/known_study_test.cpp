@@ -85,7 +85,8 @@ TEST_CASE("known study: a touched file changes nothing, a changed one all that h
   }
   // A material: the fatigue stages of both jobs and nothing else, whatever the file's date.
   const auto before = fs::last_write_time(scratch / files[2]);
-  scratch.write(files[2], "from: copper\nname: own\nwalker_exponent: 0.4\n");  // no force of a cable hangs on it
+  scratch.write(files[2],
+                "from: copper\nname: own\nwalker_exponent: 0.4\n");  // no force of a cable hangs on it
   fs::last_write_time(scratch / files[2], before);
   const Standing changed = bench.standing();
   CHECK_FALSE(changed.remembered);
@@ -113,15 +114,15 @@ TEST_CASE("known study: nothing is remembered of what could expand to something 
   forgets("a stage", [](Bench& bench) {
     std::ofstream(bench.scratch() / "programs/dresslife-fatigue", std::ios::app) << "more";
   });
-  forgets("a job's settings", [](Bench& bench) {
-    bench.scratch().write("runs/study/segments=20/job.yaml", "mine\n");
-  });
+  forgets("a job's settings",
+          [](Bench& bench) { bench.scratch().write("runs/study/segments=20/job.yaml", "mine\n"); });
   forgets("its own bytes", [](Bench& bench) {
     std::string bytes = bytes_of(bench.scratch() / "runs/study/.stage/study");
     bytes[bytes.size() / 2] ^= 1;
     bench.scratch().write("runs/study/.stage/study", bytes);
   });
-  forgets("another catalogue", [](Bench&) { ::setenv("DRESSLIFE_CONFIG", DRESSLIFE_SOURCE_DIR "/config/", 1); });
+  forgets("another catalogue",
+          [](Bench&) { ::setenv("DRESSLIFE_CONFIG", DRESSLIFE_SOURCE_DIR "/config/", 1); });
   ::unsetenv("DRESSLIFE_CONFIG");
   forgets("a job that cannot be run", [](Bench& bench) {
     bench.scratch().write("study.yaml", "base: job.yaml\nvary: {simulation.segments: [20, -1]}\n");

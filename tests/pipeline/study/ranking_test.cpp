@@ -81,8 +81,7 @@ TEST_CASE("ranking: a dresspack without wires has no worst place") {
   CHECK(rows[0].done());
   CHECK(std::isinf(rows[0].life_hours));
   CHECK(rows[0].worst_segment_from_tool == 0);
-  CHECK(ranking_csv(rows).find("\nempty hose,inf,inf,,,0,inf,inf,inf,,,,done,,") !=
-        std::string::npos);
+  CHECK(ranking_csv(rows).find("\nempty hose,inf,inf,,,0,inf,inf,inf,,,,done,,") != std::string::npos);
   CHECK(ranking_table(rows).find("no wire was evaluated") != std::string::npos);
 }
 
@@ -146,7 +145,9 @@ TEST_CASE("ranking: last results of stale jobs stand behind those of now, marked
     result.changed = "routing.free_length_m 2 -> 2.1";
     return result;
   };
-  const auto rows = read_ranking({stale("old", 900, "stale"), {"aborted", "", "why"}, job_with(scratch, "now", living(10)),
+  const auto rows = read_ranking({stale("old", 900, "stale"),
+                                  {"aborted", "", "why"},
+                                  job_with(scratch, "now", living(10)),
                                   stale("older", 1000, "too short")});
   CHECK(names(rows) == std::vector<std::string>{"now", "older", "old", "aborted"});
   CHECK_FALSE(rows[1].done());
@@ -155,7 +156,9 @@ TEST_CASE("ranking: last results of stale jobs stand behind those of now, marked
   for (const auto& cells : table) CHECK(cells.size() == table[0].size());
   CHECK(table[1][12] == "done");
   CHECK(table[2][12] == "stale");
-  CHECK(table[2][13] == "stale: with the settings of now it failed: too short; since this result routing.free_length_m 2 -> 2.1");
+  CHECK(
+      table[2][13] ==
+      "stale: with the settings of now it failed: too short; since this result routing.free_length_m 2 -> 2.1");
   CHECK(table[3][1] == "900");
   CHECK(table[3][13] == "stale: since this result routing.free_length_m 2 -> 2.1");
   CHECK(table[4][12] == "failed");
@@ -208,7 +211,8 @@ TEST_CASE("ranking: the hose's wall has columns and a line of its own and does n
 
 TEST_CASE("ranking: the relative life of a rated cable has columns and words, empty without a rating") {
   const Scratch scratch;
-  auto rows = read_ranking({job_with(scratch, "rated", living(12000)), job_with(scratch, "unrated", living(10000))});
+  auto rows =
+      read_ranking({job_with(scratch, "rated", living(12000)), job_with(scratch, "unrated", living(10000))});
   rows[0].relative = RelativeLife{"lead", "torsion: twist_deg_per_m 180", 1250, 5e6};
   const auto table = read_csv(ranking_csv(rows));
   const auto title = std::find(table[0].begin(), table[0].end(), "rated_cycles_per_hour");
@@ -218,15 +222,17 @@ TEST_CASE("ranking: the relative life of a rated cable has columns and words, em
   CHECK(table[1][at + 1] == "4000");
   CHECK(table[1][at + 2] == "lead");
   CHECK((table[2][at] + table[2][at + 1] + table[2][at + 2]).empty());
-  CHECK(ranking_table(rows).find("\n   one hour does the damage of 1,250 rated cycles of lead; 5,000,000 rated: 4,000 h "
-                                 "(torsion: twist_deg_per_m 180)\n") != std::string::npos);
+  CHECK(ranking_table(rows).find(
+            "\n   one hour does the damage of 1,250 rated cycles of lead; 5,000,000 rated: 4,000 h "
+            "(torsion: twist_deg_per_m 180)\n") != std::string::npos);
   rows[0].relative->cycles_per_hour = 0;
   CHECK(relative_words(*rows[0].relative).ends_with("rated: no damage (torsion: twist_deg_per_m 180)"));
 }
 
 TEST_CASE("ranking: what the mesh of loose cables leaves out has a column, empty where none lies loose") {
   const Scratch scratch;
-  auto rows = read_ranking({job_with(scratch, "loose", living(12000)), job_with(scratch, "held", living(10000)),
+  auto rows = read_ranking({job_with(scratch, "loose", living(12000)),
+                            job_with(scratch, "held", living(10000)),
                             {"broken", "", "why"}});
   rows[0].loose_mesh_error = 0.0125;
   const auto table = read_csv(ranking_csv(rows));
@@ -266,12 +272,14 @@ TEST_CASE("ranking: the terminal's table is aligned, within its width, and says 
   CHECK(all[8] == "   job.yaml:3:1: error: too short; make it longer");
 }
 
-TEST_CASE("ranking: jobs are ranked and told by the life that 10 % do not reach, older files by their worst wire") {
+TEST_CASE(
+    "ranking: jobs are ranked and told by the life that 10 % do not reach, older files by their worst wire") {
   const Scratch scratch;
   SampleLife weak = living(20000), strong = living(10000);
   weak.planned_hours = 50, strong.planned_hours = 60;
-  const auto rows = read_ranking({job_with(scratch, "long worst wire", weak), job_with(scratch, "strong", strong),
-                                  job_with(scratch, "old", living(10000))});
+  const auto rows =
+      read_ranking({job_with(scratch, "long worst wire", weak), job_with(scratch, "strong", strong),
+                    job_with(scratch, "old", living(10000))});
   REQUIRE(names(rows).size() == 3);
   const RankingRow& first = rows[rows[0].job == "old" ? 1 : 0];
   CHECK(first.job == "strong");
@@ -279,13 +287,15 @@ TEST_CASE("ranking: jobs are ranked and told by the life that 10 % do not reach,
   CHECK(first.headline_repeats() == Approx(60 * 3600 / first.repeat_seconds));
   CHECK(first.first_wire_hours[2] == Approx(37.5));
   CHECK(first.failing_conductor == "signal cable 3/conductor 2");
-  const RankingRow& old = *std::find_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.job == "old"; });
+  const RankingRow& old =
+      *std::find_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.job == "old"; });
   CHECK_FALSE(old.planned());
   CHECK(old.headline_hours() == old.life_hours);
 
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](const std::string& job, const std::string& column) {
-    const auto at = static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), column) - table[0].begin());
+    const auto at =
+        static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), column) - table[0].begin());
     for (const auto& cells : table)
       if (cells[0] == job) return cells.at(at);
     return std::string("no such job");
@@ -324,8 +334,10 @@ TEST_CASE("ranking: how sure an order is, what makes a life uncertain, and what 
   CHECK(rows[0].scatter_hours[1] == Approx(150));
   CHECK(rows[0].headline_hours() == 60);
   const std::string table = ranking_table(rows);
-  CHECK(table.find("outlives the next in 100 % of draws; 53 % of its spread by friction_inside; measure next: a cable's") !=
-        std::string::npos);
+  CHECK(
+      table.find(
+          "outlives the next in 100 % of draws; 53 % of its spread by friction_inside; measure next: a cable's") !=
+      std::string::npos);
   const auto csv = read_csv(ranking_csv(rows));
   CHECK(csv[0].size() == csv[1].size());
   const auto column = std::find(csv[0].begin(), csv[0].end(), "measure_next_share");
@@ -351,11 +363,13 @@ TEST_CASE("ranking: a joint that costs more than the whole is told in words") {
 
 TEST_CASE("ranking: warnings are counted, told in full, and each kind says whether it is as it should be") {
   const Scratch scratch;
-  auto rows = read_ranking({job_with(scratch, "warned", living(12000)), job_with(scratch, "silent", living(10000)),
-                            job_with(scratch, "older", living(8000))});
-  rows[0].warnings = std::vector<Warning>{{WarningKind::program, "a.mod:3", "skipped: \"SearchL\", and waits"},
-                                          {WarningKind::program, "a.mod:9", "skipped: WaitSyncTask"},
-                                          {WarningKind::twist, "", "largest twist: 200 deg/m"}};
+  auto rows =
+      read_ranking({job_with(scratch, "warned", living(12000)), job_with(scratch, "silent", living(10000)),
+                    job_with(scratch, "older", living(8000))});
+  rows[0].warnings =
+      std::vector<Warning>{{WarningKind::program, "a.mod:3", "skipped: \"SearchL\", and waits"},
+                           {WarningKind::program, "a.mod:9", "skipped: WaitSyncTask"},
+                           {WarningKind::twist, "", "largest twist: 200 deg/m"}};
   rows[1].warnings.emplace();
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](std::size_t row, const std::string& column) {
@@ -376,9 +390,10 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   CHECK(warning_kinds(rows[0]) == "skipped instructions x2, twist");
   CHECK(warning_kinds(rows[1]).empty());
   CHECK(ranking_table(rows).find("\n   WARNING: skipped instructions x2, twist\n") != std::string::npos);
-  CHECK(warning_lines(rows) ==
-        "warned: warning: a.mod:3: skipped: \"SearchL\", and waits\nwarned: warning: a.mod:9: skipped: WaitSyncTask\n"
-        "warned: warning: largest twist: 200 deg/m\n");
+  CHECK(
+      warning_lines(rows) ==
+      "warned: warning: a.mod:3: skipped: \"SearchL\", and waits\nwarned: warning: a.mod:9: skipped: WaitSyncTask\n"
+      "warned: warning: largest twist: 200 deg/m\n");
   const std::vector<RankingRow> many(5, rows[0]);  // 15 lines: the first of each kind stands for the others
   CHECK(warning_lines(many) ==
         "5 jobs, skipped instructions: warned: warning: a.mod:3: skipped: \"SearchL\", and waits\n"

@@ -62,7 +62,8 @@ TEST_CASE("shards: as many as keep each within what may be started, of the jobs 
 TEST_CASE("shards: words that are none are refused") {
   CHECK(shard_from("2/8", "--shard").name() == "2_of_8");
   CHECK(shard_from("8/8", "--shard").index == 8);
-  for (const char* text : {"", "2", "2/", "/8", "0/8", "9/8", "-1/8", "2/8/9", "2 / 8", "2/99999999", "a/b"}) {
+  for (const char* text :
+       {"", "2", "2/", "/8", "0/8", "9/8", "-1/8", "2/8/9", "2 / 8", "2/99999999", "a/b"}) {
     INFO(text);
     CHECK_THROWS_WITH(shard_from(text, "--shard"), Catch::Contains("is no shard") && Catch::Contains("K/N"));
   }

@@ -78,7 +78,8 @@ TEST_CASE("twist along the lay of a laid cable without play stretches it, twist 
   }
 }
 
-TEST_CASE("a bend of many pitches leaves a laid cable as long as it is, and moves its wires by the bend alone") {
+TEST_CASE(
+    "a bend of many pitches leaves a laid cable as long as it is, and moves its wires by the bend alone") {
   LooseCable cable = signal_cable(0.01845);
   cable.lay_rate = 8 * 2 * pi / 2;  // eight turns in 2 m
   cable.play = 0;

@@ -67,7 +67,8 @@ TEST_CASE("a closed motion without friction closes") {
   }
 }
 
-TEST_CASE("what the mesh misses of a cable's waves is told, and falls with the square of its nodes' distance") {
+TEST_CASE(
+    "what the mesh misses of a cable's waves is told, and falls with the square of its nodes' distance") {
   LooseCable cable = signal_cable(0.01845);
   cable.play = 0.005;
   cable.slack = 0.01;
@@ -83,7 +84,8 @@ TEST_CASE("what the mesh misses of a cable's waves is told, and falls with the s
     strain.push_back(loose.state(0).strain);
     largest.push_back(most);
   }
-  // Second differences are of second order; waves at the edge of what a mesh can hold turn into others on the next one.
+  // Second differences are of second order; waves at the edge of what a mesh can hold turn into others on the
+  // next one.
   CHECK(told[2] < told[1] / 2.5);
   CHECK(told[3] < told[2] / 2.5);
   // What is told bounds what the mesh does to the strain, over the motion's largest.
@@ -95,7 +97,8 @@ TEST_CASE("what the mesh misses of a cable's waves is told, and falls with the s
 
 TEST_CASE("as many pieces as waves ask for see them, whatever the slack and the room") {
   constexpr double length = 2.035, warned_of = 0.02;
-  for (const auto& [slack, lay] : {std::pair(0.0, 0.0), {0.0025, 0.0}, {0.01, 0.0}, {0.03, 0.0}, {0.0, 15.0}, {0.01, 20.0}})
+  for (const auto& [slack, lay] :
+       {std::pair(0.0, 0.0), {0.0025, 0.0}, {0.01, 0.0}, {0.03, 0.0}, {0.0, 15.0}, {0.01, 20.0}})
     for (const double play : {0.002, 0.005, 0.012, without_limit}) {
       LooseCable cable = signal_cable(0.01845);
       cable.play = play, cable.slack = slack, cable.lay_rate = std::tan(lay * pi / 180) / 0.01845;
@@ -105,7 +108,8 @@ TEST_CASE("as many pieces as waves ask for see them, whatever the slack and the 
       INFO(slack << " of slack, " << lay << " deg, " << play << " m of play: " << elements);
       CHECK(elements >= 64);
       LooseCables loose(cables, {length, elements});
-      for (int t = 0; t <= 50; ++t) loose.advance(hose(elements, [&](double z) { return arm(z, t / 50.0); }), step);
+      for (int t = 0; t <= 50; ++t)
+        loose.advance(hose(elements, [&](double z) { return arm(z, t / 50.0); }), step);
       CHECK(loose.mesh_error() < warned_of);
     }
   LooseCables ring(ring_of_ten(0.01), {length, 64});  // turns as one, in long waves
@@ -154,7 +158,8 @@ TEST_CASE("a clamp that lets go keeps what it has let through, and takes energy"
 }
 
 TEST_CASE("a clamp that never has to let go changes nothing") {
-  // While slack is fed in there is less of it for a while, and clamps with a grip let some through: none of that stays.
+  // While slack is fed in there is less of it for a while, and clamps with a grip let some through: none of
+  // that stays.
   for (const double slack : {0.01, 0.02}) {
     std::vector<double> held;
     for (const double grip : {without_limit, 2000.0}) {
@@ -202,8 +207,8 @@ TEST_CASE("cables of a ring never overlap, and stay between core and wall") {
 }
 
 TEST_CASE("a ring turns out of a twist that alternates, and what strain is left is of the drag alone") {
-  // The twist cancels along the hose and is none at its clamps, so the ring has a way without any strain: as if the hose
-  // did not twist. Only what holds it sideways at a speed (W36) keeps it from there.
+  // The twist cancels along the hose and is none at its clamps, so the ring has a way without any strain: as
+  // if the hose did not twist. Only what holds it sideways at a speed (W36) keeps it from there.
   constexpr double most = 3;  // [rad/m]
   constexpr int cycle = 100;
   const std::vector<LooseCable> cables = ring_of_ten(0);
@@ -214,7 +219,8 @@ TEST_CASE("a ring turns out of a twist that alternates, and what strain is left 
     left.push_back(0);
     for (int t = 0; t <= 2 * cycle; ++t) {
       const double now = most * std::sin(2 * pi * t / cycle);
-      loose.advance(hose(64, [&](double z) { return HoseNode{.twist = now * std::sin(2 * pi * z)}; }), slower * step);
+      loose.advance(hose(64, [&](double z) { return HoseNode{.twist = now * std::sin(2 * pi * z)}; }),
+                    slower * step);
       for (std::size_t k = 0; t >= cycle && k < cables.size(); ++k)
         left.back() = std::max(left.back(), std::abs(loose.state(k).strain));
     }
@@ -258,7 +264,8 @@ TEST_CASE("where a cable lies hangs on none that is worked out beside it") {
   const LooseSettings settings{2.035, 64};
   LooseCables together(cables, settings);
   std::vector<std::unique_ptr<LooseCables>> alone;
-  for (const LooseCable& cable : cables) alone.push_back(std::make_unique<LooseCables>(std::vector{cable}, settings));
+  for (const LooseCable& cable : cables)
+    alone.push_back(std::make_unique<LooseCables>(std::vector{cable}, settings));
   for (int t = 0; t <= 40; ++t) {
     const std::vector<HoseNode> nodes = hose(64, [&](double z) { return arm(z, t / 40.0); });
     // the first sample ends when all of them lie still, so that those that did before go on for a little
@@ -266,7 +273,8 @@ TEST_CASE("where a cable lies hangs on none that is worked out beside it") {
     for (std::size_t k = 0; k < cables.size(); ++k) {
       alone[k]->advance(nodes, step);
       CAPTURE(t, k);
-      REQUIRE(std::abs(alone[k]->state(0).strain - together.state(k).strain) < 1e-6);  // of the 1e-2 that they move by
+      REQUIRE(std::abs(alone[k]->state(0).strain - together.state(k).strain) <
+              1e-6);  // of the 1e-2 that they move by
     }
   }
 }
@@ -289,7 +297,8 @@ TEST_CASE("cables laid in several ways side by side lie as they would alone, to 
   const LooseSettings settings{2.035, 64};
   std::vector<std::unique_ptr<LooseCables>> together, alone;
   std::vector<LooseCables*> all;
-  for (const double slack : {0.0, 0.002, 0.02}) {  // that pull, that hardly do, that lie in waves: unlike in iterations
+  for (const double slack :
+       {0.0, 0.002, 0.02}) {  // that pull, that hardly do, that lie in waves: unlike in iterations
     together.push_back(std::make_unique<LooseCables>(ring_of_ten(slack), settings));
     alone.push_back(std::make_unique<LooseCables>(ring_of_ten(slack), settings));
     all.push_back(together.back().get());

@@ -8,13 +8,15 @@ namespace {
 
 using Eigen::Matrix3d, Eigen::Quaterniond, Eigen::Vector2d, Eigen::Vector3d;
 
-constexpr int pieces = 800;  // of the axis: its frames turn by 1e-3 rad each
-constexpr double h = 1;      // [s]; only masses over its square count
+constexpr int pieces = 800;   // of the axis: its frames turn by 1e-3 rad each
+constexpr double h = 1;       // [s]; only masses over its square count
 constexpr double drag = 3e3;  // of a step's way [N/m2]: steps stay below the room between cables
-constexpr double spin = 300;  // the same against turning, per length [N]: half the pull, which ODE's springs turn with
+constexpr double spin =
+    300;  // the same against turning, per length [N]: half the pull, which ODE's springs turn with
 
 Quaterniond turned_by(const Vector3d& angle) {
-  return Quaterniond(Eigen::AngleAxisd(angle.norm(), angle.norm() > 0 ? angle.normalized() : Vector3d(1, 0, 0)));
+  return Quaterniond(
+      Eigen::AngleAxisd(angle.norm(), angle.norm() > 0 ? angle.normalized() : Vector3d(1, 0, 0)));
 }
 
 Vector3d rotation_vector(const Quaterniond& q) {
@@ -47,7 +49,8 @@ HoseCurve::Frame HoseCurve::beside(const Vector3d& point, double near) const {
     const double share = arc - static_cast<double>(low);
     const Frame &a = frames_[low], &b = frames_[low + 1];
     const Quaterniond from(a.axes), to(b.axes);
-    frame = {a.at + share * (b.at - a.at), (from * turned_by(share * rotation_vector(from.conjugate() * to))).toRotationMatrix()};
+    frame = {a.at + share * (b.at - a.at),
+             (from * turned_by(share * rotation_vector(from.conjugate() * to))).toRotationMatrix()};
     const double along = (point - frame.at).dot(frame.axes.col(2)) / (length_ / pieces);
     arc += along;
     if (std::abs(along) < 1e-9) break;
@@ -90,7 +93,10 @@ void OdeCables::add_chain(const LooseCable& cable, double twisting) {
     const dBodyID body = chain.bodies.emplace_back(dBodyCreate(world_));
     dBodySetAutoDisableFlag(body, 0);
     dBodySetGyroscopicMode(body, 0);
-    dBodySetPosition(body, cable.place[0], cable.place[1], i == 0 ? 0 : i > segments_ ? length_ : (i - 0.5) * l_);
+    dBodySetPosition(body, cable.place[0], cable.place[1],
+                     i == 0          ? 0
+                     : i > segments_ ? length_
+                                     : (i - 0.5) * l_);
     if (i == 0 || i > segments_) {
       dBodySetKinematic(body);
       continue;
@@ -115,7 +121,8 @@ void OdeCables::add_chain(const LooseCable& cable, double twisting) {
       const int group = dParamGroup * k;
       dJointSetAMotorParam(motor, dParamLoStop + group, 0);
       dJointSetAMotorParam(motor, dParamHiStop + group, 0);
-      dJointSetAMotorParam(motor, dParamStopCFM + group, spring_length(j) / (h * std::max(stiffness[k], 1e-6)));
+      dJointSetAMotorParam(motor, dParamStopCFM + group,
+                           spring_length(j) / (h * std::max(stiffness[k], 1e-6)));
       dJointSetAMotorParam(motor, dParamStopERP + group, 1);
     }
   }
@@ -175,9 +182,11 @@ void OdeCables::push(const Chain& chain, int segment, const Vector3d& normal, do
   dJointAttach(dJointCreateContact(world_, contacts_, &contact), chain.bodies[segment], nullptr);
 }
 
-/// Wall, core, play, and other cables. Between two cables stands a wall half way, where it stood before the step.
+/// Wall, core, play, and other cables. Between two cables stands a wall half way, where it stood before the
+/// step.
 void OdeCables::meet(const HoseCurve& hose) {
-  // A little before they touch: a contact joint only pushes, and one not there for a step would be jumped over.
+  // A little before they touch: a contact joint only pushes, and one not there for a step would be jumped
+  // over.
   constexpr double margin = 1e-4;
   for (const Chain& chain : chains_)
     for (int i = 1; i <= segments_; ++i) {
@@ -194,7 +203,8 @@ void OdeCables::meet(const HoseCurve& hose) {
       }
       outside(arm, inner_radius_ - chain.cable.radius);
       const double nearest = core_radius_ + chain.cable.radius;
-      if (core_radius_ > 0 && arm.norm() < nearest + margin) push(chain, i, arm.normalized(), nearest - arm.norm());
+      if (core_radius_ > 0 && arm.norm() < nearest + margin)
+        push(chain, i, arm.normalized(), nearest - arm.norm());
       for (const Chain& other : chains_) {
         if (&other == &chain) continue;
         const Vector3d along = orientation(chain.bodies[i]) * Vector3d(0, 0, 1);
@@ -221,7 +231,8 @@ double OdeCables::follow(const HoseCurve& hose, const std::function<HoseNode(dou
         dBodySetAngularVel(body, 0, 0, 0);
         const HoseNode node = nodes((i - 0.5) / segments_);
         const Matrix3d axes = hose.beside(position(body), (i - 0.5) / segments_).axes;
-        const Vector3d weight = chain.cable.mass_per_length * l_ * (axes * Vector3d(node.pull[0], node.pull[1], 0));
+        const Vector3d weight =
+            chain.cable.mass_per_length * l_ * (axes * Vector3d(node.pull[0], node.pull[1], 0));
         dBodyAddForce(body, weight.x(), weight.y(), weight.z());
       }
     }
@@ -230,7 +241,8 @@ double OdeCables::follow(const HoseCurve& hose, const std::function<HoseNode(dou
     longest = 0;
     auto from = before.begin();
     for (const Chain& chain : chains_)
-      for (int i = 1; i <= segments_; ++i) longest = std::max(longest, (position(chain.bodies[i]) - *from++).norm());
+      for (int i = 1; i <= segments_; ++i)
+        longest = std::max(longest, (position(chain.bodies[i]) - *from++).norm());
   }
   return longest;
 }

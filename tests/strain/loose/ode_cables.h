@@ -1,11 +1,12 @@
-// An independent engine for cables in a hose: chains of rigid segments in space, held together by ODE's own ball
-// joints and motors, stopped by ODE's own contact joints, solved by ODE's own step.
+// An independent engine for cables in a hose: chains of rigid segments in space, held together by ODE's own
+// ball joints and motors, stopped by ODE's own contact joints, solved by ODE's own step.
 //
-// Nothing is reduced to a hose's cross-section: the hose is a tube around a curve that is put together from its
-// curvature and twist, a cable is a chain whose ends are clamped in the frames of the tube's ends. Ball joints are
-// springs of E A / l, motors springs of E I / l and G J / l (of the rotation vector), walls give with the same
-// stiffness per length as in strain/loose. In place of inertia every step starts from rest: with masses over h^2 as a
-// drag, a step is one of backward Euler down the energy, and where nothing moves any more is where cables rest.
+// Nothing is reduced to a hose's cross-section: the hose is a tube around a curve that is put together from
+// its curvature and twist, a cable is a chain whose ends are clamped in the frames of the tube's ends. Ball
+// joints are springs of E A / l, motors springs of E I / l and G J / l (of the rotation vector), walls give
+// with the same stiffness per length as in strain/loose. In place of inertia every step starts from rest:
+// with masses over h^2 as a drag, a step is one of backward Euler down the energy, and where nothing moves
+// any more is where cables rest.
 #pragma once
 
 #include <ode/ode.h>
@@ -45,15 +46,16 @@ struct OdeState {
 
 class OdeCables {
  public:
-  /// cables: their places, stiffnesses, contact stiffness and play (without_limit: none) count. twisting: G J over E I.
-  /// section: the wall and what fills the middle, for those without play.
-  OdeCables(const std::vector<LooseCable>& cables, double length, int segments, double twisting, double inner_radius,
-            double core_radius);
+  /// cables: their places, stiffnesses, contact stiffness and play (without_limit: none) count. twisting: G J
+  /// over E I. section: the wall and what fills the middle, for those without play.
+  OdeCables(const std::vector<LooseCable>& cables, double length, int segments, double twisting,
+            double inner_radius, double core_radius);
   ~OdeCables();
   OdeCables(const OdeCables&) = delete;
   OdeCables& operator=(const OdeCables&) = delete;
 
-  /// Takes the hose to its next shape and lets cables follow for some steps; returns the last step's largest way [m].
+  /// Takes the hose to its next shape and lets cables follow for some steps; returns the last step's largest
+  /// way [m].
   double follow(const HoseCurve& hose, const std::function<HoseNode(double)>& nodes, int steps);
   OdeState state(std::size_t cable, const HoseCurve& hose) const;
 

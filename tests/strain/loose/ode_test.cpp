@@ -1,8 +1,10 @@
-// Loose cables against chains of ODE's own bodies and joints in a hose in space (ode_cables.h), both moved slowly.
+// Loose cables against chains of ODE's own bodies and joints in a hose in space (ode_cables.h), both moved
+// slowly.
 //
-// What may differ: chains of 32 segments are polygons of a quarter of a radian in all (place within a segment's sag, l^2
-// kappa / 8 = 0.2 mm); the reduced model has bending and stretch to first order in the distance from the axis over the
-// bend's radius (2 %), and no torsion of the cables, which the first test measures. Walls give alike in both.
+// What may differ: chains of 32 segments are polygons of a quarter of a radian in all (place within a
+// segment's sag, l^2 kappa / 8 = 0.2 mm); the reduced model has bending and stretch to first order in the
+// distance from the axis over the bend's radius (2 %), and no torsion of the cables, which the first test
+// measures. Walls give alike in both.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -38,8 +40,8 @@ struct Comparison {
 };
 
 /// Of the last pose. twisting: G J over E I of the chains.
-std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double inner_radius, double core_radius,
-                                double twisting, const Motion& motion) {
+std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double inner_radius,
+                                double core_radius, double twisting, const Motion& motion) {
   OdeCables ode(cables, length, segments, twisting, inner_radius, core_radius);
   LooseCables loose(cables, {length, elements});
   for (int t = 1; t <= poses; ++t) {
@@ -66,8 +68,8 @@ std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double in
       c.largest_curvature = std::max(c.largest_curvature, there.curvature[j - 2].norm());
     }
     c.curvature = std::sqrt(c.curvature);
-    INFO("cable " << k << ": strain " << c.strain << ", " << c.ode_strain << "; place " << c.place << " of " << c.offset
-                  << "; curvature " << c.curvature << " of " << c.largest_curvature);
+    INFO("cable " << k << ": strain " << c.strain << ", " << c.ode_strain << "; place " << c.place << " of "
+                  << c.offset << "; curvature " << c.curvature << " of " << c.largest_curvature);
     CHECK(c.offset > 1e-3);  // it lies elsewhere than at its place
   }
   return all;
@@ -84,8 +86,11 @@ LooseCable thick_cable(double place1, double place2) {
 
 Motion swept_bend(double stretch) {
   return [stretch](double z, double share) {
-    return HoseNode{share * 1.5 * std::sin(pi * z), share * (0.8 * std::cos(2 * pi * z) + 0.5), 1.2 * share,
-                    share * stretch, {9.81, -3}};
+    return HoseNode{share * 1.5 * std::sin(pi * z),
+                    share * (0.8 * std::cos(2 * pi * z) + 0.5),
+                    1.2 * share,
+                    share * stretch,
+                    {9.81, -3}};
   };
 }
 
@@ -99,16 +104,18 @@ TEST_CASE("a cable rests where a chain of an independent engine rests") {
   CHECK(slack.place < 0.1 * slack.offset);
   CHECK(slack.curvature < 0.04 * slack.largest_curvature);
   CHECK(std::abs(slack.strain - slack.ode_strain) < 2e-5);  // 2 % of the bend at 12 mm would be 3e-4
-  // Torsion of the cable itself, as stiff as that of a solid round, is what the reduced model leaves out. 0.48 N m at 1.5
-  // 1/m push a third as hard as its weight of 1.9 N/m, and move it by that share of its play; the strain hardly feels it.
+  // Torsion of the cable itself, as stiff as that of a solid round, is what the reduced model leaves out.
+  // 0.48 N m at 1.5 1/m push a third as hard as its weight of 1.9 N/m, and move it by that share of its play;
+  // the strain hardly feels it.
   const Comparison twisted = compare({cable}, 1, 0, 0.8, swept_bend(stretch))[0];
   CHECK(twisted.place < 0.72 / 1.9 * twisted.offset);
   CHECK(std::abs(twisted.strain - twisted.ode_strain) < 2e-5);
 }
 
-TEST_CASE("two cables pressed into the same corner of a hose rest where chains of an independent engine rest") {
-  // The bend's inside pulls both to the wall, and the wall's round against each other. In space they touch in the plane
-  // between them, 0.4 mm of room each; the reduced model stops each after that way along its ring.
+TEST_CASE(
+    "two cables pressed into the same corner of a hose rest where chains of an independent engine rest") {
+  // The bend's inside pulls both to the wall, and the wall's round against each other. In space they touch in
+  // the plane between them, 0.4 mm of room each; the reduced model stops each after that way along its ring.
   const double ring = 0.01845, inner = 0.0255, core = 0.013, room = 0.0004;
   const double angle = std::asin((0.0053 + room) / ring);
   std::vector<LooseCable> cables{thick_cable(ring * std::cos(angle), -ring * std::sin(angle)),
@@ -119,7 +126,8 @@ TEST_CASE("two cables pressed into the same corner of a hose rest where chains o
     return HoseNode{.curvature2 = 0.5 * share, .elongation = share * (0.5 * ring + 1.5e-3)};
   });
   for (const Comparison& c : all) {
-    // along its ring a place turns with the angle: on the way out to the wall 1.75 mm take it sin(angle) times that
+    // along its ring a place turns with the angle: on the way out to the wall 1.75 mm take it sin(angle)
+    // times that
     CHECK(c.place < 1.2 * 0.00175 * std::sin(angle));
     CHECK(c.curvature < 0.03 * c.largest_curvature);
     CHECK(c.strain == Approx(c.ode_strain).epsilon(0.05));  // 0.16 mm less way in at 0.5 1/m: 7e-5 of 1.2e-3
