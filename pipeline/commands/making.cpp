@@ -125,7 +125,8 @@ void add_relative_lives(const Study& study, const StudyPlaces& of_study, const R
   };
   if (study.keep == Keep::lives && std::any_of(study.jobs.begin(), study.jobs.end(), is_rated))
     tell(
-        "note: no life is told in rated cycles (keep: lives leaves no damage of single places); keep: histories tells them\n");
+        "note: no life is told in rated cycles (keep: lives leaves no damage of single places); keep: "
+        "histories tells them\n");
   const RatedStudy rated = rated_study(study);
   if (rated.cables.empty()) return;
   const StudyPlaces places{of_study.folder / ".rigs", of_study.programs};

@@ -155,7 +155,8 @@ Command add_reprogram(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* words = program.add_subcommand(
       "reprogram",
-      "tell what the program could do instead: the lines that cost most by other turns of wrist and arm, by a point, or slower");
+      "tell what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
+      "a point, or slower");
   words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
       ->required()
       ->type_name("");

@@ -37,7 +37,8 @@ Command add_show(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* words = program.add_subcommand(
       "show",
-      "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a job's folder its life.h5");
+      "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a "
+      "job's folder its life.h5");
   words->add_option("job", options->file, "JOB.yaml, FILE.h5, or a job's folder")->required()->type_name("");
   add_sets(*words, "override a key", options->sets);
   return {words, [options] { return show(*options); }};

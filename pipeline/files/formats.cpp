@@ -240,7 +240,8 @@ void add_cables(std::vector<Dataset>& datasets) {
   add("/cable/offset", Type::f64, {"picture", "cable", "segment", "2"}, "m",
       "where loose cables lie, from their places toward d1 and d2; only with one span");
   add("/cable_span/hose_moment", Type::f64, {"sample", "cable_span"}, "N m",
-      "bending moment that the simulated hose carries at the clamps of each span with cables, by its E I: the larger of both");
+      "bending moment that the simulated hose carries at the clamps of each span with cables, by its E I: "
+      "the larger of both");
 }
 
 /// Forces of those cables by the metals of the job.
@@ -251,7 +252,8 @@ void add_cable_forces(std::vector<Dataset>& datasets) {
   add("/cable/tension", Type::f64, {"sample", "cable"}, "N",
       "force of each, by the cyclic curve of its wires; where it differs along it, the largest");
   add("/clamp/cable_moment", Type::f64, {"sample"}, "N m",
-      "of all cables on the hose by their forces, the larger of both clamps; of the span where they ask most of the hose");
+      "of all cables on the hose by their forces, the larger of both clamps; of the span where they ask most "
+      "of the hose");
   add("/clamp/hose_moment", Type::f64, {"sample"}, "N m",
       "bending moment that the simulated hose carries there, by its E I");
 }
@@ -327,10 +329,12 @@ Format make_strain_format() {
   };
   varied("/variation/z", Type::f64, {"variation", "5"},
          "further ways in which the strains of likely worst wires were worked out: the standardised variables of "
-         "friction_inside, friction_hose, slack, play and grip (pipeline/job/uncertainty.h); only where uncertainty is enabled");
+         "friction_inside, friction_hose, slack, play and grip (pipeline/job/uncertainty.h); only where "
+         "uncertainty is enabled");
   varied("/variation/row/variation", Type::u32, {"variation_row"}, "variation of a row: one wire, so varied");
   varied("/variation/row/site", Type::u32, {"variation_row"}, "its site");
-  varied("/variation/row/turning", Type::u32, {"variation_row"}, "how many turning points it has: they follow each other, row by row");
+  varied("/variation/row/turning", Type::u32, {"variation_row"},
+         "how many turning points it has: they follow each other, row by row");
   varied("/variation/strain", Type::f32, {"variation_turn"}, "strain at its turning points");
   return format;
 }
@@ -418,7 +422,8 @@ Format make_life_format() {
        Type::f64,
        {"conductor"},
        "1",
-       "repeats until fatigue.failed_wires_percent of its wires have broken in one segment, all lives median and no load shared",
+       "repeats until fatigue.failed_wires_percent of its wires have broken in one segment, all lives median "
+       "and no load shared",
        true,
        true},
       {"/worst/strain",
@@ -545,14 +550,17 @@ Format make_life_format() {
        true, true},
       {"life_hours_p10",
        "the planner's: by then 10 % of such dresspacks have a conductor that has lost fatigue.failed_wires_percent of its "
-       "wires in one segment, over all that is not known (section uncertainty) and the scatter of wires. In files without first_wire_life_hours_p10 these three tell of the first broken wire",
+       "wires in one segment, over all that is not known (section uncertainty) and the scatter of wires. In "
+       "files without first_wire_life_hours_p10 these three tell of the first broken wire",
        false, true},
       {"life_hours_p50", "the same of half of them", false, true},
       {"life_hours_p90", "the same of 90 %", false, true},
-      {"scatter_life_hours_p10", "the same over the scatter of wires alone; only where uncertainty is enabled", false, true},
+      {"scatter_life_hours_p10",
+       "the same over the scatter of wires alone; only where uncertainty is enabled", false, true},
       {"scatter_life_hours_p50", "the same of half of them", false, true},
       {"scatter_life_hours_p90", "the same of 90 %", false, true},
-      {"life_response", "how the life answers to what is not known, as pipeline/job/life_response.h writes it", true, true},
+      {"life_response", "how the life answers to what is not known, as pipeline/job/life_response.h writes "
+                        "it", true, true},
       {"life_shares", "which parameters explain how much of the variance of log life, largest first", true, true},
       {"measure_next", "the parameter that explains most; empty: the scatter of wires does", true, true},
       {"measure_next_share", "how much, 0 to 1", false, true},
@@ -642,7 +650,8 @@ Format make_preview_format() {
   add({"/span/dresspack", Type::i32, {"span"}, "1", "dresspack of each span between two clamps that hold it"});
   add({"/span/name", Type::text, {"span"}, "1", "between which clamps; empty: the only span"});
   add({"/span/length", Type::f64, {"span"}, "m", "length of dresspack in it, unstretched"});
-  add({"/span/way", Type::f64, {"sample", "span"}, "m", "straight way between its clamps, through its rings; 0 at a free end"});
+  add({"/span/way", Type::f64, {"sample", "span"}, "m",
+      "straight way between its clamps, through its rings; 0 at a free end"});
   add({"/span/working_length",
        Type::f64,
        {"span", "4"},
@@ -670,12 +679,15 @@ Format make_screening_format() {
   Format format{"dresslife-screening", 1, "dresslife-sim --screen or --propose",
                 "what geometry alone, or a short run, says of routings", {}, {}};
   const auto add = [&](Dataset dataset) { format.datasets.push_back(std::move(dataset)); };
-  add({"/limit/name", Type::text, {"limit"}, "1", "too short, too long, bent too tightly, twisted too far, in the robot, pulled too hard"});
-  add({"/candidate/changes", Type::text, {"candidate"}, "1", "YAML: what was changed in the job, or the routing that is proposed"});
+  add({"/limit/name", Type::text, {"limit"}, "1",
+      "too short, too long, bent too tightly, twisted too far, in the robot, pulled too hard"});
+  add({"/candidate/changes", Type::text, {"candidate"}, "1",
+      "YAML: what was changed in the job, or the routing that is proposed"});
   add({"/candidate/refusal", Type::text, {"candidate"}, "1", "why it is no job, or does not run; empty: it is one"});
   add({"/candidate/rejected", Type::i32, {"candidate"}, "1", "1: cannot work, 0: may"});
   add({"/candidate/beyond", Type::f64, {"candidate", "limit"}, "1",
-       "how far beyond each limit, (V1) to (V6) in sim/screening.h, of the last run where there were rehearsals; <= 0: kept; 0 where it is no job", true});
+       "how far beyond each limit, (V1) to (V6) in sim/screening.h, of the last run where there were "
+       "rehearsals; <= 0: kept; 0 where it is no job", true});
   add({"/candidate/time", Type::f64, {"candidate", "limit"}, "s", "when"});
   format.attributes = {{"motion", "YAML of the motion for which routings are proposed; empty: the job's own", true}};
   return format;

@@ -22,7 +22,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr const char* ways =
-    "write LOW .. HIGH, SPREAD around, ANGLE deg around, LOW .. HIGH along LINK (or along [x, y, z]), or a list [A, B, ...]";
+    "write LOW .. HIGH, SPREAD around, ANGLE deg around, LOW .. HIGH along LINK (or along [x, y, z]), or a "
+    "list [A, B, ...]";
 constexpr double steps = 1e4;  // in which a range is gone through
 
 /// A round step of at most a ten-thousandth of a range.

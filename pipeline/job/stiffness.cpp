@@ -270,7 +270,8 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   if (given >= least && given <= most) return warnings;
   warn(fmt::format(
       "bending_stiffness_Nm2 is {:.3g}, {:.2g} times what the dresspack's parts{} have by their friction and pressures at {:.3g} "
-      "1/m: {:.3g}, {:.3g} sliding, {:.3g} glued (measure it by the sag of a hanging length, or write from_construction)",
+      "1/m: {:.3g}, {:.3g} sliding, {:.3g} glued (measure it by the sag of a hanging length, or write "
+      "from_construction)",
       given, given / friction, without, curvature, friction, sliding, stuck));
   return warnings;
 }

@@ -34,7 +34,8 @@ void describe(Fields& f, Strain& strain) {
   };
   factor(
       "friction_factor", strain.factors.friction,
-      "of friction times pressure inside the cables, also where a measured stiffness sets it; to try what is not known");
+      "of friction times pressure inside the cables, also where a measured stiffness sets it; to try what is "
+      "not known");
   factor("hose_friction_factor", strain.factors.hose_friction,
          "of the friction of cables in a hose; likewise");
   factor("slack_factor", strain.factors.slack, "of slack_percent; likewise");

@@ -26,15 +26,18 @@ void describe(Fields& f, Observation& observation) {
       "instead of a life: moment over curvature of the cable, bent from straight to at_curvature_1_per_m");
   f.number(
       "at_curvature_1_per_m", observation.at_curvature, Need::optional, between(1e-3, 100),
-      "of stiffness_Nm2; of decrement the curvature beside the clamp at the end of a swing, 3.5 x deflection / length^2");
+      "of stiffness_Nm2; of decrement the curvature beside the clamp at the end of a swing, 3.5 x deflection "
+      "/ length^2");
   f.maybe_number(
       "decrement", observation.decrement, between(1e-3, 5),
-      "instead of a life: ln of the ratio of two swings to one side that follow each other, of a piece that stands out from a clamp");
+      "instead of a life: ln of the ratio of two swings to one side that follow each other, of a piece that "
+      "stands out from a clamp");
   f.number("decrement_without_slip", observation.decrement_without_slip, Need::optional, between(0, 5),
            "what of decrement the jacket's polymer and the air have, as the smallest swings show it");
   f.path(
       "bending", observation.bending, Need::optional,
-      "instead of a life: a CSV of a bending test, columns curvature_1_per_m and moment_Nm, from straight, loops as they were bent");
+      "instead of a life: a CSV of a bending test, columns curvature_1_per_m and moment_Nm, from straight, "
+      "loops as they were bent");
   f.number("noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
            "standard deviation of a measured moment, stiffness or decrement");
   f.number("cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
@@ -45,7 +48,8 @@ void describe(Fields& f, Observation& observation) {
       "its maker promises so much");
   f.choice(
       "criterion", observation.criterion,
-      "what counted as failed: first_wire, or conductor (a share of its wires at one place, fatigue.failed_wires_percent)");
+      "what counted as failed: first_wire, or conductor (a share of its wires at one place, "
+      "fatigue.failed_wires_percent)");
   f.integer("specimens", observation.specimens, Need::optional, between(1, 1e6),
             "that were tried; of several that broke, cycles or hours are their geometric mean");
   f.number(

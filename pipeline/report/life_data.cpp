@@ -341,7 +341,8 @@ class Data {
            : stress->text == "elastic"
                ? "E times strain (fatigue.stress: elastic), shifted by what of its mean stress relaxes"
                : "by the cyclic curve of its metal and Masing's rule (fatigue.stress: cyclic; E times strain where a strain-life "
-                 "table is given), shifted by what of its mean stress relaxes. Where it is one line, the metal hardly yields";
+                 "table is given), shifted by what of its mean stress relaxes. Where it is one line, the "
+                 "metal hardly yields";
   }
 
   static std::string packed(const std::vector<double>& values) {

@@ -255,7 +255,8 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
 std::string more_rows(const std::vector<RankingRow>& rows, const std::vector<bool>& detailed) {
   if (rows.size() <= rows_at_once) return "";
   return fmt::format(
-      "<noscript><p>The first {} of {} jobs; ranking.csv holds all.</p></noscript>\n<template id=\"more-jobs\">\n{}</template>\n",
+      "<noscript><p>The first {} of {} jobs; ranking.csv holds all.</p></noscript>\n<template "
+      "id=\"more-jobs\">\n{}</template>\n",
       rows_at_once, rows.size(), ranking_rows(rows, detailed, rows_at_once, rows.size()));
 }
 

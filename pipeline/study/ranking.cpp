@@ -162,7 +162,8 @@ void tell_orders(std::vector<RankingRow>& rows) {
       try {
         lives = draw_lives(LifeResponse::from_text(rows[k].life_response), rows[k].job, draws);
       } catch (const std::invalid_argument& problem) {
-        rows[k].failure = fmt::format("{}: attribute 'life_response' is no response ({}); make the file anew with dresslife-fatigue",
+        rows[k].failure = fmt::format(
+            "{}: attribute 'life_response' is no response ({}); make the file anew with dresslife-fatigue",
                                       rows[k].life_file.string(), problem.what());
       }
       for (double& life : lives) life += std::log10(rows[k].repeat_seconds / 3600);

@@ -189,7 +189,8 @@ std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& ro
   }
   return text +
          "\ncycles: by which half of such cables have a conductor that lost its share of wires "
-         "(fatigue.failed_wires_percent) at one place, 10 .. 90 % of them by scatter;\nbounds: of the worst wire. rolling_flex: round trips.\n";
+         "(fatigue.failed_wires_percent) at one place, 10 .. 90 % of them by scatter;\nbounds: of the worst "
+         "wire. rolling_flex: round trips.\n";
 }
 
 std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows) {

@@ -243,7 +243,8 @@ std::string study_manual() {
          "around` (the job's own value), `ANGLE deg around` (a direction), `LOW .. HIGH along LINK` (a position), or a list; "
          "`dresslife run` leaves it alone |\n"
          "| `limits` | `contact_force_N`, `tension_N` | none | what `dresslife improve` keeps besides the checks |\n"
-         "| `sample` | map | none | keys whose values are drawn, for each of the jobs that the other sections make |\n\n" +
+         "| `sample` | map | none | keys whose values are drawn, for each of the jobs that the other "
+         "sections make |\n\n" +
          sampling_manual();
 }
 

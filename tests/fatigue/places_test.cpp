@@ -226,7 +226,8 @@ TEST_CASE("places: damage of all wires everywhere, by conductor, segment and wir
 }
 
 TEST_CASE(
-    "places: by medians a conductor fails with its k-th wire in its worst segment, broken ones elsewhere do not count") {
+    "places: by medians a conductor fails with its k-th wire in its worst segment, broken ones elsewhere do "
+    "not count") {
   // Five wires of which the second is to break: 40 % rounds to 2. Conductor 1 is never damaged in two wires
   // at one place.
   const Pack pack = pack_of(2, 3, 5, [](auto c, auto g, auto w) {

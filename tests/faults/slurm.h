@@ -80,7 +80,8 @@ class Slurm {
   std::string state(const std::string& job) const {
     return shell(
                "timeout 20 scontrol show job " + job +
-               " | sed -n 's/.*JobState=\\([A-Z_]*\\).*/\\1/p; s/.*ExitCode=\\([0-9:]*\\).*/\\1/p' | paste -sd ' \\n' | sort -u")
+               " | sed -n 's/.*JobState=\\([A-Z_]*\\).*/\\1/p; s/.*ExitCode=\\([0-9:]*\\).*/\\1/p' | paste "
+               "-sd ' \\n' | sort -u")
         .out;
   }
   bool node_is(const std::string& word) const {

@@ -245,7 +245,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "pieces of loose cables that miss their waves are told with how many to take, and none that are left to the waves do") {
+    "pieces of loose cables that miss their waves are told with how many to take, and none that are left to "
+    "the waves do") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
   const std::string cable = "dresspack.components.1.";

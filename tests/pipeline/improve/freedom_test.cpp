@@ -143,7 +143,8 @@ TEST_CASE("what nothing can be freed by is refused with its place") {
   };
   CHECK(
       words("routing.free_length_m: 2.6 .. 1.9") ==
-      "s.yaml:1:24: error: free.routing.free_length_m is '2.6 .. 1.9', which holds nothing; write the smaller number first");
+      "s.yaml:1:24: error: free.routing.free_length_m is '2.6 .. 1.9', which holds nothing; write the "
+      "smaller number first");
   CHECK(words("routing.free_length_m: long").find("is 'long'; write LOW .. HIGH") != std::string::npos);
   CHECK(words("routing.free_length_m: 1 .. two").find("'two' is no number") != std::string::npos);
   CHECK(words("routing.free_length_m: 0 around").find("may not change at all") != std::string::npos);

@@ -472,9 +472,11 @@ TEST_CASE(
     return std::array{part_text(job, Part::strain), part_text(job, Part::fatigue), part_text(job, Part::sim)};
   };
   const std::string one =
-      "fatigue_strength_MPa: 400, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, fatigue_ductility_exponent: -0.5";
+      "fatigue_strength_MPa: 400, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
+      "fatigue_ductility_exponent: -0.5";
   const std::string other =
-      "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.12, fatigue_ductility: 0.4, fatigue_ductility_exponent: -0.6";
+      "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.12, fatigue_ductility: 0.4, "
+      "fatigue_ductility_exponent: -0.6";
   const std::string curve = ", cyclic_strength_MPa: 450, cyclic_hardening_exponent: 0.2";
   for (const std::string& changed :
        {other, one + ", tensile_strength_MPa: 240", one + curve, one + ", poisson_ratio: 0.3"}) {

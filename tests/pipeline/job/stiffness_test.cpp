@@ -278,7 +278,8 @@ TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it 
   CHECK_THAT(
       warnings[0].words,
       Contains(
-          "too little is from_construction: axial_stiffness_N 300, without its wall (hose_material); it would stretch by " +
+          "too little is from_construction: axial_stiffness_N 300, without its wall (hose_material); it "
+          "would stretch by " +
           fmt::format("{:.2g} %", 100 * 9.81 * dresspack.mass_per_length / 300)) &&
           Contains("hose_material: hose_polyamide, or give it as measured"));
 }

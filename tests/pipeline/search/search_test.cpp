@@ -261,7 +261,8 @@ TEST_CASE("a search that rehearses goes on where it was killed, too") {
   }
 }
 
-TEST_CASE("of many rehearsals of which none keeps its limits the nearest are looked at, and none that the models forgot") {
+TEST_CASE("of many rehearsals of which none keeps its limits the nearest are looked at, and none that the "
+          "models forgot") {
   // A narrow valley about one corner of a box of six variables, not deep enough; rehearsals are right.
   const auto beyond = [](const VectorXd& place) {
     return 0.1 + std::abs(std::log(((place.array() - 0.2).abs().maxCoeff() + 0.05) / 0.3));

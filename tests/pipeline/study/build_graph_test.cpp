@@ -173,7 +173,8 @@ TEST_CASE("build graph: what a study does not keep goes when its job is done, an
 }
 
 TEST_CASE(
-    "build graph: a study that keeps lives alone notices a damaged result that is there, and keeps what failed jobs need") {
+    "build graph: a study that keeps lives alone notices a damaged result that is there, and keeps what "
+    "failed jobs need") {
   Bench bench;
   Study study = bench.study({{"one", "simulation.segments=20"}});
   study.keep = Keep::lives;
