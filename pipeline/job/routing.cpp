@@ -101,15 +101,23 @@ void place_clamp(Clamp& clamp, const Robot& robot) {
                                  : fmt::format("one of: {}", fmt::join(names, ", ")));
 }
 
-void check_place(const std::string& link, const Vector3d& direction, const std::string& name,
-                 const Where& where, const Robot& robot) {
-  if (!(direction.norm() > 1e-9))
-    throw InputError(where, fmt::format("routing.{}.direction is zero", name),
+/// Of a clamp or a ring.
+template <class Place>
+void check_place(const Place& place, const std::string& name, const Robot& robot) {
+  constexpr double farthest = 30;  // [m] from a link's frame: farther than across a cell, where millimetres lie
+  if (!(place.direction.norm() > 1e-9))
+    throw InputError(place.where, fmt::format("routing.{}.direction is zero", name),
                      "give where the dresspack points");
+  if (!(place.position.norm() <= farthest))
+    throw InputError(place.where,
+                     fmt::format("routing.{}.position_m is {:.4g} m away from the frame of {} (at most {:g})", name,
+                                 place.position.norm(), place.link, farthest),
+                     "give it in metres, in the link's frame");
   std::vector<std::string> names;
   for (const Link& of_robot : robot.links) names.push_back(of_robot.name);
-  if (std::find(names.begin(), names.end(), link) == names.end())
-    throw InputError(where, fmt::format("routing.{}.link '{}' is not a link of the robot", name, link),
+  if (std::find(names.begin(), names.end(), place.link) == names.end())
+    throw InputError(place.where,
+                     fmt::format("routing.{}.link '{}' is not a link of the robot", name, place.link),
                      fmt::format("one of: {}", fmt::join(names, ", ")));
 }
 
@@ -118,7 +126,7 @@ void check_clamp(const std::optional<Clamp>& clamp, const std::string& name, con
   if (!clamp)
     throw InputError(routing.where, fmt::format("routing.{} is missing", name),
                      "give link, position_m and direction of the clamp");
-  check_place(clamp->link, clamp->direction, name, clamp->where, robot);
+  check_place(*clamp, name, robot);
 }
 
 /// What the robot's links carry cannot go with recorded poses.
@@ -141,8 +149,7 @@ void check_rings(const Routing& routing, double diameter, const Robot& robot, Pr
   for (std::size_t k = 0; k < routing.rings.size(); ++k) {
     const GuideRing& ring = routing.rings[k];
     const std::string name = fmt::format("rings[{}]", k + 1);
-    problems.attempt("", ring.where,
-                     [&] { check_place(ring.link, ring.direction, name, ring.where, robot); });
+    problems.attempt("", ring.where, [&] { check_place(ring, name, robot); });
     if (2 * ring.radius <= diameter)
       problems.add(ring.where,
                    fmt::format("routing.{}.radius_mm is {} (the dresspack's own radius is {} mm)", name,

@@ -377,6 +377,9 @@ TEST_CASE("job: what contradicts itself is refused") {
               "routing.tool_clamp.link 'hand' is not a link of the robot; one of: base, turret, arm"});
   check_case({"direction: [1, 0, 0]", "direction: [0, 0, 0]", "{link: arm",
               "routing.tool_clamp.direction is zero; give where the dresspack points"});
+  check_case({"position_m: [0.4, 0, 0], direction: [1, 0, 0]", "position_m: [0, 0, 150], direction: [1, 0, 0]", "{link: arm",
+              "routing.tool_clamp.position_m is 150 m away from the frame of arm (at most 30); give it in "
+              "metres, in the link's frame"});
   check_case({", material: copper}", "}", "{name: wire",
               "'wire' must have either a material (a wire) or components; give one of the two"});
   check_case({"helix_radius_mm: 2.5, lay_angle_deg: 25", "helix_radius_mm: 0", "{name: wire",
