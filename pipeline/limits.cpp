@@ -71,6 +71,7 @@ namespace {
   constexpr std::size_t bytes = 1 << 20;
   volatile char stack[bytes];
   stack[0] = 0;
+  static_cast<void>(stack[0]);
 }
 
 void set_memory_limit(std::uint64_t megabytes) {

@@ -325,7 +325,6 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
                      "check the path; it counts from the folder of the file that names it");
   std::vector<std::string> names;
   const auto found_in = [&](const fs::path& place) {
-    std::error_code failure;
     const fs::path file = place / (name + ".yaml");
     if (is_file(file))
       return file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file);
