@@ -83,7 +83,7 @@ inline hid_t memory_type(Type type) {
   return -1;
 }
 
-/// The length that an axis name stands for: a number itself, or "name" and "name+1" through `lengths`.
+/// What an axis of a table says of its length: a number, "name", or "name+1" for one more than that.
 struct Axis {
   std::string name;
   std::size_t plus = 0;

@@ -1,6 +1,5 @@
 // Loops, jumps back, and what begins again at its end: how often, until nothing new comes.
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "sim/program/interpreter.h"

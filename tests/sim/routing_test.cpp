@@ -364,6 +364,8 @@ TEST_CASE("routing: what cannot be is refused with its place and a remedy") {
        "through"},
       {ends + "  rings: [{" + ring + ", radius_mm: 25, at_length_m: 2}]\n",
        "routing.rings[1].at_length_m is 2"},
+      {ends + "  rings: [{link: bench, position_m: [500, 0, 1000], direction: [1, 0, 0], radius_mm: 25}]\n",
+       "routing.rings[1].position_m is 1118 m away from the frame of bench (at most 30); give it in metres"},
       {ends +
            "  clamps: [{link: bench, position_m: [0.5, 0, 1], direction: [1, 0, 0], at_length_m: 0.6}]\n  "
            "rings: [{" +

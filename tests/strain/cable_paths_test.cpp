@@ -230,7 +230,7 @@ TEST_CASE("tension begins where slack no longer covers what turning asks less wh
     paths.finish();
     const CablePulls pulls = pulls_of(paths);
     double most = 0;
-    for (const std::vector<double>& tension : pulls.tension) most = std::max(most, tension.back());
+    for (const std::vector<double>& of_cable : pulls.tension) most = std::max(most, of_cable.back());
     return most;
   };
   // cable 3 and 4 lie at 72 and 108 degrees: sin 72 of the radius is the farthest outside

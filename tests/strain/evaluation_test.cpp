@@ -349,8 +349,8 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
   for (const Results* results : {&free, &stick}) {
     CHECK(results->stick.segment.size() >= 5 * few_segments);  // five layers, one to five wires of each
     CHECK(results->free.segment.size() <= most_picked * few_segments);
-    // of each segment the wires of the largest range and of the largest sum over cycles, and one that was
-    // named
+    // of each segment the wire of the largest range and the two of the largest sum over cycles and over ranges,
+    // some of them the same, and one that was named
     REQUIRE(results->probes.size() > few_segments);
     REQUIRE(results->probes.size() <= 5 * few_segments + 1);
     CHECK(results->sites.component[results->probes.back().site] ==

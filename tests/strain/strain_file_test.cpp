@@ -206,7 +206,8 @@ TEST_CASE(
     const FileReader strain(scratch / "strain.h5", pipeline::strain_format());
     CHECK(strain.read<std::string>("/cable/name") ==
           std::vector<std::string>{"cable 1", "cable 2", "cable 3"});
-    Forces forces{.slip = strain.read<double>("/cable/grip_slip")};
+    Forces forces;
+    forces.slip = strain.read<double>("/cable/grip_slip");
     pipeline::Job job = job_with(sets);
     for (pipeline::Material& metal : job.dresspacks[0].dresspack.materials)
       metal.fatigue_strength *= strength;
