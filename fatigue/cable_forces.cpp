@@ -57,7 +57,8 @@ Cables cables_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
           "make the file anew with dresslife-strain");
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const pipeline::Component& of = component_of(strain, job, in, static_cast<std::size_t>(component[k]));
-    PulledCable& cable = cables.all.emplace_back(pipeline::CableForce(job.dresspacks[in].dresspack, of));
+    cables.all.push_back({pipeline::CableForce(job.dresspacks[in].dresspack, of)});
+    PulledCable& cable = cables.all.back();
     const double* const at = place.data() + 4 * k;
     cable.place = {{{at[0], at[1]}, {at[2], at[3]}}};
     for (std::size_t which = 0; which < 3; ++which)
