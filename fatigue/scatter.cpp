@@ -143,7 +143,8 @@ Percentiles first_conductor_lives(std::span<const Bundle> bundles, double failed
   if (scatter.log10 == 0) return result;
   const double own = scatter.own() * std::numbers::ln10;
   std::vector<LifeDistribution> each;
-  for (const auto& [dresspack, conductors] : dresspacks) {
+  for (const auto& in_dresspack : dresspacks) {
+    const std::vector<Conductor>& conductors = in_dresspack.second;
     double low = infinity, high = infinity;
     for (const Conductor& conductor : conductors) {
       low = std::min(low, conductor.wires.log_life(own > 0 ? 0 : conductor.count - 1));
