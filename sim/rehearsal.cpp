@@ -32,6 +32,51 @@ void see(Screening& seen, const Check& check) {
     see(seen, ScreenedLimit::tension, std::log(check.value / check.limit), check.time);
 }
 
+/// What a rehearsal's bends are taken from: the sharpest curvatures of one repeat.
+class Bends {
+ public:
+  explicit Bends(const Simulation& simulation)
+      : rod_(simulation.rod()), duration_(simulation.path().duration()) {
+    for (const pipeline::MountedDresspack& mounted : simulation.setup().dresspacks)
+      least_radius_.push_back(limits_of(mounted.dresspack).least_bend_radius);
+    begin();
+  }
+
+  void begin() { sharpest_.assign(least_radius_.size() * bend_moments * bend_stretches, 0.0); }
+
+  void see(const Sample& sample) {
+    const int moment = part_of(sample.time / duration_, bend_moments);
+    for (int j = 0; j < rod_.links(); ++j) {
+      const Span& span = rod_.span_of_link(j);
+      const int stretch = part_of(rod_.link_arc(j) / length_of(span.dresspack), bend_stretches);
+      double& sharpest = sharpest_[(span.dresspack * bend_moments + moment) * bend_stretches + stretch];
+      sharpest =
+          std::max(sharpest, rod_.link_state(sample.state, j).turn.head<2>().norm() / rod_.bending_length(j));
+    }
+  }
+
+  std::vector<double> beyond() const {
+    constexpr double straight = 1e-6;  // [1/m], far from every limit, and its logarithm is finite
+    std::vector<double> g;
+    for (std::size_t k = 0; k < sharpest_.size(); ++k)
+      g.push_back(
+          std::log(least_radius_[k / (bend_moments * bend_stretches)] * std::max(sharpest_[k], straight)));
+    return g;
+  }
+
+ private:
+  static int part_of(double share, int parts) {
+    return std::clamp(static_cast<int>(share * parts), 0, parts - 1);
+  }
+  double length_of(int dresspack) const {
+    return rod_.link_arc(rod_.spans()[rod_.first_span(dresspack + 1) - 1].last_link());
+  }
+
+  const Rod& rod_;
+  double duration_;
+  std::vector<double> least_radius_, sharpest_;
+};
+
 }  // namespace
 
 Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats) {
@@ -41,7 +86,11 @@ Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats) {
   setup.simulation.segments = std::min(setup.simulation.segments, segments);
   setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, repeats);
   try {
-    const RunSummary summary = Simulation(setup).run({[](const Sample&) {}});
+    const Simulation simulation(setup);
+    Bends bends(simulation);
+    const RunSummary summary =
+        simulation.run({[&](const Sample& sample) { bends.see(sample); }, [&](int) { bends.begin(); }});
+    rehearsal.bends = bends.beyond();
     for (const Check& check : summary.checks) see(rehearsal.seen, check);
   } catch (const pipeline::InputError& problem) {
     rehearsal.refusal = problem.what();

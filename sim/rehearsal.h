@@ -7,6 +7,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "pipeline/job/setup.h"
 #include "sim/screening.h"
@@ -18,7 +19,14 @@ struct Rehearsal {
   /// obstacles.
   Screening seen;
   std::string refusal;  ///< why it does not run; empty: it does
+  /// (dresspack, moment, stretch) (V3) of what bends in one of bend_moments equal parts of the motion's time
+  /// and one of bend_stretches equal parts of the hose: smoother functions of the routing than their largest,
+  /// which has an edge wherever another posture or another place of the hose takes over. At the samples, so
+  /// that the largest may miss a little of the run's.
+  std::vector<double> bends;
 };
+
+inline constexpr int bend_moments = 16, bend_stretches = 3;
 
 /// What a search asks for.
 inline constexpr int rehearsed_segments = 24, rehearsed_repeats = 1;

@@ -19,6 +19,7 @@ using pipeline::Node;
 struct Verdict {
   std::string changes, refusal;
   Screening screening;
+  std::vector<double> bends{};             // of its rehearsal (rehearsal.h)
   std::optional<pipeline::Setup> setup{};  // where it is a job
 };
 
@@ -47,9 +48,23 @@ class Writer {
     file_.append("/candidate/rejected", std::span<const std::int32_t>(rejected));
     file_.append("/candidate/beyond", std::span<const double>(beyond));
     file_.append("/candidate/time", std::span<const double>(times));
+    write_bends(verdicts);
   }
 
  private:
+  /// One row of numbers for each that ran, 0 for the others; nothing where none ran.
+  void write_bends(const std::vector<Verdict>& verdicts) {
+    std::size_t most = 0;
+    for (const Verdict& of : verdicts) most = std::max(most, of.bends.size());
+    if (most == 0) return;
+    file_.set_axis("bend", most);
+    for (const Verdict& of : verdicts) {
+      std::vector<double> row = of.bends;
+      row.resize(most);
+      file_.append("/candidate/bend", std::span<const double>(row));
+    }
+  }
+
   pipeline::FileWriter& file_;
 };
 
@@ -115,7 +130,7 @@ void rehearse(std::vector<Verdict>& verdicts) {
   });
   for (std::size_t k = 0; k < left.size(); ++k) {
     left[k]->refusal = done[k].refusal;
-    if (done[k].refusal.empty()) left[k]->screening = done[k].seen;
+    if (done[k].refusal.empty()) left[k]->screening = done[k].seen, left[k]->bends = std::move(done[k].bends);
   }
 }
 

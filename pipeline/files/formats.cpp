@@ -689,6 +689,11 @@ Format make_screening_format() {
        "how far beyond each limit, (V1) to (V6) in sim/screening.h, of the last run where there were "
        "rehearsals; <= 0: kept; 0 where it is no job", true});
   add({"/candidate/time", Type::f64, {"candidate", "limit"}, "s", "when"});
+  Dataset bend{"/candidate/bend", Type::f64, {"candidate", "bend"}, "1",
+               "of short runs: (V3) of each dresspack, each part of the motion's time, each part of the hose "
+               "(sim/rehearsal.h); 0 where it does not run"};
+  bend.may_be_absent = true;
+  add(bend);
   format.attributes = {{"motion", "YAML of the motion for which routings are proposed; empty: the job's own", true}};
   return format;
 }

@@ -75,6 +75,11 @@ std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
   return of;
 }
 
+void add_bends(std::vector<std::vector<double>>& pieces, const std::vector<double>& bends) {
+  pieces.resize(std::max<std::size_t>(pieces.size(), bend + 1));
+  pieces[bend].insert(pieces[bend].end(), bends.begin(), bends.end());
+}
+
 bool Outcome::feasible() const { return failure.empty() && violation() == 0; }
 
 double Outcome::violation() const {

@@ -28,6 +28,9 @@ const std::vector<std::string>& outcome_limit_names();
 std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
                                         const std::vector<double>& beyond);
 
+/// Adds to the pieces of limits (Look::pieces) a short run's bends.
+void add_bends(std::vector<std::vector<double>>& pieces, const std::vector<double>& bends);
+
 struct Outcome {
   std::string failure;         ///< why there is no life; empty: there is one
   double hours = 0;            ///< planner's life in 10 % of dresspacks; infinite without damage

@@ -34,11 +34,16 @@ ScreenedList read_screening(const std::filesystem::path& path) {
              refusals = file.read<std::string>("/candidate/refusal");
   const auto rejected = file.read<std::int32_t>("/candidate/rejected");
   const auto beyond = file.read<double>("/candidate/beyond");
-  const std::size_t limits = list.limits.size();
+  std::vector<double> bends;
+  if (file.has("/candidate/bend")) bends = file.read<double>("/candidate/bend");
+  const std::size_t limits = list.limits.size(), bends_each = file.length("bend");
   for (std::size_t k = 0; k < changes.size(); ++k) {
     const auto first = beyond.begin() + static_cast<std::ptrdiff_t>(k * limits);
     list.candidates.push_back({changes[k], refusals[k], rejected[k] != 0,
                                std::vector<double>(first, first + static_cast<std::ptrdiff_t>(limits))});
+    if (bends.empty() || !refusals[k].empty()) continue;
+    const auto bend = bends.begin() + static_cast<std::ptrdiff_t>(k * bends_each);
+    list.candidates.back().bends.assign(bend, bend + static_cast<std::ptrdiff_t>(bends_each));
   }
   return list;
 }

@@ -10,11 +10,12 @@ namespace dresslife::pipeline {
 struct Job;
 
 struct ScreenedCandidate {
-  std::string changes;         ///< YAML
-  std::string refusal;         ///< why it is no job; empty: it is one
-  bool rejected = false;       ///< cannot work
-  std::vector<double> beyond;  ///< (limit) <= 0: kept
-  double violation() const;    ///< sum of what is beyond
+  std::string changes;          ///< YAML
+  std::string refusal;          ///< why it is no job; empty: it is one
+  bool rejected = false;        ///< cannot work
+  std::vector<double> beyond;   ///< (limit) <= 0: kept
+  std::vector<double> bends{};  ///< what the bend's limit is the largest of, in a short run; empty: not told
+  double violation() const;     ///< sum of what is beyond
 };
 
 struct ScreenedList {

@@ -42,16 +42,23 @@ double noise_of(const GaussianProcess::Shape& shape) {
   return std::exp(shape[shape.size() - 1]) + least_noise;
 }
 
-/// -2 ln(likelihood x prior), but for constants, with the likeliest s^2.
-double unlikeliness(const MatrixXd& points, const VectorXd& centred, const GaussianProcess::Shape& shape) {
+MatrixXd centred_at(const MatrixXd& values, const VectorXd& mean) {
+  return values.rowwise() - mean.transpose();
+}
+
+VectorXd mean_of(const MatrixXd& values) { return values.colwise().mean().transpose(); }
+
+/// -2 ln(likelihood x prior), but for constants, with the likeliest s^2 of each function.
+double unlikeliness(const MatrixXd& points, const MatrixXd& centred, const GaussianProcess::Shape& shape) {
   constexpr double length_spread = 1.2, noise_spread = 3;  // of their logarithms
   const Eigen::LLT<MatrixXd> factor(correlations(points * per_length(shape).asDiagonal(), noise_of(shape)));
-  const auto n = static_cast<double>(centred.size());
-  const double squares = std::max(flat, centred.dot(factor.solve(centred)));
+  const auto n = static_cast<double>(centred.rows());
+  const VectorXd squares =
+      centred.cwiseProduct(factor.solve(centred)).colwise().sum().cwiseMax(flat).transpose();
   const double determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
   VectorXd off = (shape - GaussianProcess::usual_shape(points.cols())) / length_spread;
   off[off.size() - 1] *= length_spread / noise_spread;
-  return n * std::log(squares / n) + determinant + off.squaredNorm();
+  return n * (squares.array() / n).log().mean() + determinant + off.squaredNorm();
 }
 
 }  // namespace
@@ -64,22 +71,23 @@ GaussianProcess::Shape GaussianProcess::usual_shape(Index variables) {
   return shape;
 }
 
-GaussianProcess::GaussianProcess(const MatrixXd& points, const VectorXd& values, const Shape& shape,
+GaussianProcess::GaussianProcess(const MatrixXd& points, const MatrixXd& values, const Shape& shape,
                                  const Scale& scale)
     : scaled_(points * per_length(shape).asDiagonal()),
       per_length_(per_length(shape)),
       covariance_(correlations(scaled_, noise_of(shape))),
-      mean_(values.mean()) {
-  const VectorXd centred = values.array() - mean_;
+      mean_(mean_of(values)) {
+  const MatrixXd centred = centred_at(values, mean_);
   weights_ = covariance_.solve(centred);
   const double believed = scale.worth * scale.deviation * scale.deviation;
-  variance_ =
-      std::max(flat, (believed + centred.dot(weights_)) / (scale.worth + static_cast<double>(values.size())));
+  const VectorXd squares = centred.cwiseProduct(weights_).colwise().sum().transpose();
+  deviation_ =
+      ((believed + squares.array()) / (scale.worth + static_cast<double>(values.rows()))).max(flat).sqrt();
 }
 
-GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, const VectorXd& values,
+GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, const MatrixXd& values,
                                                         const Shape& start, int evaluations) {
-  const VectorXd centred = values.array() - values.mean();
+  const MatrixXd centred = centred_at(values, mean_of(values));
   if (centred.squaredNorm() <= flat) return start;
   constexpr double widest = 5;  // of a logarithm about the usual
   const Shape usual = usual_shape(points.cols());
@@ -90,12 +98,17 @@ GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, 
                    start, 0.5, evaluations);
 }
 
-GaussianProcess::Told GaussianProcess::at(const VectorXd& place) const {
+GaussianProcess::ToldOfEach GaussianProcess::of_each(const VectorXd& place) const {
   const VectorXd here = place.cwiseProduct(per_length_);
   VectorXd k(scaled_.rows());
   for (Index i = 0; i < k.size(); ++i) k[i] = correlation((scaled_.row(i).transpose() - here).squaredNorm());
   const double explained = covariance_.matrixL().solve(k).squaredNorm();
-  return {mean_ + k.dot(weights_), std::sqrt(variance_ * std::max(0.0, 1 - explained))};
+  return {mean_ + weights_.transpose() * k, std::sqrt(std::max(0.0, 1 - explained)) * deviation_};
+}
+
+GaussianProcess::Told GaussianProcess::at(const VectorXd& place) const {
+  const ToldOfEach told = of_each(place);
+  return {told.means[0], told.deviations[0]};
 }
 
 }  // namespace dresslife::pipeline

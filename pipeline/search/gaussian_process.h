@@ -5,7 +5,8 @@
 //      k(r) = (1 + sqrt(5) r + 5 r^2/3) exp(-sqrt(5) r)  (Matern 5/2; Rasmussen and Williams, Gaussian
 //      Processes for Machine Learning, 2006, eq. 4.17), noise variance s^2 n. m is the mean of the values,
 //      s^2 the likeliest given the rest; l and n maximise the likelihood (eq. 5.8) times a wide lognormal
-//      prior on each.
+//      prior on each. Several functions of the same places have one k, l and n and an m and s each; their
+//      likelihood is the mean of all, since they are not independent of each other.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -24,26 +25,31 @@ class GaussianProcess {
     double deviation = 0, worth = 0;
   };
 
-  /// points: (place, variable), values: (place), finite, at least one.
-  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape)
+  /// points: (place, variable), values: (place, function), finite, at least one.
+  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values, const Shape& shape)
       : GaussianProcess(points, values, shape, Scale{}) {}
-  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::VectorXd& values, const Shape& shape,
+  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values, const Shape& shape,
                   const Scale& scale);
 
   /// The likeliest shape, sought from `start` with so many evaluations.
-  static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::VectorXd& values,
+  static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values,
                                const Shape& start, int evaluations);
 
   struct Told {
     double mean = 0, deviation = 0;  ///< of the function at a place, without noise
   };
-  Told at(const Eigen::VectorXd& place) const;
+  Told at(const Eigen::VectorXd& place) const;  ///< of the first function
+  struct ToldOfEach {
+    Eigen::VectorXd means, deviations;  ///< (function)
+  };
+  ToldOfEach of_each(const Eigen::VectorXd& place) const;
 
  private:
   Eigen::MatrixXd scaled_;  // (place, variable) / l
-  Eigen::VectorXd per_length_, weights_;
+  Eigen::VectorXd per_length_;
+  Eigen::MatrixXd weights_;  // (place, function)
   Eigen::LLT<Eigen::MatrixXd> covariance_;
-  double mean_ = 0, variance_ = 0;
+  Eigen::VectorXd mean_, deviation_;  // (function) m and s
 };
 
 }  // namespace dresslife::pipeline

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace dresslife::pipeline {
@@ -44,6 +45,15 @@ std::vector<const Look*> chosen(const std::vector<Look>& rehearsals, const std::
   return of;
 }
 
+VectorXd pieces_of(const Look& look, std::size_t limit) {
+  if (limit >= look.pieces.size() || look.pieces[limit].empty())
+    return VectorXd::Constant(1, tamed(look.beyond[limit]));
+  const std::vector<double>& pieces = look.pieces[limit];
+  VectorXd of(static_cast<Index>(pieces.size()));
+  std::transform(pieces.begin(), pieces.end(), of.begin(), tamed);
+  return of;
+}
+
 double failure_of(const Look& look) { return look.ran ? -1 : 1 + tamed(look.violation()); }
 
 }  // namespace
@@ -54,25 +64,34 @@ double tamed(double g) {
   return std::copysign(std::log1p(std::abs(bounded)), bounded);
 }
 
-void LookModels::Known::add(const VectorXd& place, double value) {
-  places.conservativeResize(places.rows() + 1, place.size());
-  places.row(places.rows() - 1) = place.transpose();
-  values.conservativeResize(values.size() + 1);
-  values[values.size() - 1] = value;
+void LookModels::Known::add(const VectorXd& place, const VectorXd& pieces) {
+  const Index row = places.rows();
+  if (row > 0 && values.cols() != pieces.size())
+    throw std::logic_error("a limit is told in pieces of another number");
+  places.conservativeResize(row + 1, place.size());
+  places.row(row) = place.transpose();
+  values.conservativeResize(row + 1, pieces.size());
+  values.row(row) = pieces.transpose();
 }
+
+void LookModels::Known::add(const VectorXd& place, double value) { add(place, VectorXd::Constant(1, value)); }
 
 void LookModels::Known::build(const Shape& shape, const GaussianProcess::Scale& scale) {
-  if (values.size() > 0) model.emplace(places, values, shape, scale);
+  if (places.rows() > 0) model.emplace(places, values, shape, scale);
 }
 
-GaussianProcess::Told LookModels::Limit::at(const VectorXd& place) const {
+GaussianProcess::Told LookModels::Limit::at(const VectorXd& place, double deviations) const {
   GaussianProcess::Told told;
-  for (const Known* part : {&rehearsed, &difference})
-    if (part->model) {
-      const GaussianProcess::Told one = part->model->at(place);
-      told.mean += one.mean;
-      told.deviation = std::hypot(told.deviation, one.deviation);
-    }
+  if (rehearsed.model) {
+    const GaussianProcess::ToldOfEach each = rehearsed.model->of_each(place);
+    Index largest = 0;
+    (each.means + deviations * each.deviations).maxCoeff(&largest);
+    told = {each.means[largest], each.deviations[largest]};
+  }
+  if (difference.model) {
+    const GaussianProcess::Told missed = difference.model->at(place);
+    told = {told.mean + missed.mean, std::hypot(told.deviation, missed.deviation)};
+  }
   return told;
 }
 
@@ -111,18 +130,17 @@ void LookModels::add_rehearsal(const Look& rehearsal) {
   }
   if (!rehearsal.ran) return;
   for (std::size_t k = 0; k < limits_.size(); ++k)
-    if (!std::isnan(rehearsal.beyond[k]))
-      limits_[k].rehearsed.add(rehearsal.place, tamed(rehearsal.beyond[k]));
+    if (!std::isnan(rehearsal.beyond[k])) limits_[k].rehearsed.add(rehearsal.place, pieces_of(rehearsal, k));
 }
 
 void LookModels::fit() {
   const auto refit = [](Shape& shape, const Known& of, Index most) {
-    const Index n = std::min(most, of.values.size());
+    const Index n = std::min(most, of.places.rows());
     if (n > 1)
-      shape =
-          GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.head(n), shape, shape_evaluations);
+      shape = GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.topRows(n), shape,
+                                               shape_evaluations);
   };
-  const Index looks = aim_.values.size();
+  const Index looks = aim_.places.rows();
   refit(shapes_[of_aim], aim_, looks);
   if (any_failed_) refit(shapes_[of_failure], failed_, std::max(looks, most_for_shape));
   for (std::size_t k = 0; k < limits_.size(); ++k) {
@@ -139,7 +157,10 @@ void LookModels::build_all() {
   for (Limit& limit : limits_) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const Known* known : {&limit.rehearsed, &limit.looked})
-      for (const double g : known->values) low = std::min(low, g), high = std::max(high, g);
+      if (known->places.rows() > 0) {
+        const VectorXd largest = known->values.rowwise().maxCoeff();
+        low = std::min(low, largest.minCoeff()), high = std::max(high, largest.maxCoeff());
+      }
     limit.varies = high - low > same;
   }
   build_limits();
@@ -152,8 +173,10 @@ void LookModels::build_limits() {
     limit.rehearsed.build(shape_of(shapes_, k, false));
     limit.difference = {limit.looked.places, limit.looked.values};
     if (limit.rehearsed.model)
-      for (Index i = 0; i < limit.difference.values.size(); ++i)
-        limit.difference.values[i] -= limit.rehearsed.model->at(limit.looked.places.row(i).transpose()).mean;
+      for (Index i = 0; i < limit.difference.places.rows(); ++i) {
+        const auto rehearsed = limit.rehearsed.model->of_each(limit.looked.places.row(i).transpose());
+        limit.difference.values(i, 0) -= rehearsed.means.maxCoeff();
+      }
     limit.difference.build(shape_of(shapes_, k, true),
                            limit.rehearsed.model ? missed_by_rehearsals : GaussianProcess::Scale{});
   }
@@ -162,7 +185,7 @@ void LookModels::build_limits() {
 void LookModels::believe(const VectorXd& place) {
   if (aim_.model) aim_.add(place, aim_at(place, 0));
   for (Limit& limit : limits_)
-    if (limit.varies && limit.difference.model) limit.looked.add(place, limit.at(place).mean);
+    if (limit.varies && limit.difference.model) limit.looked.add(place, limit.at(place, 0).mean);
   if (failed_.model) failed_.add(place, failed_.model->at(place).mean);
   build_all();
 }
@@ -170,7 +193,7 @@ void LookModels::believe(const VectorXd& place) {
 void LookModels::believe_rehearsal(const VectorXd& place) {
   for (Limit& limit : limits_)
     if (limit.varies && limit.rehearsed.model)
-      limit.rehearsed.add(place, limit.rehearsed.model->at(place).mean);
+      limit.rehearsed.add(place, limit.rehearsed.model->of_each(place).means);
   if (failed_.model) failed_.add(place, failed_.model->at(place).mean);
   build_all();
 }
@@ -186,7 +209,7 @@ VectorXd LookModels::beyond(const VectorXd& place, double deviations) const {
     g.push_back(told.mean + deviations * told.deviation);
   };
   for (const Limit& limit : limits_)
-    if (limit.varies) bound(limit.at(place));
+    if (limit.varies) bound(limit.at(place, deviations));
   if (failed_.model) bound(failed_.model->at(place));
   return Eigen::Map<const VectorXd>(g.data(), static_cast<Index>(g.size()));
 }

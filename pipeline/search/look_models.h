@@ -6,6 +6,11 @@
 //      independent, so that their variances add up (M. Kennedy and A. O'Hagan, Biometrika 87 (2000) 1, eq. 2
 //      with rho = 1). Where a place was rehearsed, r is known. Before looks tell, d is believed to be about a
 //      tenth, as limits are graded. Other limits, and the aim, are modelled through the looks alone.
+// (Q7) Where rehearsals tell a limit in pieces, each piece is modelled and r is the largest of them: the
+// largest has an
+//      edge wherever another piece takes over, which no smooth function follows, its pieces have none
+//      (composite Bayesian optimization: R. Astudillo and P. Frazier, ICML 2019). A bound of r at c
+//      deviations is the largest of the pieces' bounds.
 #pragma once
 
 #include <optional>
@@ -51,12 +56,12 @@ class LookModels {
   double aim_at(const Eigen::VectorXd& place, double deviations) const;
 
  private:
-  /// A function and what is known of it.
+  /// A function, or the pieces whose largest it is, and what is known of it.
   struct Known {
-    Eigen::MatrixXd places;  // (place, variable)
-    Eigen::VectorXd values;
+    Eigen::MatrixXd places, values;  // (place, variable), (place, piece)
     std::optional<GaussianProcess> model{};
 
+    void add(const Eigen::VectorXd& place, const Eigen::VectorXd& pieces);
     void add(const Eigen::VectorXd& place, double value);
     void build(const GaussianProcess::Shape& shape, const GaussianProcess::Scale& scale = {});
   };
@@ -64,7 +69,8 @@ class LookModels {
     Known rehearsed, looked;  // looked: g, not the difference
     Known difference{};
     bool varies = false;
-    GaussianProcess::Told at(const Eigen::VectorXd& place) const;
+    /// Of the piece whose bound at so many deviations is the largest.
+    GaussianProcess::Told at(const Eigen::VectorXd& place, double deviations) const;
   };
 
   void add_rehearsal(const Look& rehearsal);

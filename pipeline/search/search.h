@@ -16,6 +16,9 @@ struct Look {
   bool ran = false;            ///< else only the place and how far it is beyond what is known beforehand hold
   std::vector<double> aims;    ///< (aim) to be small
   std::vector<double> beyond;  ///< (limit) <= 0: kept
+  /// (limit)(piece) what the limit is the largest of, when that is told: pieces are smoother functions of the
+  /// place than their largest. As many of each limit in all looks; shorter, or none: not told.
+  std::vector<std::vector<double>> pieces{};
 
   double violation() const;  ///< sum of what is beyond; 0: all limits are kept
   bool feasible() const { return ran && violation() == 0; }

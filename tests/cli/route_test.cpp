@@ -112,6 +112,13 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   REQUIRE(in_a_run.size() == by_geometry.size());
   constexpr std::size_t bend = 2, limits = 6;
   CHECK(in_a_run[bend] != by_geometry[bend]);
+  const FileReader told_in_pieces(scratch / "screening.h5", screening_format());
+  const auto bends = told_in_pieces.read<double>("/candidate/bend");
+  const auto row = static_cast<std::ptrdiff_t>(told_in_pieces.length("bend"));
+  REQUIRE(bends.size() == 3 * static_cast<std::size_t>(row));
+  CHECK(*std::max_element(bends.begin(), bends.begin() + row) == Approx(in_a_run[bend]).margin(0.02));
+  CHECK(std::all_of(bends.begin() + row, bends.end(),
+                    [](double g) { return g == 0; }));  // of what does not run
   CHECK(std::vector(in_a_run.begin() + limits, in_a_run.end()) ==
         std::vector(by_geometry.begin() + limits, by_geometry.end()));
   const auto refused =

@@ -50,6 +50,41 @@ TEST_CASE("a rehearsal grades what the run's checks saw") {
   CHECK(rehearsed(job, as_the_job, 1).refusal.find("too short") != std::string::npos);
 }
 
+TEST_CASE("bends of a rehearsal are told by moment and stretch, and their largest is the run's sharpest") {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  const Rehearsal found = rehearsed(job, as_the_job, 1);
+  REQUIRE(found.refusal.empty());
+  REQUIRE(found.bends.size() == bend_moments * bend_stretches);
+  // The samples and the ends of links, looked at one by one.
+  const Simulation simulation(job);
+  const Rod& rod = simulation.rod();
+  std::vector<double> sharpest(found.bends.size(), 0.0);
+  const double length = job.dresspacks.front().routing.free_length;
+  const RunSummary summary = simulation.run({[&](const Sample& sample) {
+    int moment = 0, stretch = 0;
+    while (moment + 1 < bend_moments &&
+           (moment + 1) * simulation.path().duration() <= bend_moments * sample.time)
+      ++moment;
+    for (int j = 0; j < rod.links(); ++j) {
+      while (stretch + 1 < bend_stretches && (stretch + 1) * length <= bend_stretches * rod.link_arc(j))
+        ++stretch;
+      const Vector3 turn = rod.link_state(sample.state, j).turn;
+      double& of = sharpest[moment * bend_stretches + stretch];
+      of = std::max(of, std::hypot(turn.x(), turn.y()) / rod.bending_length(j));
+    }
+    stretch = 0;
+  }});
+  constexpr double least_radius = 10 * 0.04;
+  for (std::size_t k = 0; k < sharpest.size(); ++k)
+    CHECK(std::exp(found.bends[k]) == Approx(sharpest[k] * least_radius).epsilon(1e-9));
+  const double largest = *std::max_element(found.bends.begin(), found.bends.end());
+  CHECK(largest <= beyond(found, ScreenedLimit::bend) + 1e-12);
+  constexpr double between_samples =
+      0.01;  // the hose moves with the clamps' seconds, samples are 40 ms apart
+  CHECK(largest > beyond(found, ScreenedLimit::bend) - between_samples);
+}
+
 TEST_CASE("proposals that were rehearsed keep all limits in the job's own run") {
   pipeline::Job job = pipeline::read_job(
       std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
