@@ -277,8 +277,10 @@ class Reader {
 
   const Node& own_value() const {
     if (const Node* value = common_value(documents_, path_)) return *value;
+    const bool counts_from_zero = (path_ + ".").find(".0.") != std::string::npos;
     refuse("is freed around its own value, which it has not, or not the same in all jobs",
-           "give the value in every job, or write LOW .. HIGH");
+           counts_from_zero ? "items of a list count from 1"
+                            : "give the value in every job, or write LOW .. HIGH");
   }
 
   std::unique_ptr<FreeKey> around(std::string spread, const std::string& centre) const {

@@ -152,6 +152,7 @@ TEST_CASE("what nothing can be freed by is refused with its place") {
         std::string::npos);
   CHECK(words("routing.free_length_m: 5 deg around").find("is no direction") != std::string::npos);
   CHECK(words("routing.nothing_m: 0.1 around").find("its own value, which it has not") != std::string::npos);
+  CHECK(words("routing.rings.0.position_m: 0.1 around").find("count from 1") != std::string::npos);
   CHECK(words("routing.base_clamp.position_m: 0 .. 1 along link_9").find("no link that carries") !=
         std::string::npos);
   CHECK(words("routing.free_length_m: []").find("one of nothing") != std::string::npos);
