@@ -266,21 +266,23 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
     left -= count;
   };
   if (asked_ == 0) spread();
-  std::optional<Merit> nearest;
+  Merit nearest;
+  bool has_nearest = false;
   while (left > 0 && any_ran(rehearsals_)) {
     if (ahead_width_ < least_ahead || !any_ran(rehearsals_from(ahead_from_))) {
       spread();
-      nearest.reset();
+      has_nearest = false;
       continue;
     }
     LookModels models = models_of(looks_, ahead_from_);
     if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
     const VectorXd centre = nearest_rehearsal(models, ahead_from_);
     const Merit now = nearness(models, centre);
-    if (nearest)
+    if (has_nearest)
       ahead_width_ =
-          clearly_less(now, *nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
+          clearly_less(now, nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     nearest = now;
+    has_nearest = true;
     const int count = std::min(rehearsed_together, left);
     rehearse(next_rehearsals(models, centre, static_cast<std::size_t>(count)));
     left -= count;
