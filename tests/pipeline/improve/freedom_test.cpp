@@ -76,15 +76,19 @@ TEST_CASE(
     made.place = place_of({u, v});
     made.worst.beyond.assign(outcome_limits, -1);
     made.worst.beyond[0] = bend, made.worst.beyond[1] = twist;
+    made.worst.hours = 1000 * (1 + v);
     return made;
   };
   using Lines = std::vector<std::string>;
   Trial failed = trial(0, 0, 0, 0);
   failed.worst.failure = "too short by 3 mm";
-  CHECK(obstacle_words({trial(0.5, 0.5, 0.5, -0.1), failed, trial(0.999, 0.5, 0.125, 0.25)}, freedom) ==
-        Lines{"Nearest is trial 2: bend radius passed by 0.12, twist passed by 0.25",
-              "No trial keeps bend radius: the best passes it by 0.12",
-              "It stands at the end of what may be changed: routing.free_length_m, at most 2.6; widen it"});
+  CHECK(
+      obstacle_words({trial(0.5, 0.5, 0.5, -0.1), failed, trial(0.999, 0.125, 0.125, 0.25)}, freedom) ==
+      Lines{
+          "Nearest is trial 2: bend radius passed by 0.12, twist passed by 0.25; it lives 0.75 times as long as "
+          "the jobs as they are",
+          "No trial keeps bend radius: the best passes it by 0.12",
+          "It stands at the end of what may be changed: routing.free_length_m, at most 2.6; widen it"});
   CHECK(obstacle_words({trial(0.5, 0.5, 0.5, -0.1), trial(0.5, 0.5, -0.1, 0.75)}, freedom) ==
         Lines{"Nearest are the jobs as they are: bend radius passed by 0.5",
               "Each limit is kept by some trial, but not with the others: bend radius",
@@ -141,10 +145,9 @@ TEST_CASE("what nothing can be freed by is refused with its place") {
     }
     return std::string("nothing");
   };
-  CHECK(
-      words("routing.free_length_m: 2.6 .. 1.9") ==
-      "s.yaml:1:24: error: free.routing.free_length_m is '2.6 .. 1.9', which holds nothing; write the "
-      "smaller number first");
+  CHECK(words("routing.free_length_m: 2.6 .. 1.9") ==
+        "s.yaml:1:24: error: free.routing.free_length_m is '2.6 .. 1.9', which holds nothing; write the "
+        "smaller number first");
   CHECK(words("routing.free_length_m: long").find("is 'long'; write LOW .. HIGH") != std::string::npos);
   CHECK(words("routing.free_length_m: 1 .. two").find("'two' is no number") != std::string::npos);
   CHECK(words("routing.free_length_m: 0 around").find("may not change at all") != std::string::npos);
