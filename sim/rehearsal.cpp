@@ -45,7 +45,7 @@ class Bends {
   void begin() { sharpest_.assign(least_radius_.size() * bend_moments * bend_stretches, 0.0); }
 
   void see(const Sample& sample) {
-    const int moment = part_of(sample.time / duration_, bend_moments);
+    const int moment = duration_ > 0 ? part_of(sample.time / duration_, bend_moments) : 0;
     for (int j = 0; j < rod_.links(); ++j) {
       const Span& span = rod_.span_of_link(j);
       const int stretch = part_of(rod_.link_arc(j) / length_of(span.dresspack), bend_stretches);
