@@ -53,7 +53,8 @@ Cables cables_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
   for (std::size_t k = 0; k < count; ++k) {
     if (cables.span[k] < 0 || static_cast<std::size_t>(cables.span[k]) >= cables.spans)
       throw pipeline::InputError(
-          strain.where(), fmt::format("has a cable of span {} of {}", cables.span[k] + 1, cables.spans),
+          strain.where(),
+          fmt::format("has a cable of span {} of {}", std::int64_t{cables.span[k]} + 1, cables.spans),
           "make the file anew with dresslife-strain");
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const pipeline::Component& of = component_of(strain, job, in, static_cast<std::size_t>(component[k]));
