@@ -185,6 +185,24 @@ void FileReader::Impl::check_storage(const Open& made) const {
   check_fits(made, creation, needed, chunk_size);
   if (H5Dget_num_chunks(made.id, space, &found) < 0 || found != needed)
     fail(fmt::format("dataset {} has {} of its {} chunks (the file is damaged)", path, found, needed));
+  if (H5Pget_nfilters(creation) > 0) check_filtered(made, chunk);
+}
+
+/// The library takes a chunk that says it is not filtered for whole, however short it lies in the file, and
+/// reads on behind it.
+void FileReader::Impl::check_filtered(const Open& made, const std::vector<hsize_t>& chunk) const {
+  std::vector<hsize_t> at(chunk.size(), 0);
+  while (at[0] < made.lengths[0]) {
+    unsigned skipped = 0;
+    haddr_t place = 0;
+    hsize_t size = 0;
+    if (H5Dget_chunk_info_by_coord(made.id, at.data(), &skipped, &place, &size) < 0 || skipped != 0)
+      fail(fmt::format("dataset {} has a chunk that is not packed as it should be (the file is damaged)",
+                       made.description->path));
+    std::size_t axis = at.size() - 1;
+    for (at[axis] += chunk[axis]; axis > 0 && at[axis] >= made.lengths[axis]; at[axis] += chunk[axis])
+      at[axis--] = 0;
+  }
 }
 
 void FileReader::Impl::check_fits(const Open& made, hid_t creation, hsize_t chunks,

@@ -163,9 +163,11 @@ void replace(hid_t file, const char* path, Choices& choices) {
   if (made >= 0) set_text_attribute(made, "unit", format().find(path).unit);
 }
 
-void edit_dataset(hid_t file, const std::string& path, Choices& choices) {
+/// Whether more may be edited: the library itself reads beyond a chunk of too few bytes that says it is not
+/// filtered.
+bool edit_dataset(hid_t file, const std::string& path, Choices& choices) {
   const Closed dataset{H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose};
-  if (dataset < 0) return;
+  if (dataset < 0) return true;
   const Closed space{H5Dget_space(dataset), H5Sclose};
   const int rank = H5Sget_simple_extent_ndims(space);
   std::vector<hsize_t> lengths(static_cast<std::size_t>(std::max(rank, 1)));
@@ -174,27 +176,31 @@ void edit_dataset(hid_t file, const std::string& path, Choices& choices) {
     case 0:
     case 1:
     case 2:
-      return change_values(dataset, choices);
+      change_values(dataset, choices);
+      return true;
     case 3:
       lengths[0] = choices.next<std::uint32_t>() >> choices.next<unsigned char>() % 32;
       H5Dset_extent(dataset, lengths.data());
-      return;
+      return true;
     case 4: {  // a packed chunk, byte by byte
       const std::vector<hsize_t> first(lengths.size(), 0);
       Bytes chunk = choices.piece(choices.next<std::uint16_t>() % 4096u + 1u);
       chunk.resize(std::max<std::size_t>(1, chunk.size()));
       H5Dwrite_chunk(dataset, H5P_DEFAULT, choices.next<unsigned char>() % 4 == 0, first.data(), chunk.size(),
                      chunk.data());
-      return;
+      return false;
     }
     case 5:
-      return set_text_attribute(dataset, "unit", choices.next<unsigned char>() % 2 ? "m" : "");
+      set_text_attribute(dataset, "unit", choices.next<unsigned char>() % 2 ? "m" : "");
+      return true;
     case 6:
-      return replace(file, path.c_str(), choices);
+      replace(file, path.c_str(), choices);
+      return true;
     default:
       H5Ldelete(file, path.c_str(), H5P_DEFAULT);
       if (choices.next<unsigned char>() % 2)
         H5Lcreate_soft("/time", file, path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      return true;
   }
 }
 
@@ -316,10 +322,11 @@ void edit(const File& target, Choices choices) {
   const auto& datasets = format().datasets;
   for (int k = 0; file >= 0 && k < 8 && choices.any(); ++k) {
     const std::size_t which = choices.next<unsigned char>() % (datasets.size() + datasets.size() / 4);
-    if (which < datasets.size())
-      edit_dataset(file, datasets[which].path, choices);
-    else
+    if (which < datasets.size()) {
+      if (!edit_dataset(file, datasets[which].path, choices)) return;
+    } else {
       edit_attribute(file, choices);
+    }
   }
 }
 

@@ -217,3 +217,32 @@ TEST_CASE("rows beyond the largest int are counted and read where they lie") {
   reader.read_rows("/numbers", reader.rows("/numbers") - 1, 1, some);
   CHECK(some == std::vector<float>(1, 0.25f));
 }
+
+TEST_CASE(
+    "a chunk that says it is not filtered and is shorter than a chunk is refused, not read behind its end") {
+  Format format{"dresslife-numbers", 1, "dresslife-maker", "tests", {}, {}};
+  Dataset dataset{"/numbers", Type::f64, {"number"}, "1", "numbers"};
+  dataset.deflate = true;
+  format.datasets.push_back(dataset);
+  const Scratch scratch;
+  {
+    FileWriter writer(scratch / "one.h5", format);
+    writer.append("/numbers", std::span<const double>(std::vector<double>(20'000, 0.25)));
+    writer.commit();
+  }
+  const auto file = scratch.write("short.h5", bytes_of(scratch / "one.h5").substr(512));  // no checksum
+  REQUIRE(FileReader(file, format).read<double>("/numbers") == std::vector<double>(20'000, 0.25));
+  {
+    const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t rows = H5Dopen2(opened, "/numbers", H5P_DEFAULT);
+    const hsize_t first = 0;
+    const std::string few(16, '\1');
+    constexpr std::uint32_t all_filters_skipped = 3;
+    REQUIRE(H5Dwrite_chunk(rows, H5P_DEFAULT, all_filters_skipped, &first, few.size(), few.data()) >= 0);
+    H5Dclose(rows);
+    H5Fclose(opened);
+  }
+  CHECK(message_of([&] {
+          FileReader(file, format).read<double>("/numbers");
+        }).find("has a chunk that is not packed as it should be") != std::string::npos);
+}
