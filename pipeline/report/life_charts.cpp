@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -107,13 +108,14 @@ void draw_program(Picture& picture, const LifeSummary& life, const std::vector<P
     const double share = total > 0 ? run.damage / total : 0;
     if (to - from < smallest_cell && share < named_share) continue;
     dark = !dark;
+    const std::int64_t line = std::int64_t{run.step} + 1;
     picture.box(from, top, std::max(to - from, smallest_cell), height,
                 share >= named_share ? "costly"
                 : dark               ? "dark"
                                      : "light",
                 fmt::format("{:.1f} .. {:.1f} s, line {}: {}; {:.1f} % of the damage", run.begin, run.end,
-                            run.step + 1, line_name(life, run.step), percent * share));
-    const std::string number = std::to_string(run.step + 1);
+                            line, line_name(life, run.step), percent * share));
+    const std::string number = std::to_string(line);
     if (run.step >= 0 && to - from > text_width(number) + 2)
       picture.text((from + to) / 2, top + height - 4.5, number, "cell", Picture::Anchor::middle);
   }

@@ -35,8 +35,9 @@ std::string linear_label(double value, double step, int power) {
 
 /// Digits alone from a thousandth to a million; beyond, a power of ten keeps labels short.
 int power_of_labels(double low, double high) {
-  const int exponent =
-      static_cast<int>(std::floor(std::log10(std::max(std::abs(low), std::abs(high))) + close_to_tick));
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (!(largest > 0) || !std::isfinite(largest)) return 0;
+  const int exponent = static_cast<int>(std::floor(std::log10(largest) + close_to_tick));
   return exponent < -3 || exponent > 6 ? exponent : 0;
 }
 
@@ -48,6 +49,9 @@ std::string logarithmic_label(int factor, int exponent) {
 
 std::vector<Tick> linear_ticks(double low, double high, int most) {
   const double step = round_step(high - low, most);
+  constexpr double resolved = 1e12;  // steps from 0: further off, one more no longer changes a double
+  if (!(step > 0) || !std::isfinite(step) || !(std::max(std::abs(low), std::abs(high)) < resolved * step))
+    return {};
   const int power = power_of_labels(low, high);
   std::vector<Tick> ticks;
   for (double k = std::ceil(low / step - close_to_tick); k * step <= high + step * close_to_tick; ++k)
@@ -56,7 +60,8 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
 }
 
 std::vector<Tick> logarithmic_ticks(double low, double high, int most) {
-  const double decades = std::log10(high / low);
+  const double decades = std::log10(high) - std::log10(low);
+  if (!(low > 0) || !std::isfinite(decades)) return {};
   const int every = std::max(1, static_cast<int>(std::ceil(decades / most)));
   const bool narrow = decades < 2.5;
   const bool room = decades < 0.4 * most;  // between 1 and 2, the closest two labels

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <vector>
 
 #include "fatigue/life_file.h"
@@ -163,11 +164,26 @@ void replace(hid_t file, const char* path, Choices& choices) {
   if (made >= 0) set_text_attribute(made, "unit", format().find(path).unit);
 }
 
-/// Whether more may be edited: the library itself reads beyond a chunk of too few bytes that says it is not
-/// filtered.
-bool edit_dataset(hid_t file, const std::string& path, Choices& choices) {
+/// A packed chunk, byte by byte.
+struct RawChunk {
+  std::string dataset;
+  bool unfiltered = false;
+  Bytes bytes;
+};
+
+void write_raw(hid_t file, const RawChunk& raw) {
+  const Closed dataset{H5Dopen2(file, raw.dataset.c_str(), H5P_DEFAULT), H5Dclose};
+  hsize_t chunks = 0;  // the library crashes where it has not written one itself
+  if (dataset < 0 || H5Dget_num_chunks(dataset, H5S_ALL, &chunks) < 0 || chunks == 0) return;
+  const Closed space{H5Dget_space(dataset), H5Sclose};
+  const std::vector<hsize_t> first(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 1)),
+                                   0);
+  H5Dwrite_chunk(dataset, H5P_DEFAULT, raw.unfiltered, first.data(), raw.bytes.size(), raw.bytes.data());
+}
+
+void edit_dataset(hid_t file, const std::string& path, Choices& choices, std::optional<RawChunk>& raw) {
   const Closed dataset{H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose};
-  if (dataset < 0) return true;
+  if (dataset < 0) return;
   const Closed space{H5Dget_space(dataset), H5Sclose};
   const int rank = H5Sget_simple_extent_ndims(space);
   std::vector<hsize_t> lengths(static_cast<std::size_t>(std::max(rank, 1)));
@@ -176,31 +192,25 @@ bool edit_dataset(hid_t file, const std::string& path, Choices& choices) {
     case 0:
     case 1:
     case 2:
-      change_values(dataset, choices);
-      return true;
+      return change_values(dataset, choices);
     case 3:
       lengths[0] = choices.next<std::uint32_t>() >> choices.next<unsigned char>() % 32;
       H5Dset_extent(dataset, lengths.data());
-      return true;
-    case 4: {  // a packed chunk, byte by byte
-      const std::vector<hsize_t> first(lengths.size(), 0);
+      return;
+    case 4: {
       Bytes chunk = choices.piece(choices.next<std::uint16_t>() % 4096u + 1u);
       chunk.resize(std::max<std::size_t>(1, chunk.size()));
-      H5Dwrite_chunk(dataset, H5P_DEFAULT, choices.next<unsigned char>() % 4 == 0, first.data(), chunk.size(),
-                     chunk.data());
-      return false;
+      raw = RawChunk{path, choices.next<unsigned char>() % 4 == 0, std::move(chunk)};
+      return;
     }
     case 5:
-      set_text_attribute(dataset, "unit", choices.next<unsigned char>() % 2 ? "m" : "");
-      return true;
+      return set_text_attribute(dataset, "unit", choices.next<unsigned char>() % 2 ? "m" : "");
     case 6:
-      replace(file, path.c_str(), choices);
-      return true;
+      return replace(file, path.c_str(), choices);
     default:
       H5Ldelete(file, path.c_str(), H5P_DEFAULT);
       if (choices.next<unsigned char>() % 2)
         H5Lcreate_soft("/time", file, path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-      return true;
   }
 }
 
@@ -314,20 +324,26 @@ void make_seed(const std::string& large_name) {
   seed.job = pipeline::FileReader(large_name, format()).text_attribute("job");
 }
 
-/// The edits that the input asks for.
+/// The edits that the input asks for; a raw chunk last and in a file that was opened anew, as the library reads
+/// beyond one that is too short when it edits on.
 void edit(const File& target, Choices choices) {
   const Closed access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-  const Closed file{H5Fopen(target.name().c_str(), H5F_ACC_RDWR, access), H5Fclose};
-  const auto& datasets = format().datasets;
-  for (int k = 0; file >= 0 && k < 8 && choices.any(); ++k) {
-    const std::size_t which = choices.next<unsigned char>() % (datasets.size() + datasets.size() / 4);
-    if (which < datasets.size()) {
-      if (!edit_dataset(file, datasets[which].path, choices)) return;
-    } else {
-      edit_attribute(file, choices);
+  const auto opened = [&] { return H5Fopen(target.name().c_str(), H5F_ACC_RDWR, access); };
+  std::optional<RawChunk> raw;
+  {
+    const Closed file{opened(), H5Fclose};
+    const auto& datasets = format().datasets;
+    for (int k = 0; file >= 0 && k < 8 && choices.any(); ++k) {
+      const std::size_t which = choices.next<unsigned char>() % (datasets.size() + datasets.size() / 4);
+      if (which < datasets.size())
+        edit_dataset(file, datasets[which].path, choices, raw);
+      else
+        edit_attribute(file, choices);
     }
   }
+  const Closed file{raw ? opened() : H5I_INVALID_HID, H5Fclose};
+  if (file >= 0) write_raw(file, *raw);
 }
 
 /// What the next stage does with the file, with the seed's job: what another job may ask for is not the

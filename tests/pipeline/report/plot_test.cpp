@@ -2,7 +2,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace dresslife::pipeline {
 namespace {
@@ -34,6 +37,21 @@ TEST_CASE("plot: logarithmic ticks are decades, with 2 and 5 between them where 
   CHECK(labels(Axis{"", 2e-6, 6e-6, true}.ticks(3)) == Words{"2·10⁻⁶", "5·10⁻⁶"});
   CHECK(power_of_ten(12) == "10¹²");
   CHECK(power_of_ten(-305) == "10⁻³⁰⁵");
+}
+
+TEST_CASE("plot: ranges that a double cannot divide have no ticks, and end") {
+  constexpr double inf = std::numeric_limits<double>::infinity(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [low, high] : std::vector<std::pair<double, double>>{
+           {0, 0}, {1, 1}, {nan, 1}, {0, nan}, {-1e308, 1e308}, {0, inf}, {1e9, 1e9 * (1 + 1e-15)}, {1, 0}}) {
+    INFO(low << " .. " << high);
+    CHECK(Axis{"", low, high}.ticks(6).empty());
+  }
+  for (const auto& [low, high] :
+       std::vector<std::pair<double, double>>{{0, 1}, {-1, 1}, {nan, 1}, {1, inf}}) {
+    INFO(low << " .. " << high);
+    CHECK(Axis{"", low, high, true}.ticks(6).empty());
+  }
 }
 
 TEST_CASE("plot: axes made for values hold them and end at ticks") {
