@@ -194,6 +194,8 @@ void edit_dataset(hid_t file, const std::string& path, Choices& choices, std::op
     case 2:
       return change_values(dataset, choices);
     case 3:
+      if (lengths[0] > 1u << 24)
+        return;  // lengthened before: the library shortens it chunk by chunk, for minutes
       lengths[0] = choices.next<std::uint32_t>() >> choices.next<unsigned char>() % 32;
       H5Dset_extent(dataset, lengths.data());
       return;
@@ -324,8 +326,8 @@ void make_seed(const std::string& large_name) {
   seed.job = pipeline::FileReader(large_name, format()).text_attribute("job");
 }
 
-/// The edits that the input asks for; a raw chunk last and in a file that was opened anew, as the library reads
-/// beyond one that is too short when it edits on.
+/// The edits that the input asks for; a raw chunk last and in a file that was opened anew, as the library
+/// reads beyond one that is too short when it edits on.
 void edit(const File& target, Choices choices) {
   const Closed access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
