@@ -81,7 +81,7 @@ void MotionChecks::see_links(const RodState& state, double time) {
   for (int j = 0; j < rod_.links(); ++j) {
     const Vector3 turn = rod_.link_state(state, j).turn;
     whole_[rod_.span_of_link(j).dresspack].net_twist += turn.z();
-    const double curvature = turn.head<2>().norm() / rod_.bending_length(j);
+    const double curvature = rod_.curvature(turn, j);
     const double twist = turn.z() / rod_.bending_length(j);
     curvature_[j].see(curvature, curvature > curvature_[j].value, time, j);
     twist_[j].see(twist, std::abs(twist) > std::abs(twist_[j].value), time, j);

@@ -50,8 +50,7 @@ class Bends {
       const Span& span = rod_.span_of_link(j);
       const int stretch = part_of(rod_.link_arc(j) / length_of(span.dresspack), bend_stretches);
       double& sharpest = sharpest_[(span.dresspack * bend_moments + moment) * bend_stretches + stretch];
-      sharpest =
-          std::max(sharpest, rod_.link_state(sample.state, j).turn.head<2>().norm() / rod_.bending_length(j));
+      sharpest = std::max(sharpest, rod_.curvature(rod_.link_state(sample.state, j).turn, j));
     }
   }
 

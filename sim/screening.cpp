@@ -120,7 +120,7 @@ std::vector<RodProperties> pieces_of(const Thread& thread, const Frames& frames,
 double largest_curvature(const Rod& rod, const RodState& state) {
   double most = 0;
   for (int link = 0; link < rod.links(); ++link)
-    most = std::max(most, rod.link_state(state, link).turn.head<2>().norm() / rod.bending_length(link));
+    most = std::max(most, rod.curvature(rod.link_state(state, link).turn, link));
   return most;
 }
 

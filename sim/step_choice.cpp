@@ -13,8 +13,7 @@ constexpr double least_step = 2e-4,
 constexpr double usual_step = 5e-3;
 
 void append_curvatures(const Rod& rod, const RodState& state, std::vector<double>& values) {
-  for (int j = 0; j < rod.links(); ++j)
-    values.push_back(rod.link_state(state, j).turn.head<2>().norm() / rod.bending_length(j));
+  for (int j = 0; j < rod.links(); ++j) values.push_back(rod.curvature(rod.link_state(state, j).turn, j));
 }
 
 /// (step) square of all ends' acceleration, by second differences.

@@ -45,6 +45,7 @@ struct FileReader::Impl {
   /// Each chunk takes its place in the file, and what lies there unpacked is no smaller than it was: no
   /// dataset has more chunks than the file has room for, nor are those that exist larger than the file.
   void check_fits(const Open& made, hid_t creation, hsize_t chunks, hsize_t chunk_size) const;
+  /// Every chunk went through the dataset's filters.
   void check_filtered(const Open& made, const std::vector<hsize_t>& chunk) const;
   /// Rows of a chunk if it is packed as this program does it; other layouts of the same numbers go through
   /// the library.

@@ -11,8 +11,8 @@
 namespace dresslife::pipeline {
 
 /// A line each: the nearest trial, what it passes and how it lives beside the jobs as they are (the first
-/// trial); each limit that no trial that ran keeps; ends of freed
-/// ranges that the nearest stands at. trials: none of them feasible.
+/// trial); each limit that no trial that ran keeps; ends of freed ranges that the nearest stands at. trials:
+/// none of them feasible.
 std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const Freedom& freedom);
 
 }  // namespace dresslife::pipeline

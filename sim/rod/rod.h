@@ -151,6 +151,10 @@ class Rod {
   const Vector3& turn_stiffness(int link) const { return turn_stiffness_[link]; }  ///< [N m/rad]
   const Vector3& rest_turn(int link) const { return rest_turn_[link]; }            ///< [rad]
   double bending_length(int link) const { return bending_length_[link]; }  ///< compliance length (S5) [m]
+  /// Of a link that turns so (LinkState::turn), about both of its transverse axes [1/m].
+  double curvature(const Vector3& turn, int link) const {
+    return turn.head<2>().norm() / bending_length_[link];
+  }
   double link_arc(int link) const;  ///< from the dresspack's base clamp [m]
 
   /// A straight, unloaded chain at rest from the base frame along its tangent; all clamps in place.

@@ -61,7 +61,7 @@ TEST_CASE("bends of a rehearsal are told by moment and stretch, and their larges
   const Rod& rod = simulation.rod();
   std::vector<double> sharpest(found.bends.size(), 0.0);
   const double length = job.dresspacks.front().routing.free_length;
-  const RunSummary summary = simulation.run({[&](const Sample& sample) {
+  simulation.run({[&](const Sample& sample) {
     int moment = 0, stretch = 0;
     while (moment + 1 < bend_moments &&
            (moment + 1) * simulation.path().duration() <= bend_moments * sample.time)
@@ -80,8 +80,7 @@ TEST_CASE("bends of a rehearsal are told by moment and stretch, and their larges
     CHECK(std::exp(found.bends[k]) == Approx(sharpest[k] * least_radius).epsilon(1e-9));
   const double largest = *std::max_element(found.bends.begin(), found.bends.end());
   CHECK(largest <= beyond(found, ScreenedLimit::bend) + 1e-12);
-  constexpr double between_samples =
-      0.01;  // the hose moves with the clamps' seconds, samples are 40 ms apart
+  constexpr double between_samples = 0.01;  // what bends in seconds, seen every 40 ms
   CHECK(largest > beyond(found, ScreenedLimit::bend) - between_samples);
 }
 

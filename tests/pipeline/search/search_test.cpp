@@ -176,7 +176,7 @@ TEST_CASE("the surrogate search ends where the best places of known problems are
 
 TEST_CASE("with many valleys it mostly ends in the deepest, where chance does not come near") {
   // The next deepest is 0.066 higher. Three seeds in four end in the deepest to 1e-3 (17 and 19 of 24 were counted, of
-  // two versions that differ in rounding alone); of eight fewer than four would be a search that got worse.
+  // two versions that differ in rounding alone). Of eight at such odds fewer than four come in 3 % of cases.
   int deepest = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SurrogateSearch search = surrogate(g08(), seed);
@@ -278,7 +278,7 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
   for (const std::uint64_t seed : {1, 2, 3}) {
     const int whole = rehearsals_until_one_is_within(false, seed), pieces = rehearsals_until_one_is_within(true, seed);
     INFO("seed " << seed << ": after " << pieces << " in pieces, " << whole << " as a whole");
-    CHECK(pieces < 60);
+    CHECK(pieces < 60);  // a plane over eight variables needs nine, and errs between for some batches of eight
     CHECK(2 * pieces < whole);
   }
 }
