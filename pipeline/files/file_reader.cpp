@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <new>
 #include <type_traits>
@@ -8,14 +7,10 @@
 #include "pipeline/files/file_driver.h"
 #include "pipeline/files/file_reader_impl.h"
 #include "pipeline/files/hdf5_objects.h"
-#include "pipeline/files/scale_offset.h"
 #include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-constexpr std::size_t most_chunk_bytes = 64
-                                         << 20;  // one is held unpacked; other programs write 1 MB and less
 
 template <class T>
 constexpr Type type_of = Type::f64;
@@ -112,7 +107,6 @@ void FileReader::Impl::open_dataset(const Dataset& description) {
   check_type(made);
   check_shape(made);
   check_storage(made);
-  if (description.decimals) made.packed_rows = packed_rows_of(made);
   open.emplace(description.path, std::move(made));
 }
 
@@ -153,111 +147,6 @@ void FileReader::Impl::check_shape(Open& made) {
   }
 }
 
-void FileReader::Impl::check_storage(const Open& made) const {
-  const std::string& path = made.description->path;
-  const Handle creation(H5Dget_create_plist(made.id), H5Pclose);
-  const Handle type(H5Dget_type(made.id), H5Tclose);
-  const Handle space(H5Dget_space(made.id), H5Sclose);
-  hsize_t promised = H5Tget_size(type);
-  for (const hsize_t length : made.lengths)
-    if (__builtin_mul_overflow(promised, length, &promised))
-      fail(fmt::format("dataset {} is too large", path));
-  const H5D_layout_t layout = H5Pget_layout(creation);
-  if (H5Pget_external_count(creation) != 0 || layout == H5D_VIRTUAL)
-    fail(fmt::format("dataset {} lies in other files (the data must lie in the file itself)", path));
-  if (promised == 0) return;
-  if (layout != H5D_CHUNKED) {
-    if (H5Dget_storage_size(made.id) != promised) fail(fmt::format("dataset {} was never filled", path));
-    if (promised > bytes)
-      fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
-    return;
-  }
-  std::vector<hsize_t> chunk(made.lengths.size());
-  H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
-  hsize_t needed = 1, found = 0, chunk_size = H5Tget_size(type);
-  for (std::size_t i = 0; i < chunk.size(); ++i) {
-    const hsize_t along = made.lengths[i] / chunk[i] + (made.lengths[i] % chunk[i] != 0);
-    if (__builtin_mul_overflow(needed, along, &needed) ||
-        __builtin_mul_overflow(chunk_size, chunk[i], &chunk_size))
-      fail(fmt::format("dataset {} is too large", path));
-  }
-  if (chunk_size > most_chunk_bytes) fail(fmt::format("dataset {} has chunks of {} bytes", path, chunk_size));
-  check_fits(made, creation, needed, chunk_size);
-  if (H5Dget_num_chunks(made.id, space, &found) < 0 || found != needed)
-    fail(fmt::format("dataset {} has {} of its {} chunks (the file is damaged)", path, found, needed));
-  if (H5Pget_nfilters(creation) > 0) check_filtered(made, chunk);
-}
-
-/// The library takes a chunk that says it is not filtered for whole, however short it lies in the file, and
-/// reads on behind it.
-void FileReader::Impl::check_filtered(const Open& made, const std::vector<hsize_t>& chunk) const {
-  std::vector<hsize_t> at(chunk.size(), 0);
-  while (at[0] < made.lengths[0]) {
-    unsigned skipped = 0;
-    haddr_t place = 0;
-    hsize_t size = 0;
-    if (H5Dget_chunk_info_by_coord(made.id, at.data(), &skipped, &place, &size) < 0 || skipped != 0)
-      fail(fmt::format("dataset {} has a chunk that is not packed as it should be (the file is damaged)",
-                       made.description->path));
-    std::size_t axis = at.size() - 1;
-    for (at[axis] += chunk[axis]; axis > 0 && at[axis] >= made.lengths[axis]; at[axis] += chunk[axis])
-      at[axis--] = 0;
-  }
-}
-
-void FileReader::Impl::check_fits(const Open& made, hid_t creation, hsize_t chunks,
-                                  hsize_t chunk_size) const {
-  constexpr hsize_t least_index_bytes = 4;  // of a chunk: at least its length stands somewhere
-  const std::string& path = made.description->path;
-  const hsize_t least = H5Pget_nfilters(creation) > 0 ? least_index_bytes : chunk_size;
-  if (chunks > bytes / least)
-    fail(fmt::format("dataset {} promises {} chunks of {} bytes in a file of {} (the file is damaged)", path,
-                     chunks, chunk_size, bytes));
-  if (H5Dget_storage_size(made.id) > bytes)
-    fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
-}
-
-std::size_t FileReader::Impl::packed_rows_of(const Open& made) {
-  const Handle creation(H5Dget_create_plist(made.id), H5Pclose);
-  const Handle type(H5Dget_type(made.id), H5Tclose);
-  if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_nfilters(creation) != 1 || H5Tget_size(type) != 4 ||
-      H5Tget_order(type) != H5T_ORDER_LE)
-    return 0;
-  std::array<unsigned, 20>
-      values{};  // scale type, scale, numbers a chunk, class, size, sign, order, fill value ...
-  std::size_t count = values.size();
-  unsigned flags = 0, config = 0;
-  const H5Z_filter_t filter = H5Pget_filter2(creation, 0, &flags, &count, values.data(), 0, nullptr, &config);
-  H5D_fill_value_t fill = H5D_FILL_VALUE_ERROR;
-  H5Pfill_value_defined(creation, &fill);
-  hsize_t chunk = 0;
-  H5Pget_chunk(creation, 1, &chunk);
-  const bool ours = filter == H5Z_FILTER_SCALEOFFSET && fill == H5D_FILL_VALUE_UNDEFINED &&
-                    values[0] == H5Z_SO_FLOAT_DSCALE &&
-                    static_cast<int>(values[1]) == *made.description->decimals;
-  return ours ? chunk : 0;
-}
-
-void FileReader::Impl::read_packed(const Open& from, std::size_t first, std::size_t count, float* out) const {
-  check_library_memory();
-  std::vector<char> packed;
-  std::vector<float> numbers(from.packed_rows);
-  for (std::size_t row = first, end = first + count; row < end;) {
-    const hsize_t chunk = row / from.packed_rows * from.packed_rows;
-    hsize_t size = 0;
-    std::uint32_t unfiltered = 0;
-    const bool found = H5Dget_chunk_storage_size(from.id, &chunk, &size) >= 0;
-    packed.resize(size);
-    if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, &chunk, &unfiltered, packed.data()) < 0 || unfiltered ||
-        !unpack_chunk(packed, *from.description->decimals, std::span(numbers)))
-      fail(fmt::format("dataset {} cannot be read (the file is damaged)", from.description->path));
-    const std::size_t here = std::min<std::size_t>(end, chunk + from.packed_rows) - row;
-    std::copy_n(numbers.data() + (row - chunk), here, out);
-    row += here;
-    out += here;
-  }
-}
-
 void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t count, hid_t type,
                             void* out) const {
   if (first + count > from.lengths[0])
@@ -267,6 +156,7 @@ void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t cou
   length[0] = count;
   if (count == 0 || from.row_values == 0) return;
   check_library_memory();
+  if (from.chunks_to_be_checked) check_chunks(from);
   const Handle file_space(H5Dget_space(from.id), H5Sclose);
   H5Sselect_hyperslab(file_space, H5S_SELECT_SET, begin.data(), nullptr, length.data(), nullptr);
   const Handle memory_space(H5Screate_simple(static_cast<int>(length.size()), length.data(), nullptr),
@@ -279,14 +169,30 @@ template <class T>
 void FileReader::Impl::read_values(const std::string& path, std::size_t first, std::size_t count,
                                    std::vector<T>& out) const {
   const Open& from = dataset(path);
-  out.resize(count * from.row_values);
-  if constexpr (std::is_same_v<T, float>)
-    if (from.packed_rows && first + count <= from.lengths[0]) {
-      read_packed(from, first, count, out.data());
-      return check_finite(from, first, out);
-    }
-  read(from, first, count, memory_type(type_of<T>), out.data());
+  if (from.packed_rows && first + count <= from.lengths[0]) {
+    from.description->type == Type::f32 ? read_packed<float>(from, first, count, out)
+                                        : read_packed<std::uint32_t>(from, first, count, out);
+  } else {
+    out.resize(count * from.row_values);
+    read(from, first, count, memory_type(type_of<T>), out.data());
+  }
   check_finite(from, first, out);
+}
+
+/// Stored: as the numbers lie in the file.
+template <class Stored, class T>
+void FileReader::Impl::read_packed(const Open& from, std::size_t first, std::size_t count,
+                                   std::vector<T>& out) const {
+  if constexpr (std::is_same_v<Stored, T>) {
+    out.resize(count);
+    unpack_rows(from, first, count, out.data());
+  } else if constexpr (sizeof(Stored) < sizeof(T)) {
+    std::vector<Stored> stored(count);
+    unpack_rows(from, first, count, stored.data());
+    out.assign(stored.begin(), stored.end());
+  } else {
+    throw std::logic_error("numbers of " + from.description->path + " read as others that do not hold them");
+  }
 }
 
 template <class T>

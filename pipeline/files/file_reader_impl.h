@@ -17,7 +17,10 @@ struct FileReader::Impl {
     Handle id;
     std::vector<hsize_t> lengths;
     std::size_t row_values = 1;
-    std::size_t packed_rows = 0;  ///< of a chunk that scale_offset.h reads; 0: left to the library
+    /// Of a chunk that scale_offset.h or list_deflate.h unpacks; 0: left to the library.
+    std::size_t packed_rows = 0;
+    std::vector<hsize_t> chunk;                 ///< along each axis; empty: not in chunks
+    mutable bool chunks_to_be_checked = false;  ///< before the library reads them
   };
   std::filesystem::path name;
   const Format* format = nullptr;
@@ -39,22 +42,36 @@ struct FileReader::Impl {
   void open_dataset(const Dataset& description);
   void check_type(const Open& made) const;
   void check_shape(Open& made);
-  /// All values are in the file. What its tables promise beyond that the library would make up, as zeros, in
-  /// as much memory as they say.
-  void check_storage(const Open& made) const;
-  /// Each chunk takes its place in the file, and what lies there unpacked is no smaller than it was: no
-  /// dataset has more chunks than the file has room for, nor are those that exist larger than the file.
-  void check_fits(const Open& made, hid_t creation, hsize_t chunks, hsize_t chunk_size) const;
-  /// Every chunk went through the dataset's filters.
-  void check_filtered(const Open& made, const std::vector<hsize_t>& chunk) const;
-  /// Rows of a chunk if it is packed as this program does it; other layouts of the same numbers go through
-  /// the library.
-  static std::size_t packed_rows_of(const Open& made);
-  void read_packed(const Open& from, std::size_t first, std::size_t count, float* out) const;
+  // file_storage.cpp
+  /// All values are in the file, packed as one of our programs or a plain one does it. What a file's tables
+  /// promise beyond that the library would make up, as zeros, in as much memory as they say; and where a
+  /// chunk holds less than a chunk, it would read on behind it.
+  void check_storage(Open& made) const;
+  /// Of `chunks` of chunk_size bytes each, unpacked: each takes its place in the file, and what lies there
+  /// unfiltered is no smaller than it was. No dataset has more chunks than the file has room for, nor are
+  /// those that exist larger than the file.
+  void check_fits(const Open& made, hsize_t chunks, hsize_t chunk_size, bool filtered) const;
+  /// Without a cache of chunks the library reads as many bytes as the dataset says; with one it takes a
+  /// chunk's length from the file's index, and reads on behind a short one.
+  void read_without_cache(Open& made) const;
+  /// Every chunk is deflated from as many bytes as a chunk has: the library reads on behind one of fewer.
+  void check_chunks(const Open& made) const;
+  /// A chunk as it lies in the file, having gone through all filters of the dataset.
+  void read_chunk(const Open& from, const hsize_t* at, std::vector<char>& packed) const;
+  [[noreturn]] void fail_at_chunk(const Open& from) const;
+  /// Rows [first, first + count) of packed numbers. unpack(chunk, numbers): false where it is damaged.
+  template <class T, class Unpack>
+  void unpack_rows(const Open& from, std::size_t first, std::size_t count, T* out,
+                   const Unpack& unpack) const;
+  void unpack_rows(const Open& from, std::size_t first, std::size_t count, float* out) const;
+  void unpack_rows(const Open& from, std::size_t first, std::size_t count, std::uint32_t* out) const;
+  // file_reader.cpp
   /// Selects rows [first, first + count) and reads them.
   void read(const Open& from, std::size_t first, std::size_t count, hid_t type, void* out) const;
   template <class T>
   void read_values(const std::string& path, std::size_t first, std::size_t count, std::vector<T>& out) const;
+  template <class Stored, class T>
+  void read_packed(const Open& from, std::size_t first, std::size_t count, std::vector<T>& out) const;
   template <class T>
   void check_finite(const Open& from, std::size_t first, const std::vector<T>& out) const;
 };

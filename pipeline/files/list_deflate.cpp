@@ -27,4 +27,19 @@ void ListDeflater::pack(std::span<const std::uint32_t> numbers, std::vector<char
                                         chunk.size()));
 }
 
+Inflater::Inflater() {
+  decompressor_.reset(libdeflate_alloc_decompressor());
+  if (!decompressor_) throw std::bad_alloc();
+}
+
+void Inflater::Free::operator()(libdeflate_decompressor* decompressor) const {
+  libdeflate_free_decompressor(decompressor);
+}
+
+bool Inflater::unpack(std::span<const char> chunk, std::span<char> bytes) {
+  std::size_t* const exactly_as_many = nullptr;
+  return libdeflate_zlib_decompress(decompressor_.get(), chunk.data(), chunk.size(), bytes.data(),
+                                    bytes.size(), exactly_as_many) == LIBDEFLATE_SUCCESS;
+}
+
 }  // namespace dresslife::pipeline

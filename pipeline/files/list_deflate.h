@@ -17,6 +17,7 @@
 #include <vector>
 
 struct libdeflate_compressor;
+struct libdeflate_decompressor;
 
 namespace dresslife::pipeline {
 
@@ -36,6 +37,22 @@ class ListDeflater {
     void operator()(libdeflate_compressor* compressor) const;
   };
   std::unique_ptr<libdeflate_compressor, Free> compressor_;
+};
+
+/// Reused from chunk to chunk.
+class Inflater {
+ public:
+  Inflater();
+
+  /// The bytes of a chunk that was deflated, by whatever program. False: it is damaged, or holds more or
+  /// fewer than bytes.size().
+  bool unpack(std::span<const char> chunk, std::span<char> bytes);
+
+ private:
+  struct Free {
+    void operator()(libdeflate_decompressor* decompressor) const;
+  };
+  std::unique_ptr<libdeflate_decompressor, Free> decompressor_;
 };
 
 }  // namespace dresslife::pipeline

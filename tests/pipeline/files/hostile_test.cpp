@@ -4,10 +4,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <vector>
 
 #include "pipeline/files/files.h"
+#include "pipeline/files/list_deflate.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
@@ -218,31 +220,133 @@ TEST_CASE("rows beyond the largest int are counted and read where they lie") {
   CHECK(some == std::vector<float>(1, 0.25f));
 }
 
-TEST_CASE(
-    "a chunk that says it is not filtered and is shorter than a chunk is refused, not read behind its end") {
+namespace {
+
+/// 20,000 numbers in chunks, in a file without a checksum.
+struct Numbers {
+  static constexpr std::size_t count = 20'000;
+  Scratch scratch;
   Format format{"dresslife-numbers", 1, "dresslife-maker", "tests", {}, {}};
-  Dataset dataset{"/numbers", Type::f64, {"number"}, "1", "numbers"};
-  dataset.deflate = true;
-  format.datasets.push_back(dataset);
-  const Scratch scratch;
-  {
+  std::filesystem::path file;
+
+  explicit Numbers(Dataset dataset) {
+    dataset.path = "/numbers";
+    dataset.shape = {"number"};
+    dataset.unit = "m";
+    format.datasets.push_back(dataset);
     FileWriter writer(scratch / "one.h5", format);
-    writer.append("/numbers", std::span<const double>(std::vector<double>(20'000, 0.25)));
+    if (dataset.type == Type::u32)
+      writer.append("/numbers", std::span<const std::uint32_t>(std::vector<std::uint32_t>(count, 7)));
+    else
+      writer.append("/numbers", std::span<const double>(std::vector<double>(count, 7)));
     writer.commit();
+    file = scratch.write("f.h5", bytes_of(scratch / "one.h5").substr(512));
   }
-  const auto file = scratch.write("short.h5", bytes_of(scratch / "one.h5").substr(512));  // no checksum
-  REQUIRE(FileReader(file, format).read<double>("/numbers") == std::vector<double>(20'000, 0.25));
-  {
+  /// Puts these bytes into the place of the first chunk.
+  void replace(const std::string& chunk, std::uint32_t filters_skipped) const {
     const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     const hid_t rows = H5Dopen2(opened, "/numbers", H5P_DEFAULT);
     const hsize_t first = 0;
-    const std::string few(16, '\1');
-    constexpr std::uint32_t all_filters_skipped = 3;
-    REQUIRE(H5Dwrite_chunk(rows, H5P_DEFAULT, all_filters_skipped, &first, few.size(), few.data()) >= 0);
+    REQUIRE(H5Dwrite_chunk(rows, H5P_DEFAULT, filters_skipped, &first, chunk.size(), chunk.data()) >= 0);
     H5Dclose(rows);
     H5Fclose(opened);
   }
-  CHECK(message_of([&] {
-          FileReader(file, format).read<double>("/numbers");
-        }).find("has a chunk that is not packed as it should be") != std::string::npos);
+  std::vector<double> read() const {
+    const FileReader reader(file, format);
+    if (format.datasets[0].type != Type::u32) return reader.read<double>("/numbers");
+    const auto numbers = reader.read<std::uint32_t>("/numbers");
+    return {numbers.begin(), numbers.end()};
+  }
+  std::string refusal() const {
+    return message_of([&] { read(); });
+  }
+};
+
+const std::vector<double> sevens(Numbers::count, 7);
+
+std::vector<Dataset> deflated() {
+  Dataset table, list;
+  table.type = Type::f64;
+  table.deflate = true;
+  list.type = Type::u32;
+  list.lists = true;
+  return {table, list};
+}
+
+std::size_t chunk_bytes_of(const std::filesystem::path& file) {
+  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t rows = H5Dopen2(opened, "/numbers", H5P_DEFAULT), creation = H5Dget_create_plist(rows),
+              type = H5Dget_type(rows);
+  hsize_t numbers = 0;
+  REQUIRE(H5Pget_chunk(creation, 1, &numbers) == 1);
+  const std::size_t bytes = numbers * H5Tget_size(type);
+  H5Tclose(type);
+  H5Pclose(creation);
+  H5Dclose(rows);
+  H5Fclose(opened);
+  return bytes;
+}
+
+constexpr const char* not_packed = "has a chunk that is not packed as it should be";
+
+}  // namespace
+
+TEST_CASE(
+    "a chunk that says it is not filtered and is shorter than a chunk is refused, not read behind its end") {
+  for (const Dataset& dataset : deflated()) {
+    const Numbers numbers(dataset);
+    REQUIRE(numbers.read() == sevens);
+    constexpr std::uint32_t all_filters = 3;
+    numbers.replace(std::string(16, '\1'), all_filters);
+    CHECK(numbers.refusal().find(not_packed) != std::string::npos);
+  }
+}
+
+TEST_CASE("a deflated chunk of another size than a chunk is refused, not read behind its end") {
+  for (const Dataset& dataset : deflated()) {
+    const Numbers numbers(dataset);
+    ListDeflater deflater;
+    const std::size_t whole = chunk_bytes_of(numbers.file) / sizeof(std::uint32_t);
+    for (const std::size_t held : {std::size_t{1}, whole - 1, whole + 1}) {
+      CAPTURE(held);
+      std::vector<char> chunk;
+      deflater.pack(std::vector<std::uint32_t>(held, 7), chunk);
+      numbers.replace({chunk.begin(), chunk.end()}, 0);
+      CHECK(numbers.refusal().find(not_packed) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("a plain chunk that the file's index says is short is read as the dataset says") {
+  const Numbers numbers(Dataset{});
+  std::string bytes = bytes_of(numbers.file);
+  // A leaf of the index: TREE, chunks (1), level 0, entries, two siblings; an entry begins with its bytes.
+  std::size_t found = 0;
+  for (std::size_t at = bytes.find("TREE"); at != std::string::npos; at = bytes.find("TREE", at + 1)) {
+    if (bytes[at + 4] != 1 || bytes[at + 5] != 0) continue;
+    constexpr std::size_t header = 24, entry = 4 + 4 + 2 * 8 + 8;
+    for (int k = 0; k < bytes[at + 6]; ++k, ++found) {
+      std::uint32_t size = 0;
+      std::memcpy(&size, bytes.data() + at + header + k * entry, sizeof(size));
+      REQUIRE(size == 1 << 16);
+      size = 16;
+      std::memcpy(bytes.data() + at + header + k * entry, &size, sizeof(size));
+    }
+  }
+  REQUIRE(found == 3);
+  numbers.scratch.write("f.h5", bytes);
+  CHECK(numbers.read() == sevens);
+}
+
+TEST_CASE(
+    "hostile files: chunks packed by filters that are not undone here are refused, and what to do instead") {
+  Made made;
+  const hid_t creation = chunked({2, 2});
+  H5Pset_fletcher32(creation);
+  H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+  made.put(creation, {2, 2});
+  const std::string refusal = made.refusal();
+  CHECK(refusal.find(
+            "dataset /group/rows is packed by a filter of HDF5 that is not read here; write it without "
+            "filters, or with deflate") != std::string::npos);
 }

@@ -1,0 +1,185 @@
+// How the values of a dataset lie in the file: what a FileReader believes of that, and chunks that it unpacks
+// itself.
+#include <algorithm>
+#include <array>
+
+#include "pipeline/files/file_reader_impl.h"
+#include "pipeline/files/list_deflate.h"
+#include "pipeline/files/scale_offset.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr std::size_t most_chunk_bytes = 64 << 20;  // one is held unpacked; others write 1 MB and less
+
+using Filters = std::vector<H5Z_filter_t>;
+
+/// In the order in which they pack.
+Filters filters_of(hid_t creation) {
+  Filters filters;
+  for (int k = 0; k < H5Pget_nfilters(creation); ++k) {
+    unsigned flags = 0, config = 0;
+    std::size_t no_values = 0;
+    filters.push_back(
+        H5Pget_filter2(creation, static_cast<unsigned>(k), &flags, &no_values, nullptr, 0, nullptr, &config));
+  }
+  return filters;
+}
+
+/// One number after the other, four bytes each as they lie in memory.
+bool is_row_of(H5T_class_t numbers, hid_t dataset, std::size_t axes) {
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  return axes == 1 && H5Tget_class(type) == numbers && H5Tget_size(type) == 4 &&
+         H5Tget_order(type) == H5T_ORDER_LE && (numbers == H5T_FLOAT || H5Tget_sign(type) == H5T_SGN_NONE);
+}
+
+/// The only filter of the dataset packs as scale_offset.h does.
+bool is_scale_offset(hid_t creation, int decimals) {
+  std::array<unsigned, 20>
+      values{};  // scale type, scale, numbers a chunk, class, size, sign, order, fill value ...
+  std::size_t count = values.size();
+  unsigned flags = 0, config = 0;
+  H5Pget_filter2(creation, 0, &flags, &count, values.data(), 0, nullptr, &config);
+  H5D_fill_value_t fill = H5D_FILL_VALUE_ERROR;
+  H5Pfill_value_defined(creation, &fill);
+  return fill == H5D_FILL_VALUE_UNDEFINED && values[0] == H5Z_SO_FLOAT_DSCALE &&
+         static_cast<int>(values[1]) == decimals;
+}
+
+}  // namespace
+
+void FileReader::Impl::check_storage(Open& made) const {
+  const std::string& path = made.description->path;
+  const Handle creation(H5Dget_create_plist(made.id), H5Pclose);
+  const Handle type(H5Dget_type(made.id), H5Tclose);
+  const Handle space(H5Dget_space(made.id), H5Sclose);
+  hsize_t promised = H5Tget_size(type);
+  for (const hsize_t length : made.lengths)
+    if (__builtin_mul_overflow(promised, length, &promised))
+      fail(fmt::format("dataset {} is too large", path));
+  const H5D_layout_t layout = H5Pget_layout(creation);
+  if (H5Pget_external_count(creation) != 0 || layout == H5D_VIRTUAL)
+    fail(fmt::format("dataset {} lies in other files (the data must lie in the file itself)", path));
+  if (promised == 0) return;
+  if (layout != H5D_CHUNKED) {
+    if (H5Dget_storage_size(made.id) != promised) fail(fmt::format("dataset {} was never filled", path));
+    if (promised > bytes)
+      fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
+    return;
+  }
+  std::vector<hsize_t>& chunk = made.chunk;
+  chunk.resize(made.lengths.size());
+  H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
+  hsize_t needed = 1, found = 0, chunk_size = H5Tget_size(type);
+  for (std::size_t i = 0; i < chunk.size(); ++i) {
+    const hsize_t along = made.lengths[i] / chunk[i] + (made.lengths[i] % chunk[i] != 0);
+    if (__builtin_mul_overflow(needed, along, &needed) ||
+        __builtin_mul_overflow(chunk_size, chunk[i], &chunk_size))
+      fail(fmt::format("dataset {} is too large", path));
+  }
+  if (chunk_size > most_chunk_bytes) fail(fmt::format("dataset {} has chunks of {} bytes", path, chunk_size));
+  const Filters filters = filters_of(creation);
+  check_fits(made, needed, chunk_size, !filters.empty());
+  if (H5Dget_num_chunks(made.id, space, &found) < 0 || found != needed)
+    fail(fmt::format("dataset {} has {} of its {} chunks (the file is damaged)", path, found, needed));
+
+  const std::optional<int> decimals = made.description->decimals;
+  if (filters.empty()) return read_without_cache(made);
+  if (filters == Filters{H5Z_FILTER_SCALEOFFSET} && decimals && is_scale_offset(creation, *decimals) &&
+      is_row_of(H5T_FLOAT, made.id, made.lengths.size()))
+    made.packed_rows = chunk[0];
+  else if (filters == Filters{H5Z_FILTER_DEFLATE} && made.description->type == Type::u32 &&
+           is_row_of(H5T_INTEGER, made.id, made.lengths.size()))
+    made.packed_rows = chunk[0];
+  else if (filters == Filters{H5Z_FILTER_DEFLATE} ||
+           filters == Filters{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE})
+    made.chunks_to_be_checked = true;
+  else
+    throw InputError({name.string()},
+                     fmt::format("dataset {} is packed by a filter of HDF5 that is not read here", path),
+                     "write it without filters, or with deflate (gzip), shuffled or not");
+}
+
+void FileReader::Impl::check_fits(const Open& made, hsize_t chunks, hsize_t chunk_size, bool filtered) const {
+  constexpr hsize_t least_index_bytes = 4;  // of a chunk: at least its length stands somewhere
+  const std::string& path = made.description->path;
+  if (chunks > bytes / (filtered ? least_index_bytes : chunk_size))
+    fail(fmt::format("dataset {} promises {} chunks of {} bytes in a file of {} (the file is damaged)", path,
+                     chunks, chunk_size, bytes));
+  if (H5Dget_storage_size(made.id) > bytes)
+    fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
+}
+
+void FileReader::Impl::read_without_cache(Open& made) const {
+  made.id.reset();  // what is opened twice shares the first one's cache
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access, 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
+  made.id = Handle(H5Dopen2(file, made.description->path.c_str(), access), H5Dclose);
+  if (!made.id.valid()) fail(fmt::format("dataset {} cannot be opened", made.description->path));
+}
+
+void FileReader::Impl::read_chunk(const Open& from, const hsize_t* at, std::vector<char>& packed) const {
+  hsize_t size = 0;
+  std::uint32_t filters_skipped = 0;
+  const bool found = H5Dget_chunk_storage_size(from.id, at, &size) >= 0;
+  packed.resize(size);
+  if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, at, &filters_skipped, packed.data()) < 0 ||
+      filters_skipped != 0)
+    fail_at_chunk(from);
+}
+
+void FileReader::Impl::fail_at_chunk(const Open& from) const {
+  fail(fmt::format("dataset {} has a chunk that is not packed as it should be (the file is damaged)",
+                   from.description->path));
+}
+
+void FileReader::Impl::check_chunks(const Open& made) const {
+  const Handle type(H5Dget_type(made.id), H5Tclose);
+  std::size_t bytes_of_one = H5Tget_size(type);
+  for (const hsize_t along : made.chunk) bytes_of_one *= along;
+  Inflater inflater;
+  std::vector<char> packed, unpacked(bytes_of_one);
+  std::vector<hsize_t> at(made.chunk.size(), 0);
+  while (at[0] < made.lengths[0]) {
+    read_chunk(made, at.data(), packed);
+    if (!inflater.unpack(packed, unpacked)) fail_at_chunk(made);
+    std::size_t axis = at.size() - 1;
+    for (at[axis] += made.chunk[axis]; axis > 0 && at[axis] >= made.lengths[axis];
+         at[axis] += made.chunk[axis])
+      at[axis--] = 0;
+  }
+  made.chunks_to_be_checked = false;
+}
+
+template <class T, class Unpack>
+void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, T* out,
+                                   const Unpack& unpack) const {
+  check_library_memory();
+  std::vector<char> packed;
+  std::vector<T> numbers(from.packed_rows);
+  for (std::size_t row = first, end = first + count; row < end;) {
+    const hsize_t chunk = row / from.packed_rows * from.packed_rows;
+    read_chunk(from, &chunk, packed);
+    if (!unpack(std::span<const char>(packed), std::span<T>(numbers))) fail_at_chunk(from);
+    const std::size_t here = std::min<std::size_t>(end, chunk + from.packed_rows) - row;
+    std::copy_n(numbers.data() + (row - chunk), here, out);
+    row += here;
+    out += here;
+  }
+}
+
+void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, float* out) const {
+  unpack_rows(from, first, count, out, [&](std::span<const char> chunk, std::span<float> numbers) {
+    return unpack_chunk(chunk, *from.description->decimals, numbers);
+  });
+}
+
+void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count,
+                                   std::uint32_t* out) const {
+  Inflater inflater;
+  unpack_rows(from, first, count, out, [&](std::span<const char> chunk, std::span<std::uint32_t> numbers) {
+    return inflater.unpack(chunk, {reinterpret_cast<char*>(numbers.data()), numbers.size_bytes()});
+  });
+}
+
+}  // namespace dresslife::pipeline
