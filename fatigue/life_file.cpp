@@ -122,14 +122,6 @@ void check_steps(const Context& c) {
   }
 }
 
-void check_dresspacks(const Context& c) {
-  const std::size_t count = c.dresspack.empty() ? 0 : c.dresspack.back() + 1;
-  if (count > c.job.dresspacks.size())
-    throw pipeline::InputError(
-        c.strain.where(), fmt::format("holds {} dresspacks (its job has {})", count, c.job.dresspacks.size()),
-        "make the file anew with dresslife-strain");
-}
-
 template <class T>
 void put(FileWriter& file, const std::string& dataset, const std::vector<T>& values) {
   file.append(dataset, std::span<const T>(values));
@@ -726,7 +718,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
                  const std::function<void(double)>& progress) {
   Context c(strain, job, life, threads);
   check_steps(c);
-  check_dresspacks(c);
+  pipeline::check_lengths(c.strain, free_lengths(c.job));
   // The three sets are about equally large.
   c.damage = damage_of(c.sites, c.counters, threads, [&](double share) { progress(share / 3); });
   judge(c);

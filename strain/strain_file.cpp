@@ -251,17 +251,9 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
   if (reader.samples() == 0 || reader.lengths().empty())
     throw pipeline::InputError(motion.where(), "holds no samples of a dresspack (nothing to evaluate)",
                                "run dresslife-sim again");
-  if (std::any_of(reader.lengths().begin(), reader.lengths().end(),
-                  [](double length) { return !(length > 0); }))
-    throw pipeline::InputError(motion.where(), "has a segment whose rest length is not above 0",
-                               "run dresslife-sim again");
+  pipeline::check_lengths(motion, free_lengths(job));
   if (!(reader.step() > 0))
     throw pipeline::InputError(motion.where(), "has a second sample that is not later than the first",
-                               "run dresslife-sim again");
-  if (reader.spans().back().dresspack + 1 != job.dresspacks.size())
-    throw pipeline::InputError(motion.where(),
-                               fmt::format("holds {} dresspacks (its job has {})",
-                                           reader.spans().back().dresspack + 1, job.dresspacks.size()),
                                "run dresslife-sim again");
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
     if (const pipeline::Dresspack& dresspack = job.dresspacks[d].dresspack; !has_wires(dresspack)) {

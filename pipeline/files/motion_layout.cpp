@@ -1,6 +1,7 @@
 #include "pipeline/files/motion_layout.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dresslife::pipeline {
 
@@ -16,6 +17,31 @@ std::vector<std::size_t> dresspack_of_segments(const FileReader& file) {
     throw InputError(file.where(), "/segment/dresspack does not count the dresspacks up one by one",
                      "make the file anew");
   return {dresspacks.begin(), dresspacks.end()};
+}
+
+void check_lengths(const FileReader& file, const std::vector<double>& free_lengths) {
+  const std::string remedy = "make the file anew, with the job that it holds";
+  const auto lengths = file.read<double>("/segment/length");
+  const std::vector<std::size_t> dresspack = dresspack_of_segments(file);
+  const std::size_t count = dresspack.empty() ? 0 : dresspack.back() + 1;
+  if (count != free_lengths.size())
+    throw InputError(file.where(),
+                     fmt::format("holds {} dresspacks (its job has {})", count, free_lengths.size()), remedy);
+  std::vector<double> together(count, 0.0);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    if (!(lengths[i] > 0))
+      throw InputError(file.where(), fmt::format("has a segment whose rest length is {} m", lengths[i]),
+                       remedy);
+    together[dresspack[i]] += lengths[i];
+  }
+  constexpr double rounding = 1e-6;  // of a share: numbers that were kept in single precision
+  for (std::size_t d = 0; d < count; ++d)
+    if (!(std::abs(together[d] - free_lengths[d]) <= rounding * free_lengths[d]))
+      throw InputError(
+          file.where(),
+          fmt::format("has segments of {} m together where routing.free_length_m of its job is {}",
+                      together[d], free_lengths[d]),
+          remedy);
 }
 
 std::vector<std::string> dresspack_names(const FileReader& file) {

@@ -27,6 +27,11 @@ std::vector<MotionSpan> motion_spans(const FileReader& motion);
 /// (segment) of a motion or strain file: the dresspack that it belongs to.
 std::vector<std::size_t> dresspack_of_segments(const FileReader& file);
 
+/// The segments of each dresspack of a motion or strain file are as long together as what lies between its
+/// clamps, as its job says: strains and places follow from them. free_lengths: (dresspack) [m]. Errors:
+/// InputError, also where the job has another number of dresspacks.
+void check_lengths(const FileReader& file, const std::vector<double>& free_lengths);
+
 /// Names of the dresspacks where there are several, to tell them apart; {""}: one.
 std::vector<std::string> dresspack_names(const FileReader& file);
 

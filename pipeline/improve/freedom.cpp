@@ -202,17 +202,7 @@ class Choice : public FreeKey {
 const Node* common_value(const std::vector<Node>& documents, const std::string& path) {
   const Node* first = nullptr;
   for (const Node& document : documents) {
-    const Node* node = &document;
-    for (std::size_t begin = 0; node && begin <= path.size();) {
-      const std::size_t dot = std::min(path.find('.', begin), path.size());
-      const std::string word = path.substr(begin, dot - begin);
-      std::size_t index = 0;
-      std::from_chars(word.data(), word.data() + word.size(), index);
-      node = !node->is_list()                            ? node->find(word)
-             : index >= 1 && index <= node->items.size() ? &node->items[index - 1]
-                                                         : nullptr;
-      begin = dot + 1;
-    }
+    const Node* node = value_at(document, path);
     if (!node || (first && to_yaml(*first) != to_yaml(*node))) return nullptr;
     first = first ? first : node;
   }

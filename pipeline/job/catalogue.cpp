@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
+#include <optional>
 #include <set>
 
 #include "pipeline/installation.h"
@@ -282,14 +284,20 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
   add_materials(*entry, job, path, problems);
 }
 
+/// Which item of a list a word of a key path names: there they count from 1. Nothing: none.
+std::optional<std::size_t> item_of(const Node& list, const std::string& word) {
+  std::size_t number = 0;
+  const char* const end = word.data() + word.size();
+  const auto [read, failure] = std::from_chars(word.data(), end, number);
+  const bool is_item = failure == std::errc() && read == end && number >= 1 && number <= list.items.size();
+  return is_item ? std::optional(number - 1) : std::nullopt;
+}
+
 Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
   if (node.is_list()) {
-    char* end = nullptr;
-    const long number = std::strtol(word.c_str(), &end, 10);
-    if (*end != '\0' || number < 1 || number > static_cast<long>(node.items.size()))
-      throw InputError(where, fmt::format("'{}' of {} is not an item of the list", word, path),
-                       fmt::format("items count from 1 to {}", node.items.size()));
-    return &node.items[number - 1];
+    if (const auto item = item_of(node, word)) return &node.items[*item];
+    throw InputError(where, fmt::format("'{}' of {} is not an item of the list", word, path),
+                     fmt::format("items count from 1 to {}", node.items.size()));
   }
   if (node.is_scalar())
     throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path),
@@ -359,6 +367,22 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     begin = dot + 1;
   }
   *node = std::move(value);
+}
+
+const Node* value_at(const Node& tree, const std::string& path) {
+  const Node* node = &tree;
+  for (std::size_t begin = 0; node && begin <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', begin), path.size());
+    const std::string word = path.substr(begin, dot - begin);
+    if (node->is_list()) {
+      const auto item = item_of(*node, word);
+      node = item ? &node->items[*item] : nullptr;
+    } else {
+      node = node->find(word);
+    }
+    begin = dot + 1;
+  }
+  return node;
 }
 
 void apply_set(Node& job, const std::string& set) {

@@ -26,6 +26,9 @@ void resolve_job(Node& job);
 /// asks for it.
 void set_value(Node& job, const std::string& path, Node value, const Where& where);
 
+/// The value at a key path of a tree whose entries are written out. Null: nothing there.
+const Node* value_at(const Node& tree, const std::string& path);
+
 /// Sets the value at `key.path=value` in a job's tree; list items count from 1. Errors: InputError.
 void apply_set(Node& job, const std::string& set);
 

@@ -12,6 +12,12 @@ void describe(Fields& f, MountedDresspack& mounted) {
   f.group("routing", mounted.routing, Need::required, "clamps and free length");
 }
 
+std::vector<double> free_lengths(const Setup& setup) {
+  std::vector<double> lengths;
+  for (const MountedDresspack& mounted : setup.dresspacks) lengths.push_back(mounted.routing.free_length);
+  return lengths;
+}
+
 std::string name_among(const Setup& setup, std::size_t dresspack) {
   return setup.dresspacks.size() > 1 ? setup.dresspacks[dresspack].name : "";
 }

@@ -33,6 +33,9 @@ struct Setup {
   Simulation simulation;
 };
 
+/// (dresspack) what lies between its clamps, unstretched [m].
+std::vector<double> free_lengths(const Setup& setup);
+
 /// What tells a dresspack from the others: its name, or nothing where it is the only one; and the same as the
 /// subject of a sentence: "dresspack 'main hose'", "dresspack".
 std::string name_among(const Setup& setup, std::size_t dresspack);

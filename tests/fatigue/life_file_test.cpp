@@ -146,6 +146,7 @@ pipeline::Job test_job() {
   cable.components[0].layer = "layer 1";
   cable.components[1].layer = "layer 2";
   job.dresspacks[0].dresspack.components = {cable};
+  job.dresspacks[0].routing.free_length = 1;
   return job;
 }
 

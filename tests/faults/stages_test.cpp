@@ -254,7 +254,8 @@ TEST_CASE("a stage that runs out of its time or memory says so and leaves nothin
   CHECK(slow.status == 1);
   CHECK(slow.err.find("dresslife-sim: error: took longer than 1 s (--job-time)") == 0);
   CHECK(entries(scratch / "out") == 0);
-#ifndef __SANITIZE_ADDRESS__  // which takes more address space than these limits leave
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // which take more address space than is left
   for (const Stage& stage : stages)
     for (const int kilobytes : {48'000, 50'000, 53'000, 57'000, 62'000, 68'000, 75'000}) {
       const Outcome large = run_with(scratch, "ulimit -v " + std::to_string(kilobytes) + ";", stage.program,
@@ -290,7 +291,8 @@ TEST_CASE("closed and full streams are survived and told by the status") {
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which takes more address space than these limits leave
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // which take more address space than is left
 TEST_CASE("with too few threads a stage does the work on those that it has") {
   const Chain chain;
   const Scratch& scratch = chain.scratch;
@@ -310,7 +312,8 @@ TEST_CASE("with too few threads a stage does the work on those that it has") {
 }
 #endif
 
-#ifndef __SANITIZE_ADDRESS__  // which finds the bounds of the stack in /proc and without them reports what is none
+// The sanitizers find the bounds of the stack and of memory in /proc, and without them report what is none.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("programs find themselves and their catalogue where no /proc is mounted") {
   const Scratch scratch;
   write_small_job(scratch);

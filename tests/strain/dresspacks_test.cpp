@@ -106,6 +106,11 @@ std::string block(const std::string& from, const std::string& to) {
 }
 const std::string thick_block = block("dresspack:", "routing:"),
                   routing_block = block("routing:", "simulation:");
+std::string routing_of(const Hose& hose) {
+  std::string text = routing_block;
+  const std::string own = "free_length_m: 1.2";
+  return text.replace(text.find(own), own.size(), fmt::format("free_length_m: {}", hose.length));
+}
 /// Of one level only, with a wall.
 const std::string thin_block =
     "dresspack:\n  name: cable\n  source: made for the tests\n  diameter_mm: 20\n  mass_kg_per_m: 0.3\n"
@@ -132,7 +137,7 @@ pipeline::Job job_of(const std::string& dresspacks, const std::vector<std::strin
 }
 
 std::string item(const Hose& hose, const std::string& dresspack) {
-  return "  - name: " + hose.name + "\n" + indented(dresspack) + indented(routing_block);
+  return "  - name: " + hose.name + "\n" + indented(dresspack) + indented(routing_of(hose));
 }
 
 const std::string both = "dresspacks:\n" + item(thick, thick_block) + item(thin, thin_block);
@@ -178,8 +183,8 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
   write_motion(scratch / "thick.motion.h5", {thick});
   write_motion(scratch / "thin.motion.h5", {thin});
   evaluate(scratch, "both", job_of(both, {"main hose/cable 1/wire 1", "sensor cable/core 2"}));
-  evaluate(scratch, "thick", job_of(thick_block + routing_block, {"cable 1/wire 1"}));
-  evaluate(scratch, "thin", job_of(thin_block + routing_block, {"core 2"}));
+  evaluate(scratch, "thick", job_of(thick_block + routing_of(thick), {"cable 1/wire 1"}));
+  evaluate(scratch, "thin", job_of(thin_block + routing_of(thin), {"core 2"}));
   {
     const FileReader all(scratch / "both.strain.h5", pipeline::strain_format()),
         first(scratch / "thick.strain.h5", pipeline::strain_format()),

@@ -105,10 +105,12 @@ struct Strains {
   std::vector<std::uint32_t> probe_site;
 };
 
-Strains evaluate(const std::filesystem::path& motion, const pipeline::Job& job) {
+/// job: of a hose that is as long as that of the motion.
+Strains evaluate(const std::filesystem::path& motion, pipeline::Job job) {
   const std::filesystem::path out = motion.string() + ".strain";
   {
     const FileReader reader(motion, pipeline::motion_format());
+    job.dresspacks.front().routing.free_length = l * static_cast<double>(reader.rows("/segment/length"));
     FileWriter writer(out, pipeline::strain_format());
     strain::write_strain(reader, job, writer, 1, [](double) {});
     for (const char* attribute : {"job", "history", "input_sha256"}) writer.attribute(attribute, "");

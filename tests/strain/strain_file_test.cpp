@@ -280,6 +280,25 @@ TEST_CASE("a strain file with a cable that its job does not have is refused") {
   CHECK_THROWS_WITH(judge(strain, job, scratch / "life.h5"), Catch::Contains("which its job does not have"));
 }
 
+TEST_CASE("a file whose segments are not the hose of its job is refused by both stages") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  pipeline::Job other = job_with();
+  evaluate(scratch / "motion.h5", scratch / "strain.h5", other);
+  const double whole = other.dresspacks[0].routing.free_length;
+  CHECK(whole == length);
+  const FileReader strain(scratch / "strain.h5", pipeline::strain_format());
+  for (const double longer : {-1e-3, 1e-5, 1e-3, 1.0}) {
+    other.dresspacks[0].routing.free_length = whole * (1 + longer);
+    const auto expected = Catch::Contains(
+        fmt::format("has segments of {} m together where routing.free_length_m of its job is {}", whole,
+                    whole * (1 + longer)));
+    CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "other.h5", other); }),
+               expected);
+    CHECK_THAT(pipeline::message_of([&] { judge(strain, other, scratch / "life.h5"); }), expected);
+  }
+}
+
 TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5", 0);
