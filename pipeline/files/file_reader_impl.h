@@ -47,6 +47,9 @@ struct FileReader::Impl {
   /// promise beyond that the library would make up, as zeros, in as much memory as they say; and where a
   /// chunk holds less than a chunk, it would read on behind it.
   void check_storage(Open& made) const;
+  void check_chunks_are_there(Open& made, hid_t creation) const;
+  /// Ours or the library's, by the filters that a dataset in chunks went through.
+  void choose_reading(Open& made, hid_t creation) const;
   /// Of `chunks` of chunk_size bytes each, unpacked: each takes its place in the file, and what lies there
   /// unfiltered is no smaller than it was. No dataset has more chunks than the file has room for, nor are
   /// those that exist larger than the file.

@@ -52,7 +52,6 @@ void FileReader::Impl::check_storage(Open& made) const {
   const std::string& path = made.description->path;
   const Handle creation(H5Dget_create_plist(made.id), H5Pclose);
   const Handle type(H5Dget_type(made.id), H5Tclose);
-  const Handle space(H5Dget_space(made.id), H5Sclose);
   hsize_t promised = H5Tget_size(type);
   for (const hsize_t length : made.lengths)
     if (__builtin_mul_overflow(promised, length, &promised))
@@ -61,43 +60,54 @@ void FileReader::Impl::check_storage(Open& made) const {
   if (H5Pget_external_count(creation) != 0 || layout == H5D_VIRTUAL)
     fail(fmt::format("dataset {} lies in other files (the data must lie in the file itself)", path));
   if (promised == 0) return;
-  if (layout != H5D_CHUNKED) {
-    if (H5Dget_storage_size(made.id) != promised) fail(fmt::format("dataset {} was never filled", path));
-    if (promised > bytes)
-      fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
-    return;
+  if (layout == H5D_CHUNKED) {
+    check_chunks_are_there(made, creation);
+    return choose_reading(made, creation);
   }
-  std::vector<hsize_t>& chunk = made.chunk;
-  chunk.resize(made.lengths.size());
-  H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
+  if (H5Dget_storage_size(made.id) != promised) fail(fmt::format("dataset {} was never filled", path));
+  if (promised > bytes)
+    fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
+}
+
+void FileReader::Impl::check_chunks_are_there(Open& made, hid_t creation) const {
+  const std::string& path = made.description->path;
+  made.chunk.resize(made.lengths.size());
+  H5Pget_chunk(creation, static_cast<int>(made.chunk.size()), made.chunk.data());
+  const Handle type(H5Dget_type(made.id), H5Tclose);
   hsize_t needed = 1, found = 0, chunk_size = H5Tget_size(type);
-  for (std::size_t i = 0; i < chunk.size(); ++i) {
-    const hsize_t along = made.lengths[i] / chunk[i] + (made.lengths[i] % chunk[i] != 0);
+  for (std::size_t i = 0; i < made.chunk.size(); ++i) {
+    const hsize_t along = made.lengths[i] / made.chunk[i] + (made.lengths[i] % made.chunk[i] != 0);
     if (__builtin_mul_overflow(needed, along, &needed) ||
-        __builtin_mul_overflow(chunk_size, chunk[i], &chunk_size))
+        __builtin_mul_overflow(chunk_size, made.chunk[i], &chunk_size))
       fail(fmt::format("dataset {} is too large", path));
   }
   if (chunk_size > most_chunk_bytes) fail(fmt::format("dataset {} has chunks of {} bytes", path, chunk_size));
-  const Filters filters = filters_of(creation);
-  check_fits(made, needed, chunk_size, !filters.empty());
+  check_fits(made, needed, chunk_size, H5Pget_nfilters(creation) > 0);
+  const Handle space(H5Dget_space(made.id), H5Sclose);
   if (H5Dget_num_chunks(made.id, space, &found) < 0 || found != needed)
     fail(fmt::format("dataset {} has {} of its {} chunks (the file is damaged)", path, found, needed));
+}
 
+void FileReader::Impl::choose_reading(Open& made, hid_t creation) const {
+  const Filters filters = filters_of(creation);
   const std::optional<int> decimals = made.description->decimals;
-  if (filters.empty()) return read_without_cache(made);
-  if (filters == Filters{H5Z_FILTER_SCALEOFFSET} && decimals && is_scale_offset(creation, *decimals) &&
-      is_row_of(H5T_FLOAT, made.id, made.lengths.size()))
-    made.packed_rows = chunk[0];
-  else if (filters == Filters{H5Z_FILTER_DEFLATE} && made.description->type == Type::u32 &&
-           is_row_of(H5T_INTEGER, made.id, made.lengths.size()))
-    made.packed_rows = chunk[0];
+  const bool is_list =
+      made.description->type == Type::u32 && is_row_of(H5T_INTEGER, made.id, made.chunk.size());
+  if (filters.empty())
+    read_without_cache(made);
+  else if (filters == Filters{H5Z_FILTER_SCALEOFFSET} && decimals && is_scale_offset(creation, *decimals) &&
+           is_row_of(H5T_FLOAT, made.id, made.chunk.size()))
+    made.packed_rows = made.chunk[0];
+  else if (filters == Filters{H5Z_FILTER_DEFLATE} && is_list)
+    made.packed_rows = made.chunk[0];
   else if (filters == Filters{H5Z_FILTER_DEFLATE} ||
            filters == Filters{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE})
     made.chunks_to_be_checked = true;
   else
-    throw InputError({name.string()},
-                     fmt::format("dataset {} is packed by a filter of HDF5 that is not read here", path),
-                     "write it without filters, or with deflate (gzip), shuffled or not");
+    throw InputError(
+        {name.string()},
+        fmt::format("dataset {} is packed by a filter of HDF5 that is not read here", made.description->path),
+        "write it without filters, or with deflate (gzip), shuffled or not");
 }
 
 void FileReader::Impl::check_fits(const Open& made, hsize_t chunks, hsize_t chunk_size, bool filtered) const {
