@@ -293,6 +293,14 @@ std::optional<std::size_t> item_of(const Node& list, const std::string& word) {
   return is_item ? std::optional(number - 1) : std::nullopt;
 }
 
+/// The word of a key path at `begin`, which goes on to the next; beyond the path's end: that was the last.
+std::string next_word(const std::string& path, std::size_t& begin) {
+  const std::size_t dot = std::min(path.find('.', begin), path.size());
+  std::string word = path.substr(begin, dot - begin);
+  begin = dot + 1;
+  return word;
+}
+
 Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
   if (node.is_list()) {
     if (const auto item = item_of(node, word)) return &node.items[*item];
@@ -357,14 +365,13 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
 void set_value(Node& job, const std::string& path, Node value, const Where& where) {
   Node* node = &job;
   for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t dot = std::min(path.find('.', begin), path.size());
-    const std::string word = path.substr(begin, dot - begin);
+    const std::size_t here = begin;
+    const std::string word = next_word(path, begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
     // A catalogue entry is looked up as soon as a path leads into it.
-    if (begin > 0 && word != "from" && word != "cable")
-      if (const char* folder = shelf_of(path.substr(0, begin - 1))) resolve(*node, folder, job.where);
+    if (here > 0 && word != "from" && word != "cable")
+      if (const char* folder = shelf_of(path.substr(0, here - 1))) resolve(*node, folder, job.where);
     node = step_into(*node, word, where, path);
-    begin = dot + 1;
   }
   *node = std::move(value);
 }
@@ -372,15 +379,13 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
 const Node* value_at(const Node& tree, const std::string& path) {
   const Node* node = &tree;
   for (std::size_t begin = 0; node && begin <= path.size();) {
-    const std::size_t dot = std::min(path.find('.', begin), path.size());
-    const std::string word = path.substr(begin, dot - begin);
+    const std::string word = next_word(path, begin);
     if (node->is_list()) {
       const auto item = item_of(*node, word);
       node = item ? &node->items[*item] : nullptr;
     } else {
       node = node->find(word);
     }
-    begin = dot + 1;
   }
   return node;
 }

@@ -254,8 +254,8 @@ TEST_CASE("a stage that runs out of its time or memory says so and leaves nothin
   CHECK(slow.status == 1);
   CHECK(slow.err.find("dresslife-sim: error: took longer than 1 s (--job-time)") == 0);
   CHECK(entries(scratch / "out") == 0);
-#if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)  // which take more address space than is left
+  // The sanitizers take more address space than these limits leave.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   for (const Stage& stage : stages)
     for (const int kilobytes : {48'000, 50'000, 53'000, 57'000, 62'000, 68'000, 75'000}) {
       const Outcome large = run_with(scratch, "ulimit -v " + std::to_string(kilobytes) + ";", stage.program,
@@ -291,8 +291,8 @@ TEST_CASE("closed and full streams are survived and told by the status") {
   }
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)  // which take more address space than is left
+// The sanitizers take more address space than these limits leave.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("with too few threads a stage does the work on those that it has") {
   const Chain chain;
   const Scratch& scratch = chain.scratch;

@@ -234,6 +234,7 @@ TEST_CASE("files: packed numbers are the same through this program's reader and 
     std::vector<std::uint64_t> wider_list;
     own.read_rows("/b", 65530, 20, wider_list);
     CHECK(wider_list == std::vector<std::uint64_t>(b.begin() + 65530, b.begin() + 65550));
+    if (written_packed) CHECK_THROWS_AS(own.read<std::int32_t>("/b"), std::logic_error);
     constexpr double kept = 0.5e-7 + 2e-8;  // half of the last decimal, and a float's roundings of 0.14
     double worst = 0;
     for (std::size_t k = 0; k < samples; ++k) worst = std::max(worst, std::abs(double(whole[k]) - a[k]));

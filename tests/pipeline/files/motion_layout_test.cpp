@@ -45,6 +45,33 @@ TEST_CASE("motion layout: files of one dresspack and of several are told apart i
   CHECK(dresspack_names(FileReader(scratch / "old.h5", motion_format())) == std::vector<std::string>{""});
 }
 
+TEST_CASE("motion layout: segments that are not as long together as the job's hoses are refused") {
+  const Scratch scratch;
+  Format format{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
+  format.datasets = {{"/segment/length", Type::f64, {"segment"}, "m", ""}};
+  const auto refusal = [&](const std::vector<double>& lengths, const std::vector<double>& hoses) {
+    FileWriter writer(scratch / "f.h5", format);
+    writer.append("/segment/length", std::span<const double>(lengths));
+    writer.commit();
+    return message_of([&] { check_lengths(FileReader(scratch / "f.h5", format), hoses); });
+  };
+  CHECK(refusal({0.25, 0.25, 0.5}, {1}).empty());
+  CHECK(refusal({double(0.1f), double(0.2f), double(0.3f)}, {0.6}).empty());  // kept in single precision
+  const auto says = [&](const std::string& words) { return Catch::Contains("f.h5: error: " + words); };
+  CHECK_THAT(
+      refusal({0.25, 0.25}, {1}),
+      says("has segments of 0.5 m together where routing.free_length_m of its job is 1; make the file"));
+  CHECK_THAT(refusal({1.5, -0.5}, {1}), says("has a segment whose rest length is -0.5 m"));
+  CHECK_THAT(refusal({1, 0}, {1}), says("has a segment whose rest length is 0 m"));
+  CHECK_THAT(refusal({1e308, 1e308}, {1}), says("has segments of inf m together"));
+  CHECK_THAT(refusal({1}, {1, 1}), says("holds 1 dresspacks (its job has 2)"));
+
+  write_motion(scratch / "two.h5", 6, 5, {0, 2, 2, 5, 6}, {0, 0, 1, 1, 1, 1}, {"a", "b"});  // 0.1 m each
+  const FileReader two(scratch / "two.h5", motion_format());
+  CHECK_NOTHROW(check_lengths(two, {0.2, 0.4}));
+  CHECK_THROWS_WITH(check_lengths(two, {0.4, 0.2}), Catch::Contains("has segments of 0.2 m together"));
+}
+
 TEST_CASE("motion layout: what contradicts itself is refused") {
   const Scratch scratch;
   const auto refused = [&](std::vector<std::int32_t> clamps, std::vector<std::int32_t> dresspack,
