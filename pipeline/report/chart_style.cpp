@@ -38,6 +38,7 @@ svg line { stroke-linecap: round; } svg .arm { stroke: var(--arm); } svg .arm-2 
 svg .halo { stroke: var(--page); stroke-linecap: butt; }
 svg .hose { stroke: var(--blue); } svg .hose-hot { stroke: var(--hot); }
 svg .costly { fill: var(--hot); fill-opacity: .55; }
+svg .whisker { stroke: var(--blue); stroke-width: 12; stroke-opacity: .35; }
 svg .scatter { stroke: var(--hot); stroke-width: 5; }
 )";
 

@@ -283,7 +283,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       chart.empty()
           ? ""
           : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the life that 10 % of such dresspacks do not "
-            "reach. Blue bar: the worst wire's, stuck to free inside. Orange: what 10 to 90 % reach.</p>\n" +
+            "reach. Blue bar: the worst wire's, stuck to free inside (to the right end: no damage). Orange: what 10 to 90 % reach.</p>\n" +
                 chart_in_page(chart));
 }
 

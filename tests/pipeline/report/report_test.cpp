@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/plot.h"
@@ -155,6 +156,26 @@ TEST_CASE("report: a page for a study stands alone and is whole") {
   for (std::size_t i = 1; i <= 3; ++i)
     CHECK(count_of(page, "job-" + std::to_string(i) + "\"") == 2);  // link and target
   CHECK(report_page("two_robots", rows) == page);
+}
+
+TEST_CASE("report: each kind of line that is drawn has a rule, as a path without one is not seen") {
+  const Scratch scratch;
+  SampleLife calm;
+  calm.repeats = 1e9;
+  const std::string page = report_page(
+      "two", read_ranking({job_with(scratch, "robot_1", {}), job_with(scratch, "robot_2", calm)}));
+  const std::string rules = page.substr(0, page.find("</style>")), begin = "<path class=\"";
+  std::set<std::string> kinds;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+    const std::size_t word = at + begin.size();
+    kinds.insert(page.substr(word, page.find('"', word) - word));
+  }
+  CHECK(kinds.count("whisker") == 1);
+  for (const std::string& kind : kinds) {
+    INFO(kind);
+    CHECK((rules.find("." + kind + " ") != std::string::npos ||
+           rules.find("." + kind + ",") != std::string::npos));
+  }
 }
 
 TEST_CASE("report: words of jobs, wires, programs and settings are harmless") {
