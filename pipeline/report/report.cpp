@@ -268,8 +268,8 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
   });
   return fmt::format(
       "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">p10 life [h]</th>"
-      "<th class=\"number\">worst wire, inside stuck .. free [h]</th><th class=\"number\">first break in 10 .. 90 % "
-      "[h]</th><th "
+      "<th class=\"number\">worst wire, inside stuck .. free [h]</th><th class=\"number\">first break by scatter "
+      "alone, 10 .. 90 % [h]</th><th "
       "class=\"number\">calendar</th>"
       "<th>breaks first</th><th>what moved then</th><th>warnings</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}{}{}"
       "<p class=\"soft\">The p10 life is the planner's, in hours of motion: by then 10 % of such dresspacks have a "
@@ -277,8 +277,9 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "job's operating hours per week. "
       "Parts inside a cable rub on each other: glued together (stuck) they live shorter, slipping "
       "freely longer, and the truth lies between: told is the median life of the wire that would then be the worst. "
-      "Wires scatter, and a dresspack has thousands: its first break comes earlier, in 10 to 90 % of such dresspacks "
-      "between the hours given. Material constants are medians.</p>\n",
+      "Wires scatter, and a dresspack has thousands: its first break comes earlier than that median, between the hours given "
+      "in 10 to 90 % of such dresspacks if all else is as the job has it; the p10 life counts what nobody measured, "
+      "too, and may be shorter. Material constants are medians.</p>\n",
       ranking_rows(rows, detailed, 0, rows_at_once), more_rows(rows, detailed), matrix,
       chart.empty()
           ? ""
@@ -378,11 +379,11 @@ std::string facts(const RankingRow& row) {
              100 * *row.loose_mesh_error));
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;
-    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks",
+    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks, by scatter alone",
                            printed_hours(lives[0]), printed_hours(lives[1]), printed_hours(lives[2])));
   };
   scatter("first broken wire", row.first_wire_hours);
-  scatter("first failed conductor", row.conductor_hours);
+  scatter("share of a conductor broken anywhere in it", row.conductor_hours);
   if (row.hose) {
     const HoseLife& hose = *row.hose;
     fact("hose's wall",

@@ -246,7 +246,7 @@ std::string more_story(const RankingRow& row) {
   if (damaged && row.planned())
     parts.push_back(fmt::format("p50 {}, p90 {}", life_text(row.planned_hours[1]), hours_text(row.planned_hours[2])));
   if (damaged && !std::isnan(row.first_wire_hours[0]))
-    parts.push_back(fmt::format("first wire after {} .. {}",
+    parts.push_back(fmt::format("first wire after {} .. {} by scatter alone",
                                 life_text(row.first_wire_hours[0]), hours_text(row.first_wire_hours[2])));
   if (damaged && !row.worst_joint.empty()) parts.push_back(joint_words(row));
   if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
