@@ -50,7 +50,7 @@ int improve_study(Options options) {
   write_text_if_changed(places.folder / "improve.csv", improvement_csv(found));
   const MakeRows make_rows = [&](const Study& study) { return made_rows(study, places, options); };
   const Finals finals = finals_of(found, options.request, make_rows);
-  write_results(finals.study, places, finals.rows);
+  const bool all_written = write_results(finals.study, places, finals.rows);
   const double off = options.off_mm / 1000;
   const ImprovementStory story = story_of(found, finals, options.request, off, places, make_rows);
   write_text_if_changed(places.folder / "improve.html", improvement_page(story));
@@ -58,7 +58,7 @@ int improve_study(Options options) {
   print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
                           (places.folder / "improve.html").string())));
   const int failed = say_failures(options.study, finals.rows);
-  return failed != 0 || finals.of.size() == 1 ? 1 : 0;
+  return failed != 0 || finals.of.size() == 1 || !all_written ? 1 : 0;
 }
 
 template <class Enum>

@@ -36,19 +36,20 @@ int report(const StudyOptions& options) {
   const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
     return !state.done() && !state.has_last && state.has_results && state.failure.empty();
   });
+  bool all_written = true;
   std::string kept;
   if (open > 0)
     kept = fmt::format("of {} jobs the results are broken off or damaged", open);
   else if (::access(places.folder.c_str(), W_OK) != 0)
     kept = "the folder cannot be written";
   if (kept.empty()) {
-    write_results(study, places, rows);
+    all_written = write_results(study, places, rows);
     print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
   } else {
     tell(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
                      places.folder.string(), kept));
   }
-  return count_failed(rows) ? 1 : 0;
+  return count_failed(rows) || !all_written ? 1 : 0;
 }
 
 }  // namespace

@@ -75,29 +75,44 @@ std::vector<fs::path> refresh_previews(const Study& study, const StudyPlaces& pl
 
 namespace {
 
-/// Pages of the jobs that the report tells of at length. One that cannot be made is no reason to fail: the
-/// results are there, and the report stands without it.
-void refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& rows) {
+/// Why a page of a job's last result is none of what the ranking says now; empty where it may be.
+std::string why_old(const RankingRow& row) {
+  if (row.stale) return stale_words(row);
+  if (!row.done()) return "the job has no result now: " + row.failure;
+  return row.life_file.empty() ? "ranking.csv tells the result of now; its files, of which this would tell, are not kept" : "";
+}
+
+/// Pages of the jobs that the report tells of at length. Others that are there, made earlier or by hand, stay
+/// while they tell of the results that are there. Returns whether all could be written: where one cannot, the
+/// ranking stands without it, and no old one stays beside it.
+bool refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& rows) {
   const std::vector<bool> detailed = detailed_jobs(rows);
+  bool all = true;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const JobFolder files{rows[k].job, places.job(rows[k].job)};
     try {
-      if (rows[k].stale)
-        mark_job_page(files, stale_words(rows[k]));
+      if (const std::string why = why_old(rows[k]); !why.empty())
+        mark_job_page(files, why);
       else if (detailed[k])
         refresh_job_page(files);
+      else
+        drop_old_job_page(files);
     } catch (const InputError& problem) {
-      tell(fmt::format("note: no page of {}: {}\n", rows[k].job, problem.what()));
+      drop_old_job_page(files);
+      tell(fmt::format("no page of {}: {}\n", rows[k].job, problem.what()));
+      all = false;
     }
   }
+  return all;
 }
 
 }  // namespace
 
-void write_results(const Study& study, const StudyPlaces& places, const std::vector<RankingRow>& rows) {
-  refresh_pages(places, rows);
+bool write_results(const Study& study, const StudyPlaces& places, const std::vector<RankingRow>& rows) {
+  const bool all_pages = refresh_pages(places, rows);
   write_text_if_changed(places.folder / "ranking.csv", ranking_csv(rows));
   write_report(places.folder / "report.html", study.name, rows);
+  return all_pages;
 }
 
 }  // namespace dresslife::pipeline

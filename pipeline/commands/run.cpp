@@ -58,12 +58,12 @@ int run(const RunOptions& options) {
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, &options, rows);
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
-  write_results(study, places, rows);
+  const bool all_written = write_results(study, places, rows);
   print(
       shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
   if (!options.quiet) tell(warning_lines(rows));
   const int failed = count_failed(rows);
-  if (failed == 0) return 0;
+  if (failed == 0) return all_written ? 0 : 1;
   tell(shown(problem_words(study)));
   tell(fmt::format(
       "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",

@@ -287,4 +287,11 @@ void mark_job_page(const JobFolder& files, const std::string& words) {
   write_text_if_changed(files.page(), text, Sync::never);
 }
 
+void drop_old_job_page(const JobFolder& files) {
+  const std::string digest = made_from_of(files.page());
+  if (digest.empty() || digest == made_from(files)) return;
+  std::error_code ignored;  // then it stays unlinked, or who could not write it says so
+  std::filesystem::remove(files.page(), ignored);
+}
+
 }  // namespace dresslife::pipeline

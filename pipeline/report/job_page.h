@@ -31,4 +31,7 @@ bool refresh_job_page(const JobFolder& files);
 /// cannot be written.
 void mark_job_page(const JobFolder& files, const std::string& words);
 
+/// Removes a page that tells of other results than those that lie beside it; anything else stays.
+void drop_old_job_page(const JobFolder& files);
+
 }  // namespace dresslife::pipeline

@@ -29,6 +29,8 @@ bool lives(long process) {
   return process <= 0 || ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
 }
 
+bool is_full(int failure) { return failure == ENOSPC || failure == EDQUOT; }
+
 [[noreturn]] void refuse(const fs::path& folder) {
   throw InputError({folder.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
                    "mend its permissions or the disk, or choose another folder with -o");
@@ -36,7 +38,7 @@ bool lives(long process) {
 
 std::string run_of(long process) {
   return process > 0 ? fmt::format("another run (process {})", process)
-                     : "a run of some of its jobs (--shard)";
+                     : "a run of some of its jobs (--shard), or one that could not tell its process";
 }
 
 void take(int descriptor, const fs::path& folder, int how) {
@@ -58,10 +60,9 @@ FolderLock::FolderLock(const fs::path& folder, Held held) {
       ::open((folder / ".lock").c_str(), O_CREAT | O_RDWR | O_NOFOLLOW, 0644);  // passes to the stages
   if (descriptor_ < 0) refuse(folder);
   take(descriptor_, folder, held == Held::alone ? LOCK_EX : LOCK_SH);
-  const std::string own = held == Held::alone ? std::to_string(::getpid()) + "\n" : "";
-  if (::ftruncate(descriptor_, 0) != 0 ||
-      ::pwrite(descriptor_, own.data(), own.size(), 0) != static_cast<ssize_t>(own.size()))
-    refuse(folder);
+  // As long for every process: over an earlier one's there is room on a full disk, too, which `clean` would empty.
+  const std::string own = fmt::format("{:<20}\n", held == Held::alone ? std::to_string(::getpid()) : "");
+  if (::pwrite(descriptor_, own.data(), own.size(), 0) < 0 && !is_full(errno)) refuse(folder);
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

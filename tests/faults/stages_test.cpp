@@ -5,11 +5,11 @@
 #include <cstring>
 #include <iostream>
 #include <map>
-#include <numeric>
 #include <random>
 
 #include "pipeline/files/files.h"
 #include "tests/cli/process.h"
+#include "tests/faults/failing_calls.h"
 
 using namespace dresslife::tests;
 using dresslife::pipeline::FileReader;
@@ -44,31 +44,7 @@ int entries(const fs::path& folder) {
   return static_cast<int>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-/// A file that a sanitized program lets be preloaded.
-std::string preload(const std::string& environment) {
-  return "env ASAN_OPTIONS=verify_asan_link_order=0 " + environment +
-         " LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' ";
-}
-
-/// Runs with words before the program; run() quotes the program alone.
-Outcome run_with(const Scratch& scratch, const std::string& before, const std::string& program,
-                 const std::string& arguments) {
-  scratch.write("call.sh", before + " '" DRESSLIFE_BIN_DIR "/" + program + "' " + arguments + "\n");
-  return run_shell(scratch, "sh ./call.sh");
-}
-
 constexpr int ended_by_signal = 128;  // a shell's status from there on
-
-/// At most `count` of 1 .. total, the first and the last among them.
-std::vector<int> some_of(int total, int count, std::mt19937& random) {
-  std::vector<int> all(static_cast<std::size_t>(total));
-  std::iota(all.begin(), all.end(), 1);
-  if (total <= count) return all;
-  std::shuffle(all.begin() + 1, all.end() - 1, random);
-  std::swap(all[static_cast<std::size_t>(count) - 1], all.back());
-  all.resize(static_cast<std::size_t>(count));
-  return all;
-}
 
 }  // namespace
 
@@ -82,13 +58,10 @@ TEST_CASE("each write, sync, close, cut and rename that fails fails the stage, o
   for (const Stage& stage : stages)
     for (const std::string call : {"write", "sync", "close", "cut", "rename"}) {
       const auto fail_at = [&](int at) {
-        return run_with(scratch,
-                        preload("FAULT_CALL=" + call + " FAULT_AT=" + std::to_string(at) + " FAULT_COUNT='" +
-                                (scratch / "count").string() + "'"),
-                        stage.program, stage.command("out/" + stage.output));
+        return run_failing(scratch, call, at, stage.program, stage.command("out/" + stage.output));
       };
       REQUIRE(fail_at(0).status == 0);
-      const int total = std::stoi(content(scratch / "count"));
+      const int total = calls_counted(scratch);
       fs::remove(scratch / "out" / stage.output);
       INFO(stage.program << " " << call);
       REQUIRE(total > 0);

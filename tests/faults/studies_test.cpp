@@ -16,6 +16,7 @@
 
 #include "pipeline/study/ranking.h"
 #include "tests/cli/process.h"
+#include "tests/faults/failing_calls.h"
 
 using namespace dresslife::tests;
 
@@ -115,6 +116,61 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
   std::cout << "killed with seed " << seed << ":";
   for (const auto& [what, times] : killed) std::cout << ' ' << what << ' ' << times;
   std::cout << "; " << kills << " resumed at once to the same bytes\n";
+}
+
+TEST_CASE("each write, sync, close, cut and rename of the runner that fails is told, and nothing old stands as new") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  REQUIRE(run_study(scratch).status == 0);
+  fs::copy(scratch / "runs", scratch / "last", fs::copy_options::recursive);
+  const auto last = results(scratch / "last/study");
+  std::string job = content(scratch / "job.yaml");
+  job.replace(job.find("free_length_m: 0.9"), 18, "free_length_m: 1.0");
+  scratch.write("job.yaml", job);
+  REQUIRE(run_study(scratch).status == 0);
+  const auto good = results(scratch / "runs/study");
+  REQUIRE(good.at("ranking.csv") != last.at("ranking.csv"));
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  std::cout << "failing calls of the runner with seed " << seed << '\n';
+  for (const std::string call : {"write", "sync", "close", "cut", "rename"}) {
+    const auto fail_at = [&](int at) {
+      fs::remove_all(scratch / "runs");
+      fs::copy(scratch / "last", scratch / "runs", fs::copy_options::recursive);
+      return run_failing(scratch, call, at, "dresslife", "run study.yaml");
+    };
+    REQUIRE(fail_at(0).status == 0);
+    REQUIRE(results(scratch / "runs/study") == good);
+    const int total = calls_counted(scratch);
+    int refused = 0, whole = 0;
+    for (const int at : some_of(total, rounds(8), random)) {
+      const Outcome outcome = fail_at(at);
+      INFO(call << " " << at << " of " << total << ": " << outcome.err);
+      auto now = results(scratch / "runs/study");
+      if (outcome.status == 0) {
+        REQUIRE(now == good);
+        ++whole;
+      } else {
+        REQUIRE(outcome.status == 1);
+        REQUIRE(outcome.err.find("error: cannot be ") != std::string::npos);
+        ++refused;
+      }
+      // What tells of the last settings is what the last run left, as a whole, or says that it is old.
+      const bool ranked = now.at("ranking.csv") != last.at("ranking.csv");
+      for (const auto& [name, bytes] : now) {
+        INFO(name);
+        if (ranked && fs::path(name).filename() == "page.html")
+          REQUIRE((bytes == good.at(name) || bytes.find("id=\"stale\"") != std::string::npos));
+      }
+      const Outcome resumed = run_study(scratch);
+      INFO(resumed.out << resumed.err);
+      REQUIRE(resumed.status == 0);
+      REQUIRE(results(scratch / "runs/study") == good);
+    }
+    std::cout << "dresslife run: " << call << " failed at " << refused + whole << " of " << total
+              << " places: " << refused << " refused, " << whole << " whole, 0 false\n";
+  }
 }
 
 TEST_CASE("a runner that is killed takes its stages along") {

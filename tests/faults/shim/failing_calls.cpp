@@ -1,6 +1,6 @@
 // Preloaded into a program: the FAULT_AT-th call of FAULT_CALL (write, sync, close, cut, rename) on a file
 // that is being written (its name ends in .part) fails, as on a full or broken disk. At the end the number of
-// such calls goes to the file FAULT_COUNT.
+// such calls goes to the file FAULT_COUNT. Only in FAULT_PROGRAM: it may start others.
 #include <dlfcn.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -28,11 +28,17 @@ bool is_part(int descriptor) {
   return is_part(path);
 }
 
+/// Whether this process runs the program that was named.
+bool is_meant() {
+  const char* const program = std::getenv("FAULT_PROGRAM");
+  return program && std::strcmp(program, ::program_invocation_short_name) == 0;
+}
+
 template <class File>
 bool fails(const char* call, File file) {
   const char* const chosen = std::getenv("FAULT_CALL");
   const char* const at = std::getenv("FAULT_AT");
-  if (!chosen || std::strcmp(chosen, call) != 0 || !is_part(file)) return false;
+  if (!chosen || std::strcmp(chosen, call) != 0 || !is_meant() || !is_part(file)) return false;
   if (++calls != (at ? std::atoi(at) : 0)) return false;
   errno = std::strcmp(call, "write") == 0 ? ENOSPC : EIO;
   return true;
@@ -46,7 +52,7 @@ Function* real(const char* name) {
 struct Count {
   ~Count() {
     const char* const name = std::getenv("FAULT_COUNT");
-    std::FILE* const file = name ? std::fopen(name, "w") : nullptr;
+    std::FILE* const file = name && is_meant() ? std::fopen(name, "w") : nullptr;
     if (!file) return;
     std::fprintf(file, "%d\n", calls);
     std::fclose(file);
