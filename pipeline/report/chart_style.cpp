@@ -8,7 +8,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 
 #include "pipeline/errors.h"
@@ -75,8 +74,7 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 File temporary_file() {
   File file(std::tmpfile(), std::fclose);
   if (!file)
-    throw InputError({std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "/tmp"}, "takes no temporary file",
-                     "make room there");
+    throw InputError({P_tmpdir}, "takes no temporary file", "make room there");
   return file;
 }
 

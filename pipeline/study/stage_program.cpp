@@ -8,6 +8,8 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <system_error>
 
 #include "pipeline/errors.h"
@@ -39,12 +41,19 @@ int run_stage_program(const std::string& program, const std::vector<std::string>
       "install dresslife's programs into one folder, and look for what kills them");
 }
 
-PassingFile::PassingFile(const std::string& name)
-    : file_(std::filesystem::temp_directory_path() / fmt::format("dresslife-{}-{}", ::getpid(), name)) {}
+PassingFile::PassingFile(const std::string& name) {
+  const char* const wanted = std::getenv("TMPDIR");
+  const std::filesystem::path folder = wanted && *wanted ? wanted : "/tmp";
+  std::string own = (folder / "dresslife-XXXXXX").string();
+  if (!::mkdtemp(own.data()))
+    throw InputError({folder.string()}, fmt::format("takes no temporary folder ({})", std::strerror(errno)),
+                     "make room there, or set TMPDIR to a folder that may be written");
+  file_ = std::filesystem::path(own) / name;
+}
 
 PassingFile::~PassingFile() {
   std::error_code ignored;
-  std::filesystem::remove(file_, ignored);
+  std::filesystem::remove_all(file_.parent_path(), ignored);
 }
 
 }  // namespace dresslife::pipeline
