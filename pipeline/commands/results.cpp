@@ -79,7 +79,9 @@ namespace {
 std::string why_old(const RankingRow& row) {
   if (row.stale) return stale_words(row);
   if (!row.done()) return "the job has no result now: " + row.failure;
-  return row.life_file.empty() ? "ranking.csv tells the result of now; its files, of which this would tell, are not kept" : "";
+  return row.life_file.empty()
+             ? "ranking.csv tells the result of now; its files, of which this would tell, are not kept"
+             : "";
 }
 
 /// Pages of the jobs that the report tells of at length. Others that are there, made earlier or by hand, stay

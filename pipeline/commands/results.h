@@ -14,7 +14,8 @@ namespace dresslife::pipeline {
 
 /// ranking.csv, report.html and the pages that it links to. False where a page could not be written, which it
 /// has told. Errors: InputError where one of the others cannot.
-[[nodiscard]] bool write_results(const Study& study, const StudyPlaces& places, const std::vector<RankingRow>& rows);
+[[nodiscard]] bool write_results(const Study& study, const StudyPlaces& places,
+                                 const std::vector<RankingRow>& rows);
 
 /// Pages of jobs that the simulation refuses, beside their logs; of the first few, as a study that varies a
 /// routing may have thousands. Returns them.

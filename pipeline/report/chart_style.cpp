@@ -73,8 +73,7 @@ std::string light_rules() {
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 File temporary_file() {
   File file(std::tmpfile(), std::fclose);
-  if (!file)
-    throw InputError({P_tmpdir}, "takes no temporary file", "make room there");
+  if (!file) throw InputError({P_tmpdir}, "takes no temporary file", "make room there");
   return file;
 }
 

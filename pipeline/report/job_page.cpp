@@ -69,8 +69,9 @@ std::string headline(const RankingRow& row) {
     text += fmt::format("; {} until half have, {} until 90 %", printed_hours(row.planned_hours[1]),
                         printed_hours(row.planned_hours[2]));
   if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
-    text += fmt::format("; by the scatter of wires alone, all else as the job has it, a first one breaks after {} .. {} h in 10 .. 90 %",
-                        printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
+    text += fmt::format(
+        "; by the scatter of wires alone, all else as the job has it, a first one breaks after {} .. {} h in 10 .. 90 %",
+        printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
   text +=
       fmt::format("; the worst wire's own median is {}, {} if all inside the cables stuck, {} if all slid",
                   printed_hours(row.life_hours), printed_hours(row.hours_of(row.life_repeats_all_stick)),

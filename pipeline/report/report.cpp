@@ -92,7 +92,8 @@ bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && 
 /// Of a page beside the job's results, as seen from the study's; empty where there is none.
 std::string page_address(const RankingRow& row, const std::string& page) {
   std::error_code ignored;
-  if (row.life_file.empty() || !std::filesystem::is_regular_file(row.life_file.parent_path() / page, ignored)) return "";
+  if (row.life_file.empty() || !std::filesystem::is_regular_file(row.life_file.parent_path() / page, ignored))
+    return "";
   std::string address;
   for (const char c : row.job)
     address += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.'

@@ -60,7 +60,8 @@ FolderLock::FolderLock(const fs::path& folder, Held held) {
       ::open((folder / ".lock").c_str(), O_CREAT | O_RDWR | O_NOFOLLOW, 0644);  // passes to the stages
   if (descriptor_ < 0) refuse(folder);
   take(descriptor_, folder, held == Held::alone ? LOCK_EX : LOCK_SH);
-  // As long for every process: over an earlier one's there is room on a full disk, too, which `clean` would empty.
+  // As long for every process: over an earlier one's there is room on a full disk, too, which `clean` would
+  // empty.
   const std::string own = fmt::format("{:<20}\n", held == Held::alone ? std::to_string(::getpid()) : "");
   if (::pwrite(descriptor_, own.data(), own.size(), 0) < 0 && !is_full(errno)) refuse(folder);
 }

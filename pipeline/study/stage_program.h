@@ -11,8 +11,8 @@ namespace dresslife::pipeline {
 /// Returns its exit status. Errors: InputError when it cannot be started or is killed.
 int run_stage_program(const std::string& program, const std::vector<std::string>& arguments);
 
-/// A file in a folder of its own that live as long as this, for what a program is to tell. Errors: InputError when
-/// there can be none (below TMPDIR, or /tmp).
+/// A file in a folder of its own that live as long as this, for what a program is to tell. Errors: InputError
+/// when there can be none (below TMPDIR, or /tmp).
 class PassingFile {
  public:
   explicit PassingFile(const std::string& name);

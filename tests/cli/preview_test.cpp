@@ -38,9 +38,10 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   fs::create_directory(scratch / "passing");
   CHECK(run_shell(scratch, "TMPDIR=passing '" DRESSLIFE_BIN_DIR "/dresslife' preview job.yaml").status == 0);
   CHECK(fs::is_empty(scratch / "passing"));
-  CHECK(run_shell(scratch, "TMPDIR=nowhere '" DRESSLIFE_BIN_DIR "/dresslife' preview job.yaml").err ==
-        "nowhere: error: takes no temporary folder (No such file or directory); make room there, or set TMPDIR to a folder "
-        "that may be written\n");
+  CHECK(
+      run_shell(scratch, "TMPDIR=nowhere '" DRESSLIFE_BIN_DIR "/dresslife' preview job.yaml").err ==
+      "nowhere: error: takes no temporary folder (No such file or directory); make room there, or set TMPDIR to a folder "
+      "that may be written\n");
 }
 
 TEST_CASE("preview opens a job that is refused where it is refused") {

@@ -18,15 +18,15 @@ inline Outcome run_with(const Scratch& scratch, const std::string& before, const
   return run_shell(scratch, "sh ./call.sh");
 }
 
-/// Runs a program, of which the `at`-th `call` (write, sync, close, cut, rename) on a file that is being written
-/// fails; at 0 none does. Programs that it starts are left alone.
-inline Outcome run_failing(const Scratch& scratch, const std::string& call, int at, const std::string& program,
-                           const std::string& arguments) {
+/// Runs a program, of which the `at`-th `call` (write, sync, close, cut, rename) on a file that is being
+/// written fails; at 0 none does. Programs that it starts are left alone.
+inline Outcome run_failing(const Scratch& scratch, const std::string& call, int at,
+                           const std::string& program, const std::string& arguments) {
   return run_with(scratch,
                   // so that a sanitized program lets a library be preloaded
-                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + call + " FAULT_AT=" + std::to_string(at) +
-                      " FAULT_PROGRAM=" + program + " FAULT_COUNT='" + (scratch / "count").string() +
-                      "' LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' ",
+                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + call +
+                      " FAULT_AT=" + std::to_string(at) + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
+                      (scratch / "count").string() + "' LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' ",
                   program, arguments);
 }
 

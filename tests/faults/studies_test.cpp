@@ -118,7 +118,8 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
   std::cout << "; " << kills << " resumed at once to the same bytes\n";
 }
 
-TEST_CASE("each write, sync, close, cut and rename of the runner that fails is told, and nothing old stands as new") {
+TEST_CASE(
+    "each write, sync, close, cut and rename of the runner that fails is told, and nothing old stands as new") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);

@@ -309,7 +309,8 @@ TEST_CASE(
   CHECK(cell("old", "life_months_p10").empty());
   const std::string text = ranking_table(rows);
   CHECK(text.find("p10 life [h]") != std::string::npos);
-  CHECK(text.find("p50 90.0, p90 150 h; first wire after 15.0 .. 37.5 h by scatter alone") != std::string::npos);
+  CHECK(text.find("p50 90.0, p90 150 h; first wire after 15.0 .. 37.5 h by scatter alone") !=
+        std::string::npos);
 }
 
 /// Of a job whose lives all are one power of ten [repeats], known as badly as any.
