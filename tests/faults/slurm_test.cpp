@@ -51,7 +51,8 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   install_fake_stages(scratch);
   write_cluster(scratch, "cluster.yaml", std::min(2, Slurm::cpus()), 40000);
   scratch.write("job.yaml", dresslife::pipeline::sample_job);
-  scratch.write("study.yaml", "base: job.yaml\nvary: {simulation.segments: [20, 21, 22]}\n");
+  // Of no motion there is no page.
+  scratch.write("study.yaml", "base: job.yaml\nkeep: lives\nvary: {simulation.segments: [20, 21, 22]}\n");
   const fs::path study = scratch / "runs/study";
   scratch.write("runs/study/segments=21/wait-strain", "");
   scratch.write("runs/study/segments=22/fail-strain", "");
