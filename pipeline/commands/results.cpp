@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "pipeline/errors.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/report/job_page.h"
@@ -84,6 +86,17 @@ std::string why_old(const RankingRow& row) {
              : "";
 }
 
+/// Whether a step with a job's page could be taken; tells why not.
+bool taken(const std::string& job, const std::function<void()>& step) {
+  try {
+    step();
+    return true;
+  } catch (const InputError& problem) {
+    tell(fmt::format("no page of {}: {}\n", job, problem.what()));
+    return false;
+  }
+}
+
 /// Pages of the jobs that the report tells of at length. Others that are there, made earlier or by hand, stay
 /// while they tell of the results that are there. Returns whether all could be written: where one cannot, the
 /// ranking stands without it, and no old one stays beside it.
@@ -92,18 +105,17 @@ bool refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& row
   bool all = true;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const JobFolder files{rows[k].job, places.job(rows[k].job)};
-    try {
+    const bool brought_up = taken(files.name, [&] {
       if (const std::string why = why_old(rows[k]); !why.empty())
         mark_job_page(files, why);
       else if (detailed[k])
         refresh_job_page(files);
       else
-        drop_old_job_page(files);
-    } catch (const InputError& problem) {
-      drop_old_job_page(files);
-      tell(fmt::format("no page of {}: {}\n", rows[k].job, problem.what()));
-      all = false;
-    }
+        remove_old_job_page(files);
+    });
+    if (brought_up) continue;
+    all = false;
+    taken(files.name, [&] { remove_job_page(files); });
   }
   return all;
 }

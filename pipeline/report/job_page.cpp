@@ -288,11 +288,19 @@ void mark_job_page(const JobFolder& files, const std::string& words) {
   write_text_if_changed(files.page(), text, Sync::never);
 }
 
-void drop_old_job_page(const JobFolder& files) {
+void remove_job_page(const JobFolder& files) {
+  if (made_from_of(files.page()).empty()) return;
+  std::error_code failure;
+  std::filesystem::remove(files.page(), failure);
+  if (failure)
+    throw InputError({files.page().string()},
+                     fmt::format("tells of an older result and cannot be removed ({})", failure.message()),
+                     "remove it");
+}
+
+void remove_old_job_page(const JobFolder& files) {
   const std::string digest = made_from_of(files.page());
-  if (digest.empty() || digest == made_from(files)) return;
-  std::error_code ignored;  // then it stays unlinked, or who could not write it says so
-  std::filesystem::remove(files.page(), ignored);
+  if (!digest.empty() && digest != made_from(files)) remove_job_page(files);
 }
 
 }  // namespace dresslife::pipeline

@@ -31,7 +31,10 @@ bool refresh_job_page(const JobFolder& files);
 /// cannot be written.
 void mark_job_page(const JobFolder& files, const std::string& words);
 
-/// Removes a page that tells of other results than those that lie beside it; anything else stays.
-void drop_old_job_page(const JobFolder& files);
+/// Removes a page; a file that is none of ours stays. Errors: InputError when it cannot be removed.
+void remove_job_page(const JobFolder& files);
+
+/// Removes a page that tells of other results than those that lie beside it. Errors: as above.
+void remove_old_job_page(const JobFolder& files);
 
 }  // namespace dresslife::pipeline

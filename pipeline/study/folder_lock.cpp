@@ -29,8 +29,6 @@ bool lives(long process) {
   return process <= 0 || ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
 }
 
-bool is_full(int failure) { return failure == ENOSPC || failure == EDQUOT; }
-
 [[noreturn]] void refuse(const fs::path& folder) {
   throw InputError({folder.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
                    "mend its permissions or the disk, or choose another folder with -o");
@@ -38,7 +36,7 @@ bool is_full(int failure) { return failure == ENOSPC || failure == EDQUOT; }
 
 std::string run_of(long process) {
   return process > 0 ? fmt::format("another run (process {})", process)
-                     : "a run of some of its jobs (--shard), or one that could not tell its process";
+                     : "a run of some of its jobs (--shard)";
 }
 
 void take(int descriptor, const fs::path& folder, int how) {
@@ -63,7 +61,7 @@ FolderLock::FolderLock(const fs::path& folder, Held held) {
   // As long for every process: over an earlier one's there is room on a full disk, too, which `clean` would
   // empty.
   const std::string own = fmt::format("{:<20}\n", held == Held::alone ? std::to_string(::getpid()) : "");
-  if (::pwrite(descriptor_, own.data(), own.size(), 0) < 0 && !is_full(errno)) refuse(folder);
+  if (::pwrite(descriptor_, own.data(), own.size(), 0) != static_cast<ssize_t>(own.size())) refuse(folder);
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

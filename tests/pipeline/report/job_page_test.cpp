@@ -208,21 +208,22 @@ TEST_CASE("job page: made again when a result or the page's own parts change, el
   ::unsetenv("DRESSLIFE_THREE");
 }
 
-TEST_CASE("job page: one of other results than those beside it is dropped, and nothing else") {
+TEST_CASE("job page: one of other results than those beside it is removed, and nothing else") {
   const Scratch scratch;
   const JobFolder files{"job", scratch / ""};
   SampleLife life;
   write_sample_life(scratch / "life.h5", life);
-  drop_old_job_page(files);  // none is there
+  remove_old_job_page(files);  // none is there
   refresh_job_page(files);
-  drop_old_job_page(files);
+  remove_old_job_page(files);
   CHECK(std::filesystem::exists(files.page()));
   life.repeats = 500;
   write_sample_life(scratch / "life.h5", life);
-  drop_old_job_page(files);
+  remove_old_job_page(files);
   CHECK_FALSE(std::filesystem::exists(files.page()));
   std::ofstream(files.page()) << "<html>somebody's own</html>";
-  drop_old_job_page(files);
+  remove_old_job_page(files);
+  remove_job_page(files);
   CHECK(std::filesystem::exists(files.page()));
 }
 
