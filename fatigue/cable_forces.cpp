@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/cable/cable_pulls.h"
 #include "pipeline/job/believable.h"
-#include "pipeline/job/cable_pulls.h"
 
 namespace dresslife::fatigue {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
-#include "pipeline/warnings.h"
 
 namespace dresslife::fatigue {
 

@@ -15,7 +15,7 @@
 #include "fatigue/kernels/lockstep.h"
 #include "fatigue/rainflow.h"
 #include "fatigue/strain_life.h"
-#include "pipeline/instruction_set.h"
+#include "pipeline/base/instruction_set.h"
 #include "pipeline/job/fatigue.h"
 #include "pipeline/job/material.h"
 

@@ -14,10 +14,10 @@
 #include "fatigue/response.h"
 #include "fatigue/stress_path.h"
 #include "fatigue/verdict.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/base/threads.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
-#include "pipeline/readable.h"
-#include "pipeline/threads.h"
 
 namespace dresslife::fatigue {
 namespace {

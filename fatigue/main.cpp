@@ -1,9 +1,9 @@
 // dresslife-fatigue: strain.h5 in, life.h5 out.
 #include "fatigue/life_file.h"
 #include "fatigue/memory.h"
+#include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
-#include "pipeline/stage.h"
-#include "pipeline/threads.h"
+#include "pipeline/stage/stage.h"
 
 int main(int argc, char** argv) {
   using namespace dresslife;

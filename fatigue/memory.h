@@ -1,9 +1,9 @@
-// The memory of a fatigue evaluation, from the sizes of its strain file (pipeline/memory.h).
+// The memory of a fatigue evaluation, from the sizes of its strain file (pipeline/stage/memory.h).
 #pragma once
 
 #include <cstddef>
 
-#include "pipeline/memory.h"
+#include "pipeline/stage/memory.h"
 
 namespace dresslife::pipeline {
 class FileReader;

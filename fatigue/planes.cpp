@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
-#include "pipeline/threads.h"
 
 namespace dresslife::fatigue {
 namespace {

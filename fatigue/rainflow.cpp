@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::fatigue {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
-#include "pipeline/threads.h"
 
 namespace dresslife::fatigue {
 namespace {

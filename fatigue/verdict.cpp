@@ -5,8 +5,8 @@
 #include <cassert>
 #include <numeric>
 
+#include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
-#include "pipeline/threads.h"
 
 namespace dresslife::fatigue {
 namespace {

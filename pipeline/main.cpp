@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <array>
 
+#include "pipeline/base/errors.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/limits.h"
 #include "pipeline/commands/command.h"
-#include "pipeline/errors.h"
-#include "pipeline/installation.h"
-#include "pipeline/limits.h"
-#include "pipeline/program_manual.h"
-#include "pipeline/stage.h"
+#include "pipeline/stage/program_manual.h"
+#include "pipeline/stage/stage.h"
 
 using namespace dresslife::pipeline;
 

@@ -1,7 +1,7 @@
 # What `cmake --install` and `cpack -G DEB` put where: programs, catalogue, pages, manuals, completions, licence.
 set(programs dresslife dresslife-sim dresslife-strain dresslife-fatigue dresslife-import)
 
-# Programs find the catalogue from their own folder, as bin/../share/dresslife/config (pipeline/installation.h).
+# Programs find the catalogue from their own folder, as bin/../share/dresslife/config (pipeline/base/installation.h).
 get_filename_component(above_programs ${CMAKE_INSTALL_FULL_BINDIR} DIRECTORY)
 if(NOT CMAKE_INSTALL_FULL_DATADIR STREQUAL "${above_programs}/share")
   message(FATAL_ERROR "CMAKE_INSTALL_DATADIR is ${CMAKE_INSTALL_FULL_DATADIR}, but programs in ${CMAKE_INSTALL_FULL_BINDIR} "

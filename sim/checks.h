@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/dresspack.h"
-#include "pipeline/warnings.h"
 #include "sim/clamp_path.h"
 #include "sim/contact/contact.h"
 #include "sim/rod/rod.h"

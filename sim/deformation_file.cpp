@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/csv_rows.h"
+#include "pipeline/base/csv_rows.h"
 
 namespace dresslife::sim {
 namespace {

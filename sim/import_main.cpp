@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "pipeline/limits.h"
-#include "pipeline/stage.h"
-#include "pipeline/whole_file.h"
+#include "pipeline/base/limits.h"
+#include "pipeline/base/whole_file.h"
+#include "pipeline/stage/stage.h"
 #include "sim/program/explain.h"
 #include "sim/program/import.h"
 

@@ -5,7 +5,7 @@
 
 #include "pipeline/files/checks.h"
 #include "pipeline/job/job.h"
-#include "pipeline/stage.h"
+#include "pipeline/stage/stage.h"
 #include "sim/exercise.h"
 #include "sim/memory.h"
 #include "sim/motion_file.h"

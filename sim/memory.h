@@ -1,7 +1,7 @@
-// The memory of a simulation, known when its motion is (pipeline/memory.h).
+// The memory of a simulation, known when its motion is (pipeline/stage/memory.h).
 #pragma once
 
-#include "pipeline/memory.h"
+#include "pipeline/stage/memory.h"
 
 namespace dresslife::sim {
 

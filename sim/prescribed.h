@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
-#include "pipeline/warnings.h"
 #include "sim/rod/rod.h"
 
 namespace dresslife::sim {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <random>
 
-#include "pipeline/threads.h"
+#include "pipeline/base/threads.h"
 #include "sim/clamp_path.h"
 #include "sim/rehearsal.h"
 #include "sim/robot/robot.h"

@@ -1,8 +1,8 @@
 // RecordedPath of clamp_path.h: reading clamp poses from CSV.
 #include <algorithm>
 
+#include "pipeline/base/csv_rows.h"
 #include "sim/clamp_path.h"
-#include "sim/csv_rows.h"
 
 namespace dresslife::sim {
 namespace {

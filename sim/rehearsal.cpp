@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 #include "pipeline/files/check_names.h"
 #include "sim/simulate.h"
 

@@ -26,7 +26,7 @@ struct Rehearsal {
   std::vector<double> bends;
 };
 
-/// Few enough that all are modelled at the cost of one matrix (pipeline/search), and many enough that a part
+/// Few enough that all are modelled at the cost of one matrix (pipeline/advise/search), and many enough that a part
 /// of a program holds some moves, and a third of the hose eight of the 24 segments. Other numbers were not
 /// tried.
 inline constexpr int bend_moments = 16, bend_stretches = 3;

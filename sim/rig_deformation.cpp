@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/job/cable_pull.h"
+#include "pipeline/cable/cable_pull.h"
 #include "sim/deformation_file.h"
 
 namespace dresslife::sim {

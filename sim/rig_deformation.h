@@ -4,7 +4,7 @@
 // weight the
 //      elongation e is that at which the wires carry it, sum of E A strain(e, twist) x lay cosines = g m: a
 //      cable whose layers have one hand shortens and lengthens as it is twisted, its wires see less
-//      (pipeline/job/cable_pull.h).
+//      (pipeline/cable/cable_pull.h).
 // (D4) rolling_flex: one bend, pi R of cable long, begins at x = 0 and moves along the cable to travel/2 and
 // back:
 //      0 - kappa - 0 for cable over which it passes whole.

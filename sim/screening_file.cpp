@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "pipeline/base/threads.h"
 #include "pipeline/job/catalogue.h"
 #include "pipeline/job/job.h"
-#include "pipeline/threads.h"
 #include "sim/proposal.h"
 #include "sim/rehearsal.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "pipeline/helices/shares.h"
+#include "pipeline/cable/shares.h"
 #include "pipeline/job/strain.h"
 
 namespace dresslife::strain {

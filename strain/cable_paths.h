@@ -3,7 +3,7 @@
 //
 // A cable at its place has the path that its place gives it (W5); a loose one lies where it rests (loose/).
 // Either slides along its path under friction and grips (sliding_line.h). What force its strain makes is for
-// whoever knows its metal (pipeline/job/cable_pulls.h). What clamps and friction keep in memory is that of a
+// whoever knows its metal (pipeline/cable/cable_pulls.h). What clamps and friction keep in memory is that of a
 // motion repeated for long: it is gone through twice, and the second time counts.
 #pragma once
 
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job/cable_pulls.h"
+#include "pipeline/cable/cable_pulls.h"
 #include "strain/loose/loose_cables.h"
 #include "strain/path_rates.h"
 #include "strain/segment_motion.h"

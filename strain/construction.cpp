@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "pipeline/job/cable_bending.h"
-#include "pipeline/job/corrugation.h"
+#include "pipeline/cable/cable_bending.h"
+#include "pipeline/cable/corrugation.h"
 
 namespace dresslife::strain {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/helices/helix.h"
-#include "pipeline/job/cable_force.h"
-#include "pipeline/job/cable_pull.h"
+#include "pipeline/cable/cable_force.h"
+#include "pipeline/cable/cable_pull.h"
+#include "pipeline/cable/helix.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/job/strain.h"
 #include "strain/loose/rings.h"

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <set>
 
-#include "pipeline/errors.h"
-#include "pipeline/threads.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/threads.h"
 
 namespace dresslife::strain {
 namespace {

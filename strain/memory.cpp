@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/limits.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
-#include "pipeline/limits.h"
 #include "strain/construction.h"
 #include "strain/history.h"
 #include "strain/slip.h"

@@ -1,10 +1,10 @@
-// The memory of a strain evaluation, from the sizes of its motion and its dresspacks (pipeline/memory.h).
+// The memory of a strain evaluation, from the sizes of its motion and its dresspacks (pipeline/stage/memory.h).
 #pragma once
 
 #include <cstddef>
 
-#include "pipeline/errors.h"
-#include "pipeline/memory.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/stage/memory.h"
 
 namespace dresslife::pipeline {
 struct Job;

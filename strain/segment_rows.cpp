@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::strain {
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "pipeline/whole_file.h"
+#include "pipeline/base/whole_file.h"
 
 namespace dresslife::strain {
 

@@ -20,7 +20,7 @@
 #include <array>
 #include <span>
 
-#include "pipeline/helices/helix.h"
+#include "pipeline/cable/helix.h"
 
 namespace dresslife::strain {
 

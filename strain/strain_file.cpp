@@ -8,13 +8,13 @@
 #include <numeric>
 #include <span>
 
+#include "pipeline/base/threads.h"
+#include "pipeline/cable/cable_bending.h"
+#include "pipeline/cable/overlap.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/believable.h"
-#include "pipeline/job/cable_bending.h"
 #include "pipeline/job/job.h"
-#include "pipeline/job/overlap.h"
-#include "pipeline/job/stiffness.h"
-#include "pipeline/threads.h"
 #include "strain/evaluation.h"
 #include "strain/variations.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
-#include "pipeline/warnings.h"
 
 namespace dresslife::pipeline {
 struct Job;

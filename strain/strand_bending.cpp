@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/helices/shares.h"
+#include "pipeline/cable/shares.h"
 
 namespace dresslife::strain {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::strain {
 namespace {

@@ -6,7 +6,7 @@
 
 // Everything from outside comes first: it must be compiled for any machine.
 #include "fatigue/kernels/lockstep.h"
-#include "pipeline/simd.h"
+#include "pipeline/base/simd.h"
 
 DRESSLIFE_BEGIN_MACHINE
 #include "fatigue/kernels/body.h"

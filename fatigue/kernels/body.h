@@ -1,9 +1,9 @@
 // The loop of lockstep.h for one instruction set. Included once by baseline.cpp, avx2.cpp, .. , which names
-// it (pipeline/simd.h).
+// it (pipeline/base/simd.h).
 #pragma once
 
 #include "fatigue/kernels/lockstep.h"
-#include "pipeline/simd.h"
+#include "pipeline/base/simd.h"
 
 namespace dresslife::fatigue::DRESSLIFE_LOCKSTEP {
 

@@ -12,7 +12,7 @@
 #include <cstddef>
 
 #include "fatigue/log_table.h"
-#include "pipeline/instruction_set.h"
+#include "pipeline/base/instruction_set.h"
 
 namespace dresslife::fatigue {
 

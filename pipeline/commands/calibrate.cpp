@@ -5,14 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/advise/calibrate/learning.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/installation.h"
-#include "pipeline/job/fields.h"
-#include "pipeline/learning/learning.h"
 #include "pipeline/report/calibration_picture.h"
+#include "pipeline/settings/fields.h"
 #include "pipeline/study/folder_lock.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

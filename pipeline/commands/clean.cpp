@@ -7,8 +7,8 @@
 #include <memory>
 #include <set>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/readable.h"
 #include "pipeline/study/folder_lock.h"
 
 namespace dresslife::pipeline {

@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/cable/overlap.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/job/job_text.h"
-#include "pipeline/job/overlap.h"
-#include "pipeline/job/stiffness.h"
 #include "pipeline/report/cross_section.h"
 
 namespace dresslife::pipeline {

@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/base/errors.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/pictures.h"
-#include "pipeline/errors.h"
 #include "pipeline/report/figures.h"
 #include "pipeline/report/paraview.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -4,18 +4,18 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/advise/improve/finals.h"
+#include "pipeline/advise/improve/improvement.h"
+#include "pipeline/advise/improve/story.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/progress.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/improve/finals.h"
-#include "pipeline/improve/improvement.h"
-#include "pipeline/improve/story.h"
-#include "pipeline/installation.h"
-#include "pipeline/progress.h"
-#include "pipeline/readable.h"
 #include "pipeline/study/folder_lock.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

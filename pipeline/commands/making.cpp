@@ -7,7 +7,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "pipeline/progress.h"
+#include "pipeline/base/progress.h"
 #include "pipeline/study/build_graph.h"
 #include "pipeline/study/relative_life.h"
 #include "pipeline/study/shared_stages.h"

@@ -6,9 +6,9 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/cluster.h"
-#include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
-#include "pipeline/program_manual.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/stage/program_manual.h"
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <thread>
 
-#include "pipeline/errors.h"
-#include "pipeline/installation.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/installation.h"
 
 namespace dresslife::pipeline {
 

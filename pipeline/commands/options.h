@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/limits.h"
+#include "pipeline/base/limits.h"
 #include "pipeline/study/known_study.h"
 
 namespace CLI {

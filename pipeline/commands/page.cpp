@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/errors.h"
 #include "pipeline/report/job_page.h"
 
 namespace dresslife::pipeline {

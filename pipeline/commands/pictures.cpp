@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/report/chart_style.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/commands/pictures.h"
-#include "pipeline/errors.h"
 #include "pipeline/report/figures.h"
 #include "pipeline/report/job_page.h"
 

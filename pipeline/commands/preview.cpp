@@ -3,14 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/base/errors.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/errors.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/study/stage_program.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

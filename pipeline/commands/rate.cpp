@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/base/installation.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/installation.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/rate.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

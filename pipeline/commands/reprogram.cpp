@@ -7,18 +7,18 @@
 #include <memory>
 #include <tuple>
 
+#include "pipeline/advise/improve/improvement.h"
+#include "pipeline/advise/improve/other_ways.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/errors.h"
-#include "pipeline/improve/improvement.h"
-#include "pipeline/improve/other_ways.h"
-#include "pipeline/installation.h"
-#include "pipeline/job/units.h"
-#include "pipeline/readable.h"
 #include "pipeline/report/life_charts.h"
+#include "pipeline/settings/units.h"
 #include "pipeline/study/folder_lock.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

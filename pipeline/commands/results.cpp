@@ -4,14 +4,14 @@
 
 #include <functional>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/report/job_page.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/report/report.h"
 #include "pipeline/study/stage_program.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 

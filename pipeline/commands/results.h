@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/limits.h"
+#include "pipeline/base/limits.h"
 #include "pipeline/study/build_graph.h"
 #include "pipeline/study/ranking.h"
 

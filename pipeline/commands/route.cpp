@@ -9,21 +9,21 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/advise/improve/draft.h"
+#include "pipeline/advise/improve/outcome.h"
+#include "pipeline/advise/improve/screened.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/errors.h"
 #include "pipeline/files/digest.h"
-#include "pipeline/improve/draft.h"
-#include "pipeline/improve/outcome.h"
-#include "pipeline/improve/screened.h"
-#include "pipeline/installation.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/stage_program.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -8,12 +8,12 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/base/errors.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/errors.h"
-#include "pipeline/installation.h"
 #include "pipeline/job/cluster.h"
 #include "pipeline/study/shards.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

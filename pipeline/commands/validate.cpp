@@ -5,13 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/advise/calibrate/observations.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/installation.h"
-#include "pipeline/learning/observations.h"
 #include "pipeline/report/validation_picture.h"
 #include "pipeline/study/folder_lock.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 #include "pipeline/files/digest.h"
 
 namespace dresslife::pipeline {

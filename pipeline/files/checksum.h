@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/whole_file.h"
+#include "pipeline/base/whole_file.h"
 
 namespace dresslife::pipeline {
 

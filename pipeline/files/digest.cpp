@@ -12,8 +12,8 @@
 #include <memory>
 #include <vector>
 
-#include "pipeline/errors.h"
-#include "pipeline/whole_file.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

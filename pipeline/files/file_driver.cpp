@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <new>
 
-#include "pipeline/whole_file.h"
+#include "pipeline/base/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

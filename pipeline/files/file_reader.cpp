@@ -3,11 +3,11 @@
 #include <new>
 #include <type_traits>
 
+#include "pipeline/base/whole_file.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/file_driver.h"
 #include "pipeline/files/file_reader_impl.h"
 #include "pipeline/files/hdf5_objects.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

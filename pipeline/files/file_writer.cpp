@@ -2,13 +2,13 @@
 #include <cstring>
 #include <utility>
 
+#include "pipeline/base/whole_file.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/file_driver.h"
 #include "pipeline/files/file_reader_impl.h"
 #include "pipeline/files/hdf5_objects.h"
 #include "pipeline/files/list_deflate.h"
 #include "pipeline/files/scale_offset.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

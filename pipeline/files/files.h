@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
 
@@ -63,7 +63,7 @@ std::string file_manual();
 
 class FileReader;
 
-/// Writes a file that is whole or absent (pipeline/whole_file.h): on commit() it gets its name, without
+/// Writes a file that is whole or absent (pipeline/base/whole_file.h): on commit() it gets its name, without
 /// commit() nothing stays behind. Its first 512 bytes hold a checksum of all others (checksum.h). Errors:
 /// InputError when the file cannot be created or the disk is full, at the next call or in commit().
 class FileWriter {

@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/base/limits.h"
 #include "pipeline/files/files.h"
-#include "pipeline/limits.h"
 
 namespace dresslife::pipeline {
 

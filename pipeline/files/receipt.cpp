@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/files/files.h"

@@ -26,7 +26,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/whole_file.h"
+#include "pipeline/base/whole_file.h"
 
 namespace dresslife::pipeline {
 

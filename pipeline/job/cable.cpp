@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "pipeline/job/data_sheet.h"
-#include "pipeline/job/units.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/job/catalogue.h"
-#include "pipeline/job/fields.h"
 #include "pipeline/job/sources.h"
-#include "pipeline/job/units.h"
-#include "pipeline/readable.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 

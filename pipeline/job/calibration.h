@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job/document.h"
 #include "pipeline/job/uncertainty.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

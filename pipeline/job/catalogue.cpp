@@ -7,13 +7,13 @@
 #include <optional>
 #include <set>
 
-#include "pipeline/installation.h"
+#include "pipeline/base/installation.h"
 #include "pipeline/job/cable.h"
 #include "pipeline/job/data_sheet.h"
-#include "pipeline/job/fields.h"
 #include "pipeline/job/sources.h"
-#include "pipeline/job/units.h"
 #include "pipeline/job/urdf.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "pipeline/job/document.h"
-#include "pipeline/job/problems.h"
+#include "pipeline/settings/document.h"
+#include "pipeline/settings/problems.h"
 
 namespace dresslife::pipeline {
 

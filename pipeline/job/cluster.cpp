@@ -1,7 +1,7 @@
 #include "pipeline/job/cluster.h"
 
-#include "pipeline/job/document.h"
-#include "pipeline/job/fields.h"
+#include "pipeline/settings/document.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 

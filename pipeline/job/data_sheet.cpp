@@ -10,10 +10,10 @@
 #include <regex>
 #include <string_view>
 
+#include "pipeline/cable/overlap.h"
 #include "pipeline/job/dresspack.h"
-#include "pipeline/job/fields.h"
-#include "pipeline/job/overlap.h"
-#include "pipeline/job/units.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -19,8 +19,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/job/document.h"
-#include "pipeline/job/problems.h"
+#include "pipeline/settings/document.h"
+#include "pipeline/settings/problems.h"
 
 namespace dresslife::pipeline {
 

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/job/document.h"
+#include "pipeline/cable/plain_part.h"
 #include "pipeline/job/material.h"
-#include "pipeline/job/plain_part.h"
 #include "pipeline/job/rating.h"
 #include "pipeline/job/strain.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

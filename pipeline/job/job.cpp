@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
+#include "pipeline/cable/cyclic_curve.h"
+#include "pipeline/cable/overlap.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/job/catalogue.h"
-#include "pipeline/job/cyclic_curve.h"
 #include "pipeline/job/data_sheet.h"
-#include "pipeline/job/fields.h"
-#include "pipeline/job/overlap.h"
-#include "pipeline/job/problems.h"
 #include "pipeline/job/sources.h"
-#include "pipeline/job/stiffness.h"
 #include "pipeline/job/urdf.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/problems.h"
 
 namespace dresslife::pipeline {
 

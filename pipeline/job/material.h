@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

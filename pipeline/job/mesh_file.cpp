@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "pipeline/job/fields.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/job/document.h"
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/rig.h"
 #include "pipeline/job/robot.h"
-#include "pipeline/warnings.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

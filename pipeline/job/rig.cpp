@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "pipeline/job/fields.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/job/fields.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/job/document.h"
 #include "pipeline/job/shapes.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/job/document.h"
 #include "pipeline/job/robot.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job/document.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/job/motion.h"
 #include "pipeline/job/robot.h"
 #include "pipeline/job/routing.h"
 #include "pipeline/job/shapes.h"
 #include "pipeline/job/simulation.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pipeline/job/fields.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 

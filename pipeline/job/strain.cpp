@@ -1,6 +1,6 @@
 #include "pipeline/job/strain.h"
 
-#include "pipeline/job/fields.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 

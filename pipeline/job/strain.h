@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/helices/kinematics.h"
+#include "pipeline/cable/kinematics.h"
 
 namespace dresslife::pipeline {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "pipeline/job/fields.h"
-#include "pipeline/job/units.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 

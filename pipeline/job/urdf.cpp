@@ -12,8 +12,8 @@
 #include <mutex>
 #include <numbers>
 
-#include "pipeline/job/fields.h"
 #include "pipeline/job/sources.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "pipeline/learning/learning.h"
+#include "pipeline/advise/calibrate/learning.h"
 
 namespace dresslife::pipeline {
 

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 extern char** environ;
 

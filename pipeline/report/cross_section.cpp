@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "pipeline/job/overlap.h"
-#include "pipeline/job/stiffness.h"
+#include "pipeline/cable/overlap.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/report/plot.h"
 
 namespace dresslife::pipeline {

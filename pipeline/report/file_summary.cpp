@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
-#include "pipeline/readable.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -8,12 +8,13 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/base/readable.h"
+#include "pipeline/base/whole_file.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job_text.h"
-#include "pipeline/job/stiffness.h"
-#include "pipeline/readable.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/damage_tables.h"
 #include "pipeline/report/json.h"
@@ -26,7 +27,6 @@
 #include "pipeline/report/section_data.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/row_warnings.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

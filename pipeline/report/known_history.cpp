@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pipeline/readable.h"
+#include "pipeline/base/readable.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <optional>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
-#include "pipeline/readable.h"
 #include "pipeline/report/known_history.h"
 #include "pipeline/report/plot.h"
 

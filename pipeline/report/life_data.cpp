@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "pipeline/files/motion_layout.h"
-#include "pipeline/job/document.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/known_history.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "pipeline/readable.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/study/row_warnings.h"
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "pipeline/base/installation.h"
 #include "pipeline/files/digest.h"
-#include "pipeline/installation.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/page_assets.h"
 #include "pipeline/report/plot.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/readable.h"
+#include "pipeline/base/readable.h"
 
 namespace dresslife::pipeline {
 namespace {

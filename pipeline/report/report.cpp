@@ -7,11 +7,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "pipeline/errors.h"
-#include "pipeline/installation.h"
-#include "pipeline/job/document.h"
-#include "pipeline/job/units.h"
-#include "pipeline/readable.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/base/readable.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/damage_tables.h"
 #include "pipeline/report/life_charts.h"
@@ -20,8 +19,9 @@
 #include "pipeline/report/page_assets.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
+#include "pipeline/settings/document.h"
+#include "pipeline/settings/units.h"
 #include "pipeline/study/row_warnings.h"
-#include "pipeline/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/readable.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/report/plot.h"
 
 namespace dresslife::pipeline {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/learning/observations.h"
+#include "pipeline/advise/calibrate/observations.h"
 
 namespace dresslife::pipeline {
 

@@ -43,7 +43,7 @@ fs::path receipt_file(const Stage& stage) { return beside(stage, ".receipt"); }
 fs::path log_file(const Stage& stage) { return beside(stage, ".log"); }
 fs::path launcher_log(const Stage& stage) { return beside(stage, ".launcher"); }
 constexpr const char* failure_file = ".stage/failure";
-constexpr const char* memory_file = "memory";  // in a run's notes: who may take how much (pipeline/memory.h)
+constexpr const char* memory_file = "memory";  // in a run's notes: who may take how much (pipeline/stage/memory.h)
 std::string program_name(const Stage& stage) { return std::string("dresslife-") + stage.name; }
 
 /// Of all stages, behind links. Errors: InputError when one is missing.

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/limits.h"
 #include "pipeline/files/receipt.h"
-#include "pipeline/limits.h"
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {

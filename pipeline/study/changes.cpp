@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
-#include "pipeline/job/document.h"
 #include "pipeline/job/job_text.h"
-#include "pipeline/readable.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 namespace {

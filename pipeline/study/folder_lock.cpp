@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <thread>
 
+#include "pipeline/base/installation.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/files/words.h"
-#include "pipeline/installation.h"
 #include "pipeline/study/relative_life.h"
 
 namespace dresslife::pipeline {

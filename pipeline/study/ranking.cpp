@@ -10,11 +10,11 @@
 #include <map>
 #include <string_view>
 
+#include "pipeline/base/limits.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/life_response.h"
-#include "pipeline/job/units.h"
-#include "pipeline/limits.h"
-#include "pipeline/readable.h"
+#include "pipeline/settings/units.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/shown_rows.h"
 #include "pipeline/study/study_problems.h"

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/believable.h"
 #include "pipeline/study/build_graph.h"
-#include "pipeline/warnings.h"
 
 namespace dresslife::pipeline {
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <map>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/job/cable.h"
 #include "pipeline/job/catalogue.h"
-#include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
-#include "pipeline/job/units.h"
-#include "pipeline/readable.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -12,8 +12,8 @@
 #include "pipeline/files/digest.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/cable.h"
-#include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
+#include "pipeline/settings/fields.h"
 #include "pipeline/study/rate.h"
 
 namespace dresslife::pipeline {

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "pipeline/base/normal_numbers.h"
 #include "pipeline/files/digest.h"
-#include "pipeline/job/fields.h"
-#include "pipeline/job/units.h"
-#include "pipeline/statistics/normal_numbers.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 

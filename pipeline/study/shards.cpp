@@ -7,7 +7,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -12,8 +12,8 @@
 #include <cstring>
 #include <system_error>
 
-#include "pipeline/errors.h"
-#include "pipeline/installation.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/installation.h"
 
 namespace dresslife::pipeline {
 

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "pipeline/job/catalogue.h"
-#include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/sources.h"
+#include "pipeline/settings/fields.h"
 #include "pipeline/study/fleet_table.h"
 #include "pipeline/study/sampling.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "pipeline/job/problems.h"
+#include "pipeline/settings/problems.h"
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 #include "sim/program/backup.h"
 #include "sim/program/encoding.h"
 #include "sim/program/tokens.h"

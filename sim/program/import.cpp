@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 #include "sim/program/backup.h"
 #include "sim/program/encoding.h"
 #include "sim/program/fanuc.h"

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/motion.h"
 #include "pipeline/job/robot.h"
-#include "pipeline/warnings.h"
 #include "sim/program/program.h"
 
 namespace dresslife::sim {

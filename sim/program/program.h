@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 #include "sim/rod/rotation.h"
 
 namespace dresslife::sim {

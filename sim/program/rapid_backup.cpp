@@ -3,7 +3,7 @@
 #include <set>
 #include <sstream>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 #include "sim/program/backup.h"
 #include "sim/program/encoding.h"
 #include "sim/program/tokens.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 #include "sim/program/axis_names.h"
 #include "sim/program/tokens.h"
 

@@ -6,7 +6,7 @@
 #define DRESSLIFE_TARGET HWY_EMU128
 #endif
 
-#include "pipeline/simd.h"  // and what loops use from outside: it must be compiled for any machine
+#include "pipeline/base/simd.h"  // and what loops use from outside: it must be compiled for any machine
 
 DRESSLIFE_BEGIN_MACHINE
 #include "strain/kernels/body.h"

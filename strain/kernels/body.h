@@ -1,6 +1,6 @@
 // The hot loops, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of which names it
-// (pipeline/simd.h).
-#include "pipeline/simd.h"
+// (pipeline/base/simd.h).
+#include "pipeline/base/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/kernels/kernels.h"
 #include "strain/kernels/turning.h"

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <string>
 
-#include "pipeline/instruction_set.h"
+#include "pipeline/base/instruction_set.h"
 
 namespace dresslife::strain {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/helices/helix.h"
+#include "pipeline/cable/helix.h"
 #include "strain/kernels/sizes.h"
 #include "strain/kernels/turning_list.h"
 #include "strain/sliding.h"

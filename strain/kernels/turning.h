@@ -14,7 +14,7 @@
 // From there on both are the same, so the second only has to run until then, for the peak before the fall.
 #pragma once
 
-#include "pipeline/simd.h"
+#include "pipeline/base/simd.h"
 // simd.h declares what the templates below are used with
 #include "strain/kernels/kernels.h"
 

@@ -21,10 +21,10 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "pipeline/base/whole_file.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/study/known_study.h"
 #include "pipeline/study/ranking.h"
-#include "pipeline/whole_file.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/sample_life.h"
 

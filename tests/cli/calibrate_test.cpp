@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/files/files.h"
-#include "pipeline/learning/measured_bending.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

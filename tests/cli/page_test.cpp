@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "pipeline/files/files.h"
-#include "pipeline/job/units.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/report.h"
+#include "pipeline/settings/units.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
 

@@ -1,8 +1,8 @@
 // Every warning of a stage, from jobs that provoke it to where people look.
 #include <catch2/catch.hpp>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
-#include "pipeline/warnings.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

@@ -10,7 +10,7 @@
 
 #include "pipeline/files/checksum.h"
 #include "pipeline/job/job.h"
-#include "pipeline/stage.h"
+#include "pipeline/stage/stage.h"
 #include "tests/pipeline/sample_life.h"
 
 using namespace dresslife::pipeline;

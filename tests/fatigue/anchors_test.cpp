@@ -8,8 +8,8 @@
 
 #include "fatigue/strain_life.h"
 #include "fatigue/stress_path.h"
-#include "pipeline/job/fields.h"
 #include "pipeline/job/material.h"
+#include "pipeline/settings/fields.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

@@ -11,7 +11,7 @@
 #include <random>
 #include <sstream>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

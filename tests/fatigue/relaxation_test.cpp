@@ -11,7 +11,7 @@
 
 #include "fatigue/damage.h"
 #include "fatigue/stress_path.h"
-#include "pipeline/instruction_set.h"
+#include "pipeline/base/instruction_set.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

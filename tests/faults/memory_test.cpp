@@ -5,7 +5,7 @@
 #include <chrono>
 #include <iostream>
 
-#include "pipeline/memory.h"
+#include "pipeline/stage/memory.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace dresslife::pipeline {
 

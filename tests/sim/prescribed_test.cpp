@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/job/cable_pull.h"
+#include "pipeline/cable/cable_pull.h"
 #include "pipeline/job/job.h"
 #include "sim/deformation_file.h"
 #include "sim/rig_deformation.h"

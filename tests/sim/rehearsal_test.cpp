@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "pipeline/improve/scaled.h"
+#include "pipeline/advise/improve/scaled.h"
 #include "sim/exercise.h"
 #include "sim/proposal.h"
 #include "sim/simulate.h"

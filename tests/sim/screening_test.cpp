@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "pipeline/installation.h"
+#include "pipeline/base/installation.h"
 #include "sim/clamp_path.h"
 #include "sim/exercise.h"
 #include "sim/proposal.h"

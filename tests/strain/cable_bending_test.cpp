@@ -1,4 +1,4 @@
-#include "pipeline/job/cable_bending.h"
+#include "pipeline/cable/cable_bending.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

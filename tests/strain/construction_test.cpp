@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 #include "strain/slip.h"
 #include "tests/strain/dresspacks.h"
 

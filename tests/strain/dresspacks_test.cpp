@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fatigue/life_file.h"
-#include "pipeline/job/document.h"
 #include "pipeline/job/job.h"
+#include "pipeline/settings/document.h"
 #include "strain/strain_file.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"

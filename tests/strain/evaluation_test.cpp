@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "pipeline/helices/shares.h"
+#include "pipeline/cable/shares.h"
 #include "strain/evaluation.h"
 #include "tests/strain/dresspacks.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "pipeline/job/document.h"
 #include "pipeline/job/job.h"
+#include "pipeline/settings/document.h"
 #include "strain/strain_file.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"

@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "fatigue/life_file.h"
-#include "pipeline/job/document.h"
 #include "pipeline/job/job.h"
+#include "pipeline/settings/document.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "pipeline/instruction_set.h"
+#include "pipeline/base/instruction_set.h"
 
 namespace dresslife::strain {
 

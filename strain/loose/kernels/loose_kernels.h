@@ -81,7 +81,7 @@ struct LooseKernels {
   void (*products)(const double* a, const double* b, std::size_t rows, std::size_t lanes, double* product);
 };
 
-/// For the instruction set that every hot loop runs on (pipeline/instruction_set.h).
+/// For the instruction set that every hot loop runs on (pipeline/base/instruction_set.h).
 const LooseKernels& loose_kernels();
 
 }  // namespace dresslife::strain

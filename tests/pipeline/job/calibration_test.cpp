@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
+#include "pipeline/settings/fields.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

@@ -7,9 +7,9 @@
 #include <map>
 #include <numbers>
 
+#include "pipeline/cable/overlap.h"
 #include "pipeline/job/dresspack.h"
-#include "pipeline/job/fields.h"
-#include "pipeline/job/overlap.h"
+#include "pipeline/settings/fields.h"
 
 using namespace dresslife::pipeline;
 

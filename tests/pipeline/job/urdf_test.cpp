@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/job/fields.h"
 #include "pipeline/job/job.h"
+#include "pipeline/settings/fields.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/program/samples.h"

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "pipeline/base/whole_file.h"
 #include "pipeline/job/job_text.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/json.h"
@@ -13,7 +14,6 @@
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/simple_mesh.h"
-#include "pipeline/whole_file.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 

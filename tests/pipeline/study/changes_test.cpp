@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "pipeline/job/document.h"
+#include "pipeline/settings/document.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

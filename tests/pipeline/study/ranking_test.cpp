@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/job/life_response.h"
-#include "pipeline/readable.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 

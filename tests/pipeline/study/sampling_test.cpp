@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "pipeline/job/fields.h"
+#include "pipeline/settings/fields.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

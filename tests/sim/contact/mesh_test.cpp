@@ -6,7 +6,7 @@
 #include <fstream>
 #include <random>
 
-#include "pipeline/errors.h"
+#include "pipeline/base/errors.h"
 #include "sim/contact/world.h"
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/rod/rod_problems.h"

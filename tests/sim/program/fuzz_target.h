@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "pipeline/job/fields.h"
 #include "pipeline/job/robot.h"
 #include "pipeline/job/urdf.h"
+#include "pipeline/settings/fields.h"
 #include "sim/program/import.h"
 
 namespace dresslife::pipeline {

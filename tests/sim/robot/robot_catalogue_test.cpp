@@ -6,7 +6,7 @@
 #include <random>
 
 #include "pipeline/job/catalogue.h"
-#include "pipeline/job/fields.h"
+#include "pipeline/settings/fields.h"
 #include "sim/robot/inverse_kinematics.h"
 
 namespace dresslife::pipeline {

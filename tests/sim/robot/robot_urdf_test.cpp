@@ -5,8 +5,8 @@
 #include <random>
 
 #include "pipeline/job/catalogue.h"
-#include "pipeline/job/fields.h"
 #include "pipeline/job/urdf.h"
+#include "pipeline/settings/fields.h"
 #include "sim/robot/robot.h"
 
 namespace dresslife::pipeline {

@@ -1,0 +1,222 @@
+#include "pipeline/advise/calibrate/emulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "pipeline/advise/calibrate/measured_bending.h"
+#include "pipeline/files/files.h"
+#include "pipeline/job/job.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double least_log_spread = -6.9;       // ln 0.001: of ln life, where nothing scatters
+constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in its deviations
+
+class RowsByJob {
+ public:
+  RowsByJob(const Study& study, const std::vector<RankingRow>& rows) : study_(study) {
+    for (const RankingRow& row : rows) by_name_[row.job] = &row;
+  }
+  const RankingRow* done(std::size_t job) const {
+    const auto found = by_name_.find(study_.jobs[job].name);
+    return found != by_name_.end() && found->second->done() ? found->second : nullptr;
+  }
+  std::string failure(std::size_t job) const {
+    const auto found = by_name_.find(study_.jobs[job].name);
+    return found == by_name_.end() ? "it was not computed" : found->second->failure;
+  }
+
+ private:
+  const Study& study_;
+  std::map<std::string, const RankingRow*> by_name_;
+};
+
+struct LogLife {
+  double median, spread;  ///< ln of life, and ln of the deviation of it
+};
+LogLife log_life_of(const Observation& observation, const RankingRow& row) {
+  const std::array<double, 3> lives = lives_of(observation, row);
+  if (!std::isfinite(lives[2])) return {endless_log_life, least_log_spread};
+  const double spread = std::log(lives[2] / lives[0]) / (2 * deciles);
+  return {std::min(endless_log_life, std::log(lives[1])), std::max(least_log_spread, std::log(spread))};
+}
+
+LifeEnd end_of(ObservedEnd end) {
+  if (bounds_above(end) && bounds_below(end)) return LifeEnd::broken;
+  return bounds_below(end) ? LifeEnd::at_least : LifeEnd::at_most;
+}
+
+class RoundEmulation {
+ public:
+  RoundEmulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
+                 const std::vector<RankingRow>& rows, const StudyPlaces& places)
+      : round_(round), rows_(round.study(), rows), places_(places) {
+    for (std::size_t t = 0; t < tests.size(); ++t)
+      made_.tests.push_back(tests[t].observation.is_life() ? EmulatedTest{life_of(tests[t], round.runs()[t])}
+                                                           : bending_of(tests[t], round.runs()[t]));
+  }
+
+  const Emulation& made() const { return made_; }
+
+ private:
+  ObservedLife life_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
+    const Observation& observation = test.observation;
+    ObservedLife life;
+    life.log_life = std::log(observed_life(observation));
+    life.end = end_of(observation.outcome);
+    // A maker promises it of a cable that somebody buys.
+    life.specimens = observation.outcome == ObservedEnd::rating ? 1 : observation.specimens;
+    life.unshared_spread = observation.unshared_log10 * std::numbers::ln10;
+    for (const RoundOfJobs::Runs& runs : variants) {
+      life.variants.push_back(
+          variant_of(observation, runs, log_life_of(observation, row_of(test, runs.centre))));
+      life.common_share = std::max(life.common_share, common_share(runs, life.variants.back()));
+    }
+    return life;
+  }
+
+  const RankingRow& row_of(const ObservedTest& test, std::size_t job) const {
+    if (const RankingRow* const row = rows_.done(job)) return *row;
+    throw InputError(test.where,
+                     fmt::format("'{}': its job failed: {}", test.observation.name, rows_.failure(job)),
+                     "mend it, or leave the row out");
+  }
+
+  /// How a cable bends: sums of its moments, or how fast its swing dies away.
+  EmulatedTest bending_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
+    const Observation& observation = test.observation;
+    const double noise = observation.noise_percent / 100;
+    EmulatedTest made;
+    if (observation.decrement) {
+      const MeasuredNumber number{*observation.decrement - observation.decrement_without_slip,
+                                  noise * *observation.decrement,
+                                  {{0, 1.0}}};
+      const auto said = [&](const std::vector<double>& curvature, const std::vector<double>& moment) {
+        return VectorXd::Constant(1, log_decrement_by_slip(curvature, moment, observation.at_curvature))
+            .eval();
+      };
+      for (const RoundOfJobs::Runs& runs : variants)
+        made.bending.push_back({bending_over(test, runs, said), {number}});
+      return made;
+    }
+    const std::vector<BendingPoint> points =
+        observation.stiffness ? std::vector<BendingPoint>{{observation.at_curvature,
+                                                           *observation.stiffness * observation.at_curvature}}
+                              : read_bending(observation.bending);
+    const BendingNumbers bent = bending_numbers(points, noise);
+    if (observation.stiffness) made.per_shown = observation.at_curvature;
+    for (std::size_t k = 0; k < bent.numbers.size(); ++k)
+      if (std::abs(bent.numbers[k].value) > std::abs(bent.numbers[made.shown].value)) made.shown = k;
+    const auto said = [&](const std::vector<double>& curvature, const std::vector<double>& moment) {
+      VectorXd values(static_cast<Index>(bent.curvatures.size()));
+      for (std::size_t c = 0; c < bent.curvatures.size(); ++c)
+        values[static_cast<Index>(c)] = log_moment(curvature, moment, bent.curvatures[c]);
+      return values;
+    };
+    for (const RoundOfJobs::Runs& runs : variants)
+      made.bending.push_back({bending_over(test, runs, said), bent.numbers});
+    return made;
+  }
+
+  /// Logarithms over z of what is said of a first bend, from its table of curvatures and moments.
+  template <typename Said>
+  std::vector<Emulator> bending_over(const ObservedTest& test, const RoundOfJobs::Runs& runs,
+                                     const Said& said) const {
+    const auto of_job = [&](std::size_t job) {
+      row_of(test, job);
+      const FileReader strain(places_.job(round_.study().jobs[job].name) / "strain.h5", strain_format());
+      if (!strain.has("/bending/moment"))
+        throw InputError(
+            test.where,
+            fmt::format("'{}': nothing is told of how its cable bends (that needs one cable, in which "
+                        "strain.slip lets something rub and no part lies straight beside the axis)",
+                        test.observation.name),
+            "give dresspack.cable, and strain.slip such as [free, friction, friction]");
+      return said(strain.read<double>("/bending/curvature"), strain.read<double>("/bending/moment"));
+    };
+    const VectorXd middle = of_job(runs.centre);
+    Eigen::MatrixXd low = middle.replicate(1, uncertain_count), high = low;
+    for (std::size_t p = 0; p < uncertain_count; ++p) {
+      if (!runs.arms[p]) continue;
+      low.col(static_cast<Index>(p)) = of_job(runs.arms[p]->low);
+      high.col(static_cast<Index>(p)) = of_job(runs.arms[p]->high);
+    }
+    std::vector<Emulator> made;
+    for (Index c = 0; c < middle.size(); ++c)
+      made.emplace_back(round_.centre(), round_.step(), middle[c], low.row(c).transpose(),
+                        high.row(c).transpose());
+    return made;
+  }
+
+  LifeVariant variant_of(const Observation& observation, const RoundOfJobs::Runs& runs,
+                         const LogLife& middle) {
+    VectorXd low_life = VectorXd::Constant(uncertain_count, middle.median), high_life = low_life;
+    VectorXd low_spread = VectorXd::Constant(uncertain_count, middle.spread), high_spread = low_spread;
+    for (std::size_t p = 0; p < uncertain_count; ++p) {
+      if (!runs.arms[p]) continue;
+      const auto at = static_cast<Index>(p);
+      const auto side = [&](std::size_t job) -> std::optional<LogLife> {
+        const RankingRow* row = rows_.done(job);
+        return row ? std::optional(log_life_of(observation, *row)) : std::nullopt;
+      };
+      std::optional<LogLife> low = side(runs.arms[p]->low), high = side(runs.arms[p]->high);
+      if (!low || !high)
+        made_.notes.insert(fmt::format(
+            "'{}': a job to one side of {} failed ({}); the other side alone tells of it", observation.name,
+            uncertain_parameters()[p].name, rows_.failure(low ? runs.arms[p]->high : runs.arms[p]->low)));
+      const auto mirrored = [&](const std::optional<LogLife>& of) {
+        return of ? LogLife{2 * middle.median - of->median, 2 * middle.spread - of->spread} : middle;
+      };
+      if (!low) low = mirrored(high);
+      if (!high) high = mirrored(low);
+      low_life[at] = low->median, high_life[at] = high->median;
+      low_spread[at] = low->spread, high_spread[at] = high->spread;
+    }
+    return {{round_.centre(), round_.step(), middle.median, low_life, high_life},
+            {round_.centre(), round_.step(), middle.spread, low_spread, high_spread}};
+  }
+
+  /// Of the variance of a specimen's ln life, what all of a spool have in common.
+  double common_share(const RoundOfJobs::Runs& runs, const LifeVariant& variant) const {
+    const Fatigue& fatigue = round_.study().jobs[runs.centre].job->fatigue;
+    const double wires = fatigue.scatter_log10 * fatigue.scatter_factor * std::numbers::ln10;
+    const double spread = std::exp(variant.log_spread.at_centre());
+    return std::min(1.0, fatigue.scatter_shared * wires * wires / (spread * spread));
+  }
+
+  const RoundOfJobs& round_;
+  RowsByJob rows_;
+  const StudyPlaces& places_;
+  Emulation made_;
+};
+
+}  // namespace
+
+double EmulatedTest::log_likelihood_at(const VectorXd& z) const {
+  if (life) return log_likelihood(*life, z);
+  std::vector<double> terms;
+  for (const Measurement& variant : bending) terms.push_back(log_likelihood(variant, z));
+  return log_mean(terms);
+}
+
+Emulation emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
+                  const std::vector<RankingRow>& rows, const StudyPlaces& places) {
+  return RoundEmulation(tests, round, rows, places).made();
+}
+
+std::vector<LogLikelihood> terms_of(const std::vector<EmulatedTest>& tests, const Axes& axes) {
+  std::vector<LogLikelihood> terms;
+  for (const EmulatedTest& test : tests)
+    terms.push_back([&test, &axes](const VectorXd& some) { return test.log_likelihood_at(axes.all(some)); });
+  return terms;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,41 @@
+// A round's rows as functions of what is not known: each observed life, and each measured bend, of every
+// variant of its test.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/calibrate/likelihood.h"
+#include "pipeline/advise/calibrate/round_of_jobs.h"
+
+namespace dresslife::pipeline {
+
+inline constexpr double endless_log_life =
+    41.4;  // ln 1e18: where there is no damage, nobody waits for a break
+
+/// What was run of a test: a life, or how a cable bends, of each variant.
+struct EmulatedTest {
+  std::optional<ObservedLife> life{};
+  std::vector<Measurement> bending{};  ///< (variant), of the same numbers
+  std::size_t shown = 0;               ///< number that is told
+  double per_shown = 1;                ///< by which it is divided: a stiffness by its curvature
+
+  double log_likelihood_at(const Eigen::VectorXd& z) const;
+};
+
+struct Emulation {
+  std::vector<EmulatedTest> tests;
+  std::set<std::string> notes;  ///< jobs that failed beside a centre that did not
+};
+
+/// rows: of the round's jobs, in any order, with their files at `places`. Errors: InputError at the row of a
+/// test whose job at the centre failed, or tells nothing of how its cable bends.
+Emulation emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
+                  const std::vector<RankingRow>& rows, const StudyPlaces& places);
+
+/// One of each test, over the axes. The result refers to both arguments.
+std::vector<LogLikelihood> terms_of(const std::vector<EmulatedTest>& tests, const Axes& axes);
+
+}  // namespace dresslife::pipeline

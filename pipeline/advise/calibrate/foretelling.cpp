@@ -1,0 +1,77 @@
+#include "pipeline/advise/calibrate/foretelling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/base/normal_numbers.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int told_draws = 2000;  // a decile of them is known to 3 % of the deviation
+
+Foretold quantiles(const std::vector<double>& numbers) {
+  return {quantile(numbers, 0.1), quantile(numbers, 0.5), quantile(numbers, 0.9)};
+}
+
+/// A specimen's life in each draw of z: a variant by how likely it makes the observation there (`weighed`) or
+/// any, and its scatter.
+Foretold foretold(const ObservedLife& life, const Eigen::MatrixXd& draws, bool weighed) {
+  NormalNumbers numbers(7);
+  std::vector<double> lives;
+  for (Index k = 0; k < draws.rows(); ++k) {
+    const VectorXd z = draws.row(k).transpose();
+    std::vector<double> weight;
+    for (const LifeVariant& variant : life.variants) {
+      ObservedLife alone = life;
+      alone.variants = {variant};
+      weight.push_back(weighed ? log_likelihood(alone, z) : 0);
+    }
+    const double most = *std::max_element(weight.begin(), weight.end());
+    double sum = 0;
+    for (double& one : weight) sum += one = std::exp(one - most);
+    double left = numbers.uniform() * sum;
+    std::size_t chosen = 0;
+    while (chosen + 1 < weight.size() && left > weight[chosen]) left -= weight[chosen++];
+    const LifeVariant& variant = life.variants[chosen];
+    const double spread = std::hypot(std::exp(variant.log_spread(z)), life.unshared_spread);
+    lives.push_back(variant.log_life(z) + spread * numbers.next());
+  }
+  Foretold told = quantiles(lives);
+  for (double& one : told) one = one >= endless_log_life - 3 ? HUGE_VAL : std::exp(one);
+  return told;
+}
+
+}  // namespace
+
+Foretold foretold(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed) {
+  if (test.life) return foretold(*test.life, draws, weighed);
+  std::vector<double> values;
+  for (Index k = 0; k < draws.rows(); ++k) {
+    const Measurement& variant = test.bending[static_cast<std::size_t>(k) % test.bending.size()];
+    values.push_back(said_by_model(variant, variant.numbers[test.shown], draws.row(k).transpose()) /
+                     test.per_shown);
+  }
+  return quantiles(values);
+}
+
+Eigen::MatrixXd prior_draws() {
+  NormalNumbers numbers(5);
+  Eigen::MatrixXd draws(told_draws, static_cast<Index>(uncertain_count));
+  for (Index k = 0; k < draws.rows(); ++k) draws.row(k) = numbers.vector(draws.cols()).transpose();
+  return draws;
+}
+
+Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes) {
+  Eigen::MatrixXd draws = prior_draws();
+  const Index every = posterior.draws.rows() / draws.rows();
+  for (Index k = 0; k < draws.rows(); ++k)
+    for (Index i = 0; i < axes.size(); ++i)
+      draws(k, axes.places()[static_cast<std::size_t>(i)]) = posterior.draws(k * every, i);
+  return draws;
+}
+
+}  // namespace dresslife::pipeline

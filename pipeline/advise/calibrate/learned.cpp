@@ -1,0 +1,113 @@
+#include "pipeline/advise/calibrate/learned.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "pipeline/base/readable.h"
+#include "pipeline/job/uncertainty.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Eigen::Index;
+
+constexpr double deciles = 1.2815515655446004;  // of a normal distribution, in its deviations
+
+/// How many of its deviations a prediction lies short of what was seen, or beyond it; 0 where it agrees.
+double surprise(const LearnedTest& test) {
+  const Observation& observation = test.observation;
+  const double seen = observation.is_life() ? observed_life(observation) : test.measured;
+  const auto off = [&](double side) {
+    return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / deciles);
+  };
+  if (!(seen > 0) || !std::isfinite(test.before[2])) return 0;
+  const bool both = !observation.is_life() || observation.outcome == ObservedEnd::broken;
+  if (seen > test.before[1]) return both || bounds_below(observation.outcome) ? off(test.before[2]) : 0;
+  return both || bounds_above(observation.outcome) ? off(test.before[0]) : 0;
+}
+
+std::string parameter_lines(const Learned& learned) {
+  std::string text =
+      fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)", "spread left");
+  const auto range = [](const Foretold& of) {
+    return fmt::format("{} ({} .. {})", readable(of[1]), readable(of[0]), readable(of[2]));
+  };
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    const LearnedAxis& axis = learned.axes[p];
+    text += fmt::format("{:<17} {:>24} {:>24}  {}\n", uncertain_parameters()[p].name, range(axis.before),
+                        axis.learned ? range(axis.after) : "-",
+                        axis.learned ? fmt::format("{:.0f} %", 100 * axis.narrowed) : "no test hangs on it");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes) {
+  std::vector<LearnedAxis> learned(uncertain_count);
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    const UncertainParameter& parameter = uncertain_parameters()[p];
+    learned[p].before = {parameter.value(-deciles), parameter.value(0), parameter.value(deciles)};
+    learned[p].after = learned[p].before;
+  }
+  for (Index i = 0; i < axes.size(); ++i) {
+    const auto p = static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)]);
+    const UncertainParameter& parameter = uncertain_parameters()[p];
+    learned[p].learned = true;
+    learned[p].after = {parameter.value(posterior.low[i]), parameter.value(posterior.median[i]),
+                        parameter.value(posterior.high[i])};
+    learned[p].narrowed = std::sqrt(posterior.covariance(i, i));
+  }
+  return learned;
+}
+
+std::string words_of(const Foretold& told) {
+  return fmt::format("{} ({} .. {})", life_text(told[1], 2), life_text(told[0], 2), life_text(told[2], 2));
+}
+
+void add_doubts(Learned& learned, const Axes& axes) {
+  constexpr double surprising = 2, skewed = 0.3;  // deviations
+  for (const LearnedTest& test : learned.tests)
+    if (const double off = surprise(test); off > surprising)
+      learned.notes.push_back(fmt::format(
+          "'{}' lies {:.1f} deviations from what was foretold: look at its construction and at what was "
+          "done to it before what it teaches is believed",
+          test.observation.name, off));
+  const Posterior& posterior = learned.posterior;
+  for (Index i = 0; i < axes.size(); ++i) {
+    const double off =
+        (posterior.median[i] - posterior.laplace.most_likely[i]) / std::sqrt(posterior.covariance(i, i));
+    if (std::abs(off) > skewed)
+      learned.notes.push_back(fmt::format(
+          "{}: its median lies {:.1f} deviations from its likeliest value, as what has not failed leaves "
+          "it; the draws count",
+          uncertain_parameters()[static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)])].name,
+          off));
+  }
+}
+
+std::string learned_table(const Learned& learned) {
+  const auto seen = [](const LearnedTest& test) {
+    return test.observation.bending.empty() ? observed_text(test.observation)
+                                            : readable(test.measured, 3) + " N m";
+  };
+  std::string text = parameter_lines(learned);
+  text += fmt::format("\n{:<22} {:>20} {:>34} {:>34}\n", "observation", "observed", "foretold before",
+                      "foretold after");
+  for (const LearnedTest& test : learned.tests)
+    text += fmt::format("{:<22} {:>20} {:>34} {:>34}\n", shortened(test.observation.name, 22), seen(test),
+                        words_of(test.before), words_of(test.after));
+  text +=
+      "\nparameters: factors of the job's keys (slope: added to b), median and 80 % of what is likely. "
+      "Foretold: the life of "
+      "one specimen, median and\n80 %, over parameters, what is not known of the test, and scatter; of a "
+      "bending test its largest moment.\n";
+  if (!learned.settled)
+    text += fmt::format("warning: after {} rounds the centre still moves; the draws rest on runs beside it\n",
+                        learned.rounds);
+  for (const std::string& note : learned.notes) text += "note: " + note + "\n";
+  return text;
+}
+
+}  // namespace dresslife::pipeline

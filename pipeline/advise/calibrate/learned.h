@@ -1,0 +1,46 @@
+// What observations taught, in numbers and in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/advise/calibrate/foretelling.h"
+#include "pipeline/job/calibration.h"
+
+namespace dresslife::pipeline {
+
+/// What was learned of one parameter; nothing: no test hangs on it.
+struct LearnedAxis {
+  bool learned = false;
+  Foretold before{}, after{};  ///< of its key
+  double narrowed = 1;         ///< deviation of z after, over that before
+};
+
+struct LearnedTest {
+  Observation observation;
+  Foretold before{}, after{};  ///< over all variants, over each as likely as it then is
+  double measured = 0;         ///< the same as it was measured; 0 for a life
+};
+
+struct Learned {
+  Posterior posterior;            ///< of the axes that were learned, in the order of uncertain_parameters()
+  std::vector<LearnedAxis> axes;  ///< (parameter)
+  std::vector<LearnedTest> tests;
+  Calibration calibration;
+  int rounds = 0;
+  bool settled = false;  ///< the centre had ceased to move
+  std::vector<std::string> notes;
+};
+
+std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);
+
+/// Notes of what a user should look at before what was learned is believed.
+void add_doubts(Learned& learned, const Axes& axes);
+
+/// "no damage", "4.1e+03 (120 .. 1.2e+05)".
+std::string words_of(const Foretold& told);
+
+/// For a terminal: parameters before and after, each row foretold before and after beside what was seen.
+std::string learned_table(const Learned& learned);
+
+}  // namespace dresslife::pipeline

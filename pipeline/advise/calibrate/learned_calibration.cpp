@@ -1,0 +1,105 @@
+#include "pipeline/advise/calibrate/learned_calibration.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "pipeline/base/readable.h"
+#include "pipeline/files/digest.h"
+#include "pipeline/files/files.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/uncertainty.h"
+#include "pipeline/settings/units.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Eigen::Index;
+
+double to_figures(double value, int figures) {
+  return value == 0 || !std::isfinite(value) ? value : std::stod(fmt::format("{:.{}g}", value, figures));
+}
+
+/// What the jobs at the centre went through, from their files.
+LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
+                        const StudyPlaces& places) {
+  LearnedWithin within;
+  std::set<std::string> materials;
+  const auto least = [](std::optional<double>& of, double value) {
+    of = std::min(of.value_or(value), value);
+  };
+  const auto most = [](std::optional<double>& of, double value) { of = std::max(of.value_or(value), value); };
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    if (!tests[t].observation.is_life()) continue;  // it says nothing of lives
+    if (const auto cycles = tests[t].observation.cycles)
+      least(within.fewest_cycles, *cycles), most(within.most_cycles, *cycles);
+    for (const RoundOfJobs::Runs& runs : round.runs()[t]) {
+      const std::filesystem::path folder = places.job(round.study().jobs[runs.centre].name);
+      const FileReader strain(folder / "strain.h5", strain_format()), life(folder / "life.h5", life_format());
+      const auto curvature = strain.read<double>("/deformation/curvature");
+      for (std::size_t k = 0; k + 1 < curvature.size(); k += 2)
+        most(within.largest_curvature, std::hypot(curvature[k], curvature[k + 1]));
+      for (const double twist : strain.read<double>("/deformation/twist"))
+        most(within.largest_twist, std::abs(twist));
+      double largest = 0;
+      for (const double range : life.read<double>("/cycles/range")) largest = std::max(largest, range);
+      if (largest > 0) least(within.least_strain_range, largest), most(within.largest_strain_range, largest);
+      const Job& job = *round.study().jobs[runs.centre].job;
+      for (const std::string& name : life.read<std::string>("/site/material"))
+        materials.insert(material_of(job, name).name);
+    }
+  }
+  for (auto* value : {&within.least_strain_range, &within.largest_strain_range, &within.largest_curvature,
+                      &within.largest_twist, &within.fewest_cycles, &within.most_cycles})
+    if (*value) **value = to_figures(**value, 4);
+  constexpr double degree = std::numbers::pi / 180;  // the unit of the file
+  if (within.largest_twist) within.largest_twist = to_figures(*within.largest_twist / degree, 4) * degree;
+  within.materials = fmt::format("{}", fmt::join(materials, ", "));
+  return within;
+}
+
+std::string digest_of(const ObservedTest& test) {
+  const std::filesystem::path& table = test.observation.bending;
+  return xxh3(test.text + (table.empty() ? "" : xxh3_of_file(table)));
+}
+
+}  // namespace
+
+Calibration calibration_of(const Learned& learned, const std::vector<ObservedTest>& tests,
+                           const RoundOfJobs& round, const StudyPlaces& places) {
+  const Axes axes(round);
+  constexpr double decimals = 1e6;
+  const auto rounded = [&](double value) { return std::round(value * decimals) / decimals; };
+  Calibration calibration;
+  const Posterior& posterior = learned.posterior;
+  calibration.note =
+      fmt::format("{} observations, {} rounds{}; draws worth {} independent ones, chains disagree by {:.3f}",
+                  learned.tests.size(), learned.rounds, learned.settled ? "" : " (not settled)",
+                  readable(posterior.worth, 2), posterior.chains_disagree);
+  for (Index i = 0; i < axes.size(); ++i) {
+    const auto p = static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)]);
+    LearnedParameter parameter;
+    parameter.name = uncertain_parameters()[p].name;
+    parameter.median = rounded(posterior.median[i]);
+    parameter.mean = rounded(posterior.mean[i]);
+    for (Index j = 0; j < axes.size(); ++j)
+      parameter.covariance.push_back(rounded(posterior.covariance(i, j)));
+    parameter.value = to_figures(learned.axes[p].after[1], 4);
+    parameter.value_p10 = to_figures(learned.axes[p].after[0], 4);
+    parameter.value_p90 = to_figures(learned.axes[p].after[2], 4);
+    calibration.parameters.push_back(parameter);
+  }
+  calibration.within = within_of(tests, round, places);
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const LearnedTest& told = learned.tests[t];
+    calibration.observations.push_back({told.observation.name, observed_text(told.observation),
+                                        words_of(told.before), words_of(told.after), digest_of(tests[t])});
+  }
+  return calibration;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,70 @@
+// How likely an observation is where the model's parameters are z: of lives that ended or had not yet ended,
+// and of measured quantities.
+//
+// A life is lognormal about the model's median m(z), with the spread s(z) of what failed (a wire, a conductor
+// that lost its share of wires). Of s^2 the share w is common to all specimens of a test, one spool or batch;
+// u^2 is what the test has of its own that the model does not know and no other test shares. With x =
+// ln(observed), c^2 = w s^2 + u^2, o^2 = (1 - w) s^2, n specimens:
+//     broken     n lives, of which x is the mean:  N(x; m, c^2 + o^2/n) (P2) at least   n not failed until
+//     then:          integral of Phi((m + c y - x)/o)^n phi(y) dy           (P3) at most    none lived
+//     longer:                integral of Phi((x - m - c y)/o)^n phi(y) dy
+// A rating is an at-least of one specimen: its maker's promise holds for a cable that somebody buys.
+// What of a test is not known is a list of variants, each as likely as the others: the mean of their
+// likelihoods.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "pipeline/advise/calibrate/emulator.h"
+
+namespace dresslife::pipeline {
+
+/// ln of a likelihood over z, up to a constant that z does not move.
+using LogLikelihood = std::function<double(const Eigen::VectorXd& z)>;
+
+enum class LifeEnd { broken, at_least, at_most };
+
+struct LifeVariant {
+  Emulator log_life;    ///< ln m(z)
+  Emulator log_spread;  ///< ln s(z), of ln life
+};
+
+struct ObservedLife {
+  double log_life = 0;  ///< x
+  LifeEnd end = LifeEnd::broken;
+  int specimens = 1;
+  double common_share = 0;     ///< w, 0 .. 1
+  double unshared_spread = 0;  ///< u, of ln life
+  std::vector<LifeVariant> variants;
+};
+
+/// (P2), (P3). Precondition: at least one variant.
+double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z);
+
+/// A measured number that is a sum of what the model says: value = sum of factor x exp(log of quantity(z)).
+struct MeasuredNumber {
+  struct Part {
+    std::size_t quantity;
+    double factor;
+  };
+  double value = 0, deviation = 1;  ///< measured; standard deviation of its error, > 0
+  std::vector<Part> parts;
+};
+
+/// Numbers with normal errors, from quantities > 0 whose logarithms are emulated.
+struct Measurement {
+  std::vector<Emulator> log_quantities;
+  std::vector<MeasuredNumber> numbers;
+};
+double said_by_model(const Measurement& measurement, const MeasuredNumber& number, const Eigen::VectorXd& z);
+double log_likelihood(const Measurement& measurement, const Eigen::VectorXd& z);
+
+/// ln of the mean of exp(terms). Precondition: at least one.
+double log_mean(const std::vector<double>& terms);
+
+/// ln Phi(x), down to any x.
+double log_normal_probability(double x);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,170 @@
+#include "pipeline/advise/calibrate/measured_bending.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace dresslife::pipeline {
+namespace {
+
+/// A sum of M1: curvature > 0 -> factor.
+using Sum = std::map<double, double>;
+
+void add(Sum& sum, double curvature, double factor) {
+  if (curvature != 0) sum[std::abs(curvature)] += curvature < 0 ? -factor : factor;
+}
+
+/// Where bending turned, and the moment there.
+struct Turn {
+  double curvature;
+  Sum moment;
+};
+
+class Path {
+ public:
+  Sum next(double curvature) {
+    const double way = curvature - last_;
+    if (way != 0 && direction_ != 0 && (way > 0) != (direction_ > 0))
+      turns_.push_back({last_, moment_at(last_)});
+    if (way != 0) direction_ = way;
+    while (closes(curvature)) turns_.resize(turns_.size() - (turns_.size() > 1 ? 2 : 1));
+    last_ = curvature;
+    return moment_at(curvature);
+  }
+
+ private:
+  /// Whether the branch has come as far as that before it began, or, from the first turn, as far on the other
+  /// side.
+  bool closes(double curvature) const {
+    if (turns_.empty()) return false;
+    const double begin = turns_.back().curvature;
+    const double whole = turns_.size() > 1 ? turns_[turns_.size() - 2].curvature - begin : -2 * begin;
+    return std::abs(curvature - begin) >= std::abs(whole) && (curvature - begin) * whole >= 0;
+  }
+  Sum moment_at(double curvature) const {
+    Sum sum;
+    if (turns_.empty()) {
+      add(sum, curvature, 1);
+      return sum;
+    }
+    sum = turns_.back().moment;
+    add(sum, (curvature - turns_.back().curvature) / 2, 2);
+    return sum;
+  }
+
+  double last_ = 0, direction_ = 0;
+  std::vector<Turn> turns_;
+};
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream parts(line);
+  for (std::string cell; std::getline(parts, cell, ',');) {
+    std::erase_if(cell, [](unsigned char letter) { return std::isspace(letter); });
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+double number_of(const std::string& cell, const Where& where) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+    throw InputError(where, fmt::format("'{}' is not a number", cell),
+                     "write curvature and moment with decimal points");
+  return value;
+}
+
+/// Integral of M1 from 0 to a curvature [N m x 1/m]: between two values of the table M1 is a power, before
+/// the first one that of the first two.
+double work(const std::vector<double>& curvatures, const std::vector<double>& moments, double curvature) {
+  double sum = 0;
+  for (std::size_t k = 1; k < curvatures.size(); ++k) {
+    const double power = std::log(moments[k] / moments[k - 1]) / std::log(curvatures[k] / curvatures[k - 1]);
+    const bool last = curvature <= curvatures[k] || k + 1 == curvatures.size();
+    const double end = last ? curvature : curvatures[k];
+    const double moment = last ? std::exp(log_moment(curvatures, moments, curvature)) : moments[k];
+    const double before = k == 1 ? 0 : curvatures[k - 1] * moments[k - 1];
+    sum += (end * moment - before) / (power + 1);
+    if (last) break;
+  }
+  return sum;
+}
+
+/// Curvature of a clamped bar's first natural form, 1 at the clamp. x: share of the length from there.
+double first_form(double x) {
+  constexpr double beta = 1.875104, ratio = 0.734096;
+  return (std::cosh(beta * x) + std::cos(beta * x) - ratio * (std::sinh(beta * x) + std::sin(beta * x))) / 2;
+}
+
+}  // namespace
+
+std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
+  std::istringstream lines(read_text(file));
+  std::vector<BendingPoint> points;
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const Where where{file.string(), number, 1};
+    const std::vector<std::string> cells = cells_of(line);
+    if (number == 1 && (cells.size() != 2 || cells[0] != "curvature_1_per_m" || cells[1] != "moment_Nm"))
+      throw InputError(where, "is not the header of a bending test",
+                       "begin with 'curvature_1_per_m,moment_Nm'");
+    if (number == 1 || (cells.size() == 1 && cells[0].empty()) || cells.empty()) continue;
+    if (cells.size() != 2)
+      throw InputError(where, fmt::format("has {} columns (a bending test has 2)", cells.size()),
+                       "write curvature and moment, with a comma between");
+    points.push_back({number_of(cells[0], where), number_of(cells[1], where)});
+  }
+  const bool bent = std::any_of(points.begin(), points.end(),
+                                [](const BendingPoint& p) { return p.curvature != 0 && p.moment != 0; });
+  if (!bent)
+    throw InputError({file.string()}, "holds no moment of a bent cable", "write a line per measured point");
+  return points;
+}
+
+BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double noise) {
+  double most = 0;
+  for (const BendingPoint& point : points) most = std::max(most, std::abs(point.moment));
+  BendingNumbers made;
+  std::map<double, std::size_t> places;
+  Path path;
+  for (const BendingPoint& point : points) {
+    const Sum sum = path.next(point.curvature);
+    MeasuredNumber number{point.moment, noise * std::max(std::abs(point.moment), most / 10), {}};
+    for (const auto& [curvature, factor] : sum) {
+      const auto [place, fresh] = places.try_emplace(curvature, made.curvatures.size());
+      if (fresh) made.curvatures.push_back(curvature);
+      number.parts.push_back({place->second, factor});
+    }
+    if (!number.parts.empty()) made.numbers.push_back(std::move(number));
+  }
+  return made;
+}
+
+double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments,
+                  double curvature) {
+  const auto above = std::upper_bound(curvatures.begin() + 1, curvatures.end() - 1, curvature);
+  const auto k = static_cast<std::size_t>(above - curvatures.begin());
+  const double part = std::log(curvature / curvatures[k - 1]) / std::log(curvatures[k] / curvatures[k - 1]);
+  return std::log(moments[k - 1]) + part * std::log(moments[k] / moments[k - 1]);
+}
+
+double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments,
+                             double largest) {
+  constexpr int places = 40;
+  constexpr double least = 1e-4;
+  double lost = 0, stored = 0;
+  for (int i = 0; i < places; ++i) {
+    const double curvature = largest * first_form((i + 0.5) / places);
+    const double moment = std::exp(log_moment(curvatures, moments, curvature));
+    lost += 8 * work(curvatures, moments, curvature) - 4 * curvature * moment;
+    stored += curvature * moment;
+  }
+  return std::log(std::max(least, lost / stored));
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,49 @@
+// A cable that was bent and its moment measured: what of it a model must say.
+//
+// A first bend follows M1(curvature), which the strain file of a job tells (/bending). Sliders with constant
+// caps remember where bending turned (Masing): from a turning point (k0, M0) on
+//     M = M0 + 2 M1((k - k0)/2),                                                              (P4)
+// a branch that closes a loop goes on as the one before it. So each measured moment is a sum of values of M1.
+//
+// A piece held at one end that swings freely bends to and fro between -k phi and k phi, phi(x) the curvature
+// of a clamped bar's first natural form, 1 at the clamp. Each swing to and fro takes the loop that (P4)
+// closes from what is stored:
+//     decrement = sum over x of [8 int_0^(k phi) M1 - 4 k phi M1(k phi)] / sum over x of k phi M1(k phi) (P5)
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "pipeline/advise/calibrate/likelihood.h"
+#include "pipeline/settings/document.h"
+
+namespace dresslife::pipeline {
+
+struct BendingPoint {
+  double curvature = 0;  ///< [1/m]
+  double moment = 0;     ///< [N m]
+};
+
+/// A CSV with a header and two columns, curvature_1_per_m and moment_Nm, in the order in which it was bent,
+/// from straight. Errors: InputError at the line.
+std::vector<BendingPoint> read_bending(const std::filesystem::path& file);
+
+/// The points as sums of M1 at curvatures > 0 [1/m]. noise: of a moment, as a share of it; a tenth of the
+/// largest moment's noise at least, as scales have.
+struct BendingNumbers {
+  std::vector<double> curvatures;
+  std::vector<MeasuredNumber> numbers;
+};
+BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double noise);
+
+/// ln M1 at a curvature, between the values of a rising table, straight in logarithms.
+double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments,
+                  double curvature);
+
+/// ln of what slip has of the logarithmic decrement (P5). curvatures, moments: the table of M1, both > 0 and
+/// rising. largest: curvature beside the clamp at the end of a swing [1/m]. Not below ln 1e-4: what loses
+/// less is lost in air's.
+double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments,
+                             double largest);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,134 @@
+#include "pipeline/advise/calibrate/round_of_jobs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "pipeline/files/digest.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/sources.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+bool any_rubs(const Job& job) {
+  return std::any_of(job.strain.slip.begin(), job.strain.slip.end(), [](Slip slip) { return rubs(slip); });
+}
+
+bool any_grip(const Job& job) {
+  for (const MountedDresspack& mounted : job.dresspacks)
+    for (const Component& component : mounted.dresspack.components)
+      if (component.laying.base_grip || component.laying.tool_grip) return true;
+  return false;
+}
+
+bool any_in_hose(const Job& job) {
+  return std::any_of(job.dresspacks.begin(), job.dresspacks.end(),
+                     [](const MountedDresspack& mounted) { return !mounted.dresspack.cable_alone; });
+}
+
+/// Whether a parameter can move the job's life.
+bool acts(const Job& job, Uncertain parameter) {
+  switch (parameter) {
+    case Uncertain::friction_inside:
+      return any_rubs(job);
+    case Uncertain::friction_hose:
+    case Uncertain::slack:
+    case Uncertain::play:
+      return any_in_hose(job);
+    case Uncertain::grip:
+      return any_grip(job);
+    case Uncertain::strength:
+    case Uncertain::slope:
+    case Uncertain::scatter:
+    case Uncertain::model:
+      return true;
+  }
+  return true;
+}
+
+}  // namespace
+
+RoundOfJobs::RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets,
+                         std::string name, VectorXd centre, VectorXd step)
+    : sets_(sets), centre_(std::move(centre)), step_(std::move(step)) {
+  const Sources read_once;
+  study_.name = std::move(name);
+  sets_.push_back("uncertainty.enabled=false");
+  for (const ObservedTest& test : tests) {
+    runs_.emplace_back();
+    for (const ObservedTest::Variant& variant : test.variants) runs_.back().push_back(runs_of(test, variant));
+  }
+}
+
+RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedTest::Variant& variant) {
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    throw InputError(test.where, fmt::format("'{}': {}", test.observation.name, what), remedy);
+  };
+  if (!variant.failure.empty()) refuse("its job cannot be made: " + variant.failure, "mend it");
+  Runs runs;
+  try {
+    const Job plain = job_from(variant.job, sets_);
+    if (plain.calibration)
+      refuse("its job names a calibration, whose observations would count twice", "leave calibration out");
+    if (plain.strain.factors != StrainFactors{} || is_changed(plain.fatigue) ||
+        plain.fatigue.scatter_factor != 1)
+      refuse("its job gives a key that is to be learned", "leave the factors of strain and fatigue out");
+    if (plain.uncertainty.spread != Uncertainty::default_spread())
+      refuse("its job gives spreads of its own, but what is learned has one prior for all rows",
+             "leave section uncertainty out of its job");
+    runs.centre = add(variant, centre_);
+    for (std::size_t p = 0; p < uncertain_count; ++p) {
+      if (!acts(plain, static_cast<Uncertain>(p))) continue;
+      if (!test.observation.is_life() && !uncertain_parameters()[p].of_strain) continue;
+      VectorXd low = centre_, high = centre_;
+      low[static_cast<Index>(p)] -= step_[static_cast<Index>(p)];
+      high[static_cast<Index>(p)] += step_[static_cast<Index>(p)];
+      runs.arms[p] = Arms{add(variant, low), add(variant, high)};
+    }
+  } catch (const InputError& problem) {
+    if (std::string(problem.what()).find("'" + test.observation.name + "': ") != std::string::npos) throw;
+    refuse(fmt::format("its job cannot be made: {}", problem.what()), "mend it");
+  }
+  return runs;
+}
+
+/// The job's place in the study; one that is there already under the same settings is not added again.
+std::size_t RoundOfJobs::add(const ObservedTest::Variant& variant, const VectorXd& z) {
+  std::vector<std::string> sets = sets_;
+  for (const std::string& set : sets_at(std::vector<double>(z.begin(), z.end()))) sets.push_back(set);
+  const auto job = std::make_shared<const Job>(job_from(variant.job, sets));
+  const std::string settings =
+      part_text(*job, Part::sim) + part_text(*job, Part::strain) + part_text(*job, Part::fatigue);
+  const auto [known, fresh] = known_.try_emplace(xxh3(settings), study_.jobs.size());
+  constexpr std::size_t digits = 12;
+  if (fresh) study_.jobs.push_back({variant.name + "_" + known->first.substr(0, digits), job, ""});
+  return known->second;
+}
+
+Axes::Axes(const RoundOfJobs& round) {
+  for (std::size_t p = 0; p < uncertain_count; ++p)
+    if (std::any_of(round.runs().begin(), round.runs().end(), [&](const auto& variants) {
+          return std::any_of(variants.begin(), variants.end(),
+                             [&](const auto& runs) { return runs.arms[p].has_value(); });
+        }))
+      places_.push_back(static_cast<Index>(p));
+}
+
+VectorXd Axes::all(const VectorXd& some) const {
+  VectorXd z = VectorXd::Zero(uncertain_count);
+  for (Index i = 0; i < size(); ++i) z[places_[static_cast<std::size_t>(i)]] = some[i];
+  return z;
+}
+
+VectorXd Axes::some(const VectorXd& all_of_them) const {
+  VectorXd z(size());
+  for (Index i = 0; i < size(); ++i) z[i] = all_of_them[places_[static_cast<std::size_t>(i)]];
+  return z;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,155 @@
+#include "pipeline/advise/improve/draft.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "pipeline/advise/improve/scaled.h"
+#include "pipeline/base/installation.h"
+#include "pipeline/job/catalogue.h"
+#include "pipeline/job/sources.h"
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view command_line = "command line";
+
+bool is_shipped(const char* shelf, const Node& entry) {
+  std::error_code failure;
+  return entry.is_scalar() && entry.text.find('/') == std::string::npos &&
+         fs::is_regular_file(shipped_catalogue() / shelf / (entry.text + ".yaml"), failure);
+}
+
+Node named(const std::string& text) {
+  Node node = scalar(text);
+  place_at(node, {std::string(command_line)});
+  return node;
+}
+
+bool is_yaml_file(const std::string& of) {
+  return of.ends_with(".yaml") || of.ends_with(".yml") || fs::path(of).has_parent_path();
+}
+
+/// The job that `of` names; a null node: it names none.
+Node job_named(const std::string& of) {
+  if (of.ends_with(".urdf")) return {};
+  if (is_yaml_file(of)) {
+    Node document = read_document(of);
+    return document.find("joints") ? Node{} : document;
+  }
+  std::error_code failure;
+  const fs::path shipped = shipped_catalogue() / "jobs" / (of + ".yaml");
+  return fs::is_regular_file(shipped, failure) ? read_document(fs::proximate(shipped)) : Node{};
+}
+
+Robot robot_of(const Node& document) {
+  Node alone;
+  alone.where = document.where;
+  alone["robot"] = *document.find("robot");
+  resolve_job(alone);
+  Robot robot;
+  read_fields(*alone.find("robot"), robot);
+  return robot;
+}
+
+/// A motion that any robot can stand in.
+Node standing(const Robot& robot) {
+  std::string angles;
+  constexpr double degree = 0.017453292519943295;
+  for (const Joint& joint : robot.joints)
+    if (joint.follows.empty())
+      angles += fmt::format("{}{:.3f}", angles.empty() ? "" : ", ",
+                            std::clamp(0.0, joint.lower, joint.upper) / degree);
+  return parse_yaml(
+      fmt::format("{{name: standing, source: none, steps: [{{text: stand, joints_deg: [{}]}}]}}", angles),
+      std::string(command_line));
+}
+
+std::string link_or(const std::string& asked, const Node* routing, const char* clamp,
+                    const std::string& otherwise) {
+  if (!asked.empty()) return asked;
+  const Node* of = routing ? routing->find(clamp) : nullptr;
+  const Node* link = of ? of->find("link") : nullptr;
+  return link && link->is_scalar() ? link->text : otherwise;
+}
+
+/// Clamps on the links, at places and of a length that only a reader of jobs looks at; the mounting pose
+/// stays.
+Node links_only(const RouteRequest& request, const Robot& robot, const Node* given) {
+  if (robot.links.size() < 2)
+    throw InputError({request.of}, "its robot has fewer than two links", "name a robot that moves");
+  const std::string& base = robot.links[std::min<std::size_t>(3, robot.links.size() - 2)].name;
+  Node routing = parse_yaml(
+      "{base_clamp: {link: x, position_m: [0, 0, 0.1], direction: [1, 0, 0]}, "
+      "tool_clamp: {link: x, position_m: [0, 0, 0.1], direction: [1, 0, 0]}, free_length_m: 2}",
+      std::string(command_line));
+  (*routing.find("base_clamp"))["link"] = named(link_or(request.base_link, given, "base_clamp", base));
+  (*routing.find("tool_clamp"))["link"] =
+      named(link_or(request.tool_link, given, "tool_clamp", robot.links.back().name));
+  if (const Node* pose = given ? given->find("mounting_pose_deg") : nullptr)
+    routing["mounting_pose_deg"] = *pose;
+  return routing;
+}
+
+std::string fit_for_a_file(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  return name;
+}
+
+}  // namespace
+
+Draft draft_of(const RouteRequest& request) {
+  Draft draft;
+  draft.name = fit_for_a_file(fs::path(request.of).stem().string());
+  draft.document = job_named(request.of);
+  const bool of_robot = draft.document.kind == Node::Kind::null;
+  if (of_robot) {
+    draft.document.where = {std::string(command_line)};
+    draft.document["robot"] = named(request.of);
+    draft.document["dresspack"] = named("spot_welding");
+  }
+  if (draft.document.find("dresspacks"))
+    throw InputError(draft.document.find("dresspacks")->where, "a routing is proposed for one dresspack",
+                     "name a job with dresspack and routing");
+  if (!draft.document.find("robot"))
+    throw InputError(draft.document.where, "robot is missing", "name a robot, or a job that has one");
+  if (!request.dresspack.empty()) draft.document["dresspack"] = named(request.dresspack);
+  if (!request.motion.empty()) draft.document["motion"] = named(request.motion);
+  Node whole = draft.document;
+  for (const std::string& set : request.sets) apply_set(whole, set);
+  draft.document = whole;
+  const Robot robot = robot_of(whole);
+  draft.exercise = !whole.find("motion");
+  if (draft.exercise) whole["motion"] = standing(robot);
+  Node routing = links_only(request, robot, whole.find("routing"));
+  whole["routing"] = std::move(routing);
+  draft.job = job_from(std::move(whole));
+  return draft;
+}
+
+Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor) {
+  Node document = draft.document;
+  const Node resolved = parse_yaml(job_text(draft.job), std::string(command_line));
+  if (!is_shipped("robots", *document.find("robot"))) document["robot"] = *resolved.find("robot");
+  if (draft.exercise)
+    document["motion"] = parse_yaml(motion, std::string(command_line));
+  else if (!is_shipped("programs", *document.find("motion")))
+    document["motion"] = *resolved.find("motion");
+  if (factor != 1)
+    document["dresspack"] = echo_fields(scaled(draft.job.dresspacks.front().dresspack, factor));
+  else if (!is_shipped("dresspacks", *document.find("dresspack")))
+    document["dresspack"] = *resolved.find("dresspack");
+  if (document.find("cell")) document["cell"] = *resolved.find("cell");
+  const Node* pose = document.find("routing") ? document.find("routing")->find("mounting_pose_deg") : nullptr;
+  Node found = parse_yaml(routing, std::string(command_line));
+  if (pose) found["mounting_pose_deg"] = *pose;
+  document["routing"] = std::move(found);
+  return document;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,36 @@
+// A job without a routing that counts: from a robot's name, or a job of which all but the routing is kept.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/job/job.h"
+#include "pipeline/settings/document.h"
+
+namespace dresslife::pipeline {
+
+struct RouteRequest {
+  std::string of;           ///< a job's file or name, or a robot's (also a URDF)
+  std::string dresspack{};  ///< instead of the job's; of a robot spot_welding
+  std::string motion{};     ///< instead of the job's; of a robot one that only moves its wrist about
+  std::string base_link{}, tool_link{};  ///< that carry the clamps; empty: those of the job's routing; else
+                                         ///< the link that axis 3 moves and the last one
+  std::vector<std::string> sets{};
+};
+
+struct Draft {
+  std::string name;       ///< of the job or robot, fit for a file
+  Node document;          ///< as it was written
+  Job job;                ///< its routing names the links and holds else what is given up
+  bool exercise = false;  ///< its motion only stands in for one that is made
+};
+
+/// Errors: InputError: neither job nor robot; links that the robot has not; more than one dresspack.
+Draft draft_of(const RouteRequest& request);
+
+/// The draft with a routing, and what else is given, as a document that reads back from any folder: entries
+/// of the shipped catalogue stay names, others are written out. routing, motion: YAML; motion may be empty.
+/// factor: of the dresspack's size, 1: as it is.
+Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor);
+
+}  // namespace dresslife::pipeline

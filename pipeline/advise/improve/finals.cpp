@@ -1,0 +1,83 @@
+#include "pipeline/advise/improve/finals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr std::size_t finalists = 6;  // whose lives are told over what is not known, too
+
+/// The best of what was tried; the front of two aims whole, but for the jobs as they are, which are told
+/// anyhow.
+std::vector<std::size_t> finalists_of(const Improvement& found) {
+  std::vector<std::size_t> best;
+  if (found.front.size() > 1) {
+    std::copy_if(found.front.begin(), found.front.end(), std::back_inserter(best),
+                 [](std::size_t k) { return k > 0; });
+    return best;
+  }
+  for (std::size_t k = 1; k < found.trials.size(); ++k)
+    if (found.trials[k].worst.feasible()) best.push_back(k);
+  std::stable_sort(best.begin(), best.end(), [&](std::size_t a, std::size_t b) {
+    return found.trials[a].worst.hours > found.trials[b].worst.hours;
+  });
+  if (best.size() > finalists) best.resize(finalists);
+  return best;
+}
+
+}  // namespace
+
+bool is_of(const RankingRow& row, const std::vector<std::string>& jobs) {
+  return std::find(jobs.begin(), jobs.end(), row.job) != jobs.end();
+}
+
+const Final* Finals::best() const {
+  if (of.size() < 2) return nullptr;
+  return &*std::max_element(of.begin() + 1, of.end(),
+                            [](const Final& a, const Final& b) { return a.hours < b.hours; });
+}
+
+const RankingRow* Finals::worst_row(const Final& one) const {
+  const RankingRow* worst = nullptr;
+  for (const RankingRow& row : rows)
+    if (is_of(row, one.jobs) && row.done() && (!worst || row.headline_hours() < worst->headline_hours()))
+      worst = &row;
+  return worst;
+}
+
+Finals finals_of(const Improvement& found, const ImproveRequest& request, const MakeRows& make_rows) {
+  Finals finals{{found.name, {}, found.keep_finals}, {}, {}};
+  std::vector<std::size_t> trials = finalists_of(found);
+  trials.insert(trials.begin(), 0);
+  for (const std::size_t trial : trials) {
+    const std::string prefix = trial == 0 ? "before" : fmt::format("final_{:04}", trial);
+    Final of{{}, HUGE_VAL, trial};
+    for (StudyJob& job : changed_jobs(request, found.trials[trial].sets, prefix)) {
+      of.jobs.push_back(job.name);
+      finals.study.jobs.push_back(std::move(job));
+    }
+    finals.of.push_back(std::move(of));
+  }
+  finals.rows = make_rows(finals.study);
+  for (Final& of : finals.of)
+    for (const RankingRow& row : finals.rows)
+      if (is_of(row, of.jobs)) of.hours = std::min(of.hours, row.done() ? row.headline_hours() : 0);
+  return finals;
+}
+
+std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places) {
+  const RankingRow *before = finals.worst_row(finals.of.front()), *after = finals.worst_row(best);
+  if (!before || !after) return std::nullopt;
+  Study two{finals.study.name, {}};
+  for (const StudyJob& job : finals.study.jobs)
+    if (job.name == before->job || job.name == after->job) two.jobs.push_back(job);
+  const std::vector<RankingRow> rows = ranking_of(two, places, states_of(two, places));
+  if (rows.size() < 2 || !rows[0].outlives_next) return std::nullopt;
+  return rows[0].job == after->job ? *rows[0].outlives_next : 1 - *rows[0].outlives_next;
+}
+
+}  // namespace dresslife::pipeline

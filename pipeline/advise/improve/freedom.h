@@ -1,0 +1,70 @@
+// What a search may change: keys of the jobs, each with what it may be.
+//
+//   free:
+//     routing.free_length_m: 1.9 .. 2.6                       any number between
+//     routing.tool_clamp.direction: 30 deg around             any direction in a cone about the job's
+//     routing.base_clamp.position_m: 0.05 around              each coordinate so far from the job's
+//     routing.base_clamp.position_m: -0.2 .. 0.3 along link_3 from the job's place along the link (or along
+//     [1, 0, 0]) dresspack: [spot_welding, slim.yaml]                    one of these
+//
+// A number with `around` is that far from the job's, up or down.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/settings/document.h"
+
+namespace dresslife::pipeline {
+
+struct Job;
+
+/// One key and what it may be: a function of some variables between 0 and 1.
+class FreeKey {
+ public:
+  virtual ~FreeKey() = default;
+  virtual Eigen::Index variables() const { return 1; }
+  /// Precondition: (variable) 0 .. 1. Rounded to what can be set, a ten-thousandth of its range.
+  virtual Node value_at(const Eigen::VectorXd& place) const = 0;
+  /// Where a job's own value lies; empty: it is not among what the key may be.
+  virtual Eigen::VectorXd place_of(const Node& value) const = 0;
+  /// "at most 2.75", of what a variable stands at the end of; empty: it has no ends that could be moved.
+  virtual std::string end_words(Eigen::Index variable, bool high) const = 0;
+};
+
+class Freedom {
+ public:
+  struct Freed {
+    std::string path;
+    std::unique_ptr<FreeKey> key;
+    std::string own;  ///< the jobs' value; empty: they name none, or not the same
+  };
+
+  /// free: a map from key paths to what they may be. jobs: that it is for; where they differ in a key that is
+  /// freed about its own value, the value must be given. Errors: InputError.
+  static Freedom from(const Node& free, const std::vector<std::shared_ptr<const Job>>& jobs);
+
+  /// What is freed of a job when nobody says: the length by a tenth shorter to a third longer, all clamps and
+  /// rings by 150 mm and 45 deg, a turn of the tool clamp by half a turn. Errors: InputError for a job
+  /// without clamps on a robot.
+  static Node usual(const Job& job);
+
+  Eigen::Index variables() const;
+  const std::vector<Freed>& keys() const { return keys_; }
+
+  /// "KEY.PATH=VALUE" of every key.
+  std::vector<std::string> sets_at(const Eigen::VectorXd& place) const;
+  /// "routing.free_length_m, at most 2.75", of every key that stands at an end of what it may be.
+  std::vector<std::string> at_ends(const Eigen::VectorXd& place) const;
+  /// Where the first job lies; absent where a key of it does not.
+  std::optional<Eigen::VectorXd> place_of_job() const { return start_; }
+
+ private:
+  std::vector<Freed> keys_;
+  std::optional<Eigen::VectorXd> start_;
+};
+
+}  // namespace dresslife::pipeline

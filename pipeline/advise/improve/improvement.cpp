@@ -1,0 +1,345 @@
+#include "pipeline/advise/improve/improvement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+
+#include "pipeline/advise/improve/obstacle.h"
+#include "pipeline/advise/search/random_search.h"
+#include "pipeline/advise/search/surrogate_search.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/sources.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double endless_hours =
+    1e9;  // beyond, nobody waits for a break, and one routing is as good as the other
+
+Node with_frees(Node free, const std::vector<std::string>& written) {
+  for (const std::string& one : written) {
+    const Where where{"--free " + one};
+    const std::size_t equals = one.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(where, "is not KEY.PATH=RANGE",
+                       "write for example --free 'routing.free_length_m=1.9 .. 2.6'");
+    Node value = parse_yaml(one.substr(equals + 1), where.file);
+    place_at(value, where);
+    free[one.substr(0, equals)] = std::move(value);
+    free.where = free.where.file.empty() ? where : free.where;
+  }
+  return free;
+}
+
+AskedLimits limits_of(const Node& document) {
+  AskedLimits limits;
+  const Node* written = document.find("limits");
+  if (!written) return limits;
+  Node root;
+  root["limits"] = *written;
+  root.where = document.where;
+  read_fields(root, Describe([&](Fields& f) { f.group("limits", limits, Need::required, ""); }));
+  return limits;
+}
+
+/// "{KEY.PATH: VALUE, ...}" of "KEY.PATH=VALUE".
+std::string changes_of(const std::vector<std::string>& sets) {
+  std::string text;
+  for (const std::string& set : sets) {
+    const std::size_t equals = set.find('=');
+    text += (text.empty() ? "" : ", ") + set.substr(0, equals) + ": " + set.substr(equals + 1);
+  }
+  return "{" + text + "}";
+}
+
+double longest_hose(const std::vector<StudyJob>& jobs) {
+  double longest = 0;
+  for (const StudyJob& job : jobs)
+    for (std::size_t k = 0; job.job && k < job.job->dresspacks.size(); ++k)
+      longest = std::max(longest, job.job->dresspacks[k].routing.free_length);
+  return longest;
+}
+
+class Improver {
+ public:
+  Improver(const ImproveRequest& request, const StudyPlaces& places, const TrialMakers& makers)
+      : request_(request), places_(places), makers_(makers) {
+    const Node document = read_document(request.file);
+    done_.limits = limits_of(document);
+    const Study study = read_study(request.file, request.sets);
+    if (document.find("keep")) done_.keep_trials = done_.keep_finals = study.keep;
+    for (const StudyJob& job : study.jobs) {
+      if (!job.failure.empty())
+        throw InputError({request.file.string()},
+                         fmt::format("job '{}' cannot be run: {}", job.name, job.failure), "mend it");
+      done_.jobs.push_back(job.name);
+      jobs_.push_back(job.job);
+    }
+    const Node* free = document.find("free");
+    Node freed = with_frees(free ? *free : Node{}, request.frees);
+    if (freed.kind == Node::Kind::null) freed = Freedom::usual(*jobs_.front());
+    freedom_ = Freedom::from(freed, jobs_);
+    done_.name = study_name(request.file);
+    for (const Freedom::Freed& key : freedom_.keys()) {
+      done_.freed.push_back(key.path);
+      done_.own.push_back(key.own);
+    }
+    find_screened();
+  }
+
+  Improvement run() {
+    const std::unique_ptr<Search> search = made_search();
+    Trial as_it_is = tried({{}}).front();
+    const std::optional<VectorXd> start = freedom_.place_of_job();
+    if (start) {
+      as_it_is.place = *start;
+      search->tell({look_of(as_it_is, *start)});
+    }
+    done_.trials.push_back(std::move(as_it_is));
+    makers_.tell(done_);
+    while (static_cast<int>(done_.trials.size()) < request_.trials) {
+      const int left = request_.trials - static_cast<int>(done_.trials.size());
+      const std::vector<VectorXd> asked = search->ask(std::min(left, request_.at_a_time));
+      std::vector<std::vector<std::string>> sets;
+      for (const VectorXd& place : asked) sets.push_back(freedom_.sets_at(place));
+      std::vector<Look> looks;
+      for (Trial& trial : tried(sets)) {
+        trial.place = asked[looks.size()];
+        looks.push_back(look_of(trial, trial.place));
+        done_.trials.push_back(std::move(trial));
+      }
+      search->tell(looks);
+      makers_.tell(done_);
+    }
+    done_.front = best_trials();
+    if (done_.front.empty()) done_.obstacle = obstacle_words(done_.trials, freedom_);
+    return std::move(done_);
+  }
+
+ private:
+  std::size_t aims() const { return request_.second == SecondAim::none ? 1 : 2; }
+
+  std::unique_ptr<Search> made_search() {
+    const Screen screen = [this](const std::vector<VectorXd>& places) { return surely_beyond(places); };
+    if (request_.method == SearchMethod::random)
+      return std::make_unique<RandomSearch>(freedom_.variables(), request_.seed, screen);
+    SurrogateSettings settings;
+    settings.seed = request_.seed;
+    settings.aims = aims();
+    settings.rehearsals = std::max(0, request_.rehearsals);
+    Rehearse rehearse;
+    if (request_.rehearsals != 0 && !screened_.empty())
+      rehearse = [this](const std::vector<VectorXd>& places) { return rehearsed(places); };
+    return std::make_unique<SurrogateSearch>(freedom_.variables(), settings, screen, rehearse);
+  }
+
+  /// Jobs whose routing geometry can look at, one of those that are alike in it.
+  void find_screened() {
+    for (const auto& job : jobs_) {
+      const ScreenedList list = screening_of(*job, "[{}]\n", ScreenedBy::geometry, places_.folder);
+      if (!list.candidates.empty() && list.candidates.front().refusal.empty()) screened_.push_back(job);
+    }
+  }
+
+  /// (trial) of the job that is worst by geometry: how far beyond its limits it is, and what it passes.
+  struct Screened {
+    double violation = 0;
+    bool rejected = false;
+    std::vector<double> beyond;
+    std::string words;
+  };
+  std::vector<Screened> screened(const std::vector<std::vector<std::string>>& sets) const {
+    const std::string candidates = list_of_changes(sets);
+    std::vector<Screened> worst(sets.size());
+    for (const auto& job : screened_) {
+      const ScreenedList list = screening_of(*job, candidates, ScreenedBy::geometry, places_.folder);
+      for (std::size_t k = 0; k < list.candidates.size() && k < sets.size(); ++k) {
+        constexpr double no_job = 10;  // beyond every geometry that is one
+        const ScreenedCandidate& of = list.candidates[k];
+        const double violation = of.refusal.empty() ? of.violation() : no_job;
+        worst[k].rejected = worst[k].rejected || of.rejected;
+        if (violation > worst[k].violation)
+          worst[k] = {violation, worst[k].rejected, of.beyond,
+                      of.refusal.empty() ? list.words(of) : of.refusal};
+      }
+    }
+    return worst;
+  }
+
+  static std::string list_of_changes(const std::vector<std::vector<std::string>>& sets) {
+    std::string text;
+    for (const std::vector<std::string>& of : sets) text += "- " + changes_of(of) + "\n";
+    return text;
+  }
+
+  /// (place) the worst of all jobs' short runs. A trial that does not run is graded by geometry in one (V1)
+  /// to (V5).
+  std::vector<Look> rehearsed(const std::vector<VectorXd>& places) {
+    std::vector<std::vector<std::string>> sets;
+    for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
+    const std::string candidates = list_of_changes(sets);
+    std::vector<Look> looks;
+    for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
+    for (const auto& job : screened_) {
+      const ScreenedList list = screening_of(*job, candidates, ScreenedBy::short_runs, places_.folder);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        if (k >= list.candidates.size()) throw std::logic_error("a list of short runs is not whole");
+        add_rehearsal(looks[k], list, list.candidates[k]);
+      }
+    }
+    done_.rehearsals += static_cast<int>(places.size() * screened_.size());
+    return looks;
+  }
+
+  static void add_rehearsal(Look& look, const ScreenedList& list, const ScreenedCandidate& candidate) {
+    const bool runs = candidate.refusal.empty();
+    if (!runs && look.ran) look = {look.place, false, {}, {}};
+    if (runs != look.ran) return;
+    const std::vector<double> beyond =
+        runs ? limits_of_rehearsal(list.limits, candidate.beyond) : candidate.beyond;
+    if (runs) add_bends(look.pieces, candidate.bends);
+    if (look.beyond.empty()) look.beyond = beyond;
+    for (std::size_t k = 0; k < beyond.size(); ++k) look.beyond[k] = std::max(look.beyond[k], beyond[k]);
+  }
+
+  std::vector<double> surely_beyond(const std::vector<VectorXd>& places) const {
+    std::vector<double> beyond(places.size(), 0.0);
+    if (screened_.empty()) return beyond;
+    std::vector<std::vector<std::string>> sets;
+    for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
+    const std::vector<Screened> told = screened(sets);
+    for (std::size_t k = 0; k < places.size(); ++k) beyond[k] = told[k].rejected ? told[k].violation : 0;
+    return beyond;
+  }
+
+  std::vector<Trial> tried(const std::vector<std::vector<std::string>>& sets) {
+    std::vector<Trial> trials(sets.size());
+    Study study{done_.name, {}, done_.keep_trials};
+    std::map<std::string, std::pair<std::size_t, std::size_t>> trial_of;  // job: trial, and which of its jobs
+    for (std::size_t k = 0; k < sets.size(); ++k) {
+      Trial& trial = trials[k];
+      trial.sets = sets[k];
+      const std::vector<StudyJob> jobs =
+          trial_jobs(request_, sets[k], fmt::format("trial_{:04}", done_.trials.size() + k));
+      trial.hose_length = longest_hose(jobs);
+      trial.outcomes.resize(jobs.size());
+      for (std::size_t j = 0; j < jobs.size(); ++j) {
+        trial.jobs.push_back(jobs[j].name);
+        trial_of[jobs[j].name] = {k, j};
+        study.jobs.push_back(jobs[j]);
+      }
+    }
+    for (const RankingRow& row : makers_.make_rows(study)) {
+      const auto [k, j] = trial_of.at(row.job);
+      trials[k].outcomes[j] = outcome_of(row, places_.job(row.job), done_.limits);
+      trials[k].cycle_seconds += row.repeat_seconds;
+    }
+    for (Trial& trial : trials) trial.worst = worst_of(trial.outcomes);
+    add_geometry(trials);
+    return trials;
+  }
+
+  /// Of what failed, geometry says how far it was from running.
+  void add_geometry(std::vector<Trial>& trials) const {
+    std::vector<std::size_t> failed;
+    std::vector<std::vector<std::string>> sets;
+    for (std::size_t k = 0; k < trials.size(); ++k)
+      if (!trials[k].worst.failure.empty()) failed.push_back(k), sets.push_back(trials[k].sets);
+    if (failed.empty() || screened_.empty()) return;
+    const std::vector<Screened> told = screened(sets);
+    for (std::size_t k = 0; k < failed.size(); ++k) {
+      trials[failed[k]].screened = told[k].words;
+      trials[failed[k]].worst.beyond = told[k].beyond;
+    }
+  }
+
+  Look look_of(const Trial& trial, const VectorXd& place) const {
+    Look look{place, trial.worst.failure.empty(), {}, trial.worst.beyond};
+    if (look.ran)
+      look.aims.push_back(-std::log(std::clamp(trial.worst.hours, 1 / endless_hours, endless_hours)));
+    if (look.ran && aims() == 2)
+      look.aims.push_back(request_.second == SecondAim::hose_length ? trial.hose_length
+                                                                    : trial.cycle_seconds);
+    return look;
+  }
+
+  std::vector<std::size_t> best_trials() const {
+    std::vector<Look> looks;
+    for (const Trial& trial : done_.trials) looks.push_back(look_of(trial, {}));
+    const std::vector<std::size_t> best = front(looks);
+    if (aims() == 1 && !best.empty()) return {best.front()};  // of equal lives the first
+    return best;
+  }
+
+  const ImproveRequest& request_;
+  const StudyPlaces& places_;
+  const TrialMakers& makers_;
+  const Sources read_once_;
+  std::vector<std::shared_ptr<const Job>> jobs_, screened_;
+  Freedom freedom_;
+  Improvement done_;
+};
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::optional<std::size_t> Improvement::best() const {
+  std::optional<std::size_t> found;
+  for (std::size_t k = 0; k < trials.size(); ++k)
+    if (trials[k].worst.feasible() && (!found || trials[k].worst.hours > trials[*found].worst.hours))
+      found = k;
+  return found;
+}
+
+std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vector<std::string>& sets,
+                                   const std::string& prefix) {
+  std::vector<std::string> all = request.sets;
+  all.insert(all.end(), sets.begin(), sets.end());
+  std::vector<StudyJob> jobs = read_study(request.file, all).jobs;
+  for (StudyJob& job : jobs) job.name = jobs.size() == 1 ? prefix : prefix + "_" + job.name;
+  return jobs;
+}
+
+std::vector<StudyJob> trial_jobs(const ImproveRequest& request, std::vector<std::string> sets,
+                                 const std::string& prefix) {
+  sets.push_back("uncertainty.enabled=false");
+  return changed_jobs(request, sets, prefix);
+}
+
+Improvement improve(const ImproveRequest& request, const StudyPlaces& places, const TrialMakers& makers) {
+  return Improver(request, places, makers).run();
+}
+
+std::string improvement_csv(const Improvement& improvement) {
+  std::string text = "trial,feasible,scatter_life_hours_p10,beyond,free_length_m,cycle_s";
+  for (const std::string& freed : improvement.freed) text += "," + csv_cell(freed);
+  text += "\n";
+  for (std::size_t k = 0; k < improvement.trials.size(); ++k) {
+    const Trial& trial = improvement.trials[k];
+    const bool ran = trial.worst.failure.empty();
+    const std::string words = ran ? trial.worst.words() : trial.worst.failure + "; " + trial.screened;
+    text += fmt::format("{},{},{},{},{},{}", k, trial.worst.feasible() ? 1 : 0,
+                        ran ? shortest_text(trial.worst.hours) : "", csv_cell(words),
+                        shortest_text(trial.hose_length), ran ? shortest_text(trial.cycle_seconds) : "");
+    for (std::size_t j = 0; j < improvement.freed.size(); ++j)
+      text += "," + (trial.sets.empty() ? "" : csv_cell(trial.sets[j].substr(trial.sets[j].find('=') + 1)));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,70 @@
+#include "pipeline/advise/improve/obstacle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dresslife::pipeline {
+namespace {
+
+/// That ran and is least beyond its limits; trials.size(): none ran.
+std::size_t nearest_of(const std::vector<Trial>& trials) {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = trials.size();
+  for (std::size_t k = 0; k < trials.size(); ++k)
+    if (trials[k].worst.failure.empty() && trials[k].worst.violation() < least)
+      least = trials[k].worst.violation(), nearest = k;
+  return nearest;
+}
+
+/// Limits that stand against the trials: those that none keeps; if each is kept by some, those that the
+/// nearest passes.
+std::vector<std::string> binding(const std::vector<Trial>& trials, const Trial& nearest) {
+  std::vector<std::string> lines;
+  std::string together;
+  for (std::size_t k = 0; k < nearest.worst.beyond.size(); ++k) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Trial& trial : trials)
+      if (trial.worst.failure.empty()) least = std::min(least, trial.worst.beyond[k]);
+    const std::string& name = outcome_limit_names()[k];
+    if (least > 0)
+      lines.push_back(fmt::format("No trial keeps {}: the best passes it by {:.2g}", name, least));
+    if (nearest.worst.beyond[k] > 0) together += (together.empty() ? "" : ", ") + name;
+  }
+  if (lines.empty())
+    lines.push_back(fmt::format("Each limit is kept by some trial, but not with the others: {}", together));
+  return lines;
+}
+
+/// "; it lives 3.2 times as long as the jobs as they are", by trials, so without what is not known; empty
+/// where there is nothing to hold it against.
+std::string life_words(const Trial& nearest, const Trial& as_they_are) {
+  const double ratio = nearest.worst.hours / as_they_are.worst.hours;
+  if (!as_they_are.worst.failure.empty() || !std::isfinite(ratio) || ratio <= 0) return "";
+  return fmt::format("; it lives {:.{}f} times as long as the jobs as they are", ratio, ratio < 10 ? 2 : 0);
+}
+
+}  // namespace
+
+std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const Freedom& freedom) {
+  const std::size_t k = nearest_of(trials);
+  if (k == trials.size()) return {fmt::format("No trial runs; the last: {}", trials.back().worst.failure)};
+  const Trial& nearest = trials[k];
+  std::vector<std::string> lines{
+      k == 0 ? fmt::format("Nearest are the jobs as they are: {}", nearest.worst.words())
+             : fmt::format("Nearest is trial {}: {}{}", k, nearest.worst.words(),
+                           life_words(nearest, trials.front()))};
+  for (std::string& line : binding(trials, nearest)) lines.push_back(std::move(line));
+  if (nearest.place.size() == 0) return lines;
+  const std::vector<std::string> ends = freedom.at_ends(nearest.place);
+  for (const std::string& end : ends)
+    lines.push_back("It stands at the end of what may be changed: " + end + "; widen it");
+  if (ends.empty())
+    lines.push_back(
+        "It stands inside of all that may be changed: more trials, other keys, or another dresspack");
+  return lines;
+}
+
+}  // namespace dresslife::pipeline

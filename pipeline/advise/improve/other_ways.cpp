@@ -1,0 +1,201 @@
+#include "pipeline/advise/improve/other_ways.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "pipeline/advise/improve/other_arms.h"
+#include "pipeline/advise/improve/set_text.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/job/job.h"
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A line of the program: a step that is no block.
+struct Line {
+  const MotionStep* step;
+  std::string path, name;
+  const MotionStep* from =
+      nullptr;  ///< the move before it, of a block's first line the block's last; null: none
+};
+
+bool leads_joints(const MotionStep& step) { return step.repeat == 0 && !step.joints.empty(); }
+
+void add_lines(std::vector<Line>& lines, const std::vector<MotionStep>& steps, const std::string& path,
+               const std::string& block, const MotionStep* from) {
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const MotionStep& step = steps[k];
+    const std::string here = fmt::format("{}.{}", path, k + 1);
+    if (step.repeat > 0) {
+      const auto last = std::find_if(step.steps.rbegin(), step.steps.rend(), leads_joints);
+      const MotionStep* const end = last == step.steps.rend() ? from : &*last;
+      add_lines(lines, step.steps, here + ".steps", step.text.empty() ? block : block + step.text + ": ",
+                step.repeat > 1 ? end : from);
+      from = end;
+      continue;
+    }
+    const std::string file = std::filesystem::path(step.where.file).filename().string();
+    lines.push_back(
+        {&step, here, fmt::format("{}:{} '{}{}'", file, step.where.line, block, step.text), from});
+    if (leads_joints(step)) from = &step;
+  }
+}
+
+/// Other joint angles for those of a target; absent: there are none.
+using Turn = std::function<std::optional<std::vector<double>>(const std::vector<double>&)>;
+struct NamedTurn {
+  std::string name;
+  Turn turn;
+};
+
+bool within_limits(const Robot& robot, const std::vector<double>& joints) {
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (joints[k] < robot.joints[k].lower || joints[k] > robot.joints[k].upper) return false;
+  return true;
+}
+
+std::vector<NamedTurn> turns_of_wrist(const Robot& robot) {
+  std::vector<NamedTurn> turns;
+  const auto add = [&](std::string name, double four, bool flipped, double six) {
+    turns.push_back({std::move(name), [=, &robot](std::vector<double> joints) {
+                       joints[3] += four * degree;
+                       joints[4] *= flipped ? -1 : 1;
+                       joints[5] += six * degree;
+                       return within_limits(robot, joints) ? std::optional(joints) : std::nullopt;
+                     }});
+  };
+  for (const double four : {-180.0, 180.0})
+    for (const double six : {-180.0, 180.0})
+      add(fmt::format("wrist over: axis 4 {:+.0f}, axis 6 {:+.0f} deg, axis 5 to the other side", four, six),
+          four, true, six);
+  for (const double turn : {-360.0, 360.0}) add(fmt::format("axis 6 {:+.0f} deg", turn), 0, false, turn);
+  for (const double turn : {-360.0, 360.0}) add(fmt::format("axis 4 {:+.0f} deg", turn), turn, false, 0);
+  return turns;
+}
+
+std::vector<NamedTurn> configurations_of_arm(const Robot& robot) {
+  std::vector<NamedTurn> turns;
+  for (const std::string_view name : arm_configurations)
+    turns.push_back({fmt::format("other arm: {}", name), [&robot, name](const std::vector<double>& joints) {
+                       const std::vector<OtherArm> arms = other_arms(robot, joints);
+                       const auto is_it = [&](const OtherArm& arm) { return arm.what == name; };
+                       const auto found = std::find_if(arms.begin(), arms.end(), is_it);
+                       return found == arms.end() ? std::nullopt : std::optional(found->joints);
+                     }});
+  return turns;
+}
+
+std::string joints_set(const Line& line, const std::vector<double>& joints) {
+  std::string list;
+  for (const double angle : joints) list += fmt::format("{}{:.6g}", list.empty() ? "" : ", ", angle / degree);
+  return fmt::format("{}.joints_deg=[{}]", line.path, list);
+}
+
+/// Absent: a line has no such way.
+std::optional<std::vector<std::string>> turned(const std::vector<Line>& lines, const Turn& turn) {
+  std::vector<std::string> sets;
+  for (const Line& line : lines) {
+    if (line.step->joints.size() != 6) continue;
+    const std::optional<std::vector<double>> joints = turn(line.step->joints);
+    if (!joints) return std::nullopt;
+    sets.push_back(joints_set(line, *joints));
+  }
+  return sets.empty() ? std::nullopt : std::optional(sets);
+}
+
+std::optional<std::string> slower(const Job& job, const Line& line, double factor) {
+  const MotionStep& step = *line.step;
+  if (!step.is_move() || step.tool_speed || step.duration || step.turn_speed) return std::nullopt;
+  if (step.speed) return fmt::format("{}.speed_deg_per_s={:.6g}", line.path, *step.speed * factor / degree);
+  return fmt::format("{}.speed_percent={:.6g}", line.path,
+                     step.speed_percent.value_or(job.motion.speed_percent) * factor);
+}
+
+/// Where a line's move may go by: arm and wrist one after the other. The line becomes a block of two.
+std::vector<OtherWay> by_a_point(const Robot& robot, const Line& line) {
+  std::vector<OtherWay> ways;
+  const MotionStep& step = *line.step;
+  if (!line.from || line.from->joints.size() != 6 || step.joints.size() != 6 || step.duration) return ways;
+  constexpr double none = degree,
+                   rounded = 30;  // a part that moves less has no way of its own; [deg] of the corner
+  for (const bool arm_first : {true, false}) {
+    std::vector<double> point = arm_first ? step.joints : line.from->joints;
+    const std::vector<double>& wrist = arm_first ? line.from->joints : step.joints;
+    std::copy(wrist.begin() + 3, wrist.end(), point.begin() + 3);
+    const auto far = [&](const std::vector<double>& from) {
+      double most = 0;
+      for (std::size_t k = 0; k < from.size(); ++k) most = std::max(most, std::abs(from[k] - point[k]));
+      return most > none;
+    };
+    if (!far(step.joints) || !far(line.from->joints) || !within_limits(robot, point)) continue;
+    MotionStep on_the_way = step;
+    on_the_way.joints = point;
+    on_the_way.text += " (on the way)";
+    on_the_way.zone = rounded * degree;
+    on_the_way.tool_zone.reset();
+    on_the_way.stop_zone.reset();
+    ways.push_back({fmt::format("by a point: {} first", arm_first ? "axes 1 to 3" : "axes 4 to 6"),
+                    {line.name},
+                    {fmt::format("{}={{repeat: 1, steps: [{}, {}]}}", line.path,
+                                 set_text(echo_fields(on_the_way)), set_text(echo_fields(step)))}});
+  }
+  return ways;
+}
+
+/// (line) What happens while the robot stands was set going by the move before.
+std::vector<double> cost_of_moves(const std::vector<Line>& lines, const std::vector<double>& line_damage) {
+  std::vector<double> cost(lines.size(), 0.0);
+  std::size_t move = 0;
+  for (std::size_t k = 0; k < std::min(lines.size(), line_damage.size()); ++k) {
+    if (lines[k].step->is_move()) move = k;
+    cost[move] += line_damage[k];
+  }
+  return cost;
+}
+
+}  // namespace
+
+std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage,
+                                 std::size_t most_lines) {
+  std::vector<Line> lines;
+  add_lines(lines, job.motion.steps, "motion.steps", "", nullptr);
+  if (std::none_of(lines.begin(), lines.end(), [](const Line& line) { return !line.step->joints.empty(); }))
+    throw InputError(job.motion.where, "the motion has no steps with joint targets",
+                     "read the program into steps first: dresslife import PROGRAM");
+  const std::vector<double> cost = cost_of_moves(lines, line_damage);
+  std::vector<std::size_t> costly(lines.size());
+  std::iota(costly.begin(), costly.end(), 0);
+  std::stable_sort(costly.begin(), costly.end(), [&](auto a, auto b) { return cost[a] > cost[b]; });
+  std::vector<OtherWay> ways;
+  std::vector<NamedTurn> turns;
+  if (has_wrist(job.robot)) {
+    turns = turns_of_wrist(job.robot);
+    for (NamedTurn& turn : configurations_of_arm(job.robot)) turns.push_back(std::move(turn));
+  }
+  for (const NamedTurn& turn : turns)
+    if (const auto sets = turned(lines, turn.turn)) ways.push_back({turn.name, {}, *sets});
+  for (std::size_t k = 0; k < std::min(costly.size(), most_lines); ++k) {
+    const Line& line = lines[costly[k]];
+    if (!(cost[costly[k]] > 0)) break;
+    for (const NamedTurn& turn : turns)
+      if (const auto sets = turned({line}, turn.turn)) ways.push_back({turn.name, {line.name}, *sets});
+    for (OtherWay& way : by_a_point(job.robot, line)) ways.push_back(std::move(way));
+    for (const double factor : {0.7, 0.5})
+      if (const auto set = slower(job, line, factor))
+        ways.push_back({fmt::format("at {:.0f} % of its speed", 100 * factor), {line.name}, {*set}});
+  }
+  return ways;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,137 @@
+#include "pipeline/advise/improve/outcome.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "pipeline/files/check_names.h"
+#include "pipeline/files/checks.h"
+#include "pipeline/files/receipt.h"
+#include "pipeline/job/believable.h"
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double unasked = -1e3;  // of a limit that nothing asks for: far from it, and finite for who fits
+
+enum Limit { bend, twist, too_short, too_long, pull, contact, stroke, believable };
+
+void see(Outcome& outcome, Limit limit, double g) {
+  outcome.beyond[limit] = std::max(outcome.beyond[limit], g);
+}
+
+double log_ratio(double value, double limit) {
+  return value > 0 ? std::clamp(std::log(value / limit), unasked, -unasked) : unasked;
+}
+
+/// Less slack than asked for, as a share of the length. Its limit is a share of the length, too: so the
+/// length is known.
+void see_slack(Outcome& outcome, const std::string& name, double slack, double limit) {
+  constexpr double least_share = 0.02, most_share = 1.0 / 3;  // of a length, as the checks ask for slack
+  if (name == check_name::too_short) see(outcome, too_short, least_share * (limit - slack) / limit);
+  if (name == check_name::too_long) see(outcome, too_long, most_share * (slack - limit) / limit);
+}
+
+void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& asked) {
+  const auto& [name, value, limit] = check;
+  if (std::find(check_name::all.begin(), check_name::all.end(), name) == check_name::all.end())
+    throw std::logic_error(fmt::format("'{}' is a check that no search knows (check_names.h)", name));
+  see_slack(outcome, name, value, limit);
+  if (name == check_name::bend_radius) see(outcome, bend, log_ratio(limit, value));
+  if (name == check_name::twist) see(outcome, twist, std::abs(value) / limit - 1);
+  if (name == check_name::tension) see(outcome, pull, log_ratio(value, limit));
+  if (name == check_name::tension && asked.tension) see(outcome, pull, log_ratio(value, *asked.tension));
+  if (name == check_name::contact_force && asked.contact_force)
+    see(outcome, contact, log_ratio(value, *asked.contact_force));
+  constexpr double at_its_end = 1e-9;  // a unit that is pulled out wholly holds no more
+  if (name == check_name::travel) see(outcome, stroke, value / limit - 1 + at_its_end);
+}
+
+}  // namespace
+
+const std::vector<std::string>& outcome_limit_names() {
+  static const std::vector<std::string> names{
+      "bend radius", "twist",         "too short",           "too long",
+      "tension",     "contact force", "retraction's stroke", "forces in cables"};
+  return names;
+}
+
+std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
+                                        const std::vector<double>& beyond) {
+  static const std::map<std::string, Limit> limit_of{{"bent too tightly", bend},
+                                                     {"twisted too far", twist},
+                                                     {"too short", too_short},
+                                                     {"too long", too_long},
+                                                     {"pulled too hard", pull}};
+  std::vector<double> of(outcome_limits, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (const auto found = limit_of.find(names[k]); found != limit_of.end())
+      of[found->second] = std::clamp(beyond[k], unasked, -unasked);
+  return of;
+}
+
+void add_bends(std::vector<std::vector<double>>& pieces, const std::vector<double>& bends) {
+  pieces.resize(std::max<std::size_t>(pieces.size(), bend + 1));
+  pieces[bend].insert(pieces[bend].end(), bends.begin(), bends.end());
+}
+
+bool Outcome::feasible() const { return failure.empty() && violation() == 0; }
+
+double Outcome::violation() const {
+  double sum = 0;
+  for (const double g : beyond) sum += std::max(0.0, g);
+  return sum;
+}
+
+std::string Outcome::words() const {
+  if (!failure.empty()) return failure;
+  std::string text;
+  for (std::size_t k = 0; k < beyond.size(); ++k)
+    if (beyond[k] > 0)
+      text +=
+          fmt::format("{}{} passed by {:.2g}", text.empty() ? "" : ", ", outcome_limit_names()[k], beyond[k]);
+  return text;
+}
+
+Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, const AskedLimits& asked) {
+  Outcome outcome;
+  outcome.beyond.assign(outcome_limits, unasked);
+  outcome.failure = row.failure;
+  if (!row.done()) return outcome;
+  outcome.hours = row.headline_hours();
+  const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
+  see(outcome, believable, log_ratio(share, believable_share));
+  constexpr std::size_t simulation = 0;
+  const std::filesystem::path receipt = folder / files_of_stage(simulation).receipt;
+  if (const std::optional<Receipt> made = read_receipt(receipt))
+    for (const CheckedValue& check : checks_in(made->told)) see_check(outcome, check, asked);
+  else
+    outcome.failure = fmt::format("{} cannot be read; run again", receipt.string());
+  return outcome;
+}
+
+void describe(Fields& f, AskedLimits& limits) {
+  f.maybe_number("contact_force_N", limits.contact_force, above(0),
+                 "largest of the dresspack on robot and cell");
+  f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
+}
+
+Outcome worst_of(const std::vector<Outcome>& jobs) {
+  Outcome worst;
+  worst.hours = std::numeric_limits<double>::infinity();
+  worst.beyond.assign(outcome_limits, unasked);
+  for (const Outcome& job : jobs) {
+    if (worst.failure.empty()) worst.failure = job.failure;
+    worst.hours = std::min(worst.hours, job.hours);
+    for (std::size_t k = 0; k < worst.beyond.size(); ++k)
+      worst.beyond[k] = std::max(worst.beyond[k], job.beyond[k]);
+  }
+  return worst;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,227 @@
+#include "pipeline/advise/search/look_models.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace dresslife::pipeline {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Shape = GaussianProcess::Shape;
+
+namespace {
+
+constexpr std::size_t most_rehearsals = 250;  // in a model: its cost grows with their cube
+constexpr Index most_for_shape = 120;         // likewise
+constexpr int shape_evaluations = 60;
+constexpr double same = 1e-9;  // values and places that differ by less are one
+
+constexpr GaussianProcess::Scale missed_by_rehearsals{0.1, 3};
+
+enum ShapeOf : std::size_t { of_aim, of_failure, of_limits };
+
+Shape& shape_of(LookModels::Shapes& shapes, std::size_t limit, bool difference) {
+  return shapes[of_limits + 2 * limit + (difference ? 1 : 0)];
+}
+
+/// Those at places of looks, then the nearest to the centre.
+std::vector<const Look*> chosen(const std::vector<Look>& rehearsals, const std::vector<Look>& looks,
+                                const VectorXd& centre) {
+  std::vector<std::pair<double, const Look*>> some;
+  for (const Look& rehearsal : rehearsals) {
+    const auto is_here = [&](const Look& look) {
+      return (look.place - rehearsal.place).cwiseAbs().maxCoeff() < same;
+    };
+    const bool looked_at = std::any_of(looks.begin(), looks.end(), is_here);
+    some.emplace_back(looked_at ? -1 : (rehearsal.place - centre).squaredNorm(), &rehearsal);
+  }
+  std::stable_sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (some.size() > most_rehearsals) some.resize(most_rehearsals);
+  std::vector<const Look*> of;
+  for (const auto& [distance, rehearsal] : some) of.push_back(rehearsal);
+  return of;
+}
+
+VectorXd pieces_of(const Look& look, std::size_t limit) {
+  if (limit >= look.pieces.size() || look.pieces[limit].empty())
+    return VectorXd::Constant(1, tamed(look.beyond[limit]));
+  const std::vector<double>& pieces = look.pieces[limit];
+  VectorXd of(static_cast<Index>(pieces.size()));
+  std::transform(pieces.begin(), pieces.end(), of.begin(), tamed);
+  return of;
+}
+
+double failure_of(const Look& look) { return look.ran ? -1 : 1 + tamed(look.violation()); }
+
+}  // namespace
+
+double tamed(double g) {
+  constexpr double far_kept = -1, far_beyond = 20;
+  const double bounded = std::clamp(g, far_kept, far_beyond);
+  return std::copysign(std::log1p(std::abs(bounded)), bounded);
+}
+
+void LookModels::Known::add(const VectorXd& place, const VectorXd& pieces) {
+  const Index row = places.rows();
+  if (row > 0 && values.cols() != pieces.size())
+    throw std::logic_error("a limit is told in pieces of another number");
+  places.conservativeResize(row + 1, place.size());
+  places.row(row) = place.transpose();
+  values.conservativeResize(row + 1, pieces.size());
+  values.row(row) = pieces.transpose();
+}
+
+void LookModels::Known::add(const VectorXd& place, double value) { add(place, VectorXd::Constant(1, value)); }
+
+void LookModels::Known::build(const Shape& shape, const GaussianProcess::Scale& scale) {
+  if (places.rows() > 0) model.emplace(places, values, shape, scale);
+}
+
+GaussianProcess::Told LookModels::Limit::at(const VectorXd& place, double deviations) const {
+  GaussianProcess::Told told;
+  if (rehearsed.model) {
+    const GaussianProcess::ToldOfEach each = rehearsed.model->of_each(place);
+    Index largest = 0;
+    (each.means + deviations * each.deviations).maxCoeff(&largest);
+    told = {each.means[largest], each.deviations[largest]};
+  }
+  if (difference.model) {
+    const GaussianProcess::Told missed = difference.model->at(place);
+    told = {told.mean + missed.mean, std::hypot(told.deviation, missed.deviation)};
+  }
+  return told;
+}
+
+LookModels::LookModels(const std::vector<Look>& looks, const std::vector<Look>& rehearsals,
+                       const VectorXd& centre, Shapes shapes)
+    : shapes_(std::move(shapes)) {
+  std::size_t limits = 0;
+  for (const std::vector<Look>* list : {&looks, &rehearsals})
+    for (const Look& look : *list)
+      if (look.ran) limits = look.beyond.size();
+  limits_.resize(limits);
+  shapes_.resize(of_limits + 2 * limits, GaussianProcess::usual_shape(centre.size()));
+  for (const Look& look : looks) {
+    failed_.add(look.place, failure_of(look));
+    any_failed_ = any_failed_ || !look.ran;
+    any_feasible_ = any_feasible_ || look.feasible();
+    if (!look.ran) continue;
+    aim_.add(look.place, look.aims.front());
+    for (std::size_t k = 0; k < limits; ++k) limits_[k].looked.add(look.place, tamed(look.beyond[k]));
+  }
+  for (const Look* rehearsal : chosen(rehearsals, looks, centre)) add_rehearsal(*rehearsal);
+  build_all();
+}
+
+bool LookModels::holds(const VectorXd& place) const {
+  for (Index k = 0; k < failed_.places.rows(); ++k)
+    if ((failed_.places.row(k).transpose() - place).cwiseAbs().maxCoeff() < same) return true;
+  return false;
+}
+
+/// Whether it runs is told by a look where there was one.
+void LookModels::add_rehearsal(const Look& rehearsal) {
+  if (!holds(rehearsal.place)) {
+    failed_.add(rehearsal.place, failure_of(rehearsal));
+    any_failed_ = any_failed_ || !rehearsal.ran;
+  }
+  if (!rehearsal.ran) return;
+  for (std::size_t k = 0; k < limits_.size(); ++k)
+    if (!std::isnan(rehearsal.beyond[k])) limits_[k].rehearsed.add(rehearsal.place, pieces_of(rehearsal, k));
+}
+
+void LookModels::fit() {
+  const auto refit = [](Shape& shape, const Known& of, Index most) {
+    const Index n = std::min(most, of.places.rows());
+    if (n > 1)
+      shape = GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.topRows(n), shape,
+                                               shape_evaluations);
+  };
+  const Index looks = aim_.places.rows();
+  refit(shapes_[of_aim], aim_, looks);
+  if (any_failed_) refit(shapes_[of_failure], failed_, std::max(looks, most_for_shape));
+  for (std::size_t k = 0; k < limits_.size(); ++k) {
+    if (!limits_[k].varies) continue;
+    refit(shape_of(shapes_, k, false), limits_[k].rehearsed, most_for_shape);
+    refit(shape_of(shapes_, k, true), limits_[k].difference, looks);
+  }
+  build_all();
+}
+
+void LookModels::build_all() {
+  aim_.build(shapes_[of_aim]);
+  if (any_failed_) failed_.build(shapes_[of_failure]);
+  for (Limit& limit : limits_) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Known* known : {&limit.rehearsed, &limit.looked})
+      if (known->places.rows() > 0) {
+        const VectorXd largest = known->values.rowwise().maxCoeff();
+        low = std::min(low, largest.minCoeff()), high = std::max(high, largest.maxCoeff());
+      }
+    limit.varies = high - low > same;
+  }
+  build_limits();
+}
+
+void LookModels::build_limits() {
+  for (std::size_t k = 0; k < limits_.size(); ++k) {
+    Limit& limit = limits_[k];
+    if (!limit.varies) continue;
+    limit.rehearsed.build(shape_of(shapes_, k, false));
+    limit.difference = {limit.looked.places, limit.looked.values};
+    if (limit.rehearsed.model)
+      for (Index i = 0; i < limit.difference.places.rows(); ++i) {
+        const auto rehearsed = limit.rehearsed.model->of_each(limit.looked.places.row(i).transpose());
+        limit.difference.values(i, 0) -= rehearsed.means.maxCoeff();
+      }
+    limit.difference.build(shape_of(shapes_, k, true),
+                           limit.rehearsed.model ? missed_by_rehearsals : GaussianProcess::Scale{});
+  }
+}
+
+void LookModels::believe(const VectorXd& place) {
+  if (aim_.model) aim_.add(place, aim_at(place, 0));
+  for (Limit& limit : limits_)
+    if (limit.varies && limit.difference.model) limit.looked.add(place, limit.at(place, 0).mean);
+  if (failed_.model) failed_.add(place, failed_.model->at(place).mean);
+  build_all();
+}
+
+void LookModels::believe_rehearsal(const VectorXd& place) {
+  for (Limit& limit : limits_)
+    if (limit.varies && limit.rehearsed.model)
+      limit.rehearsed.add(place, limit.rehearsed.model->of_each(place).means);
+  if (failed_.model) failed_.add(place, failed_.model->at(place).mean);
+  build_all();
+}
+
+void LookModels::learn(const std::vector<Look>& rehearsals) {
+  for (const Look& rehearsal : rehearsals) add_rehearsal(rehearsal);
+  build_all();
+}
+
+VectorXd LookModels::beyond(const VectorXd& place, double deviations) const {
+  std::vector<double> g;
+  const auto bound = [&](const GaussianProcess::Told& told) {
+    g.push_back(told.mean + deviations * told.deviation);
+  };
+  for (const Limit& limit : limits_)
+    if (limit.varies) bound(limit.at(place, deviations));
+  if (failed_.model) bound(failed_.model->at(place));
+  return Eigen::Map<const VectorXd>(g.data(), static_cast<Index>(g.size()));
+}
+
+double LookModels::excess(const VectorXd& place, double deviations) const {
+  return beyond(place, deviations).cwiseMax(0.0).sum();
+}
+
+double LookModels::aim_at(const VectorXd& place, double deviations) const {
+  if (!aim_.model) return 0;
+  const GaussianProcess::Told told = aim_.model->at(place);
+  return told.mean - deviations * told.deviation;
+}
+
+}  // namespace dresslife::pipeline

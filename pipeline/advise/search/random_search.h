@@ -1,0 +1,24 @@
+// Looks anywhere, each place as likely as the others: the yardstick of searches.
+#pragma once
+
+#include "pipeline/advise/search/search.h"
+#include "pipeline/base/normal_numbers.h"
+
+namespace dresslife::pipeline {
+
+class RandomSearch : public Search {
+ public:
+  /// screen: places that it rejects are drawn again, a few times.
+  RandomSearch(Eigen::Index variables, std::uint64_t seed, Screen screen);
+  std::vector<Eigen::VectorXd> ask(int count) override;
+  void tell(const std::vector<Look>&) override {}
+
+ private:
+  Eigen::VectorXd drawn();
+
+  Eigen::Index variables_;
+  NormalNumbers numbers_;
+  Screen screen_;
+};
+
+}  // namespace dresslife::pipeline

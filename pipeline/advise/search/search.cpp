@@ -1,0 +1,46 @@
+#include "pipeline/advise/search/search.h"
+
+#include <algorithm>
+
+namespace dresslife::pipeline {
+
+double Look::violation() const {
+  double sum = 0;
+  for (const double g : beyond) sum += std::max(0.0, g);
+  return sum;
+}
+
+bool better(const Look& a, const Look& b) {
+  if (a.ran != b.ran) return a.ran;
+  if (a.violation() != b.violation()) return a.violation() < b.violation();
+  return a.ran && !a.aims.empty() && a.aims.front() < b.aims.front();
+}
+
+namespace {
+
+bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
+  bool smaller = false;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k] > b[k]) return false;
+    smaller = smaller || a[k] < b[k];
+  }
+  return smaller;
+}
+
+}  // namespace
+
+std::vector<std::size_t> front(const std::vector<Look>& looks) {
+  std::vector<std::size_t> best;
+  for (std::size_t k = 0; k < looks.size(); ++k) {
+    const auto beats = [&](const Look& other) {
+      return other.feasible() && dominates(other.aims, looks[k].aims);
+    };
+    if (looks[k].feasible() && std::none_of(looks.begin(), looks.end(), beats)) best.push_back(k);
+  }
+  std::stable_sort(best.begin(), best.end(), [&](std::size_t a, std::size_t b) {
+    return looks[a].aims.front() < looks[b].aims.front();
+  });
+  return best;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,401 @@
+#include "pipeline/advise/search/surrogate_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace dresslife::pipeline {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double first_width = 0.3, most_width = 0.5, least_width = 1e-4;  // half a side of the trust region
+constexpr int hits_to_widen = 3, least_misses_to_narrow = 4;
+constexpr double near = 1e-6;  // places nearer than that are one
+constexpr int candidate_count = 200, polish_evaluations = 150;
+constexpr double moved_at_once = 6;  // variables of a candidate that differ from the best look, on average
+constexpr std::size_t screened_at_once = 24;
+constexpr std::size_t rehearsed_for_a_look = 4;
+constexpr int rehearsed_together = 8;
+constexpr int rehearsed_again = 24;  // for a look, while none keeps its limits: a look costs about as much
+constexpr int spread_share =
+    4;                          // of the first looks: places that keep their limits are spread by chance, too
+constexpr double cautious = 1;  // deviations of limits, while none is known to be kept
+constexpr double least_ahead = 0.02;  // width, then the search ahead begins anew elsewhere
+constexpr double least_gain = 1e-3;   // of a limit, by which a place is nearer
+constexpr double much_more = 1.3;     // rehearsals than shapes were found from
+
+const Look& best_of(const std::vector<Look>& looks) {
+  return *std::min_element(looks.begin(), looks.end(), better);
+}
+
+/// The less, the better.
+using Merit = std::pair<double, double>;
+
+/// To keeping all limits: by what is believed, then by what is feared.
+Merit nearness(const LookModels& models, const VectorXd& place) {
+  return {models.excess(place, 0), models.excess(place, cautious)};
+}
+bool clearly_less(const Merit& a, const Merit& b) {
+  return a.first < b.first - least_gain || (a.first <= b.first && a.second < b.second - least_gain);
+}
+
+bool any_ran(const std::vector<Look>& looks) {
+  return std::any_of(looks.begin(), looks.end(), [](const Look& look) { return look.ran; });
+}
+
+SearchBox around(const VectorXd& centre, double width) {
+  return {(centre.array() - width).max(0.0).matrix(), (centre.array() + width).min(1.0).matrix()};
+}
+
+}  // namespace
+
+SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& settings, Screen screen,
+                                 Rehearse rehearse)
+    : variables_(variables),
+      settings_(settings),
+      screen_(std::move(screen)),
+      rehearse_(std::move(rehearse)),
+      numbers_(settings.seed),
+      ahead_width_(first_width) {
+  if (settings_.first_looks == 0) settings_.first_looks = static_cast<int>(2 * variables + 2);
+  if (settings_.rehearsals == 0) settings_.rehearsals = static_cast<int>(40 * variables);
+  if (settings_.aims == 1)
+    regions_ = {{1, first_width}};
+  else
+    for (const double weight : {1.0, 0.5, 0.8, 0.2, 0.9}) regions_.push_back({weight, first_width});
+}
+
+/// Far from all looks, and not rejected where that is possible.
+VectorXd SurrogateSearch::first_look() {
+  constexpr int drawn = 40;
+  std::vector<VectorXd> some;
+  for (int k = 0; k < drawn; ++k) {
+    VectorXd place(variables_);
+    for (double& u : place) u = numbers_.uniform();
+    some.push_back(std::move(place));
+  }
+  const std::vector<double> beyond = rehearse_ ? std::vector<double>(some.size(), 0.0) : screen_(some);
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < some.size(); ++k)
+    if (beyond[k] < beyond[best] ||
+        (beyond[k] == beyond[best] && distance_to_known(some[k]) > distance_to_known(some[best])))
+      best = k;
+  return some[best];
+}
+
+/// Squared; of looks and what is asked for.
+double SurrogateSearch::distance_to_known(const VectorXd& place) const {
+  double least = static_cast<double>(variables_);
+  for (const Look& look : looks_) least = std::min(least, (look.place - place).squaredNorm());
+  for (const VectorXd& other : pending_) least = std::min(least, (other - place).squaredNorm());
+  return least;
+}
+
+bool SurrogateSearch::is_known(const VectorXd& place) const {
+  const auto same = [&](const VectorXd& other) { return (other - place).cwiseAbs().maxCoeff() < near; };
+  return std::any_of(looks_.begin(), looks_.end(), [&](const Look& look) { return same(look.place); }) ||
+         std::any_of(pending_.begin(), pending_.end(), same);
+}
+
+/// A share of the variables, at least one, lie anywhere in the box, the others as at the centre.
+std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const VectorXd& centre,
+                                                  double share) {
+  std::vector<VectorXd> some;
+  while (some.size() < candidate_count) {
+    VectorXd place = centre;
+    const auto certain = static_cast<Index>(numbers_.uniform() * static_cast<double>(variables_));
+    for (Index i = 0; i < variables_; ++i)
+      if (i == certain || numbers_.uniform() < share)
+        place[i] = box.low[i] + numbers_.uniform() * (box.high[i] - box.low[i]);
+    some.push_back(std::move(place));
+  }
+  return some;
+}
+
+/// The first that is neither known nor rejected; if all are rejected, the one that is least.
+VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
+  std::vector<VectorXd> some;
+  for (const VectorXd& place : by_merit)
+    if (some.size() < screened_at_once && !is_known(place)) some.push_back(place);
+  if (some.empty()) return first_look();
+  const std::vector<double> beyond = screen_(some);
+  return some[static_cast<std::size_t>(std::min_element(beyond.begin(), beyond.end()) - beyond.begin())];
+}
+
+/// Best first, by what is beyond the limits, then by the aim: places about the best, and what a local search
+/// finds from the best of those.
+std::vector<VectorXd> SurrogateSearch::ranked(const LookModels& models, const VectorXd& best, double width,
+                                              const Trust& trust) {
+  const SearchBox whole{VectorXd::Zero(variables_), VectorXd::Ones(variables_)};
+  const SearchBox box = trust.anywhere ? whole : around(best, width);
+  const auto excess = [&](const VectorXd& place) { return models.excess(place, trust.of_limits); };
+  const auto aim = [&](const VectorXd& place) {
+    return models.any_feasible() ? models.aim_at(place, trust.of_aim) : excess(place);
+  };
+  using Ranked = std::tuple<double, double, VectorXd>;
+  std::vector<Ranked> some;
+  const auto rank = [&](VectorXd place) { some.emplace_back(excess(place), aim(place), std::move(place)); };
+  const double share = trust.anywhere ? 1 : std::min(1.0, moved_at_once / static_cast<double>(variables_));
+  for (VectorXd& place : candidates(box, best, share)) rank(std::move(place));
+  const auto better_one = [](const Ranked& a, const Ranked& b) {
+    return std::tie(std::get<0>(a), std::get<1>(a)) < std::tie(std::get<0>(b), std::get<1>(b));
+  };
+  std::stable_sort(some.begin(), some.end(), better_one);
+
+  LimitFunctions limits;
+  if (models.any_feasible()) {
+    limits.count = static_cast<int>(models.beyond(best, 0).size());
+    limits.beyond = [&](const VectorXd& place) { return models.beyond(place, trust.of_limits); };
+  }
+  const double step = 0.2 * (box.high - box.low).maxCoeff();
+  rank(minimised(aim, limits, box, std::get<2>(some.front()), step, polish_evaluations));
+  std::stable_sort(some.begin(), some.end(), better_one);
+  std::vector<VectorXd> by_merit;
+  for (Ranked& one : some) by_merit.push_back(std::move(std::get<2>(one)));
+  return by_merit;
+}
+
+bool SurrogateSearch::is_rehearsed(const VectorXd& place) const {
+  return std::any_of(rehearsals_.begin(), rehearsals_.end(),
+                     [&](const Look& one) { return (one.place - place).cwiseAbs().maxCoeff() < near; });
+}
+
+void SurrogateSearch::rehearse(const std::vector<VectorXd>& places) {
+  for (Look& told : rehearse_(places)) rehearsals_.push_back(std::move(told));
+}
+
+/// What was told unasked, so that it is known what rehearsals miss there.
+void SurrogateSearch::rehearse_looks(const std::vector<Look>& looks) {
+  std::vector<VectorXd> places;
+  for (const Look& look : looks)
+    if (!is_rehearsed(look.place)) places.push_back(look.place);
+  if (!places.empty()) rehearse(places);
+}
+
+/// The first few are rehearsed; then that is taken which is best by what is known now, of all that were
+/// rehearsed.
+VectorXd SurrogateSearch::rehearsed_pick(LookModels& models, const std::vector<VectorXd>& by_merit,
+                                         const Trust& trust) {
+  std::vector<VectorXd> some;
+  for (const VectorXd& place : by_merit)
+    if (some.size() < rehearsed_for_a_look && !is_known(place) && !is_rehearsed(place)) some.push_back(place);
+  const auto before = static_cast<std::ptrdiff_t>(rehearsals_.size());
+  rehearse(some);
+  models.learn({rehearsals_.begin() + before, rehearsals_.end()});
+  Merit least;
+  const Look* best = nullptr;
+  for (const Look& rehearsal : rehearsals_) {
+    if (is_known(rehearsal.place) || !rehearsal.ran || !models.holds(rehearsal.place)) continue;
+    const Merit merit = models.any_feasible() ? Merit{models.excess(rehearsal.place, trust.of_limits),
+                                                      models.aim_at(rehearsal.place, trust.of_aim)}
+                                              : nearness(models, rehearsal.place);
+    if (!best || merit < least) least = merit, best = &rehearsal;
+  }
+  return best ? best->place : first_look();
+}
+
+/// Rehearsed, not yet looked at, and most likely to keep all limits.
+std::vector<VectorXd> SurrogateSearch::promising(const LookModels& models) const {
+  std::vector<VectorXd> places;
+  for (const Look& rehearsal : rehearsals_)
+    if (rehearsal.ran && !is_known(rehearsal.place) && models.holds(rehearsal.place) &&
+        models.excess(rehearsal.place, cautious) == 0)
+      places.push_back(rehearsal.place);
+  return places;
+}
+
+/// That runs and that the models find least beyond its limits, of those from `first` on. Precondition: one
+/// ran.
+VectorXd SurrogateSearch::nearest_rehearsal(const LookModels& models, std::size_t first) const {
+  Merit least;
+  const Look* nearest = nullptr;
+  for (std::size_t k = first; k < rehearsals_.size(); ++k) {
+    const Look& rehearsal = rehearsals_[k];
+    if (!rehearsal.ran || !models.holds(rehearsal.place)) continue;
+    const Merit merit = nearness(models, rehearsal.place);
+    if (!nearest || merit < least) least = merit, nearest = &rehearsal;
+  }
+  return nearest->place;
+}
+
+std::vector<Look> SurrogateSearch::rehearsals_from(std::size_t first) const {
+  return {rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end()};
+}
+
+/// So many, far from each other and from all looks; about the nearest of them the search ahead begins.
+void SurrogateSearch::rehearse_spread(int count) {
+  ahead_from_ = rehearsals_.size();
+  ahead_width_ = first_width;
+  std::vector<VectorXd> spread;
+  while (static_cast<int>(spread.size()) < count) {
+    spread.push_back(first_look());
+    pending_.push_back(spread.back());
+  }
+  pending_.clear();
+  rehearse(spread);
+}
+
+/// Each where the models are nearest to keeping all limits, if the ones before turn out as believed.
+std::vector<VectorXd> SurrogateSearch::next_rehearsals(LookModels& models, const VectorXd& centre,
+                                                       std::size_t count) {
+  static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
+  std::vector<VectorXd> batch;
+  while (batch.size() < count) {
+    const std::vector<VectorXd> some =
+        ranked(models, centre, ahead_width_, trusts[batch.size() % std::size(trusts)]);
+    const auto is_new = [&](const VectorXd& place) { return !is_known(place) && !is_rehearsed(place); };
+    const auto found = std::find_if(some.begin(), some.end(), is_new);
+    batch.push_back(found == some.end() ? first_look() : *found);
+    models.believe_rehearsal(batch.back());
+  }
+  return batch;
+}
+
+/// (Q6)
+void SurrogateSearch::rehearse_ahead(int wanted) {
+  int left = asked_ == 0 ? settings_.rehearsals : rehearsed_again * wanted;
+  const auto spread = [&] {
+    const int count = std::min(settings_.first_looks, left);
+    rehearse_spread(count);
+    left -= count;
+  };
+  if (asked_ == 0) spread();
+  Merit nearest;
+  bool has_nearest = false;
+  while (left > 0 && any_ran(rehearsals_)) {
+    if (ahead_width_ < least_ahead || !any_ran(rehearsals_from(ahead_from_))) {
+      spread();
+      has_nearest = false;
+      continue;
+    }
+    LookModels models = models_of(looks_, ahead_from_);
+    if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
+    const VectorXd centre = nearest_rehearsal(models, ahead_from_);
+    const Merit now = nearness(models, centre);
+    if (has_nearest)
+      ahead_width_ =
+          clearly_less(now, nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
+    nearest = now;
+    has_nearest = true;
+    const int count = std::min(rehearsed_together, left);
+    rehearse(next_rehearsals(models, centre, static_cast<std::size_t>(count)));
+    left -= count;
+  }
+}
+
+/// The looks with one aim made of two: the larger of both, each as a share of what it spans among the best,
+/// weighed; and a little of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006)
+/// 50).
+std::vector<Look> SurrogateSearch::by_weight(double weight) const {
+  std::vector<Look> looks = looks_;
+  if (settings_.aims == 1) return looks;
+  const bool any_feasible =
+      std::any_of(looks.begin(), looks.end(), [](const Look& look) { return look.feasible(); });
+  std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  for (const Look& look : looks)
+    for (std::size_t k = 0; look.ran && look.feasible() == any_feasible && k < 2; ++k) {
+      low[k] = std::min(low[k], look.aims[k]);
+      high[k] = std::max(high[k], look.aims[k]);
+    }
+  for (Look& look : looks) {
+    if (!look.ran) continue;
+    const auto share = [&](std::size_t k) {
+      return (look.aims[k] - low[k]) / std::max(high[k] - low[k], near);
+    };
+    constexpr double of_sum = 0.05;
+    const double a = weight * share(0), b = (1 - weight) * share(1);
+    look.aims = {std::max(a, b) + of_sum * (a + b)};
+  }
+  return looks;
+}
+
+/// Of looks, and of rehearsals near the best that is known, of rehearsals from `first` on; of shapes that are
+/// looked for when there is much more to find them from.
+LookModels SurrogateSearch::models_of(const std::vector<Look>& looks, std::size_t first) {
+  const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
+  const std::vector<Look> those = by_looks ? looks : rehearsals_from(first);
+  LookModels models(looks, rehearsals_, best_of(those).place, shapes_);
+  const auto known = static_cast<double>(looks.size() + rehearsals_.size());
+  if (looks.size() != shapes_of_looks_ || known > much_more * shapes_of_) {
+    models.fit();
+    shapes_ = models.shapes();
+    shapes_of_looks_ = looks.size();
+    shapes_of_ = known;
+  }
+  return models;
+}
+
+/// What is promising and farthest from all looks; the first few looks of a search that rehearses.
+std::optional<VectorXd> SurrogateSearch::spread_look(const LookModels& models) const {
+  std::optional<VectorXd> farthest;
+  double most = -1;
+  for (const VectorXd& place : promising(models))
+    if (const double distance = distance_to_known(place); distance > most) most = distance, farthest = place;
+  return farthest;
+}
+
+std::vector<VectorXd> SurrogateSearch::ask(int count) {
+  std::vector<VectorXd> places;
+  const auto take = [&](VectorXd place) {
+    pending_.push_back(place);
+    places.push_back(std::move(place));
+    ++asked_;
+  };
+  const auto wanted = static_cast<std::size_t>(count);
+  if (rehearse_) rehearse_ahead(count);
+  const bool can_model = any_ran(looks_) || any_ran(rehearsals_);
+  while (places.size() < wanted && (!can_model || (!rehearse_ && asked_ < settings_.first_looks)))
+    take(first_look());
+  if (places.size() == wanted) return places;
+
+  region_ = (region_ + 1) % regions_.size();
+  const std::vector<Look> looks = by_weight(regions_[region_].weight);
+  LookModels models = models_of(looks);
+  for (const VectorXd& place : pending_) models.believe(place);
+  const bool by_looks = models.any_feasible() || !any_ran(rehearsals_);
+  const VectorXd best = by_looks ? best_of(looks).place : nearest_rehearsal(models);
+  while (places.size() < wanted) {
+    static constexpr Trust trusts[] = {{0, 0, false}, {1, 1, false}, {1, -1, false}, {2, 0, true}};
+    std::optional<VectorXd> place;
+    if (rehearse_ && asked_ < settings_.first_looks / spread_share) place = spread_look(models);
+    if (!place) {
+      const Trust& trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
+      const std::vector<VectorXd> by_merit = ranked(models, best, regions_[region_].width, trust);
+      place = rehearse_ ? rehearsed_pick(models, by_merit, trust) : allowed(by_merit);
+    }
+    take(std::move(*place));
+    if (places.size() < wanted) models.believe(places.back());
+  }
+  return places;
+}
+
+void SurrogateSearch::tell(const std::vector<Look>& looks) {
+  Region& region = regions_[region_];
+  const std::size_t before = looks_.size();
+  looks_.insert(looks_.end(), looks.begin(), looks.end());
+  pending_.clear();
+  if (rehearse_) rehearse_looks(looks);
+  if (picks_ == 0 || before == 0) return;
+  const std::vector<Look> now = by_weight(region.weight);
+  const auto old_end = now.begin() + static_cast<std::ptrdiff_t>(before);
+  const Look& old = *std::min_element(now.begin(), old_end, better);
+  const bool hit = std::any_of(old_end, now.end(), [&](const Look& look) { return better(look, old); });
+  region.hits = hit ? region.hits + 1 : 0;
+  region.misses = hit ? 0 : region.misses + static_cast<int>(looks.size());
+  if (region.hits == hits_to_widen) {
+    region.width = std::min(most_width, 2 * region.width);
+    region.hits = 0;
+  }
+  if (region.misses >= std::max<int>(least_misses_to_narrow, static_cast<int>(variables_))) {
+    region.width = region.width < least_width ? first_width : region.width / 2;
+    region.misses = 0;
+  }
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,126 @@
+#include "pipeline/base/warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr std::size_t most_listed = 100, longest = 400;  // HDF5 holds 64 kB in an attribute
+
+std::optional<WarningKind> kind_of(std::string_view name) {
+  for (int k = 0; k < warning_kinds_count; ++k)
+    if (name == word(static_cast<WarningKind>(k))) return static_cast<WarningKind>(k);
+  return std::nullopt;
+}
+
+/// Tabs and line feeds separate.
+std::string plain(std::string text) {
+  if (text.size() > longest) {
+    text.resize(longest);
+    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
+    if (!text.empty() && static_cast<unsigned char>(text.back()) >= 0xC0) text.pop_back();
+    text += "...";
+  }
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+const char* word(WarningKind kind) {
+  switch (kind) {
+    case WarningKind::program:
+      return "program";
+    case WarningKind::bend_radius:
+      return "bend_radius";
+    case WarningKind::twist:
+      return "twist";
+    case WarningKind::tension:
+      return "tension";
+    case WarningKind::slack:
+      return "slack";
+    case WarningKind::periodic:
+      return "periodic";
+    case WarningKind::overlap:
+      return "overlap";
+    case WarningKind::mesh:
+      return "mesh";
+    case WarningKind::force:
+      return "force";
+    case WarningKind::material:
+      return "material";
+    case WarningKind::strain:
+      return "strain";
+    case WarningKind::calibration:
+      return "calibration";
+  }
+  return "";
+}
+
+const char* title(WarningKind kind) {
+  switch (kind) {
+    case WarningKind::program:
+      return "skipped instructions";
+    case WarningKind::bend_radius:
+      return "bend radius";
+    case WarningKind::periodic:
+      return "not periodic";
+    case WarningKind::overlap:
+      return "overlapping parts";
+    case WarningKind::mesh:
+      return "long segments";
+    case WarningKind::force:
+      return "forces";
+    case WarningKind::material:
+      return "material, stiffness";
+    case WarningKind::twist:
+    case WarningKind::tension:
+    case WarningKind::slack:
+    case WarningKind::strain:
+    case WarningKind::calibration:
+      return word(kind);
+  }
+  return "";
+}
+
+std::string Warning::line() const {
+  return where.empty() ? "warning: " + words : where + ": warning: " + words;
+}
+std::string Warning::text() const { return where.empty() ? words : where + ": " + words; }
+
+std::string warnings_text(const std::vector<Warning>& warnings) {
+  std::string text;
+  const std::size_t listed = std::min(warnings.size(), most_listed);
+  for (std::size_t k = 0; k < listed; ++k)
+    text += fmt::format("{}{}\t{}\t{}", k ? "\n" : "", word(warnings[k].kind), plain(warnings[k].where),
+                        plain(warnings[k].words));
+  if (listed < warnings.size())
+    text +=
+        fmt::format("\n{}\t\tand {} more warnings", word(warnings[listed].kind), warnings.size() - listed);
+  return text;
+}
+
+std::vector<Warning> warnings_from(const std::string& text) {
+  std::vector<Warning> warnings;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find('\t'), second = line.find('\t', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    if (const auto kind = kind_of(line.substr(0, first)))
+      warnings.push_back({*kind, line.substr(first + 1, second - first - 1), line.substr(second + 1)});
+  }
+  return warnings;
+}
+
+std::vector<Warning> joined(std::vector<Warning> earlier, const std::vector<Warning>& own) {
+  for (const Warning& warning : own)
+    if (std::find(earlier.begin(), earlier.end(), warning) == earlier.end()) earlier.push_back(warning);
+  return earlier;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,222 @@
+#include "pipeline/cable/cable_bending.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/cable/shares.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+using helices::Placement;
+using helices::Rod;
+using helices::Series;
+
+constexpr double pi = std::numbers::pi;
+constexpr int phases = 36;    // around a layer: whole harmonics are exact, what yields is to 1e-3
+// Two levels and more below the cable: what is summed has 2 d harmonics at level d, 12 angles are exact for those of five,
+// and what yields is met at as many others by the angles above.
+constexpr int deep_phases = 12;
+constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
+constexpr double reach = 1e-3;  // [m]: as much of elongation per twist, a wire's distance from the axis
+
+void scale_friction(std::vector<Component>& parts, double factor) {
+  for (Component& part : parts) {
+    if (part.friction) *part.friction *= factor;
+    scale_friction(part.components, factor);
+  }
+}
+
+constexpr double no_friction = 0, all_friction = 1e12;  // levels
+
+/// A part of the cable at rest and slightly deformed.
+struct Deformed {
+  Rod<double> rest, now;
+  double per_length;      ///< how many of it, times their length, per length of the cable
+  double evening;         ///< path length of the nearest helix' pitch in it or above; 0: none [m]
+  double friction_level;  ///< of what lies in it
+  int depth;
+  bool alike_around = false;  ///< whatever lies in it at one radius feels the same at every angle
+};
+
+/// Of a layer of parts or wires at one angle, per size of the deformation.
+struct Answer {
+  const Component& layer;
+  const Deformed& parent;
+  double EA, weight, evening, share;
+  double away, mean;                ///< strain's deviation from the mean over its pitch, and that mean
+  double bend1 = 0, bend2 = 0, twist = 0;  ///< of wires
+  int depth;
+};
+
+/// Walks down the levels from a deformed parent; take(answer) of each layer at each of its angles.
+template <class Take>
+void descend(const Dresspack& dresspack, const Component& layer, const Deformed& parent, const Take& take) {
+  const double signed_angle = sign_of(layer.hand) * layer.lay_angle, R = layer.helix_radius;
+  const double sine = std::sin(layer.lay_angle), cosine = std::cos(layer.lay_angle);
+  const bool helical = R > 0 && layer.lay_angle != 0;
+  const double evening = helical ? 2 * pi * R / sine : parent.evening / cosine;
+  const double EA = axial_stiffness(dresspack, layer);
+  const double share =
+      helices::radial_share(EA, layer.lay_angle, R, layer.radial_stiffness.value_or(HUGE_VAL));
+  const int angles = parent.alike_around ? 1 : parent.depth < 2 ? phases : deep_phases;
+  const double weight = parent.per_length * layer.count / angles / cosine;
+  const double inside = layer.measured_bending_stiffness ? friction_level(dresspack, layer) : parent.friction_level;
+  for (int k = 0; k < angles; ++k) {
+    const Placement place =
+        helices::make_placement(Kinematics::exact, R, std::tan(signed_angle), std::cos(signed_angle),
+                                2 * pi * (k + 0.5) / angles, parent.rest.stretch.order);
+    const Rod<double> rest = helices::child(parent.rest, place), glued = helices::child(parent.now, place);
+    const double strain = glued.stretch.at[0] / rest.stretch.at[0] - 1;
+    const double mean =
+        R == 0 ? strain : helices::mean_path_rate(parent.now, place) / helices::mean_path_rate(parent.rest, place) - 1;
+    const Rod<double> now = helices::slid(glued, share * mean, rest, Kinematics::exact);
+    const auto rate = [&](const Series<double>& of, const Series<double>& at_rest) {
+      return (of.at[0] - at_rest.at[0]) / small;
+    };
+    take(Answer{layer, parent, EA, weight, evening, share, (strain - mean) / small, mean / small,
+                rate(now.bend1, rest.bend1), rate(now.bend2, rest.bend2), rate(now.twist, rest.twist),
+                parent.depth + 1});
+    const Deformed bent{rest, now, weight, evening, inside, parent.depth + 1};
+    for (const Component& inner : layer.components) descend(dresspack, inner, bent, take);
+  }
+}
+
+/// Levels of parts in it, at least one: each uses up one order (series.h).
+int levels_in(const Component& part) {
+  int levels = 0;
+  for (const Component& inner : part.components) levels = std::max(levels, levels_in(inner) + 1);
+  return levels;
+}
+
+/// Exact down to the deepest wires in it.
+Deformed straight_cable(const Component& cable, double elongation, double curvature, double twist) {
+  const int order = std::clamp(levels_in(cable), 1, Series<double>::capacity - 1);
+  return {helices::uniform_rod<double>(0, 0, 0, 0, order),
+          helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, 1, 0, curvature == 0};
+}
+
+/// Of a wire whose deviation is free, per size of the deformation and length of the cable.
+double own_stiffness(const Dresspack& dresspack, const Answer& of) {
+  const Material* const material = find_material(dresspack, of.layer.material);
+  if (!of.layer.components.empty() || material == nullptr) return 0;
+  const double EI = of.EA * of.layer.radius * of.layer.radius / 4, GJ = EI / (1 + material->poisson_ratio);
+  return of.weight * (EI * (of.bend1 * of.bend1 + of.bend2 * of.bend2) + GJ * of.twist * of.twist +
+                      of.share * of.EA * of.mean * of.mean);
+}
+
+void refuse_straight(const Component& layer) {
+  throw InputError(layer.where,
+                   fmt::format("'{}' lies straight beside the axis of a cable with measured_bending_stiffness_Nm2 (how far "
+                               "it slides in a bent sample depends on the sample's length)",
+                               layer.name),
+                   "give its lay_angle_deg, or leave out the measured stiffness");
+}
+
+}  // namespace
+
+double axial_stiffness(const Dresspack& dresspack, const Component& part) {
+  if (part.plain) return properties_of(*part.plain, part.radius).axial;
+  if (part.components.empty()) {
+    const Material* const material = find_material(dresspack, part.material);
+    return material ? material->youngs_modulus * pi * part.radius * part.radius : 0;
+  }
+  double sum = 0;
+  for (const Component& inner : part.components)
+    sum += inner.count * axial_stiffness(dresspack, inner) * std::pow(std::cos(inner.lay_angle), 3);
+  return sum;
+}
+
+CableBending::CableBending(const Dresspack& dresspack, const Component& cable, StraightParts straight) {
+  const auto take = [&](const Answer& of) {
+    depth_ = std::max(depth_, of.depth);
+    own_stiffness_ += own_stiffness(dresspack, of);
+    const Component& layer = of.layer;
+    if (layer.helix_radius == 0 || of.EA == 0) return;
+    if (of.evening == 0 && straight == StraightParts::refused) refuse_straight(layer);
+    const double sine = std::sin(layer.lay_angle), press = sine * sine / layer.helix_radius;
+    const double gathers = layer.friction.value_or(0) * of.evening / 4;  // (W16) [m]
+    const double line_load = of.parent.friction_level * layer.radial_line_load.value_or(0);
+    held_.push_back({of.depth, of.share * of.away, of.weight * of.EA * of.away,
+                     gathers * layer.tension * press / of.EA, gathers * line_load / of.EA,
+                     helices::elastic_share(layer.jacket_stiffness, of.EA, of.evening)});
+  };
+  for (const Component& layer : cable.components) descend(dresspack, layer, straight_cable(cable, 0, small, 0), take);
+}
+
+double CableBending::moment(double curvature, double friction_level) const {
+  double sum = own_stiffness_ * curvature;
+  for (const Held& of : held_) {
+    const double away = of.strain_rate * curvature, cap = of.by_tension + friction_level * of.by_line_load;
+    const double held = of.elastic * away + std::clamp((1 - of.elastic) * away, -cap, cap);
+    sum += of.moment_per_strain * held;
+  }
+  return sum;
+}
+
+double CableBending::free_stiffness() const {
+  double sum = own_stiffness_;
+  for (const Held& of : held_) sum += of.moment_per_strain * of.elastic * of.strain_rate;
+  return sum;
+}
+
+double CableBending::stuck_stiffness(int levels) const {
+  double sum = own_stiffness_;
+  for (const Held& of : held_)
+    sum +=
+        of.moment_per_strain * of.strain_rate * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
+  return sum;
+}
+
+double PullAndTwist::relaxed() const {
+  return pull_by_elongation > 0 ? torque_by_twist - coupling * coupling / pull_by_elongation : torque_by_twist;
+}
+
+PullAndTwist pull_and_twist(const Dresspack& dresspack, const Component& cable) {
+  // Twice the energy of a deformation is its answer times itself: three of them give the three numbers.
+  const auto twice_energy = [&](double elongation, double twist) {
+    double sum = 0;
+    for (const Component& layer : cable.components)
+      descend(dresspack, layer, straight_cable(cable, elongation * reach * small, 0, twist * small),
+              [&](const Answer& of) { sum += own_stiffness(dresspack, of); });
+    return sum;
+  };
+  const double pulled = twice_energy(1, 0), twisted = twice_energy(0, 1), both = twice_energy(1, 1);
+  return {pulled / (reach * reach), (both - pulled - twisted) / (2 * reach), twisted};
+}
+
+double friction_level(const Dresspack& dresspack, const Component& cable) {
+  const CableBending bending(dresspack, cable);
+  const double curvature = cable.measured_at_curvature, polymer = cable.polymer_bending_stiffness;
+  const auto stiffness = [&](double level) { return polymer + bending.moment(curvature, level) / curvature; };
+  const double wanted = *cable.measured_bending_stiffness;
+  const double least = stiffness(no_friction), most = stiffness(all_friction);
+  if (wanted < least || wanted > most)
+    throw InputError(
+        cable.where,
+        fmt::format(
+            "'{}' has measured_bending_stiffness_Nm2 {:.4g} at {:.4g} 1/m (its wires and polymer have "
+            "{:.4g} without friction and {:.4g} where friction holds all that it presses)",
+            cable.name, wanted, curvature, least, most),
+        "check the measurement, polymer_bending_stiffness_Nm2, the radii and lay angles, and that the layers "
+        "have a friction_coefficient and a radial_line_load_N_per_m");
+  double low = 1e-9, high = all_friction;  // M grows with the level
+  for (int halving = 0; halving < 80; ++halving) {
+    const double middle = std::sqrt(low * high);
+    (stiffness(middle) < wanted ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+std::vector<double> bending_moments(const Dresspack& dresspack, Component cable, double friction,
+                                    const std::vector<double>& curvature) {
+  const double level = cable.measured_bending_stiffness ? friction_level(dresspack, cable) : 1;
+  scale_friction(cable.components, friction);
+  const CableBending bending(dresspack, cable);
+  std::vector<double> moments;
+  for (const double k : curvature) moments.push_back(cable.polymer_bending_stiffness * k + bending.moment(k, level));
+  return moments;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,40 @@
+#include "pipeline/cable/cable_pulls.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dresslife::pipeline {
+
+CablePulls pulls_of(std::span<const PulledCable> cables, std::size_t samples) {
+  CablePulls pulls;
+  pulls.moment.assign(samples, 0.0);
+  std::vector<double> moment(4 * samples, 0.0);  // (clamp, 2, sample) about d1 and d2
+  for (const PulledCable& cable : cables) {
+    std::vector<double>& tension = pulls.tension.emplace_back(samples);
+    for (std::size_t t = 0; t < samples; ++t) {
+      tension[t] = cable.force.force(cable.strain[0][t]);
+      if (cable.force.strength() > 0)
+        pulls.force_share = std::max(pulls.force_share, std::abs(tension[t]) / cable.force.strength());
+      for (std::size_t clamp = 0; clamp < 2; ++clamp) {
+        const double strain = cable.strain[clamp + 1][t];
+        const double pull = strain == cable.strain[0][t] ? tension[t] : cable.force.force(strain);
+        moment[2 * clamp * samples + t] += pull * cable.place[clamp][1];
+        moment[(2 * clamp + 1) * samples + t] -= pull * cable.place[clamp][0];
+      }
+    }
+  }
+  for (std::size_t clamp = 0; clamp < 2; ++clamp)
+    for (std::size_t t = 0; t < samples; ++t) {
+      const double* const own = moment.data() + 2 * clamp * samples + t;
+      pulls.moment[t] = std::max(pulls.moment[t], std::hypot(own[0], own[samples]));
+    }
+  return pulls;
+}
+
+double moment_share(const CablePulls& pulls, std::span<const double> hose_moment) {
+  if (pulls.moment.empty() || hose_moment.empty()) return 0;
+  const double carried = *std::max_element(hose_moment.begin(), hose_moment.end());
+  return carried > 0 ? *std::max_element(pulls.moment.begin(), pulls.moment.end()) / carried : 0;
+}
+
+}  // namespace dresslife::pipeline

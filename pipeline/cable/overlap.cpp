@@ -1,0 +1,160 @@
+#include "pipeline/cable/overlap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/settings/problems.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double allowed = 0.02;   // of the diameter, without a warning
+constexpr double rounding = 1e-9;  // of the diameter: six straight ones around one of their size touch
+constexpr double hopeless = 0.5;   // of the diameter, between the axes
+constexpr int steps = 64;          // of phi, to find the valley
+
+bool fits(const Component& of, double lay_angle, int count, double give = rounding) {
+  return count < 2 || neighbour_distance(of.helix_radius, lay_angle, count) >= 2 * of.radius * (1 - give);
+}
+
+int largest_count(const Component& of) {
+  int count = of.count;
+  while (!fits(of, of.lay_angle, count)) --count;
+  return count;
+}
+
+/// Between 0, which fits, and that of the component, which does not.
+double largest_lay_angle(const Component& of) {
+  double low = 0, high = of.lay_angle;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = (low + high) / 2;
+    (fits(of, middle, of.count) ? low : high) = middle;
+  }
+  return low;
+}
+
+std::string what_fits(const Component& of) {
+  const std::string fewer = fmt::format("{} of them fit", largest_count(of));
+  if (of.lay_angle == 0 || !fits(of, 0, of.count)) return fewer;
+  return fmt::format("at a lay angle of {:.1f} deg all fit, at {:.4g} deg {}",
+                     std::floor(10 * largest_lay_angle(of) * 180 / pi) / 10, of.lay_angle * 180 / pi, fewer);
+}
+
+/// Turn about the parent's axis along it [rad/m].
+double turn_rate(const Component& of) {
+  if (of.helix_radius == 0) return 0;
+  return (of.hand == Hand::left ? -1 : 1) * std::tan(of.lay_angle) / of.helix_radius;
+}
+
+/// Side by side all along, or crossing each other within a metre.
+bool go_on_alike(const Component& one, const Component& other) {
+  constexpr double along = 1;  // [m]
+  if (one.helix_radius == 0 || other.helix_radius == 0) return true;
+  return std::abs(turn_rate(one) - turn_rate(other)) * along < 2 * pi / std::max(one.count, other.count);
+}
+
+void add_overlaps_between(const std::vector<Component>& components, Problems& problems,
+                          std::vector<Warning>* warnings) {
+  for (std::size_t a = 0; a < components.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const Component &one = components[b], &other = components[a];
+      if (!overlap_each_other(one, other)) continue;
+      const double apart = nearest_distance(one, other), needed = one.radius + other.radius;
+      const auto name = [](const Component& of) {
+        return of.layer.empty() ? of.name : of.layer + "/" + of.name;
+      };
+      const std::string what = fmt::format(
+          "'{}' and '{}' come as near as {:.4g} mm between their axes, {:.3f} mm less than their "
+          "radii together",
+          name(one), name(other), 1e3 * apart, 1e3 * (needed - apart));
+      const std::string remedy = "check helix_radius_mm, radius_mm, phase_deg and lay_angle_deg of both";
+      if (apart < hopeless * needed && go_on_alike(one, other))
+        problems.add(other.where, what + " (nearer than half of these)", remedy);
+      else if (warnings)
+        warnings->push_back({WarningKind::overlap, other.where.text(), what + "; " + remedy});
+    }
+}
+
+/// Gross overlap is a problem, less of it a warning where these are asked for.
+void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>* warnings) {
+  for (const Component& inner : of.components) add_overlaps(inner, problems, warnings);
+  add_overlaps_between(of.components, problems, warnings);
+  if (!overlaps(of)) return;
+  const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
+  const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
+  const std::string what = fmt::format(
+      "the {} parts '{}' are {:.4g} mm apart between their axes, {:.3f} mm less than their diameter",
+      of.count, name, 1e3 * apart, 1e3 * (needed - apart));
+  if (apart < hopeless * needed)
+    problems.add(of.where, fmt::format("{} (nearer than half of it)", what),
+                 fmt::format("check count, radius_mm, helix_radius_mm and lay_angle_deg; {}", what_fits(of)));
+  else if (warnings)
+    warnings->push_back({WarningKind::overlap, of.where.text(), fmt::format("{}; {}", what, what_fits(of))});
+}
+
+}  // namespace
+
+// One valley between phi = -turned, where the other lies beside it, and 0, where it lies a lay before it:
+// found by steps, then by thirds.
+double neighbour_distance(double helix_radius, double lay_angle, int count) {
+  const double turned = 2 * pi / count, R = helix_radius;
+  if (lay_angle == 0) return 2 * R * std::sin(turned / 2);
+  const double per_angle = R / std::tan(lay_angle);
+  const auto squared = [&](double phi) {
+    return 2 * R * R * (1 - std::cos(turned + phi)) + per_angle * phi * per_angle * phi;
+  };
+  int nearest = 0;
+  for (int k = 1; k <= steps; ++k)
+    if (squared(-turned * k / steps) < squared(-turned * nearest / steps)) nearest = k;
+  double low = -turned * std::min(nearest + 1, steps) / steps,
+         high = -turned * std::max(nearest - 1, 0) / steps;
+  for (int third = 0; third < 40;
+       ++third) {  // 2/3 of the width each time: 1e-7 of a step, squared in the distance
+    const double left = (2 * low + high) / 3, right = (low + 2 * high) / 3;
+    (squared(left) < squared(right) ? high : low) = squared(left) < squared(right) ? right : left;
+  }
+  return std::sqrt(squared((low + high) / 2));
+}
+
+double nearest_distance(const Component& one, const Component& other) {
+  if (one.helix_radius == 0 || other.helix_radius == 0 || !go_on_alike(one, other))
+    return std::abs(one.helix_radius - other.helix_radius);
+  double nearest = one.helix_radius + other.helix_radius;
+  for (int k = 0; k < one.count; ++k)
+    for (int j = 0; j < other.count; ++j) {
+      const double between = one.phase + 2 * pi * k / one.count - other.phase - 2 * pi * j / other.count;
+      nearest = std::min(nearest, std::hypot(one.helix_radius - other.helix_radius * std::cos(between),
+                                             other.helix_radius * std::sin(between)));
+    }
+  return nearest;
+}
+
+bool overlaps(const Component& component) {
+  return component.helix_radius > 0 && !fits(component, component.lay_angle, component.count, allowed);
+}
+
+bool overlap_each_other(const Component& one, const Component& other) {
+  return nearest_distance(one, other) < (one.radius + other.radius) * (1 - allowed);
+}
+
+std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
+  Problems problems;
+  std::vector<Warning> warnings;
+  for (const Component& component : dresspack.components) add_overlaps(component, problems, &warnings);
+  add_overlaps_between(dresspack.components, problems, &warnings);
+  problems.finish();
+  return warnings;
+}
+
+void refuse_gross_overlap(const Dresspack& dresspack) {
+  Problems problems;
+  for (const Component& component : dresspack.components) add_overlaps(component, problems, nullptr);
+  add_overlaps_between(dresspack.components, problems, nullptr);
+  problems.finish();
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,39 @@
+// Parts of one layer that would need more room than their circle has, and parts of two layers that would lie
+// in each other.
+//
+// Neighbours lie on helices of one radius R and lay angle alpha, turned against each other by delta = 2 pi/K.
+// Seen from a point of one, the other is nearest not in the cross-section but a little along,
+//     d^2 = min over phi of 2 R^2 (1 - cos(delta + phi)) + (R phi / tan(alpha))^2,
+// phi the angle by which it goes on; straight parts are 2 R sin(delta/2) apart.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/base/warnings.h"
+#include "pipeline/job/dresspack.h"
+
+namespace dresslife::pipeline {
+
+/// Between the axes of neighbours in a layer of `count` > 1 parts [m].
+double neighbour_distance(double helix_radius, double lay_angle, int count);
+
+/// Nearest that parts of two components of one parent come to each other, between their axes [m]: as they lie
+/// in the cross-section where they go on alike (tan(alpha) / R), else R less R, since in a metre they meet.
+double nearest_distance(const Component& one, const Component& other);
+
+/// Whether the parts of a component overlap by more than overlap_warnings() allows.
+bool overlaps(const Component& component);
+/// Likewise those of two components of one parent.
+bool overlap_each_other(const Component& one, const Component& other);
+
+/// A warning for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
+/// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit. Likewise for
+/// each two components of one parent. Errors: InputError for parts nearer than half of their diameter, of two
+/// components where they go on alike, as cables at one angle. Insulation gives, but two such parts would
+/// share over a third of their sections.
+std::vector<Warning> overlap_warnings(const Dresspack& dresspack);
+
+/// The errors alone, in a hundredth of the time: nobody asks what would fit.
+void refuse_gross_overlap(const Dresspack& dresspack);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,65 @@
+// Parts of a dresspack without wires: hoses for air and water, optical fibres, fillers. They have mass and
+// stiffness, take room, push cables aside and pull at the clamps; a life of their own they have not here.
+//
+// A tube of polymer (polymer.h), outer radius r and bore b, has
+//     E I = E pi (r^4 - b^4) / 4,   E A = E pi (r^2 - b^2),   mass = density pi (r^2 - b^2) + of what fills
+//     the bore.
+// A bending stiffness that is given sets E.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "pipeline/settings/document.h"
+
+namespace dresslife::pipeline {
+
+class Fields;
+
+enum class PlainKind { filler, hose, fibre };
+constexpr std::string_view word(PlainKind value) {
+  switch (value) {
+    case PlainKind::filler:
+      return "filler";
+    case PlainKind::hose:
+      return "hose";
+    case PlainKind::fibre:
+      return "fibre";
+  }
+  return {};
+}
+
+enum class Medium { air, water };
+constexpr std::string_view word(Medium value) {
+  switch (value) {
+    case Medium::air:
+      return "air";
+    case Medium::water:
+      return "water";
+  }
+  return {};
+}
+
+struct PlainPart {
+  PlainKind kind = PlainKind::filler;
+  std::optional<double> bore;               ///< inner diameter of a hose [m]; absent: two thirds of the outer
+  Medium medium = Medium::air;              ///< that fills it
+  std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: of polymer
+  Where where;
+};
+
+void describe(Fields& f, PlainPart& part);
+
+/// Of a part of this radius [m].
+struct PlainProperties {
+  double bore = 0;     ///< inner radius [m]
+  double bending = 0;  ///< E I [N m2]
+  double axial = 0;    ///< E A [N]
+  double mass = 0;     ///< per length [kg/m]
+};
+PlainProperties properties_of(const PlainPart& part, double radius);
+
+/// Errors: InputError for a bore that does not fit, or in what is no hose.
+void check_plain_part(const PlainPart& part, double radius, std::string_view name);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,20 @@
+#include "pipeline/cable/shares.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dresslife::helices {
+
+double elastic_share(double jacket_stiffness, double axial_stiffness, double evening_length) {
+  if (jacket_stiffness == 0) return 0;
+  const double waves = 2 * std::numbers::pi / evening_length;  // [rad/m]
+  return jacket_stiffness / (jacket_stiffness + axial_stiffness * waves * waves);
+}
+
+double radial_share(double axial_stiffness, double lay_angle, double helix_radius, double radial_stiffness) {
+  if (helix_radius == 0) return 1;
+  const double press = std::pow(std::sin(lay_angle), 2) / helix_radius;  // of a tension [1/m]
+  return 1 / (1 + axial_stiffness * press * press / radial_stiffness);
+}
+
+}  // namespace dresslife::helices

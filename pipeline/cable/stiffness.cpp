@@ -1,0 +1,306 @@
+#include "pipeline/cable/stiffness.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/cable/cable_bending.h"
+#include "pipeline/cable/corrugation.h"
+#include "pipeline/cable/polymer.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double wire_density = 8900;        // [kg/m3], of copper
+constexpr double torsion_of_core = 0.8;      // ESTIMATE, as of a solid round bar
+constexpr double gravity = 9.81;             // [m/s2]
+constexpr double believable_stretch = 1e-3;  // by its own weight; hoses of polyamide: 1e-4 and less
+constexpr double believable = 2;  // a life moves by up to a factor of five with twice the E I (README)
+
+/// Of a round of polymer.
+double round_bending(double radius) { return polymer_modulus * pi / 4 * std::pow(radius, 4); }
+
+/// Of a part's jacket and insulation: given, else of a round as wide as it is. A measured stiffness has it in
+/// it. Of a part without wires all of it.
+double polymer_of(const Component& part) {
+  if (part.plain) return properties_of(*part.plain, part.radius).bending;
+  if (part.components.empty()) return 0;
+  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness)
+    return part.polymer_bending_stiffness;
+  return round_bending(part.radius);
+}
+
+bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_value(); }
+
+/// Of all in it. What is no hose is a cable itself, of parts in a jacket, or holds nothing but one.
+double polymer_of(const Dresspack& dresspack) {
+  double sum = 0;
+  bool on_axis = false;
+  for (const Component& part : dresspack.components) {
+    sum += part.count * polymer_of(part);
+    on_axis |= part.helix_radius == 0 && !part.components.empty();
+  }
+  return is_hose(dresspack) || on_axis ? sum : round_bending(dresspack.diameter / 2);
+}
+
+bool knows_wall(const Dresspack& dresspack) {
+  return dresspack.hose_corrugation || (dresspack.inner_diameter && !dresspack.hose_strain_factor);
+}
+
+HoseStiffness wall_of(const Dresspack& dresspack) {
+  const Material* const material = find_material(dresspack, dresspack.hose_material);
+  if (material == nullptr || !knows_wall(dresspack)) return {};
+  const double E = material->youngs_modulus, G = E / (2 * (1 + material->poisson_ratio));
+  if (!dresspack.hose_corrugation) {
+    const double outer = dresspack.diameter / 2, inner = *dresspack.inner_diameter / 2;
+    const double I = pi / 4 * (std::pow(outer, 4) - std::pow(inner, 4));
+    return {E * I, G * 2 * I, E * pi * (outer * outer - inner * inner)};
+  }
+  const Corrugation& profile = *dresspack.hose_corrugation;
+  const Fold fold = fold_of(profile);
+  const double R = wall_factors(dresspack).radius;
+  const double EA = 2 * pi * R * profile.pitch * E * std::pow(profile.wall, 3) / (48 * fold.compliance);
+  return {EA * R * R / 2, 2 * pi * R * R * R * profile.wall * G * profile.pitch / fold.unfolded(), EA};
+}
+
+/// Adds the wires over the polymer that they displace [kg/m].
+void add_wires(const Component& part, double count, double cosines, double& mass) {
+  count *= part.count;
+  cosines *= std::cos(part.lay_angle);
+  for (const Component& inner : part.components) add_wires(inner, count, cosines, mass);
+  if (!part.components.empty()) return;
+  const double area = count * pi * part.radius * part.radius;
+  mass += (wire_density - polymer_density) * area / cosines;
+}
+
+/// [m2] across the hose.
+double section_of_wall(const Dresspack& dresspack) {
+  if (dresspack.hose_corrugation) {
+    const Corrugation& profile = *dresspack.hose_corrugation;
+    return pi * (dresspack.diameter - profile.height) * profile.wall * fold_of(profile).unfolded() /
+           profile.pitch;
+  }
+  return pi / 4 *
+         (dresspack.diameter * dresspack.diameter - *dresspack.inner_diameter * *dresspack.inner_diameter);
+}
+
+HoseStiffness core_of(const Dresspack& dresspack) {
+  const double bending = dresspack.core_bending_stiffness.value_or(0);
+  return {bending, dresspack.core_torsional_stiffness.value_or(torsion_of_core * bending),
+          dresspack.core_axial_stiffness.value_or(0)};
+}
+
+/// A layer of the dresspack by itself, as if it were all of a cable.
+Component alone(const Component& layer) {
+  Component cable;
+  cable.components = {layer};
+  return cable;
+}
+
+Component whole(const Dresspack& dresspack) {
+  Component all;
+  all.components = dresspack.components;
+  return all;
+}
+
+/// What its wires answer, once for all states.
+class Wires {
+ public:
+  explicit Wires(const Dresspack& dresspack) : bending_(dresspack, whole(dresspack), StraightParts::slide) {
+    for (const Component& layer : dresspack.components)
+      layers_.push_back(pull_and_twist(dresspack, alone(layer)));
+  }
+  double bending(SlipState state, double curvature) const {
+    switch (state) {
+      case SlipState::sliding:
+        return bending_.free_stiffness();
+      case SlipState::friction:
+        return bending_.moment(curvature, 1) / curvature;
+      case SlipState::stuck:
+        return bending_.stuck_stiffness();
+    }
+    return 0;
+  }
+  const std::vector<PullAndTwist>& layers() const { return layers_; }
+
+ private:
+  CableBending bending_;
+  std::vector<PullAndTwist> layers_;  ///< of the dresspack
+};
+
+double pull_of_plain(const Component& part) {
+  return part.plain ? part.count * properties_of(*part.plain, part.radius).axial *
+                          std::pow(std::cos(part.lay_angle), 3)
+                    : 0;
+}
+
+HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, SlipState state,
+                             double curvature) {
+  const HoseStiffness wall = wall_of(dresspack), core = core_of(dresspack);
+  const double polymer = polymer_of(dresspack);
+  HoseStiffness sum{wall.bending + core.bending + polymer + wires.bending(state, curvature),
+                    wall.torsional + core.torsional + torsion_of_polymer * polymer, wall.axial + core.axial};
+  for (std::size_t k = 0; k < dresspack.components.size(); ++k) {
+    const PullAndTwist& of = wires.layers()[k];
+    const bool pulls = state == SlipState::stuck || dresspack.components[k].laying.slack == 0;
+    sum.torsional += pulls ? of.torque_by_twist : of.relaxed();
+    sum.axial += pulls ? of.pull_by_elongation + pull_of_plain(dresspack.components[k]) : 0;
+  }
+  return sum;
+}
+
+std::string state_words(const Dresspack& dresspack) {
+  const std::string state(word(dresspack.construction_state));
+  return dresspack.construction_state == SlipState::friction
+             ? fmt::format("{} at {:.3g} 1/m", state, dresspack.construction_curvature)
+             : state;
+}
+
+}  // namespace
+
+double mass_of_part(const Component& part) {
+  if (part.plain) return properties_of(*part.plain, part.radius).mass;
+  const double area = pi * part.radius * part.radius;
+  double mass = polymer_density * area;
+  for (const Component& inner : part.components) add_wires(inner, 1, 1, mass);
+  return mass;
+}
+
+double mass_of_construction(const Dresspack& dresspack) {
+  double mass = is_hose(dresspack) ? polymer_density * section_of_wall(dresspack) : 0, parts = 0;
+  for (const Component& part : dresspack.components) {
+    const double own = is_wire(part) ? wire_density * pi * part.radius * part.radius : mass_of_part(part);
+    mass += part.count * part.laying.mass.value_or(own) / std::cos(part.lay_angle);
+    parts += part.count * pi * part.radius * part.radius / std::cos(part.lay_angle);
+  }
+  const double left = pi / 4 * dresspack.diameter * dresspack.diameter - parts;
+  return is_hose(dresspack) ? mass : mass + polymer_density * std::max(left, 0.0);
+}
+
+HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState state, double curvature) {
+  return stiffness_with(Wires(dresspack), dresspack, state, curvature);
+}
+
+std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
+  std::vector<std::string> missing;
+  if (dresspack.core_diameter > 0 && !dresspack.core_bending_stiffness)
+    missing.push_back(fmt::format("what fills its core of {:.3g} mm (core_bending_stiffness_Nm2)",
+                                  1e3 * dresspack.core_diameter));
+  if (is_hose(dresspack) && dresspack.hose_material.empty())
+    missing.push_back("its wall (hose_material)");
+  else if (is_hose(dresspack) && !knows_wall(dresspack))
+    missing.push_back("its wall (hose_corrugation)");
+  return missing;
+}
+
+void take_from_construction(Dresspack& dresspack) {
+  if (!is_from_construction(dresspack)) return;
+  if (dresspack.mass_from_construction) dresspack.mass_per_length = mass_of_construction(dresspack);
+  const HoseStiffness taken =
+      stiffness_of_construction(dresspack, dresspack.construction_state, dresspack.construction_curvature);
+  const auto take = [&](bool wanted, const char* key, double value, double& to) {
+    if (!wanted) return;
+    if (!(value > 0))
+      throw InputError(
+          dresspack.where,
+          fmt::format(
+              "dresspack.{} is from_construction, which has none (no part, wall or core of it carries)", key),
+          fmt::format("give {}, components with wires, hose_material and its profile, or the core's", key));
+    to = value;
+  };
+  take(dresspack.bending_from_construction, "bending_stiffness_Nm2", taken.bending,
+       dresspack.bending_stiffness);
+  take(dresspack.torsional_from_construction, "torsional_stiffness_Nm2", taken.torsional,
+       dresspack.torsional_stiffness);
+  take(dresspack.axial_from_construction, "axial_stiffness_N", taken.axial, dresspack.axial_stiffness);
+}
+
+namespace {
+
+/// Of stiffnesses from a construction of which something is not known; empty: none is taken from it.
+std::string too_little_words(const Dresspack& dresspack, const std::vector<std::string>& missing) {
+  std::vector<std::string> taken;
+  const auto take = [&](bool from_construction, const char* key, double value) {
+    if (from_construction) taken.push_back(fmt::format("{} {:.3g}", key, value));
+  };
+  take(dresspack.bending_from_construction, "bending_stiffness_Nm2", dresspack.bending_stiffness);
+  take(dresspack.torsional_from_construction, "torsional_stiffness_Nm2", dresspack.torsional_stiffness);
+  take(dresspack.axial_from_construction, "axial_stiffness_N", dresspack.axial_stiffness);
+  if (taken.empty() || missing.empty()) return "";
+  const double stretch = gravity * dresspack.mass_per_length / dresspack.axial_stiffness;
+  const std::string soft =
+      dresspack.axial_from_construction && stretch > believable_stretch
+          ? fmt::format("; it would stretch by {:.2g} % under a metre of its own weight", 100 * stretch)
+          : "";
+  const bool wall = is_hose(dresspack) && dresspack.hose_material.empty();
+  return fmt::format("too little is from_construction: {}, without {}{} ({}give {} as measured)",
+                     fmt::join(taken, ", "), fmt::join(missing, " and "), soft,
+                     wall ? "name the wall's, as hose_material: hose_polyamide, or " : "give that, or ",
+                     taken.size() == 1 ? "it" : "them");
+}
+
+}  // namespace
+
+std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
+  const double given = dresspack.bending_stiffness, curvature = dresspack.construction_curvature;
+  if (dresspack.components.empty() || given <= 0) return {};
+  const auto missing = missing_in_construction(dresspack);
+  std::vector<Warning> warnings;
+  const auto warn = [&](std::string words) {
+    warnings.push_back({WarningKind::material, "", std::move(words)});
+  };
+  if (const std::string words = too_little_words(dresspack, missing); !words.empty()) warn(words);
+  if (dresspack.bending_from_construction) return warnings;
+  const std::string without = missing.empty() ? "" : fmt::format(" without {}", fmt::join(missing, " and "));
+  const Wires wires(dresspack);
+  const auto bending = [&](SlipState state) {
+    return stiffness_with(wires, dresspack, state, curvature).bending;
+  };
+  const double sliding = bending(SlipState::sliding), friction = bending(SlipState::friction),
+               stuck = bending(SlipState::stuck);
+  // How solid a jacket is that holds parts, and how it holds them, is not known of a cable.
+  const double least =
+      is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
+  const double most = !missing.empty()     ? HUGE_VAL
+                      : is_hose(dresspack) ? std::min(friction * believable, stuck)
+                                           : stuck;
+  if (given >= least && given <= most) return warnings;
+  warn(fmt::format(
+      "bending_stiffness_Nm2 is {:.3g}, {:.2g} times what the dresspack's parts{} have by their friction and pressures at {:.3g} "
+      "1/m: {:.3g}, {:.3g} sliding, {:.3g} glued (measure it by the sag of a hanging length, or write "
+      "from_construction)",
+      given, given / friction, without, curvature, friction, sliding, stuck));
+  return warnings;
+}
+
+std::string stiffness_text(const Dresspack& dresspack) {
+  if (dresspack.components.empty() && dresspack.hose_material.empty()) return "";
+  const double curvature = dresspack.construction_curvature;
+  const Wires wires(dresspack);
+  const HoseStiffness sliding = stiffness_with(wires, dresspack, SlipState::sliding, curvature),
+                      friction = stiffness_with(wires, dresspack, SlipState::friction, curvature),
+                      stuck = stiffness_with(wires, dresspack, SlipState::stuck, curvature);
+  std::string text;
+  if (dresspack.mass_from_construction)
+    text += fmt::format("mass {:.4g} kg/m from construction: wires of {:.0f} kg/m3 in a polymer of {:.0f}\n",
+                        dresspack.mass_per_length, wire_density, polymer_density);
+  const auto line = [&](const char* name, const char* unit, double used, bool taken,
+                        double HoseStiffness::*of) {
+    text += fmt::format(
+        "{} {:.4g} {} {}; of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n",
+        name, used, unit, taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given",
+        sliding.*of, friction.*of, curvature, stuck.*of);
+  };
+  line("E I", "N m2", dresspack.bending_stiffness, dresspack.bending_from_construction,
+       &HoseStiffness::bending);
+  line("G J", "N m2", dresspack.torsional_stiffness, dresspack.torsional_from_construction,
+       &HoseStiffness::torsional);
+  line("E A", "N", dresspack.axial_stiffness, dresspack.axial_from_construction, &HoseStiffness::axial);
+  const auto missing = missing_in_construction(dresspack);
+  return missing.empty() ? text : text + fmt::format("without {}\n", fmt::join(missing, " and "));
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,68 @@
+// How stiff a filled hose is by what it holds: `bending_stiffness_Nm2: from_construction`, so that the
+// simulation moves the hose whose wires the strain stage strains.
+//
+// Cables that lie straight in a hose share its bend and its twist, each about its own axis, and what fills
+// the middle and the wall share them, too:
+//     E I = sum of (polymer + M(kappa) / kappa of its wires, cable_bending.h) + wall + core,
+//     G J = sum of (2/3 polymer + its wires', its length free where it has slack) + wall + core,
+//     E A = sum of its wires' where it has no slack                               + wall + core.
+// What a cable off the axis gains in a bend it keeps or loses along the whole hose: that is a force from
+// clamp to clamp (W34 of strain/README.md), no stiffness of the cross-section, and nothing where it has
+// slack. Only glued cables
+// (`stuck`) add E A R^2 / 2 to E I. Parts without wires (plain_part.h) count as polymer, in E A too.
+//
+// state: `sliding`, nothing rubs; `stuck`, nothing slides; `friction`, what friction and pressures hold at
+// construction_curvature. That is the secant of the first bend. A bend to and fro between -kappa and kappa
+// ends where the first bend did (Masing), so it is also that of the motion, whose losses are the damping's.
+// Twist is alike all along a lay, so slip does not relieve it: G J has two values only.
+//
+// The wall of a corrugated hose is a folded beam (W22): pulled by F per length around, a corrugation gives by
+// 4 F J / D, D = E wall^3 / 12, so that E A = 2 pi R pitch E wall^3 / (48 J), E I = E A R^2 / 2; twist shears
+// it along its unfolded length: G J = 2 pi R^3 wall G pitch / (4 a + 2 pi r). A smooth wall is a tube.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/base/warnings.h"
+#include "pipeline/job/dresspack.h"
+
+namespace dresslife::pipeline {
+
+/// Of one part [kg/m]: given properties_of() what is without wires (plain_part.h), else its wires of 8900
+/// kg/m3, longer by their lays, in a polymer of 1200.
+double mass_of_part(const Component& part);
+/// Of the dresspack [kg/m]: its parts, as they are given or by mass_of_part(), and a polymer wall; what fills
+/// its core and what flows in it is left out. Of what is no hose, a jacket fills what its parts leave.
+double mass_of_construction(const Dresspack& dresspack);
+
+struct HoseStiffness {
+  double bending = 0;    ///< E I [N m2]
+  double torsional = 0;  ///< G J [N m2]
+  double axial = 0;      ///< E A [N]
+};
+
+/// Of the dresspack's construction in this state. curvature: of state `friction` [1/m]. Parts without
+/// friction and pressures slide. Errors: InputError for a measured bending stiffness that no friction gives.
+HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState state, double curvature);
+
+/// What of the construction is there, and not in those numbers, as words: "what fills its core (...)". Empty:
+/// nothing.
+std::vector<std::string> missing_in_construction(const Dresspack& dresspack);
+
+/// Sets the mass and the stiffnesses that the dresspack takes from its construction. Precondition: it is
+/// checked (check_dresspack). Errors: InputError where that has none.
+void take_from_construction(Dresspack& dresspack);
+
+/// Of a hose: a given E I that is not within a factor of two of what its parts have with the friction and
+/// pressures that are given, or below what they have without any; above is judged where nothing of it is
+/// missing. Of a cable in its jacket, whose stiffness by itself nobody knows: one below that of its sliding
+/// wires or above glued ones. And stiffnesses that are taken from a construction of which something is not
+/// known: a hose without its wall has next to no E A.
+std::vector<Warning> stiffness_warnings(const Dresspack& dresspack);
+
+/// For people: "E I 8.23 N m2 from construction (friction at 1 1/m); ...", one line for each of the three,
+/// before them one for a mass from construction, ending with line feeds.
+std::string stiffness_text(const Dresspack& dresspack);
+
+}  // namespace dresslife::pipeline

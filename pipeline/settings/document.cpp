@@ -1,0 +1,326 @@
+#include "pipeline/settings/document.h"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <unordered_set>
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr int most_nodes = 2'000'000;  // far above any job; stops aliases that multiply without end
+constexpr int deepest_level = 64;
+
+Where place(const YAML::Mark& mark, const std::string& file) {
+  // The library counts from 0, and a node without a place has -1.
+  return {file, mark.line + 1, mark.line >= 0 ? mark.column + 1 : 0};
+}
+
+class Converter {
+ public:
+  explicit Converter(const std::string& file) : file_(file) {}
+
+  Node convert(const YAML::Node& from, int depth = 0) {
+    Node node;
+    node.where = place(from.Mark(), file_);
+    if (++nodes_ > most_nodes || depth > deepest_level)
+      throw InputError(node.where, "document is too large or too deep (aliases of aliases?)",
+                       "write it out plainly");
+    if (from.IsScalar()) {
+      node.kind = Node::Kind::scalar;
+      node.text = from.Scalar();
+      node.quoted = from.Tag() == "!";
+    } else if (from.IsSequence()) {
+      node.kind = Node::Kind::list;
+      for (const auto& item : from) node.items.push_back(convert(item, depth + 1));
+    } else if (from.IsMap()) {
+      node.kind = Node::Kind::map;
+      std::unordered_set<std::string> keys;
+      for (const auto& pair : from) add_entry(node, keys, pair.first, pair.second, depth);
+    }
+    return under_its_tag(from.Tag(), std::move(node));
+  }
+
+ private:
+  /// A value with a tag of its own (`!uniform [1, 2]`) as a map with the tag as its one key.
+  static Node under_its_tag(const std::string& tag, Node node) {
+    if (tag.size() < 2 || tag[0] != '!') return node;
+    Node map;
+    map.where = node.where;
+    map[tag] = std::move(node);
+    map.entries.front().where = map.where;
+    return map;
+  }
+
+  void add_entry(Node& map, std::unordered_set<std::string>& keys, const YAML::Node& key,
+                 const YAML::Node& value, int depth) {
+    const Where where = place(key.Mark(), file_);
+    if (!key.IsScalar()) throw InputError(where, "a key must be a word", "write 'key: value'");
+    if (key.Scalar() == "<<")
+      throw InputError(where, "merge keys (<<) are not supported",
+                       "write 'from: NAME' to start from a catalogue entry");
+    if (!keys.insert(key.Scalar()).second)
+      throw InputError(where, fmt::format("duplicate key '{}'", key.Scalar()), "keep one of the two");
+    Node converted = convert(value, depth + 1);
+    // A value that is not there lies, for the library, where the next line begins.
+    if (converted.where.line <= 0 || converted.kind == Node::Kind::null) converted.where = where;
+    map.entries.push_back({key.Scalar(), where, std::move(converted)});
+  }
+
+  const std::string& file_;
+  int nodes_ = 0;
+};
+
+/// Walks a stream of documents and keeps only where it is.
+class Walker : public YAML::EventHandler {
+ public:
+  YAML::Mark begin;                           ///< of the document
+  YAML::Mark last = YAML::Mark::null_mark();  ///< of the latest key or value
+
+  void OnDocumentStart(const YAML::Mark& mark) override { begin = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { last = mark; }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { last = mark; }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
+    last = mark;
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    last = mark;
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    last = mark;
+  }
+  void OnMapEnd() override {}
+};
+
+/// Refuses what the library lets pass: further documents, a stray ',' (to it an endless stream of empty
+/// documents) and a quote that is never closed, which it only notices in text that does not end in a line
+/// feed.
+void check_stream(const std::string& text, const std::string& file) {
+  std::istringstream stream(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
+  YAML::Parser parser(stream);
+  Walker walker;
+  try {
+    if (!parser.HandleNextDocument(walker)) return;
+    const YAML::Mark first = walker.begin;
+    if (!parser.HandleNextDocument(walker)) return;
+    const Where where = place(walker.begin, file);
+    if (walker.begin.pos == first.pos)
+      throw InputError(where, "is not YAML (no value begins like this)", "mend the line");
+    throw InputError(where, "a second document begins here", "keep one document per file");
+  } catch (const YAML::Exception& problem) {
+    if (problem.msg != YAML::ErrorMsg::EOF_IN_SCALAR) throw;
+    throw InputError(walker.last.is_null() ? Where{file, 1, 1} : place(walker.last, file),
+                     "is not YAML (a quote that opens here or in the lines below is never closed)",
+                     "close it");
+  }
+}
+
+bool all_scalars(const Node& list) {
+  return std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is_scalar(); });
+}
+
+/// Text that needs no quotes at first sight: numbers, names, paths, sentences. The library looks at every
+/// letter with regular expressions.
+bool plain_at_sight(std::string_view text, bool in_brackets) {
+  const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
+  const auto is_letter = [](char letter) { return (letter | 0x20) >= 'a' && (letter | 0x20) <= 'z'; };
+  if (text.empty() || text == "null" || text == "Null" || text == "NULL" || text.back() == ' ') return false;
+  const bool begins = is_letter(text[0]) || is_digit(text[0]) || text[0] == '/' ||
+                      (text[0] == '-' && text.size() > 1 && is_digit(text[1]));
+  const std::string_view others = in_brackets ? " _.+-/();='" : " _.+-/();=',";
+  return begins && std::all_of(text.begin(), text.end(), [&](char letter) {
+           return is_letter(letter) || is_digit(letter) || others.find(letter) != std::string_view::npos;
+         });
+}
+
+/// A scalar with the quotes and escapes that the library finds it to need, as itself or as an item of [].
+std::string quoted_text(const std::string& text, bool quoted, bool in_brackets) {
+  const bool printed_as_it_is = std::all_of(text.begin(), text.end(), [](char letter) {
+    return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
+  });
+  if (printed_as_it_is && (quoted || text.find(": ") != std::string::npos)) return '"' + text + '"';
+  YAML::Emitter out;
+  if (in_brackets) out << YAML::Flow << YAML::BeginSeq;
+  if (quoted) out << YAML::DoubleQuoted;
+  out << text;
+  if (in_brackets) out << YAML::EndSeq;
+  std::string written = out.c_str();
+  return in_brackets ? written.substr(1, written.size() - 2) : written;
+}
+
+/// Writes the tree as the library's emitter does, whose layout takes it ten times as long: jobs are written
+/// several times for each of a study.
+class Emitter {
+ public:
+  explicit Emitter(std::string& out) : out_(out) {}
+
+  /// What stands alone, or behind "- ": its first line goes on where the text is.
+  void emit(const Node& node, std::size_t indent) {
+    switch (node.kind) {
+      case Node::Kind::null:
+        out_ += '~';
+        break;
+      case Node::Kind::scalar:
+        emit_text(node, false);
+        break;
+      case Node::Kind::list:
+        emit_list(node, indent);
+        break;
+      case Node::Kind::map:
+        emit_map(node, indent);
+        break;
+    }
+  }
+
+ private:
+  static constexpr std::size_t step = 2;  // of indentation
+
+  static bool stands_in_line(const Node& node) {
+    return !node.is_map() && !(node.is_list() && !all_scalars(node));
+  }
+  void new_line(std::size_t indent) {
+    out_ += '\n';
+    out_.append(indent, ' ');
+  }
+  void emit_text(const Node& node, bool in_brackets) {
+    if (!node.quoted && plain_at_sight(node.text, in_brackets))
+      out_ += node.text;
+    else
+      out_ += quoted_text(node.text, node.quoted, in_brackets);
+  }
+  void emit_list(const Node& list, std::size_t indent) {
+    const bool in_brackets = all_scalars(list);
+    if (in_brackets) out_ += '[';
+    for (std::size_t i = 0; i < list.items.size(); ++i) {
+      const Node& item = list.items[i];
+      if (in_brackets) {
+        if (i > 0) out_ += ", ";
+        emit_text(item, true);
+        continue;
+      }
+      if (i > 0) new_line(indent);
+      out_ += '-';
+      if (item.is_list() && !stands_in_line(item))
+        new_line(indent + step);
+      else
+        out_ += ' ';
+      emit(item, indent + step);
+    }
+    if (in_brackets) out_ += ']';
+  }
+  void emit_map(const Node& map, std::size_t indent) {
+    if (map.entries.empty()) out_ += "{}";
+    for (std::size_t i = 0; i < map.entries.size(); ++i) {
+      const Entry& entry = map.entries[i];
+      if (i > 0) new_line(indent);
+      out_ += plain_at_sight(entry.key, false) ? entry.key : quoted_text(entry.key, false, false);
+      out_ += ':';
+      if (stands_in_line(entry.value))
+        out_ += ' ';
+      else
+        new_line(indent + step);
+      emit(entry.value, indent + step);
+    }
+  }
+
+  std::string& out_;
+};
+
+}  // namespace
+
+const Node* Node::find(std::string_view key) const {
+  for (const Entry& entry : entries)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
+
+Node& Node::operator[](std::string_view key) {
+  if (Node* found = find(key)) return *found;
+  kind = Kind::map;
+  entries.push_back({std::string(key), where, Node{}});
+  entries.back().value.where = where;
+  return entries.back().value;
+}
+
+Node scalar(std::string text) {
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.text = std::move(text);
+  return node;
+}
+
+Node list_of(std::vector<Node> items) {
+  Node node;
+  node.kind = Node::Kind::list;
+  node.items = std::move(items);
+  return node;
+}
+
+void place_at(Node& node, const Where& where) {
+  node.where = where;
+  for (Node& item : node.items) place_at(item, where);
+  for (Entry& entry : node.entries) {
+    entry.where = where;
+    place_at(entry.value, where);
+  }
+}
+
+Node parse_yaml(const std::string& text, const std::string& file) {
+  YAML::Node document;
+  try {
+    check_stream(text, file);
+    document = YAML::Load(text);
+  } catch (const YAML::Exception& problem) {
+    throw InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg),
+                     "mend the line");
+  }
+  Node root = Converter(file).convert(document);
+  if (root.where.line <= 0) root.where = {file, 1, 1};
+  return root;
+}
+
+Node read_yaml(const std::filesystem::path& file) { return parse_yaml(read_text(file), file.string()); }
+
+std::string to_yaml(const Node& node) {
+  std::string text;
+  Emitter(text).emit(node, 0);
+  return text + '\n';
+}
+
+std::filesystem::path folder_of(const Where& where) {
+  return where.file.starts_with("--set ") ? "" : std::filesystem::path(where.file).parent_path();
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  constexpr std::uintmax_t longest = 256 << 20;  // [bytes]; a day of recorded poses takes 100 MB
+  std::error_code failure;                       // opening tells it
+  const std::filesystem::file_status status = std::filesystem::status(file, failure);
+  if (std::filesystem::is_directory(status))
+    throw InputError({file.string()}, "is a folder, not a file", "name a file");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError({file.string()}, "is a device or a pipe, not a file", "save it as a file first");
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError({file.string()}, fmt::format("cannot be read ({})", std::strerror(errno)),
+                     "check the path");
+  if (const auto size = std::filesystem::file_size(file); size > longest)
+    throw InputError({file.string()}, fmt::format("has {} bytes (at most {} are read)", size, longest),
+                     "split it, or leave out what is not needed");
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad()) throw InputError({file.string()}, "cannot be read to its end", "check the disk");
+  return text.str();
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,59 @@
+// A YAML document as a tree in which every key and value knows its file, line and column. The YAML library
+// stays behind this header; duplicate keys, merge keys and oversized documents are refused while reading.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/base/errors.h"
+
+namespace dresslife::pipeline {
+
+struct Entry;
+
+struct Node {
+  enum class Kind { null, scalar, list, map };
+  Kind kind = Kind::null;
+  std::string text;  ///< of a scalar
+  bool quoted = false;
+  std::vector<Node> items;     ///< of a list
+  std::vector<Entry> entries;  ///< of a map, in the order of the file
+  Where where;
+
+  bool is_map() const { return kind == Kind::map; }
+  bool is_list() const { return kind == Kind::list; }
+  bool is_scalar() const { return kind == Kind::scalar; }
+  const Node* find(std::string_view key) const;  ///< value of a map's key; null: no such key
+  Node* find(std::string_view key);
+  Node& operator[](std::string_view key);  ///< finds or adds the key; makes a null node a map
+};
+
+struct Entry {
+  std::string key;
+  Where where;
+  Node value;
+};
+
+Node scalar(std::string text);
+Node list_of(std::vector<Node> items);
+
+/// Gives a whole tree one place: of what was not written where errors could point at.
+void place_at(Node& node, const Where& where);
+
+/// Reads a document. Errors: InputError at the place that is not YAML, or not allowed here.
+Node parse_yaml(const std::string& text, const std::string& file);
+Node read_yaml(const std::filesystem::path& file);
+
+/// The document as text that parse_yaml() reads back to the same tree.
+std::string to_yaml(const Node& node);
+
+/// The folder that file names written at a place are relative to: the file's, or the current one for `--set`.
+std::filesystem::path folder_of(const Where& where);
+
+/// The whole of a text file. Errors: InputError when it cannot be read, is no plain file (a pipe may never
+/// end) or is longer than any text that a person or a controller writes.
+std::string read_text(const std::filesystem::path& file);
+
+}  // namespace dresslife::pipeline

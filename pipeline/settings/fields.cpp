@@ -1,0 +1,617 @@
+#include "pipeline/settings/fields.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "pipeline/settings/units.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+std::string joined(const Fields::Words& words) { return fmt::format("{}", fmt::join(words, " | ")); }
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    if (text == ".nan" || text == ".inf" || text == "-.inf" || text == ".NaN") return std::nan("");
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above_left = diagonal;
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, above_left + (a[i - 1] != b[j - 1])});
+    }
+  }
+  return row.back();
+}
+
+std::string default_or(Need need, const std::string& fallback) {
+  return need == Need::required ? "required" : fallback;
+}
+
+std::string unit_note(Fields::Key key) {
+  const Unit& unit = unit_of_key(key);
+  return unit.name.empty() ? "" : fmt::format(" {}", unit.name);
+}
+
+}  // namespace
+
+std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
+  std::string best;
+  std::size_t distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : words)
+    if (const std::size_t d = edit_distance(word, candidate); d < distance) {
+      distance = d;
+      best = candidate;
+    }
+  return best;
+}
+
+std::string Range::text() const {
+  const bool from = std::isfinite(low), to = std::isfinite(high);
+  if (from && to) return fmt::format("{} .. {}", low, high);
+  if (from) return fmt::format("{} {}", low_excluded ? ">" : ">=", low);
+  if (to) return fmt::format("<= {}", high);
+  return "any";
+}
+
+// ---- reading ----------------------------------------------------------------------------------------------
+
+namespace {
+
+class FieldReader final : public Fields {
+ public:
+  FieldReader(const Node& root, Problems& problems) : problems_(problems), passed_over_(problems.keys()) {
+    if (!root.is_map())
+      throw InputError(root.where, "holds no settings (a map of 'key: value' lines is expected)",
+                       "write some");
+    levels_.emplace_back().map = &root;
+  }
+
+  /// Unknown or missing keys of the root.
+  void finish() { close(levels_.back()); }
+
+  void text(Key key, std::string& value, Need need, std::string_view meaning) override {
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_scalar() || node.text.empty())
+        refuse(node, fmt::format("{} must be text", name_of(key)), meaning);
+      value = node.text;
+    });
+  }
+
+  void number(Key key, double& value, Need need, Range range, std::string_view meaning) override {
+    read(key, need, meaning,
+         [&](const Node& node) { value = number_of(node, key, range, meaning) * unit_of_key(key).to_si; });
+  }
+
+  void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) override {
+    read(key, Need::optional, meaning,
+         [&](const Node& node) { value = number_of(node, key, range, meaning) * unit_of_key(key).to_si; });
+  }
+
+  void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
+                      std::string_view meaning) override {
+    read(key, need, meaning, [&](const Node& node) {
+      by_word = node.is_scalar() && node.text == word;
+      if (!by_word) value = number_of(node, key, range, meaning, word) * unit_of_key(key).to_si;
+    });
+  }
+
+  void integer(Key key, int& value, Need need, Range range, std::string_view meaning) override {
+    read(key, need, meaning, [&](const Node& node) {
+      const double number = number_of(node, key, range, meaning);
+      if (number != std::floor(number) || std::abs(number) > 1e9)
+        refuse(node, fmt::format("{} is {} (must be a whole number)", name_of(key), node.text), meaning);
+      value = static_cast<int>(number);
+    });
+  }
+
+  void boolean(Key key, bool& value, Need need, std::string_view meaning) override {
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_scalar() || (node.text != "true" && node.text != "false"))
+        refuse(node, fmt::format("{} is '{}' (must be true or false)", name_of(key), node.text), meaning);
+      value = node.text == "true";
+    });
+  }
+
+  void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) override {
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_list() || node.items.size() != 3)
+        refuse(node, fmt::format("{} must be three numbers [x, y, z]", name_of(key)), meaning);
+      for (int axis = 0; axis < 3; ++axis)
+        value[axis] = number_of(node.items[axis], key, any_number(), meaning) * unit_of_key(key).to_si;
+    });
+  }
+
+  void numbers(Key key, std::vector<double>& values, Need need, std::string_view meaning) override {
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_list() || node.items.empty())
+        refuse(node, fmt::format("{} must be a list of numbers", name_of(key)), meaning);
+      values.clear();
+      for (const Node& item : node.items)
+        values.push_back(number_of(item, key, any_number(), meaning) * unit_of_key(key).to_si);
+    });
+  }
+
+  void path(Key key, std::filesystem::path& value, Need need, std::string_view meaning) override {
+    std::string written;
+    text(key, written, need, meaning);
+    if (written.empty()) return;
+    const Node* node = levels_.back().map->find(key);
+    // Absolute, because the echo of a job may be read from another folder.
+    value = std::filesystem::absolute(folder_of(node->where) / written).lexically_normal();
+  }
+
+  void place(Where& where) override { where = levels_.back().map->where; }
+
+ protected:
+  void choose(Key key, int& index, const Words& words, std::string_view meaning) override {
+    read(key, Need::optional, meaning, [&](const Node& node) { index = word_of(node, key, words, meaning); });
+  }
+
+  void choose_some(Key key, std::vector<int>& indices, const Words& words,
+                   std::string_view meaning) override {
+    read(key, Need::optional, meaning, [&](const Node& node) {
+      if (node.is_list() && node.items.empty())
+        refuse(node, fmt::format("{} is an empty list", name_of(key)), meaning);
+      std::vector<int> read;
+      if (!node.is_list()) read.push_back(word_of(node, key, words, meaning));
+      for (const Node& item : node.items) read.push_back(word_of(item, key, words, meaning));
+      indices = std::move(read);
+    });
+  }
+
+  bool enter(Key key, Need need, bool, std::string_view meaning, const char*) override {
+    bool entered = false;
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_map()) refuse(node, fmt::format("{} must be a map of settings", name_of(key)), meaning);
+      Level level;
+      level.path = name_of(key);
+      level.map = &node;
+      levels_.push_back(std::move(level));
+      entered = true;
+    });
+    return entered;
+  }
+
+  void leave() override {
+    const Level level = std::move(levels_.back());
+    levels_.pop_back();
+    close(level);
+  }
+
+  std::size_t enter_list(Key key, std::size_t, Need need, std::string_view meaning, const char*) override {
+    Level level;
+    level.path = name_of(key);
+    read(key, need, meaning, [&](const Node& node) {
+      if (!node.is_list()) refuse(node, fmt::format("{} must be a list", name_of(key)), meaning);
+      level.list = &node;
+    });
+    levels_.push_back(std::move(level));
+    return levels_.back().list ? levels_.back().list->items.size() : 0;
+  }
+
+  void enter_item(std::size_t index) override {
+    static const Node nothing;
+    const Node& node = levels_.back().list->items[index];
+    Level level;
+    level.path = fmt::format("{}[{}]", levels_.back().path, index + 1);
+    level.map = &node;
+    level.passed_over = passed_over_.contains(level.path);
+    if (!level.passed_over && !node.is_map()) {
+      problems_.add(node.where, fmt::format("{} must be a map of settings", level.path),
+                    "write {key: value, ...}", level.path);
+      level.passed_over = true;
+    }
+    if (level.passed_over) level.map = &nothing;
+    levels_.push_back(std::move(level));
+  }
+
+  void leave_list() override { levels_.pop_back(); }
+
+ private:
+  struct Level {
+    const Node* map = nullptr;
+    const Node* list = nullptr;
+    bool passed_over = false;        ///< it was refused as a whole
+    std::string path;                ///< of the map, for messages: "dresspack.components[2]"
+    std::vector<std::string> known;  ///< keys described so far
+    struct Missing {
+      std::string key, meaning;
+    };
+    std::vector<Missing> missing;
+  };
+
+  [[noreturn]] static void refuse(const Node& node, const std::string& what, std::string_view meaning) {
+    throw InputError(node.where, what, fmt::format("give {}", meaning));
+  }
+
+  /// Hands the key's value to `take`, where the map has one that nobody has refused; what take throws is a
+  /// problem of this key.
+  template <class Take>
+  void read(Key key, Need need, std::string_view meaning, const Take& take) {
+    Level& level = levels_.back();
+    level.known.emplace_back(key);
+    if (level.passed_over || (!passed_over_.empty() && passed_over_.contains(name_of(key)))) return;
+    const Node* node = level.map->find(key);
+    if (!node && need == Need::required) level.missing.push_back({std::string(key), std::string(meaning)});
+    if (!node) return;
+    const std::string path = name_of(key);
+    problems_.attempt(path, node->where, [&] {
+      if (node->kind == Node::Kind::null) refuse(*node, fmt::format("{} has no value", path), meaning);
+      take(*node);
+    });
+  }
+
+  std::string name_of(Key key) const {
+    const std::string& path = levels_.back().path;
+    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+  }
+
+  /// word: that may stand instead; empty: none.
+  double number_of(const Node& node, Key key, Range range, std::string_view meaning,
+                   std::string_view word = "") const {
+    const std::optional<double> value =
+        node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
+    if (!value) {
+      const std::string unit = unit_note(key);
+      throw InputError(node.where,
+                       fmt::format("{} is {} (must be a number{}{})", name_of(key),
+                                   node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
+                                   word.empty() ? "" : fmt::format(" or {}", word),
+                                   unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
+                       fmt::format("give {}", meaning));
+    }
+    if (!std::isfinite(*value))
+      throw InputError(node.where, fmt::format("{} is {} (must be finite)", name_of(key), node.text),
+                       fmt::format("give {}", meaning));
+    if (!range.holds(*value))
+      throw InputError(
+          node.where,
+          fmt::format("{} is {} (must be {}{})", name_of(key), node.text, range.text(), unit_note(key)),
+          fmt::format("give {}", meaning));
+    const Unit& unit = unit_of_key(key);
+    if (std::abs(*value) > unit.most || (range.low_excluded && range.low == 0 && *value < unit.least()))
+      throw InputError(node.where,
+                       fmt::format("{} is {} (its size must be {} .. {}{})", name_of(key), node.text,
+                                   range.low_excluded ? unit.least() : 0.0, unit.most, unit_note(key)),
+                       fmt::format("give {}", meaning));
+    return *value;
+  }
+
+  int word_of(const Node& node, Key key, const Words& words, std::string_view meaning) const {
+    if (node.is_scalar())
+      for (std::size_t i = 0; i < words.size(); ++i)
+        if (node.text == words[i]) return static_cast<int>(i);
+    throw InputError(node.where,
+                     fmt::format("{} is '{}' (must be {})", name_of(key), node.text, joined(words)),
+                     fmt::format("give {}", meaning));
+  }
+
+  std::string likely_key(const Level& level, const std::string& unknown, std::string& remedy) const {
+    for (const std::string& known : level.known) {
+      if (stem_of_key(known) != stem_of_key(unknown)) continue;
+      const std::string_view unit = unit_of_key(known).name;
+      remedy = unit.empty() ? fmt::format("this key carries no unit, write '{}'", known)
+                            : fmt::format("its unit is {}, write '{}'", unit, known);
+      return known;
+    }
+    const std::string nearest = nearest_word(unknown, level.known);
+    remedy = nearest.empty() ? fmt::format("keys here: {}", fmt::join(level.known, ", "))
+                             : fmt::format("did you mean '{}'?", nearest);
+    return nearest;
+  }
+
+  /// A key that is there under a wrong name is not missing.
+  void close(const Level& level) {
+    if (level.passed_over) return;
+    const auto path_of = [&](const std::string& key) {
+      return level.path.empty() ? key : level.path + "." + key;
+    };
+    std::vector<std::string> misnamed;
+    for (const Entry& entry : level.map->entries) {
+      if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end()) continue;
+      std::string remedy;
+      const std::string likely = likely_key(level, entry.key, remedy);
+      misnamed.push_back(likely);
+      problems_.add(entry.where, fmt::format("unknown key '{}'", path_of(entry.key)), remedy,
+                    likely.empty() ? "" : path_of(likely));
+    }
+    for (const auto& [key, meaning] : level.missing)
+      if (std::find(misnamed.begin(), misnamed.end(), key) == misnamed.end())
+        problems_.add(level.map->where, fmt::format("{} is missing", path_of(key)),
+                      fmt::format("add '{}: ...': {}", key, meaning), path_of(key));
+  }
+
+  Problems& problems_;
+  const std::set<std::string> passed_over_;  ///< keys that were refused before
+  std::vector<Level> levels_;
+};
+// ---- echo -------------------------------------------------------------------------------------------------
+
+class FieldEcho final : public Fields {
+ public:
+  Node finish() { return std::move(levels_.front()); }
+  FieldEcho() {
+    levels_.emplace_back();
+    levels_.back().kind = Node::Kind::map;
+    keys_.emplace_back();
+  }
+
+  void text(Key key, std::string& value, Need, std::string_view) override {
+    if (!value.empty()) put(key, scalar(value));
+  }
+
+  void number(Key key, double& value, Need, Range, std::string_view) override {
+    put(key, scalar(text_in_unit(value, unit_of_key(key))));
+  }
+
+  void maybe_number(Key key, std::optional<double>& value, Range, std::string_view) override {
+    if (value) put(key, scalar(text_in_unit(*value, unit_of_key(key))));
+  }
+
+  void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need, Range,
+                      std::string_view) override {
+    put(key, scalar(by_word ? std::string(word) : text_in_unit(value, unit_of_key(key))));
+  }
+
+  void integer(Key key, int& value, Need, Range, std::string_view) override {
+    put(key, scalar(std::to_string(value)));
+  }
+
+  void boolean(Key key, bool& value, Need, std::string_view) override {
+    put(key, scalar(value ? "true" : "false"));
+  }
+
+  void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) override {
+    std::vector<double> values(value.begin(), value.end());
+    numbers(key, values, need, meaning);
+  }
+
+  void numbers(Key key, std::vector<double>& values, Need, std::string_view) override {
+    if (values.empty()) return;
+    std::vector<Node> items;
+    for (double value : values) items.push_back(scalar(text_in_unit(value, unit_of_key(key))));
+    put(key, list_of(std::move(items)));
+  }
+
+  void path(Key key, std::filesystem::path& value, Need, std::string_view) override {
+    if (!value.empty()) put(key, scalar(value.string()));
+  }
+
+  void place(Where&) override {}
+
+ protected:
+  void choose(Key key, int& index, const Words& words, std::string_view) override {
+    put(key, scalar(std::string(words[index])));
+  }
+
+  void choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view) override {
+    if (indices.empty()) return;
+    std::vector<Node> items;
+    for (int index : indices) items.push_back(scalar(std::string(words[index])));
+    put(key, items.size() == 1 ? items[0] : list_of(std::move(items)));
+  }
+
+  bool enter(Key key, Need, bool present, std::string_view, const char*) override {
+    if (!present) return false;
+    keys_.emplace_back(key);
+    levels_.emplace_back();
+    levels_.back().kind = Node::Kind::map;
+    return true;
+  }
+
+  void leave() override {
+    Node map = std::move(levels_.back());
+    const std::string key = keys_.back();
+    levels_.pop_back();
+    keys_.pop_back();
+    if (levels_.back().is_list())
+      levels_.back().items.push_back(std::move(map));
+    else if (!map.entries.empty())
+      put(key, std::move(map));
+  }
+
+  std::size_t enter_list(Key key, std::size_t count, Need, std::string_view, const char*) override {
+    keys_.emplace_back(key);
+    levels_.emplace_back();
+    levels_.back().kind = Node::Kind::list;
+    return count;
+  }
+
+  void enter_item(std::size_t) override {
+    keys_.emplace_back();
+    levels_.emplace_back();
+    levels_.back().kind = Node::Kind::map;
+  }
+
+  void leave_list() override {
+    Node list = std::move(levels_.back());
+    const std::string key = keys_.back();
+    levels_.pop_back();
+    keys_.pop_back();
+    if (!list.items.empty()) put(key, std::move(list));
+  }
+
+ private:
+  void put(Key key, Node value) { levels_.back()[key] = std::move(value); }
+  std::vector<Node> levels_;       ///< open maps and lists, outermost first
+  std::vector<std::string> keys_;  ///< under which each of them goes into the one before
+};
+// ---- manual -----------------------------------------------------------------------------------------------
+
+class FieldManual final : public Fields {
+ public:
+  /// One Markdown table per map, each under a heading; `title` heads the root.
+  std::string finish() {
+    done_[0] = open_[0];
+    std::string text;
+    for (const Table& table : done_)
+      text +=
+          fmt::format("### {}\n\n| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n{}\n",
+                      table.path, table.rows);
+    return text;
+  }
+
+  explicit FieldManual(std::string title) {
+    open_.push_back({std::move(title), "", ""});
+    slots_.push_back(0);
+    done_.emplace_back();
+  }
+
+  void text(Key key, std::string& value, Need need, std::string_view meaning) override {
+    row(key, "text", default_or(need, value.empty() ? "none" : value), meaning);
+  }
+
+  void number(Key key, double& value, Need need, Range range, std::string_view meaning) override {
+    row(key, range.text(), default_or(need, text_in_unit(value, unit_of_key(key))), meaning);
+  }
+
+  void maybe_number(Key key, std::optional<double>&, Range range, std::string_view meaning) override {
+    row(key, range.text(), "none", meaning);
+  }
+
+  void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
+                      std::string_view meaning) override {
+    row(key, fmt::format("{} \\| {}", range.text(), word),
+        default_or(need, by_word ? std::string(word) : text_in_unit(value, unit_of_key(key))), meaning);
+  }
+
+  void integer(Key key, int& value, Need need, Range range, std::string_view meaning) override {
+    row(key, "whole, " + range.text(), default_or(need, std::to_string(value)), meaning);
+  }
+
+  void boolean(Key key, bool& value, Need need, std::string_view meaning) override {
+    row(key, "true \\| false", default_or(need, value ? "true" : "false"), meaning);
+  }
+
+  void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) override {
+    const Unit& unit = unit_of_key(key);
+    row(key, "[x, y, z]",
+        default_or(need, fmt::format("[{}, {}, {}]", text_in_unit(value[0], unit),
+                                     text_in_unit(value[1], unit), text_in_unit(value[2], unit))),
+        meaning);
+  }
+
+  void numbers(Key key, std::vector<double>&, Need need, std::string_view meaning) override {
+    row(key, "list of numbers", default_or(need, "none"), meaning);
+  }
+
+  void path(Key key, std::filesystem::path&, Need need, std::string_view meaning) override {
+    row(key, "file", default_or(need, "none"), meaning);
+  }
+
+  void place(Where&) override {}
+
+ protected:
+  void choose(Key key, int& index, const Words& words, std::string_view meaning) override {
+    row(key, fmt::format("{}", fmt::join(words, " \\| ")), std::string(words[index]), meaning);
+  }
+
+  void choose_some(Key key, std::vector<int>& indices, const Words& words,
+                   std::string_view meaning) override {
+    row(key, fmt::format("{}; one, or a list", fmt::join(words, " \\| ")),
+        indices.empty() ? "none" : std::string(words[indices[0]]), meaning);
+  }
+
+  bool enter(Key key, Need need, bool, std::string_view meaning, const char* type) override {
+    const bool above = stands_above(key, type);
+    row(key, "map", need == Need::required ? "required" : "see below",
+        fmt::format("{}{}", meaning, above ? "; its keys are those above" : ""));
+    return !above && open(key, "", type);
+  }
+
+  void leave() override {
+    if (open_.back().path.ends_with("[]")) return;  // the list closes it
+    done_[slots_.back()] = open_.back();
+    slots_.pop_back();
+    open_.pop_back();
+  }
+
+  std::size_t enter_list(Key key, std::size_t, Need need, std::string_view meaning,
+                         const char* type) override {
+    row(key, "list of maps", default_or(need, "none"), meaning);
+    if (open(key, "[]", type)) return 1;
+    open_.push_back({"", "", ""});
+    slots_.push_back(done_.size());
+    return 0;
+  }
+
+  void enter_item(std::size_t) override {}
+  void leave_list() override {
+    if (!open_.back().path.empty()) done_[slots_.back()] = open_.back();
+    slots_.pop_back();
+    open_.pop_back();
+  }
+
+ private:
+  struct Table {
+    std::string path, type, rows;
+  };
+  void row(Key key, const std::string& allowed, const std::string& fallback, std::string_view meaning) {
+    open_.back().rows +=
+        fmt::format("| `{}` | {} | {} | {} | {} |\n", key, unit_of_key(key).name, allowed, fallback, meaning);
+  }
+
+  /// Whether a key of the root has this name and type.
+  bool stands_above(Key key, const char* type) const {
+    return std::any_of(done_.begin(), done_.end(),
+                       [&](const Table& table) { return table.path == key && table.type == type; });
+  }
+
+  bool open(Key key, const std::string& suffix, const char* type) {
+    for (const Table& table : open_)
+      if (table.type == type) return false;  // a struct within itself: its table stands already
+    const std::string parent = open_.size() == 1 ? "" : open_.back().path + ".";
+    slots_.push_back(done_.size());
+    done_.emplace_back();
+    open_.push_back({fmt::format("{}{}{}", parent, key, suffix), type, ""});
+    return true;
+  }
+
+  std::vector<Table> open_;
+  std::vector<std::size_t> slots_;
+  std::vector<Table> done_;  ///< in the order of opening
+};
+
+}  // namespace
+
+// ---- the three walks --------------------------------------------------------------------------------------
+
+void read_fields(const Node& node, const Describe& described) {
+  Problems problems;
+  read_fields(node, described, problems);
+  problems.finish(node.where.file);
+}
+
+void read_fields(const Node& node, const Describe& described, Problems& problems) {
+  FieldReader reader(node, problems);
+  described(reader);
+  reader.finish();
+}
+
+Node echo_fields(const Describe& described) {
+  FieldEcho echo;
+  described(echo);
+  return echo.finish();
+}
+
+std::string field_manual(const std::string& title, const Describe& described) {
+  FieldManual manual(title);
+  described(manual);
+  return manual.finish();
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,158 @@
+// Describe a settings struct once; read, check, echo and document it from that.
+//
+//   void describe(Fields& f, Hose& hose) {
+//     f.number("diameter_mm", hose.diameter, Need::required, above(0), "outer diameter");
+//   }
+//
+// The unit is the end of the key (units.h). What a struct holds before it is described is its default. Three
+// visitors walk the same describe(): read_fields() from a document, echo_fields() to one, field_manual() to
+// Markdown. A key that nobody describes, a missing or non-finite value and a value outside its range are
+// problems that name the place, the reason and the remedy; a reader goes on behind each and tells of all.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <typeinfo>
+#include <vector>
+
+#include "pipeline/settings/document.h"
+#include "pipeline/settings/problems.h"
+
+namespace dresslife::pipeline {
+
+enum class Need { required, optional };
+
+/// Allowed values, in the unit of the key.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_excluded = false;
+
+  bool holds(double value) const { return (low_excluded ? value > low : value >= low) && value <= high; }
+  std::string text() const;  ///< "> 0", "0 .. 100", "any"
+};
+inline Range any_number() { return {}; }
+inline Range above(double low) { return {low, std::numeric_limits<double>::infinity(), true}; }
+inline Range at_least(double low) { return {low}; }
+inline Range between(double low, double high) { return {low, high}; }
+
+class Fields {
+ public:
+  virtual ~Fields() = default;
+  using Key = std::string_view;
+  using Words = std::vector<std::string_view>;  ///< of a choice, in the order of the enum's values
+
+  /// The words of an enumeration that counts from 0: its word() is empty beyond the last value.
+  template <class Enum>
+  static Words words_of() {
+    Words words;
+    while (!word(static_cast<Enum>(words.size())).empty())
+      words.push_back(word(static_cast<Enum>(words.size())));
+    return words;
+  }
+
+  virtual void text(Key key, std::string& value, Need need, std::string_view meaning) = 0;
+  virtual void number(Key key, double& value, Need need, Range range, std::string_view meaning) = 0;
+  virtual void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) = 0;
+  /// A number, or this word: then by_word is set and the value stays.
+  virtual void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need,
+                              Range range, std::string_view meaning) = 0;
+  virtual void integer(Key key, int& value, Need need, Range range, std::string_view meaning) = 0;
+  virtual void boolean(Key key, bool& value, Need need, std::string_view meaning) = 0;
+  virtual void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) = 0;
+  virtual void numbers(Key key, std::vector<double>& values, Need need, std::string_view meaning) = 0;
+  /// A file, relative to the folder of the document that names it.
+  virtual void path(Key key, std::filesystem::path& value, Need need, std::string_view meaning) = 0;
+  /// Where the map being read begins.
+  virtual void place(Where& where) = 0;
+
+  /// One of an enumeration that has a word() for each of its values.
+  template <class Enum>
+  void choice(Key key, Enum& value, std::string_view meaning) {
+    int index = static_cast<int>(value);
+    choose(key, index, words_of<Enum>(), meaning);
+    value = static_cast<Enum>(index);
+  }
+  /// One word, or a list of words.
+  template <class Enum>
+  void choices(Key key, std::vector<Enum>& values, std::string_view meaning) {
+    std::vector<int> indices;
+    for (Enum value : values) indices.push_back(static_cast<int>(value));
+    choose_some(key, indices, words_of<Enum>(), meaning);
+    values.clear();
+    for (int index : indices) values.push_back(static_cast<Enum>(index));
+  }
+  template <class T>
+  void group(Key key, T& value, Need need, std::string_view meaning, bool present = true) {
+    if (!enter(key, need, present, meaning, typeid(T).name())) return;
+    describe(*this, value);
+    leave();
+  }
+  template <class T>
+  void maybe_group(Key key, std::optional<T>& value, std::string_view meaning) {
+    if (!enter(key, Need::optional, value.has_value(), meaning, typeid(T).name())) return;
+    if (!value) value.emplace();
+    describe(*this, *value);
+    leave();
+  }
+  template <class T>
+  void list(Key key, std::vector<T>& values, Need need, std::string_view meaning) {
+    values.resize(enter_list(key, values.size(), need, meaning, typeid(T).name()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      enter_item(i);
+      describe(*this, values[i]);
+      leave();
+    }
+    leave_list();
+  }
+
+ protected:
+  virtual void choose(Key key, int& index, const Words& words, std::string_view meaning) = 0;
+  virtual void choose_some(Key key, std::vector<int>& indices, const Words& words,
+                           std::string_view meaning) = 0;
+  virtual bool enter(Key key, Need need, bool present, std::string_view meaning, const char* type) = 0;
+  virtual void leave() = 0;
+  virtual std::size_t enter_list(Key key, std::size_t count, Need need, std::string_view meaning,
+                                 const char* type) = 0;
+  virtual void enter_item(std::size_t index) = 0;
+  virtual void leave_list() = 0;
+};
+
+/// Something that describes a struct to whoever walks it.
+using Describe = std::function<void(Fields&)>;
+
+/// From a document's map. Errors: see above; all at once.
+void read_fields(const Node& node, const Describe& described);
+/// The same among other problems: keys that they refused are passed over, and its own are added to them. A
+/// value that is refused leaves what it was before.
+void read_fields(const Node& node, const Describe& described, Problems& problems);
+/// To a map, with defaults filled in.
+Node echo_fields(const Describe& described);
+/// One Markdown table per map, each under a heading; `title` heads the root.
+std::string field_manual(const std::string& title, const Describe& described);
+
+template <class T>
+void read_fields(const Node& node, T& value) {
+  read_fields(node, Describe([&](Fields& f) { describe(f, value); }));
+}
+
+template <class T>
+Node echo_fields(T value) {
+  return echo_fields(Describe([&](Fields& f) { describe(f, value); }));
+}
+
+template <class T>
+std::string field_manual(const std::string& title) {
+  T value{};
+  return field_manual(title, Describe([&](Fields& f) { describe(f, value); }));
+}
+
+/// The word nearest to `word` by edit distance; empty when none is near.
+std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
+
+}  // namespace dresslife::pipeline

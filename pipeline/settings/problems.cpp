@@ -1,0 +1,81 @@
+#include "pipeline/settings/problems.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace dresslife::pipeline {
+namespace {
+
+/// More are read by nobody, and those of a million wrong steps would be longer than their file.
+constexpr std::size_t most_problems = 100;
+
+std::string lines_of(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + problem.line;
+  return text;
+}
+
+/// Whether the path `inner` is `outer` or leads into it: "routing.rings[2]" into "routing".
+bool lies_in(std::string_view inner, std::string_view outer) {
+  return inner.starts_with(outer) &&
+         (inner.size() == outer.size() || inner[outer.size()] == '.' || inner[outer.size()] == '[');
+}
+
+}  // namespace
+
+InputErrors::InputErrors(std::vector<Problem> problems)
+    : InputError({}, "", ""), problems_(std::move(problems)), text_(lines_of(problems_)) {}
+
+void Problems::add(const Where& where, const std::string& what, const std::string& remedy,
+                   const std::string& key) {
+  note({where, key, InputError(where, what, remedy).what()});
+}
+
+void Problems::note(Problem problem) {
+  if (!problem.key.empty()) keys_.insert(problem.key);
+  const bool known = std::any_of(problems_.begin(), problems_.end(),
+                                 [&](const Problem& other) { return other.line == problem.line; });
+  if (known) return;
+  if (problems_.size() < most_problems)
+    problems_.push_back(std::move(problem));
+  else
+    more_ = true;
+}
+
+bool Problems::touch(const std::string& key) const {
+  return std::any_of(keys_.begin(), keys_.end(), [&](const std::string& refused) {
+    return lies_in(refused, key) || lies_in(key, refused);
+  });
+}
+
+void Problems::finish(const std::string& first_file) const {
+  if (problems_.empty()) return;
+  std::vector<std::string> files{first_file};  // in the order in which they were met
+  for (const Problem& problem : problems_)
+    if (std::find(files.begin(), files.end(), problem.where.file) == files.end())
+      files.push_back(problem.where.file);
+  const auto place = [&](const Problem& problem) {
+    return std::make_tuple(std::find(files.begin(), files.end(), problem.where.file), problem.where.line,
+                           problem.where.column);
+  };
+  std::vector<Problem> sorted = problems_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
+  if (more_)
+    sorted.push_back({Where{first_file, 0, 0}, "",
+                      fmt::format("{}: error: only the first {} problems are told; mend them first",
+                                  first_file, most_problems)});
+  throw InputErrors(std::move(sorted));
+}
+
+std::vector<std::string> problem_lines(const std::string& words) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin <= words.size();) {
+    const std::size_t end = std::min(words.find('\n', begin), words.size());
+    lines.push_back(words.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,295 @@
+#include "pipeline/stage/stage.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <sstream>
+#include <system_error>
+
+#include "pipeline/base/installation.h"
+#include "pipeline/base/limits.h"
+#include "pipeline/base/threads.h"
+#include "pipeline/files/checksum.h"
+#include "pipeline/files/digest.h"
+#include "pipeline/files/receipt.h"
+#include "pipeline/job/job.h"
+#include "pipeline/job/sources.h"
+#include "pipeline/stage/command_line.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+const char* part_name(Part part) {
+  switch (part) {
+    case Part::sim:
+      return "robot, motion, dresspack, routing or simulation";
+    case Part::strain:
+      return "dresspack.components or strain";
+    case Part::fatigue:
+      return "dresspack.materials or fatigue";
+  }
+  return "";
+}
+
+/// A result that a user can make again at any time: ours, or nothing yet.
+bool may_be_replaced(const StageCall& call) {
+  const FileState state = state_of(call.output);
+  if (!state.exists() || state.size == 0) return true;
+  if (call.info.part) return is_dresslife_file(call.output);
+  return read_text(call.output).find("source: imported from ") != std::string::npos;
+}
+
+void check_output(const StageCall& call, bool force) {
+  if (call.info.may_lack_output && call.output.empty()) return;
+  check_replaceable(call.output);
+  std::error_code failure;
+  for (const StageInput& input : call.inputs)
+    if (std::filesystem::equivalent(input.file, call.output, failure))
+      throw InputError({call.output.string()},
+                       input.file == call.input ? "is the input itself" : "is one of the files that are read",
+                       "name another output after -o");
+  const auto folder = call.output.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, failure))
+    throw InputError({call.output.string()}, "lies in a folder that does not exist",
+                     fmt::format("make {} first", folder.string()));
+  if (!force && !may_be_replaced(call))
+    throw InputError({call.output.string()},
+                     fmt::format("is there already and no {} of {}'s", call.info.output, call.info.program),
+                     "name another file after -o, or replace it with --force");
+}
+
+/// Of the file behind links: inputs may lie anywhere.
+FileState input_state(const std::filesystem::path& file) {
+  std::error_code failure;
+  const std::filesystem::path target = std::filesystem::canonical(file, failure);
+  return failure ? FileState{} : state_of(target);
+}
+
+/// Two changes within one tick of the clock of file times have the same state: of a file that was changed so
+/// lately, or by a clock that ran ahead, the bytes count.
+StageInput input_as_it_is(const std::filesystem::path& file) {
+  constexpr auto tick = std::chrono::milliseconds(10);  // of the slowest kernels
+  const FileState state = input_state(file);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t age = std::chrono::nanoseconds(now).count() - state.changed_ns;
+  const bool young = age < std::chrono::nanoseconds(tick).count();
+  return {file, state, told_checksum(file), young};
+}
+
+/// A file that only another name of it was given or taken has other times, and the same bytes.
+bool is_unchanged(const StageInput& input) {
+  FileState now = input_state(input.file);
+  if (now == input.state) return !input.young || told_checksum(input.file) == input.checksum;
+  now.changed_ns = input.state.changed_ns;
+  return now == input.state && input.checksum && checksum_of(input.file) == input.checksum;
+}
+
+void check_inputs_unchanged(const StageCall& call) {
+  for (const StageInput& input : call.inputs)
+    if (!is_unchanged(input))
+      throw InputError({input.file.string()}, fmt::format("has changed while {} ran", call.info.program),
+                       "run it again");
+}
+
+/// The settings that this stage's result depends on, and the files beside them.
+struct Settings {
+  std::string text;
+  std::vector<std::filesystem::path> files;
+};
+Settings settings_of(const StageCall& call) {
+  const Job job = read_job(call.info.input_is_job ? call.input : call.job_file, call.sets);
+  return {part_text(job, *call.info.part),
+          *call.info.part == Part::sim ? files_beside(job) : std::vector<std::filesystem::path>{}};
+}
+
+void say(const StageCall& call, Progress& progress, const Warning& warning) {
+  if (call.of_a_study)
+    tell(warning.line() + "\n");
+  else
+    progress.note(warning.line());
+}
+
+std::vector<Warning> warnings_in(const FileReader& file) {
+  return file.has_attribute("warnings") ? warnings_from(file.text_attribute("warnings"))
+                                        : std::vector<Warning>{};
+}
+
+const Format& format_of_output(Part part) {
+  return part == Part::sim ? motion_format() : part == Part::strain ? strain_format() : life_format();
+}
+
+/// A log tells what its stage warned of, too, where the output is from an earlier run.
+void say_known_warnings(const StageCall& call) {
+  std::vector<Warning> before;
+  if (*call.info.part != Part::sim) {
+    const Format& format = format_of_output(*call.info.part == Part::strain ? Part::sim : Part::strain);
+    before = warnings_in(FileReader(call.input, format, FileReader::Scope::attributes));
+  }
+  Progress silent(call.info.program, true);
+  for (const Warning& warning :
+       warnings_in(FileReader(call.output, format_of_output(*call.info.part), FileReader::Scope::attributes)))
+    if (std::find(before.begin(), before.end(), warning) == before.end()) say(call, silent, warning);
+}
+
+/// Jobs of a study that are alike up to here get what one of them made, each under its own name. The names
+/// come before the receipts, as each changes what the file system tells of the file.
+void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt& receipt) {
+  if (flags.likes.empty()) return write_receipt(flags.receipt, receipt, call.output);
+  const std::filesystem::path name = call.output.filename(),
+                              note = flags.receipt.lexically_relative(call.output.parent_path());
+  std::vector<std::filesystem::path> folders;
+  std::istringstream lines(read_text(flags.likes));
+  for (std::string line; std::getline(lines, line);) folders.push_back(line);
+  for (const std::filesystem::path& folder : folders) {
+    std::filesystem::remove(folder / note);  // it tells of a file that is about to go
+    give_output(call.output, folder / name);
+  }
+  write_receipt(flags.receipt, receipt, call.output);
+  for (const std::filesystem::path& folder : folders) write_receipt(folder / note, receipt, folder / name);
+}
+
+/// Runs the body unless the receipt says that the output is made already.
+void run_with_receipt(const StageCall& call, const StageFlags& flags, const Settings& settings,
+                      const std::function<void()>& body) {
+  Digests digests;
+  if (const char* const noted = std::getenv("DRESSLIFE_DIGESTS")) digests.believe(noted);
+  Receipt wanted;
+  wanted.recipe = recipe_of(settings.text, settings.files, program_file(), digests);
+  wanted.made_with.emplace_back(call.info.program, digests.of(program_file()));
+  for (const std::filesystem::path& file : settings.files)
+    wanted.made_with.emplace_back(file.string(), digests.of(file));
+  wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
+  const std::optional<Receipt> known = read_receipt(flags.receipt);
+  const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
+                    is_as_noted(*known, call.output);
+  if (made) {
+    say_known_warnings(call);
+    wanted.output = known->output;
+    wanted.told = known->told;
+  } else {
+    std::filesystem::remove(flags.receipt);  // it tells of a file that is about to go
+    body();
+    wanted.output = told_checksum(call.output).value_or("damaged");
+    if (call.info.told) wanted.told = call.info.told(call.output);
+  }
+  check_inputs_unchanged(call);
+  give_to_likes(call, flags, wanted);
+}
+
+/// Until a stage knows what its job takes (pipeline/stage/memory.h): its job and its input are read with this much.
+constexpr std::uint64_t enough_to_begin_mb = 64;
+
+void run_body(StageCall& call, const StageFlags& flags,
+              const std::function<void(const StageCall&, Progress&)>& body) {
+  limit_time(call.info.program, call.limits.seconds);
+  limit_memory(call.limits.megabytes > 0 ? std::max(call.limits.megabytes, enough_to_begin_mb) : 0);
+  Progress progress(call.info.program, call.quiet);
+  const Sources documents;  // what is read for the receipt is what the stage works with, read once
+  const auto watch = [&](const std::filesystem::path& file) { call.inputs.push_back(input_as_it_is(file)); };
+  watch(call.input);
+  if (!call.job_file.empty()) watch(call.job_file);
+  std::optional<Settings> settings;
+  if (call.info.part && (call.info.input_is_job || !call.job_file.empty())) settings = settings_of(call);
+  if (settings)
+    for (const std::filesystem::path& file : settings->files) watch(file);
+  check_output(call, flags.force);
+  if (!call.info.input_is_job)  // jobs are short
+    call.input_sha256 = beside<std::string>([file = call.input] { return sha256_of_file(file); }).share();
+  if (flags.receipt.empty()) return body(call, progress);
+  run_with_receipt(call, flags, *settings, [&] { body(call, progress); });
+}
+
+}  // namespace
+
+int run_stage(const StageInfo& info, int argc, char** argv,
+              const std::function<void(const StageCall&, Progress&)>& body) {
+  settle_streams();
+  end_with_parent();
+  StageCall call;
+  StageFlags flags;
+  if (const std::optional<int> status = read_command_line(info, argc, argv, call, flags)) return *status;
+  return guarded(info.program, [&] {
+    run_body(call, flags, body);
+    return 0;
+  });
+}
+
+int finish_output(int status) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good()) return status;
+  tell(fmt::format("standard output: error: cannot be written ({}); free space or name another place\n",
+                   std::strerror(errno)));
+  return std::max(status, 1);
+}
+
+int guarded(const std::string& program, const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const InputError& problem) {
+    tell(fmt::format("{}\n", problem.what()));
+    return 1;
+  } catch (const std::filesystem::filesystem_error& problem) {
+    tell(fmt::format("{}: error: {}; check the folder and its permissions\n", problem.path1().string(),
+                     problem.code().message()));
+    return 1;
+  } catch (const std::bad_alloc&) {
+    tell(
+        fmt::format("{}: error: out of memory; run fewer jobs at a time, ask for fewer segments or samples, "
+                    "or allow more\n",
+                    program));
+    return 3;
+  } catch (const std::system_error& problem) {
+    tell(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits\n",
+                     program, problem.what()));
+    return 3;
+  } catch (const std::exception& problem) {
+    tell(fmt::format("{}: error: internal fault ({}); please report it with the job\n", program,
+                     problem.what()));
+    return 3;
+  }
+}
+
+Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before) {
+  const std::string own_text = input.text_attribute("job");
+  const std::string own_name = input.where().file + " (attribute job)";
+  // In a study it is the same text, which need not be understood twice.
+  if (!call.job_file.empty() && call.sets.empty() && read_source(call.job_file) == own_text)
+    return read_job(call.job_file);
+  const Job own = job_from(parse_yaml(own_text, own_name));
+  const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets)
+                                        : read_job(call.job_file, call.sets);
+  for (Part part : before)
+    if (part_text(own, part) != part_text(job, part))
+      throw InputError(input.where(),
+                       fmt::format("was made with other settings of {} than this job has", part_name(part)),
+                       fmt::format("run the stage before again with the same --job and --set, then {}",
+                                   call.info.program));
+  return job;
+}
+
+void note_warnings(FileWriter& file, const StageCall& call, Progress& progress,
+                   const std::vector<Warning>& own, const FileReader* before) {
+  for (const Warning& warning : own) say(call, progress, warning);
+  if (before && !before->has_attribute("warnings")) return;
+  file.attribute("warnings",
+                 warnings_text(joined(before ? warnings_in(*before) : std::vector<Warning>{}, own)));
+}
+
+void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier) {
+  check_inputs_unchanged(call);
+  // The output's name stays out of the history: the same input gives the same bytes wherever they go.
+  std::string line = fmt::format("{} {}: {} {}", call.info.program, version(), call.info.program,
+                                 call.input.filename().string());
+  if (!call.job_file.empty()) line += " --job " + call.job_file.filename().string();
+  for (const std::string& set : call.sets) line += " --set " + set;
+  file.attribute("job", job_text(job));
+  file.attribute("history", earlier.empty() ? line : earlier + "\n" + line);
+  file.attribute("input_sha256",
+                 call.input_sha256.valid() ? call.input_sha256.get() : sha256_of_file(call.input));
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,74 @@
+#include "pipeline/advise/calibrate/likelihood.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace dresslife::pipeline {
+namespace {
+
+using Eigen::VectorXd;
+
+ObservedLife life(LifeEnd end, double observed, double median, double spread, int specimens = 1) {
+  ObservedLife one;
+  one.log_life = observed;
+  one.end = end;
+  one.specimens = specimens;
+  one.variants = {{Emulator(median), Emulator(std::log(spread))}};
+  return one;
+}
+const VectorXd nowhere = VectorXd::Zero(1);
+double value(const ObservedLife& observed) { return log_likelihood(observed, nowhere); }
+
+TEST_CASE("likelihood: ln of the normal probability, far out as well") {
+  CHECK(log_normal_probability(0) == Approx(std::log(0.5)));
+  CHECK(log_normal_probability(9) == Approx(0).margin(1e-15));
+  // Abramowitz and Stegun, table 26.2: -log10 of the probability beyond x.
+  CHECK(-log_normal_probability(-10) / std::numbers::ln10 == Approx(23.11805).epsilon(1e-6));
+  CHECK(-log_normal_probability(-30) / std::numbers::ln10 == Approx(197.30921).epsilon(1e-6));
+  CHECK(log_normal_probability(-6 - 1e-9) == Approx(log_normal_probability(-6 + 1e-9)).epsilon(1e-5));
+}
+
+TEST_CASE("likelihood: one specimen that broke, that has not, and that had by then") {
+  CHECK(value(life(LifeEnd::broken, 2, 3, 0.5)) == Approx(-2 - std::log(0.5)));
+  CHECK(value(life(LifeEnd::at_least, 2, 3, 0.5)) == Approx(log_normal_probability(2)));
+  CHECK(value(life(LifeEnd::at_most, 2, 3, 0.5)) == Approx(log_normal_probability(-2)));
+}
+
+TEST_CASE("likelihood: several specimens share what their spool does to them") {
+  const ObservedLife apart = life(LifeEnd::at_least, 2, 2.3, 0.5, 3);
+  CHECK(value(apart) == Approx(3 * log_normal_probability(0.6)).epsilon(1e-9));
+  ObservedLife one_fate = apart;
+  one_fate.common_share = 1;
+  CHECK(value(one_fate) == Approx(log_normal_probability(0.6)));
+  // Two that correlate by rho are both above their median in 1/4 + asin(rho)/(2 pi) of all cases.
+  for (const double shared : {0.1, 0.5, 0.9}) {
+    ObservedLife two = life(LifeEnd::at_least, 2, 2, 0.4, 2);
+    two.common_share = shared;
+    const double both = 0.25 + std::asin(shared) / (2 * std::numbers::pi);
+    CHECK(value(two) == Approx(std::log(both)).epsilon(1e-4));
+  }
+  // Of n that broke the mean of their logarithms is told.
+  ObservedLife mean = life(LifeEnd::broken, 2, 3, 0.5, 4);
+  mean.common_share = 0.5;
+  mean.unshared_spread = 0.3;
+  const double variance = 0.125 + 0.09 + 0.125 / 4;
+  CHECK(value(mean) == Approx(-0.5 / variance - std::log(variance) / 2));
+}
+
+TEST_CASE("likelihood: what is not known of a test counts each way alike") {
+  ObservedLife mixed = life(LifeEnd::broken, 0, 0, 1);
+  mixed.variants.push_back({Emulator(3), Emulator(0)});
+  CHECK(value(mixed) == Approx(std::log((1 + std::exp(-4.5)) / 2)));
+}
+
+TEST_CASE("likelihood: measured numbers are sums of what the model says") {
+  Measurement loop;
+  loop.log_quantities = {Emulator(std::log(2)), Emulator(std::log(3))};
+  loop.numbers = {{5, 0.5, {{0, 1}, {1, 1}}}, {-1, 0.25, {{0, 1}, {1, -1}}}, {4, 1, {{0, 1.5}}}};
+  CHECK(said_by_model(loop, loop.numbers[1], nowhere) == Approx(-1));
+  CHECK(log_likelihood(loop, nowhere) == Approx(-0.5));
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline

@@ -1,0 +1,88 @@
+// Jobs without a routing, and dresspacks in another size.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "pipeline/advise/improve/draft.h"
+#include "pipeline/advise/improve/outcome.h"
+#include "pipeline/advise/improve/scaled.h"
+#include "pipeline/base/errors.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+const std::string found_routing =
+    "base_clamp: {link: link_3, position_m: [0, 0, 0.4], direction: [1, 0, 0.4]}\n"
+    "tool_clamp: {link: link_6, position_m: [0.1, 0, 0.2], direction: [1, 0, 0]}\nfree_length_m: 2.1\n";
+
+}  // namespace
+
+TEST_CASE("a dresspack in another size is similar to itself") {
+  const Dresspack whole = draft_of({.of = "abb_irb6640_185_280"}).job.dresspacks.front().dresspack;
+  const Dresspack half = scaled(whole, 0.5);
+  CHECK(half.diameter == whole.diameter / 2);
+  CHECK(half.mass_per_length == whole.mass_per_length / 4);
+  CHECK(half.bending_stiffness == whole.bending_stiffness / 16);
+  CHECK(half.hose_corrugation->wall == whole.hose_corrugation->wall / 2);
+  const Component &part = whole.components.front().components.front(),
+                  &small = half.components.front().components.front();
+  CHECK(small.radius == part.radius / 2);
+  CHECK(small.components.front().helix_radius == part.components.front().helix_radius / 2);
+  CHECK(small.lay_angle == part.lay_angle);
+  const Dresspack back = scaled(half, 2);
+  CHECK(back.torsional_stiffness == whole.torsional_stiffness);
+  CHECK(back.components.front().measured_bending_stiffness ==
+        whole.components.front().measured_bending_stiffness);
+}
+
+TEST_CASE("a robot's name is enough for a job, once a routing and a motion are found") {
+  const Draft draft = draft_of({.of = "kuka_kr16_2", .dresspack = "sensor_cable"});
+  CHECK(draft.exercise);
+  CHECK(draft.job.dresspacks.front().routing.base_clamp->link == "link_3");
+  CHECK(draft.job.dresspacks.front().routing.tool_clamp->link == "link_6");
+  const std::string motion = "{name: m, source: none, steps: [{joints_deg: [0, -90, 90, 0, 0, 0]}]}";
+  const Node as_it_is = routed(draft, found_routing, motion, 1);
+  CHECK(as_it_is.find("robot")->text == "kuka_kr16_2");  // names stay names
+  CHECK(as_it_is.find("dresspack")->text == "sensor_cable");
+  CHECK(job_from(as_it_is).dresspacks.front().routing.free_length == 2.1);
+  const Job small = job_from(routed(draft, found_routing, motion, 0.5));
+  CHECK(small.dresspacks.front().dresspack.diameter == Approx(0.0085 / 2).epsilon(1e-12));
+}
+
+TEST_CASE("of a job all but the routing is kept, and what cannot be routed is refused") {
+  const Draft draft =
+      draft_of({.of = "side_panel", .tool_link = "link_5", .sets = {"simulation.segments=20"}});
+  CHECK_FALSE(draft.exercise);
+  CHECK(draft.job.dresspacks.front().routing.tool_clamp->link == "link_5");
+  CHECK(job_from(routed(draft, found_routing, "", 1)).simulation.segments == 20);
+  CHECK_THROWS_WITH(draft_of({.of = "irb6640_two_dresspacks"}),
+                    Catch::Contains("a routing is proposed for one dresspack"));
+  CHECK_THROWS_WITH(draft_of({.of = "no_such_thing"}),
+                    Catch::Contains("'no_such_thing' is not in the catalogue"));
+  CHECK_THROWS_WITH(draft_of({.of = "side_panel", .tool_link = "link_9"}), Catch::Contains("link_9"));
+}
+
+TEST_CASE("the worst of several jobs has the least life and the most of each limit") {
+  Outcome good, tight;
+  good.hours = std::numeric_limits<double>::infinity();
+  good.beyond.assign(outcome_limits, -0.5);
+  tight = good;
+  tight.hours = 100;
+  tight.beyond[0] = 0.25;
+  const Outcome worst = worst_of({good, tight});
+  CHECK(worst.hours == 100);
+  CHECK(worst.violation() == 0.25);
+  CHECK_FALSE(worst.feasible());
+  CHECK(worst.words() == "bend radius passed by 0.25");
+  CHECK(good.feasible());
+  RankingRow failed;
+  failed.failure = "too short";
+  CHECK_FALSE(outcome_of(failed, "nowhere").feasible());
+  RankingRow lost;  // done, it says, but what its simulation noted is gone
+  lost.planned_hours = {1, 2, 3};
+  CHECK(outcome_of(lost, "nowhere").failure == "nowhere/.stage/sim.receipt cannot be read; run again");
+}
+
+}  // namespace dresslife::pipeline

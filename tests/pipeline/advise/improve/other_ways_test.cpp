@@ -1,0 +1,168 @@
+// The same targets in other ways, and jobs with one thing off.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "pipeline/advise/improve/nudges.h"
+#include "pipeline/advise/improve/other_arms.h"
+#include "pipeline/advise/improve/other_ways.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/job/job.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+Job shipped(const std::string& robot, const std::string& motion) {
+  return read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
+                  {"robot=" + robot, "motion=" + motion});
+}
+
+/// Pose of the last link, by its joints alone.
+Eigen::Isometry3d pose(const Robot& robot, const std::vector<double>& joints) {
+  Eigen::Isometry3d at = Eigen::Isometry3d::Identity();
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const Joint& joint = robot.joints[k];
+    at.translate(joint.origin);
+    at.rotate(Eigen::AngleAxisd(joint.orientation.z(), Vector3d::UnitZ()) *
+              Eigen::AngleAxisd(joint.orientation.y(), Vector3d::UnitY()) *
+              Eigen::AngleAxisd(joint.orientation.x(), Vector3d::UnitX()));
+    at.rotate(Eigen::AngleAxisd(joints[k], joint.axis.normalized()));
+  }
+  return at;
+}
+
+const MotionStep* step_at(const Job& job, const std::string& path) {
+  const std::vector<MotionStep>* steps = &job.motion.steps;
+  const MotionStep* step = nullptr;
+  for (std::size_t at = path.find("steps."); at != std::string::npos; at = path.find("steps.", at + 1)) {
+    step = &steps->at(std::stoul(path.substr(at + 6)) - 1);
+    steps = &step->steps;
+  }
+  return step;
+}
+
+}  // namespace
+
+TEST_CASE("other ways reach the same poses within the limits") {
+  std::set<std::string> kinds;
+  for (const char* robot : {"abb_irb6640_185_280", "abb_irb4600_60_205", "abb_irb6700_235_265"}) {
+    const Job job = shipped(robot, robot == std::string("abb_irb6640_185_280") ? "hard" : "easy");
+    const std::vector<OtherWay> ways = other_ways(job, std::vector<double>(13, 1.0), 13);
+    CHECK(ways.size() > 10);
+    for (const OtherWay& way : ways) {
+      kinds.insert(way.what.substr(0, 6));
+      const Job changed = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", [&] {
+        std::vector<std::string> sets{std::string("robot=") + robot, "motion=" + job.motion.name};
+        sets.insert(sets.end(), way.sets.begin(), way.sets.end());
+        return sets;
+      }());
+      for (const std::string& set : way.sets) {
+        if (set.find("={repeat: 1, ") != std::string::npos) continue;  // by a point
+        const std::string path = set.substr(0, set.rfind('.', set.find('=')));
+        const MotionStep &before = *step_at(job, path), &after = *step_at(changed, path);
+        if (before.joints.empty()) continue;
+        constexpr double rounding = 1e-6;  // of angles with six digits
+        CHECK(pose(job.robot, after.joints).isApprox(pose(job.robot, before.joints), 10 * rounding));
+        for (std::size_t k = 0; k < 6; ++k) {
+          CHECK(after.joints[k] >= job.robot.joints[k].lower);
+          CHECK(after.joints[k] <= job.robot.joints[k].upper);
+        }
+      }
+    }
+  }
+  CHECK(kinds == std::set<std::string>{"at 50 ", "at 70 ", "axis 4", "axis 6", "by a p", "other ", "wrist "});
+}
+
+TEST_CASE("lines that cost most come first, with their numbers") {
+  const Job job = shipped("abb_irb6640_185_280", "hard");
+  std::vector<double> damage(14, 0.0);
+  damage[5] = 2;  // roll the gun over
+  damage[1] = 1;
+  damage[8] = 0.5;  // the check after 'roll it over again'
+  std::vector<std::string> lines;
+  for (const OtherWay& way : other_ways(job, damage, 4))
+    if (!way.lines.empty() && (lines.empty() || lines.back() != way.lines.front()))
+      lines.push_back(way.lines.front());
+  CHECK(lines == std::vector<std::string>{"hard.yaml:17 'round: roll the gun over'",
+                                          "hard.yaml:13 'round: gun out to the left'",
+                                          "hard.yaml:19 'round: roll it over again'"});
+}
+
+TEST_CASE("a line goes by a point: arm and wrist one after the other, then the line as it was") {
+  const Job job = shipped("abb_irb6640_185_280", "hard");
+  std::vector<double> damage(14, 0.0);
+  damage[1] = 1;  // the block's first line, before which its last one ends
+  std::vector<OtherWay> points;
+  for (const OtherWay& way : other_ways(job, damage, 1))
+    if (way.what.starts_with("by a point")) points.push_back(way);
+  REQUIRE(points.size() == 2);
+  for (const OtherWay& way : points) {
+    const bool arm_first = way.what == "by a point: axes 1 to 3 first";
+    const Job changed = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
+                                 {"motion=hard", way.sets.front()});
+    const MotionStep &before = *step_at(job, "motion.steps.2.steps.1"),
+                     &block = *step_at(changed, "motion.steps.2.steps.1");
+    const MotionStep& from = *step_at(job, "motion.steps.2.steps.12");  // 'drawn back and rolled'
+    REQUIRE(block.steps.size() == 2);
+    CHECK(block.steps[1].joints == before.joints);
+    CHECK(block.steps[1].text == before.text);
+    for (std::size_t k = 0; k < 6; ++k)
+      CHECK(block.steps[0].joints[k] ==
+            Approx(((k < 3) == arm_first ? before : from).joints[k]).margin(1e-12));
+  }
+}
+
+TEST_CASE("other configurations of the arm: the same pose of the flange, and all that there are") {
+  Job job = shipped("abb_irb6640_185_280", "hard");
+  Robot& robot = job.robot;
+  REQUIRE(has_wrist(robot));
+  // Without limits an elbow arm with an offset shoulder has four where it reaches back, two where it does
+  // not.
+  constexpr double half_a_turn = 3.14159265;
+  for (Joint& joint : robot.joints) joint.lower = -half_a_turn, joint.upper = half_a_turn;
+  struct Case {
+    std::vector<double> joints;
+    std::size_t others;
+  };
+  std::set<std::string_view> kinds;
+  for (const auto& [joints, others] :
+       {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3}, Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1},
+        Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
+    const std::vector<OtherArm> arms = other_arms(robot, joints);
+    CHECK(arms.size() == others);
+    for (const OtherArm& arm : arms) {
+      kinds.insert(arm.what);
+      constexpr double reached = 1e-8;  // the wrist's centre to a millionth of a millimetre
+      CHECK(pose(robot, arm.joints).isApprox(pose(robot, joints), reached));
+      CHECK((Vector3d(arm.joints.data()) - Vector3d(joints.data())).norm() > 0.1);
+    }
+  }
+  CHECK(kinds.size() == 3);
+  // Within the limits fewer remain, and none beyond.
+  robot = shipped("abb_irb6640_185_280", "hard").robot;
+  for (const OtherArm& arm : other_arms(robot, {-0.4, 0.1, -0.9, -1, -0.5, 1.2}))
+    for (std::size_t k = 0; k < 6; ++k) {
+      CHECK(arm.joints[k] >= robot.joints[k].lower);
+      CHECK(arm.joints[k] <= robot.joints[k].upper);
+    }
+}
+
+TEST_CASE("programs without joint targets are refused") {
+  const Job job = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/side_panel.yaml");
+  CHECK_THROWS_WITH(other_ways(job, {1, 1}, 2),
+                    Catch::Contains("has no steps with joint targets; read the program"));
+}
+
+TEST_CASE("each clamp and the length are off to both sides") {
+  const auto job = std::make_shared<const Job>(shipped("abb_irb6640_185_280", "easy"));
+  const std::vector<Nudge> nudges = nudges_of({{"one", job, ""}, {"two", job, ""}}, 0.01);
+  REQUIRE(nudges.size() == 14);
+  CHECK(nudges.front().sets == std::vector<std::string>{"routing.base_clamp.position_m=[-0.11, 0, 0.45]"});
+  CHECK(nudges.back().what == "length, + 10 mm");
+  CHECK(nudges.back().sets == std::vector<std::string>{"routing.free_length_m=2.045"});
+  const auto other =
+      std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
+  CHECK(nudges_of({{"one", job, ""}, {"two", other, ""}}, 0.01).empty());
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,113 @@
+#include "pipeline/cable/overlap.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+using namespace dresslife::pipeline;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+Dresspack dresspack_of(int count, double radius_mm, double helix_radius_mm, double lay_angle_deg) {
+  Component cable, conductor;
+  cable.name = "cable";
+  cable.radius = 0.02;
+  conductor.name = "conductor";
+  conductor.count = count;
+  conductor.radius = 1e-3 * radius_mm;
+  conductor.helix_radius = 1e-3 * helix_radius_mm;
+  conductor.lay_angle = lay_angle_deg * degree;
+  conductor.where = {"pack.yaml", 7, 3};
+  cable.components = {conductor};
+  Dresspack dresspack;
+  dresspack.components = {cable};
+  return dresspack;
+}
+
+}  // namespace
+
+TEST_CASE("neighbouring helices are as far apart as points laid on them") {
+  // Brute force over both helices; nearest points half a step of 2e-4 rad off cost (1e-4)^2.
+  for (const double lay_angle : {5.0, 25.0, 45.0, 60.0})
+    for (const int count : {2, 3, 7, 31}) {
+      const double R = 2.825e-3, rise = R / std::tan(lay_angle * degree),
+                   turned = 2 * std::numbers::pi / count;
+      double nearest = 1;
+      for (double phi = -4; phi < 4; phi += 2e-4)
+        nearest = std::min(
+            nearest, std::hypot(R - R * std::cos(phi + turned), R * std::sin(phi + turned), rise * phi));
+      CHECK(neighbour_distance(R, lay_angle * degree, count) == Approx(nearest).epsilon(1e-5));
+    }
+  CHECK(neighbour_distance(1, 0, 6) == Approx(1));
+}
+
+TEST_CASE("parts that overlap on their circle are warned of, with what would fit") {
+  std::vector<std::string> warnings;
+  for (const Warning& warning : overlap_warnings(dresspack_of(7, 1.175, 2.825, 25)))
+    warnings.push_back(warning.line());
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0],
+             Catch::Contains("pack.yaml:7:3: warning: the 7 parts 'conductor' are 2.254 mm apart") &&
+                 Catch::Contains("0.096 mm less than their diameter") &&
+                 Catch::Contains("at 25 deg 6 of them fit"));
+  // What it says fits does, and a tenth of a degree more does not.
+  const std::size_t at = warnings[0].find("lay angle of ") + 13;
+  const double most = std::stod(warnings[0].substr(at));
+  CHECK(neighbour_distance(2.825, most * degree, 7) >= 2.35);
+  CHECK(neighbour_distance(2.825, (most + 0.1) * degree, 7) < 2.35);
+  CHECK(overlap_warnings(dresspack_of(7, 1.175, 2.825, 15)).empty());
+  CHECK(overlap_warnings(dresspack_of(6, 1.175, 2.825, 25)).empty());
+  // Six around one of their own size touch when straight: a lay of 5 degrees takes 0.4 %.
+  CHECK(overlap_warnings(dresspack_of(6, 0.075, 0.15, 5)).empty());
+  // Straight, no lay angle helps: only fewer.
+  CHECK_THAT(overlap_warnings(dresspack_of(8, 1.175, 2.825, 0)).at(0).words,
+             Catch::EndsWith("; 7 of them fit"));
+}
+
+TEST_CASE("parts that can only be a mistake are refused") {
+  CHECK_THROWS_WITH(overlap_warnings(dresspack_of(40, 1.175, 5.8, 0)),
+                    Catch::Contains("pack.yaml:7:3: error: the 40 parts 'conductor' are") &&
+                        Catch::Contains("15 of them fit"));
+  CHECK_NOTHROW(overlap_warnings(dresspack_of(25, 1.175, 5.8, 0)));
+}
+
+TEST_CASE("parts of two components that would lie in each other are warned of, those that touch are not") {
+  Dresspack dresspack = dresspack_of(1, 1, 0, 0);
+  std::vector<Component>& parts = dresspack.components[0].components;
+  Component ring = parts[0];
+  ring.name = "ring";
+  ring.count = 3;
+  ring.helix_radius = 2e-3;  // around the one in the middle, which they touch
+  parts.push_back(ring);
+  CHECK(overlap_warnings(dresspack).empty());
+  parts[1].helix_radius = 1.9e-3;
+  REQUIRE(overlap_warnings(dresspack).size() == 1);
+  CHECK_THAT(overlap_warnings(dresspack)[0].words,
+             Catch::Contains("'conductor' and 'ring' come as near as 1.9 mm") &&
+                 Catch::Contains("0.100 mm less than their radii together"));
+  // Three more in their gaps fit while they go on alike, straight or laid, and meet them where they do not.
+  parts.erase(parts.begin());
+  parts[0].helix_radius = 2e-3;
+  parts.push_back(parts[0]);
+  parts[1].name = "between";
+  parts[1].phase = std::numbers::pi / 3;
+  for (const double lay : {0.0, 10.0}) {
+    parts[0].lay_angle = parts[1].lay_angle = lay * degree;
+    CHECK(nearest_distance(parts[0], parts[1]) == Approx(2e-3));
+    CHECK(overlap_warnings(dresspack).empty());
+  }
+  parts[1].hand = Hand::left;
+  CHECK(nearest_distance(parts[0], parts[1]) == 0);
+  CHECK(overlap_warnings(dresspack).size() == 1);
+  parts[1].hand = Hand::right;
+  parts[1].phase = 5 * degree;  // nearly in the same place: only a mistake
+  CHECK_THROWS_WITH(overlap_warnings(dresspack),
+                    Catch::Contains("'ring' and 'between' come as near as 0.1745 mm") &&
+                        Catch::Contains("nearer than half of these"));
+  CHECK_THROWS(refuse_gross_overlap(dresspack));
+  parts[1].phase = std::numbers::pi / 4;  // 15 deg off: 2 R sin(22.5 deg)
+  CHECK(nearest_distance(parts[0], parts[1]) == Approx(4e-3 * std::sin(22.5 * degree)));
+  CHECK(overlap_warnings(dresspack).size() == 1);
+}

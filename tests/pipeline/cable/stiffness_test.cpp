@@ -1,0 +1,285 @@
+// A hose's stiffness from its construction: closed forms of each share, the three states, and what a job
+// makes of it.
+#include "pipeline/cable/stiffness.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/cable/cable_bending.h"
+#include "pipeline/job/job.h"
+#include "tests/pipeline/sample_job.h"
+
+using namespace dresslife::pipeline;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double copper_modulus = 117e9;
+
+Component wires(int count, double radius, double helix_radius, double lay_angle, Hand hand = Hand::right) {
+  Component layer;
+  layer.name = "wire";
+  layer.count = count;
+  layer.radius = radius;
+  layer.helix_radius = helix_radius;
+  layer.lay_angle = lay_angle;
+  layer.hand = hand;
+  layer.material = "copper";
+  return layer;
+}
+
+Dresspack of(std::vector<Component> components) {
+  Dresspack dresspack;
+  Material copper, polyamide;
+  copper.name = "copper", copper.youngs_modulus = copper_modulus, copper.poisson_ratio = 0.34;
+  polyamide.name = "polyamide", polyamide.youngs_modulus = 1.65e9, polyamide.poisson_ratio = 0.4;
+  dresspack.materials = {copper, polyamide};
+  dresspack.components = std::move(components);
+  return dresspack;
+}
+
+Component cable_of(std::vector<Component> layers) {
+  Component cable;
+  cable.name = "cable";
+  cable.radius = 0.005;
+  cable.components = std::move(layers);
+  return cable;
+}
+
+Dresspack shipped() { return read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml"); }
+
+HoseStiffness in_state(const Dresspack& dresspack, SlipState state) {
+  return stiffness_of_construction(dresspack, state, 1);
+}
+
+Job job_with(const std::vector<std::string>& sets) {
+  return job_from(parse_yaml(sample_job, "job.yaml"), sets);
+}
+
+}  // namespace
+
+TEST_CASE("stiffness: a pulled and twisted layer is that of the helix, and gives way when nothing pulls") {
+  // Strain of a wire: cos^2 e + R sin cos t; force along the cable cos, torque R sin; length 1 / cos.
+  const double R = 2e-3, a = 20 * degree, EA = copper_modulus * pi * 1e-8;  // wires of 0.2 mm
+  for (const Hand hand : {Hand::right, Hand::left}) {
+    const Component cable = cable_of({wires(12, 1e-4, R, a, hand)});
+    const PullAndTwist answer = pull_and_twist(of({cable}), cable);
+    // A wire of 0.1 mm bends and twists by itself, in squares (r/R)^2 / 4 of that: 6e-4.
+    constexpr double wire_itself = 1e-3;
+    CHECK(answer.pull_by_elongation == Approx(12 * EA * std::pow(std::cos(a), 3)).epsilon(wire_itself));
+    CHECK(answer.coupling ==
+          Approx(sign_of(hand) * 12 * EA * R * std::sin(a) * std::pow(std::cos(a), 2)).epsilon(wire_itself));
+    CHECK(answer.torque_by_twist ==
+          Approx(12 * EA * std::pow(R * std::sin(a), 2) * std::cos(a)).epsilon(5 * wire_itself));
+    CHECK(answer.relaxed() < 0.01 * answer.torque_by_twist);
+    CHECK(answer.relaxed() > 0);
+  }
+}
+
+TEST_CASE("stiffness: layers of both hands do not give way") {
+  const Component one = wires(12, 1e-4, 2e-3, 20 * degree);
+  const Component other = wires(12, 1e-4, 2e-3, 20 * degree, Hand::left);
+  const Component cable = cable_of({one, other});
+  const PullAndTwist answer = pull_and_twist(of({cable}), cable);
+  CHECK(std::abs(answer.coupling) < 1e-6 * answer.pull_by_elongation * 2e-3);
+  CHECK(answer.relaxed() == Approx(answer.torque_by_twist));
+}
+
+TEST_CASE("stiffness: straight cables in a hose bend each by itself, and all as one where they are glued") {
+  Component cable = cable_of({wires(1, 1e-3, 0, 0)});
+  cable.count = 6;
+  cable.helix_radius = 0.02;
+  cable.polymer_bending_stiffness = 0.01;
+  const Dresspack dresspack = [&] {
+    Dresspack hose = of({cable});
+    hose.inner_diameter = 0.052;
+    hose.core_bending_stiffness = 3;
+    return hose;
+  }();
+  const double EA = copper_modulus * pi * 1e-6, EI = EA * 1e-6 / 4;
+  constexpr double first_order = 1e-6;
+  CHECK(in_state(dresspack, SlipState::sliding).bending == Approx(3 + 6 * (0.01 + EI)).epsilon(first_order));
+  CHECK(in_state(dresspack, SlipState::friction).bending == Approx(3 + 6 * (0.01 + EI)).epsilon(first_order));
+  CHECK(in_state(dresspack, SlipState::stuck).bending ==
+        Approx(3 + 6 * (0.01 + EI) + 6 * EA * 0.02 * 0.02 / 2).epsilon(first_order));
+  // Without slack they pull; the core's twist by default as of a solid bar.
+  CHECK(in_state(dresspack, SlipState::sliding).axial == Approx(6 * EA).epsilon(first_order));
+  CHECK(in_state(dresspack, SlipState::sliding).torsional ==
+        Approx(0.8 * 3 + 6 * (0.01 * 2 / 3 + EI / 1.34)).epsilon(first_order));
+  Dresspack slack = dresspack;
+  slack.components[0].laying.slack = 0.5;
+  CHECK(in_state(slack, SlipState::sliding).axial == 0);
+  CHECK(in_state(slack, SlipState::stuck).axial == Approx(6 * EA).epsilon(first_order));
+}
+
+TEST_CASE("stiffness: a smooth wall is a tube, a folded one a bellows") {
+  Dresspack hose = of({});
+  hose.hose_material = "polyamide";
+  hose.diameter = 0.06;
+  hose.inner_diameter = 0.056;
+  const double R = 0.029, t = 0.002;
+  constexpr double thick = 2e-3;  // (t/R)^2 / 4
+  CHECK(in_state(hose, SlipState::sliding).axial == Approx(1.65e9 * 2 * pi * R * t).epsilon(1e-9));
+  CHECK(in_state(hose, SlipState::sliding).bending == Approx(1.65e9 * pi * R * R * R * t).epsilon(thick));
+  CHECK(in_state(hose, SlipState::sliding).torsional ==
+        Approx(1.65e9 / 2.8 * 2 * pi * R * R * R * t).epsilon(thick));
+  hose.inner_diameter.reset();
+  // The makers' rate of a corrugation (EJMA) is 1.7 D E t^3 / (w^3 C_f), and C_f goes to 1 with the pitch;
+  // their 1.7 has 1 / (1 - 0.3^2) in it, which a beam has not.
+  const double w = 0.01, wall = 0.0005, pitch = 4 * wall;
+  hose.hose_corrugation = Corrugation{pitch, w + wall, wall, {}};
+  const double D = hose.diameter - w - wall;
+  const double makers = 1.7 * (1 - 0.09) * D * 1.65e9 * std::pow(wall / w, 3) * pitch;
+  constexpr double round_crests =
+      0.15;  // 1.5 of the pitch over the depth, halved by what the flanks lose to the crests
+  CHECK(in_state(hose, SlipState::sliding).axial == Approx(makers).epsilon(round_crests));
+  const HoseStiffness folded = in_state(hose, SlipState::sliding);
+  CHECK(folded.bending == Approx(folded.axial * D * D / 8).epsilon(1e-9));
+  CHECK(folded.torsional > 10 * folded.bending);  // it bends easily and does not twist
+}
+
+TEST_CASE(
+    "stiffness: the shipped hose's lies between sliding and glued, where its cables' measured one puts it") {
+  const Dresspack dresspack = shipped();
+  const double wall_and_core = 1.42 + 5;  // W22's wall, and what the file says of its core
+  CHECK(in_state(dresspack, SlipState::sliding).bending ==
+        Approx(wall_and_core + 10 * (0.0018 + 0.03)).epsilon(0.01));
+  CHECK(in_state(dresspack, SlipState::friction).bending == Approx(wall_and_core + 10 * 0.2).epsilon(0.01));
+  const double glued = 10 * axial_stiffness(dresspack, dresspack.components[0]) * std::pow(0.01845, 2) / 2;
+  CHECK(in_state(dresspack, SlipState::stuck).bending ==
+        Approx(glued + wall_and_core + 10 * 4.12).epsilon(0.01));
+  double before = in_state(dresspack, SlipState::stuck).bending;
+  for (const double curvature : {1e-3, 1e-2, 0.1, 1.0, 10.0}) {  // the further bent, the more has slid
+    const double bending = stiffness_of_construction(dresspack, SlipState::friction, curvature).bending;
+    CHECK(bending < before);
+    before = bending;
+  }
+  CHECK(before > in_state(dresspack, SlipState::sliding).bending);
+}
+
+TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the number") {
+  const std::string wall = "dresspack.hose_material=hose_polyamide",
+                    profile = "dresspack.hose_corrugation={pitch_mm: 5, height_mm: 4.5, wall_mm: 0.8}";
+  const std::string words = "dresspack.bending_stiffness_Nm2=from_construction";
+  const Job taken = job_with({words, wall, profile});
+  const Dresspack& dresspack = taken.dresspacks[0].dresspack;
+  CHECK(dresspack.bending_stiffness == stiffness_of_construction(dresspack, SlipState::friction, 1).bending);
+  CHECK(dresspack.torsional_stiffness == 4);
+  CHECK_THAT(job_text(taken), Contains("bending_stiffness_Nm2: from_construction"));
+  const Job again = job_from(parse_yaml(job_text(taken), "job.yaml"));
+  CHECK(again.dresspacks[0].dresspack.bending_stiffness == dresspack.bending_stiffness);
+  CHECK(part_text(again, Part::sim) == part_text(taken, Part::sim));
+  const Job number = job_with(
+      {fmt::format("dresspack.bending_stiffness_Nm2={:.17g}", dresspack.bending_stiffness), wall, profile});
+  CHECK(part_text(number, Part::sim) == part_text(taken, Part::sim));
+  CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), Part::sim) !=
+        part_text(taken, Part::sim));
+  CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") &&
+                                            Contains("N m2 from construction (friction at 1 1/m)") &&
+                                            Contains("G J 4 N m2 given"));
+}
+
+TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and wall") {
+  const double metal = 10 * pi * 1e-8 * 8900 / std::cos(0.2),
+               left = (pi * 25e-6 - 10 * pi * 1e-8 / std::cos(0.2)) * 1200;
+  const Component cable = cable_of({wires(10, 1e-4, 2e-3, 0.2)});
+  CHECK(mass_of_part(cable) == Approx(metal + left).epsilon(1e-12));
+  Dresspack pack = of({cable});
+  pack.diameter = 0.012;  // of a jacket, as far as parts leave room
+  CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi * (36e-6 - 25e-6)).epsilon(1e-12));
+  pack.inner_diameter = 0.011;
+  CHECK(mass_of_construction(pack) ==
+        Approx(metal + left + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
+  pack.components[0].laying.mass = 0.5;
+  CHECK(mass_of_construction(pack) == Approx(0.5 + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "stiffness: what a dresspack with parts leaves out is from its construction, its damping the default") {
+  const auto without = [](const std::string& keys) {
+    Node document = parse_yaml(sample_job, "job.yaml");
+    Node& dresspack = *document.find("dresspack");
+    std::erase_if(dresspack.entries, [&](const Entry& entry) {
+      return (" " + keys + " ").find(" " + entry.key + " ") != std::string::npos;
+    });
+    return document;
+  };
+  const std::string all =
+      "mass_kg_per_m bending_stiffness_Nm2 torsional_stiffness_Nm2 axial_stiffness_N damping_time_ms damping_source";
+  const Job job = job_from(without(all));
+  const Dresspack& dresspack = job.dresspacks.front().dresspack;
+  CHECK(dresspack.mass_per_length == mass_of_construction(dresspack));
+  CHECK(dresspack.bending_stiffness == in_state(dresspack, SlipState::friction).bending);
+  CHECK(dresspack.damping_time == 0.02);
+  CHECK_THAT(dresspack.damping_source, Contains("ESTIMATE"));
+  CHECK_THAT(stiffness_text(dresspack), Contains("mass ") && Contains(" kg/m from construction"));
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "again"))) == job_text(job));
+  CHECK_THROWS_WITH(job_from(without("damping_source")), Contains("damping_source is missing"));
+  CHECK_THROWS_WITH(job_from(without("components " + all)), Contains("bending_stiffness_Nm2 is missing"));
+}
+
+TEST_CASE("stiffness: what has none, and words that are none, are refused with a remedy") {
+  const auto refusal = [](const std::vector<std::string>& sets) -> std::string {
+    try {
+      job_with(sets);
+    } catch (const InputError& problem) {
+      return problem.what();
+    }
+    return "nothing refused";
+  };
+  CHECK_THAT(refusal({"dresspack.bending_stiffness_Nm2=from_the_construction"}),
+             Contains("must be a number or from_construction, the unit is in the key: N m2"));
+  CHECK_THAT(
+      refusal({"dresspack.axial_stiffness_N=from_construction", "dresspack.components.1.slack_percent=1"}),
+      Contains("axial_stiffness_N is from_construction, which has none") && Contains("hose_material"));
+  CHECK_THAT(refusal({"dresspack.construction_curvature_1_per_m=0"}),
+             Contains("construction_curvature_1_per_m"));
+  CHECK_THAT(refusal({"dresspack.construction_state=loose"}), Contains("sliding") && Contains("stuck"));
+}
+
+TEST_CASE("stiffness: a given one that its construction cannot have is warned of with what it has") {
+  Dresspack dresspack = shipped();
+  const auto told = [&] {
+    const std::vector<Warning> warnings = stiffness_warnings(dresspack);
+    return warnings.empty() ? std::string("nothing") : warnings.front().words;
+  };
+  // The file's own 25 N m2 is an estimate of a few times what slides.
+  CHECK_THAT(told(), Contains("is 25, 3 times") && Contains("8.41") && Contains("6.73 sliding") &&
+                         Contains("from_construction"));
+  dresspack.bending_stiffness = 12;
+  CHECK(told() == "nothing");
+  dresspack.bending_stiffness = 6;  // less than without any friction
+  CHECK_THAT(told(), Contains("is 6, 0.71 times"));
+  dresspack.bending_stiffness = 5000;
+  CHECK_THAT(told(), Contains("glued"));
+  dresspack.core_bending_stiffness.reset();  // what is not known may be stiff
+  CHECK(told() == "nothing");
+  dresspack.bending_stiffness = 1;
+  CHECK_THAT(told(), Contains("without what fills its core of 26 mm"));
+  dresspack.bending_from_construction = true;
+  take_from_construction(dresspack);
+  CHECK_THAT(told(), Contains("from_construction: bending_stiffness_Nm2 3.41, without what fills its core"));
+}
+
+TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it has and what to write") {
+  Dresspack dresspack = shipped();
+  dresspack.bending_stiffness = 12;
+  dresspack.axial_from_construction = true;
+  take_from_construction(dresspack);
+  CHECK(stiffness_warnings(dresspack).empty());
+  dresspack.hose_material.clear();
+  dresspack.core_axial_stiffness = 300;  // a filler that hardly pulls
+  take_from_construction(dresspack);
+  const std::vector<Warning> warnings = stiffness_warnings(dresspack);
+  REQUIRE(warnings.size() == 1);
+  // 9.81 m/s2 of the filled hose's mass per metre over 300 N.
+  CHECK_THAT(
+      warnings[0].words,
+      Contains(
+          "too little is from_construction: axial_stiffness_N 300, without its wall (hose_material); it "
+          "would stretch by " +
+          fmt::format("{:.2g} %", 100 * 9.81 * dresspack.mass_per_length / 300)) &&
+          Contains("hose_material: hose_polyamide, or give it as measured"));
+}

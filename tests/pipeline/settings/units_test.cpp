@@ -1,0 +1,150 @@
+#include "pipeline/settings/units.h"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "pipeline/base/readable.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+TEST_CASE("units: the unit of a key is its longest ending that is one") {
+  CHECK(unit_of_key("radius_mm").name == "mm");
+  CHECK(unit_of_key("free_length_m").name == "m");
+  CHECK(unit_of_key("speed_deg_per_s").name == "deg/s");
+  CHECK(unit_of_key("acceleration_deg_per_s2").name == "deg/s2");
+  CHECK(unit_of_key("gravity_m_per_s2").name == "m/s2");
+  CHECK(unit_of_key("bending_stiffness_Nm2").name == "N m2");
+  CHECK(unit_of_key("time_step_ms").to_si == 1e-3);
+  CHECK(unit_of_key("youngs_modulus_GPa").to_si == 1e9);
+  CHECK(unit_of_key("segments").name.empty());
+  CHECK(unit_of_key("m").name.empty());  // a unit alone is a name
+  CHECK(unit_of_key("_mm").name.empty());
+  CHECK(unit_of_key("stemm").name.empty());
+}
+
+TEST_CASE("units: the stem of a key is the key without its unit") {
+  CHECK(stem_of_key("radius_mm") == "radius");
+  CHECK(stem_of_key("speed_deg_per_s") == "speed");
+  CHECK(stem_of_key("operating_hours_per_week") == "operating");
+  CHECK(stem_of_key("gate") == "gate");
+}
+
+TEST_CASE("units: what was read in any unit is written so that it reads back exactly") {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> mantissa(-1, 1), exponent(-6, 9);
+  for (const char* key : {"x_m", "x_mm", "x_deg", "x_deg_per_s", "x_ms", "x_MPa", "x_GPa", "x_percent"}) {
+    const Unit& unit = unit_of_key(key);
+    for (int trial = 0; trial < 20000; ++trial) {
+      const double written = mantissa(random) * std::pow(10, exponent(random));
+      const double si = written * unit.to_si;
+      const std::string text = text_in_unit(si, unit);
+      if (std::stod(text) * unit.to_si != si)
+        FAIL_CHECK(key << " " << shortest_text(written) << " came back as " << text);
+    }
+  }
+}
+
+/// The fewest digits of any text that reads back, by trying all.
+std::string shortest_by_trying(double si, const Unit& unit) {
+  const double near = si / unit.to_si;
+  for (int digits = 1; digits <= 17; ++digits)
+    for (const double x : {near, std::nextafter(near, INFINITY), std::nextafter(near, -INFINITY)}) {
+      const double rounded = std::strtod(fmt::format("{:.{}g}", x, digits).c_str(), nullptr);
+      if (rounded * unit.to_si == si) return shortest_text(rounded);
+    }
+  return shortest_text(near);
+}
+
+TEST_CASE("units: no shorter text of a number reads back, whatever its digits") {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> mantissa(-1, 1), exponent(-6, 9);
+  std::uniform_int_distribution<int> digits(1, 17);
+  for (const char* key : {"x_m", "x_mm", "x_deg", "x_ms", "x_MPa", "x_GPa", "x_percent"}) {
+    const Unit& unit = unit_of_key(key);
+    for (int trial = 0; trial < 4000; ++trial) {
+      const double drawn = mantissa(random) * std::pow(10, exponent(random));
+      const double si = std::stod(fmt::format("{:.{}g}", drawn, digits(random))) * unit.to_si;
+      if (text_in_unit(si, unit) != shortest_by_trying(si, unit))
+        FAIL_CHECK(key << " " << text_in_unit(si, unit) << " where " << shortest_by_trying(si, unit)
+                       << " reads back");
+    }
+  }
+}
+
+TEST_CASE("units: the least of all numbers reads back, too") {
+  for (const double least : {1e-320, 5e-324, -1e-310})
+    CHECK(std::strtod(text_in_unit(least, unit_of_key("x_m")).c_str(), nullptr) == least);
+}
+
+TEST_CASE("units: short numbers stay as short as they were written") {
+  for (const char* text :
+       {"0.1", "0.075", "18.45", "2.825", "5.3", "-65", "85.1", "1175", "33.3", "1e-09", "0.001", "100000"})
+    for (const char* key : {"x_m", "x_mm", "x_deg", "x_deg_per_s2", "x_ms", "x_MPa", "x_GPa"}) {
+      const Unit& unit = unit_of_key(key);
+      CHECK(std::stod(text_in_unit(std::stod(text) * unit.to_si, unit)) == std::stod(text));
+      CHECK(text_in_unit(std::stod(text) * unit.to_si, unit).size() <=
+            std::string(text).size() + 2);  // "100000.0"
+    }
+  CHECK(text_in_unit(std::numbers::pi, unit_of_key("x_deg")) == "180");
+  CHECK(text_in_unit(0, unit_of_key("x_deg")) == "0");
+}
+
+TEST_CASE("units: the shortest text of any number reads back to it") {
+  std::mt19937_64 random(11);
+  for (int trial = 0; trial < 100000; ++trial) {
+    const std::uint64_t bits = random();
+    double value;
+    std::memcpy(&value, &bits, sizeof value);
+    if (!std::isfinite(value)) continue;
+    if (std::stod(shortest_text(std::abs(value) < 1e-300 ? 1.0 : value)) !=
+        (std::abs(value) < 1e-300 ? 1.0 : value))
+      FAIL_CHECK(shortest_text(value));
+  }
+  CHECK(shortest_text(INFINITY) == "inf");
+}
+
+TEST_CASE("readable: three figures, thousands apart, powers of ten only far out") {
+  CHECK(calendar_words(68.24) == "5.7 years");
+  CHECK(calendar_words(13.24) == "13.2 months");
+  CHECK(calendar_words(1) == "1.00 months");
+  CHECK(calendar_words(0.0525) == "1.6 days");
+  CHECK(calendar_words(0.001) == "less than a day");
+  CHECK(calendar_words(std::numeric_limits<double>::infinity()) == "unlimited");
+  CHECK(readable(0) == "0");
+  CHECK(readable(1) == "1.00");
+  CHECK(readable(0.0123456) == "0.0123");
+  CHECK(readable(12.345) == "12.3");
+  CHECK(readable(999.6) == "1,000");
+  CHECK(readable(12345) == "12,300");
+  CHECK(readable(-1234567) == "-1,230,000");
+  CHECK(readable(4.5678e12) == "4.57e+12");
+  CHECK(readable(1.5e-7) == "1.50e-07");
+  CHECK(readable(INFINITY) == "unlimited");
+  CHECK(readable(NAN) == "-");
+  CHECK(readable(12345, 5) == "12,345");
+}
+
+TEST_CASE("readable: digits in groups") {
+  CHECK(grouped("1") == "1");
+  CHECK(grouped("123") == "123");
+  CHECK(grouped("1234") == "1,234");
+  CHECK(grouped("-1234567.8901") == "-1,234,567.8901");
+}
+
+TEST_CASE("readable: text is measured and cut in characters, not bytes") {
+  CHECK(columns_of("Käfig") == 5);
+  CHECK(shortened("Käfig", 5) == "Käfig");
+  CHECK(shortened("Kääfig", 5) == "Kä...");
+  CHECK(shortened("abcdef", 2) == "..");
+}
+
+}  // namespace
+}  // namespace dresslife::pipeline
