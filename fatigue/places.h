@@ -1,12 +1,12 @@
 // The planner's life: when the first conductor of a dresspack has lost its share of wires at one place (F26).
 //
 // A conductor that has lost a share of its wires in one segment carries its current through the rest there;
-// breaks anywhere along two metres leave it whole nearly everywhere. P(k of n wires broken in segment g by t)
-// is (F15) with the damages there. A wire's z is the same in all its segments, so the segments' failures hang
-// together in one sense only: each comes sooner the weaker the wires. Then (Harris 1960; Esary, Proschan and
-// Walkup 1967)
-//     max_g P_g  <=  P(some segment)  <=  min[1 - product over g of (1 - P_g),  P(k of n broken anywhere)],
-// of which the right side is told: it is on the safe side. Conductors are independent of each other once the
+// breaks anywhere along two metres leave it whole nearly everywhere. P_g, the probability that k of n wires
+// are broken in segment g by the time t, is (F15) with the damages there. A wire's z is the same in all its
+// segments, so the failures of the segments are positively dependent: all come sooner when the wires are
+// weak. Then (Harris 1960; Esary, Proschan and Walkup 1967)
+//     max_g P_g  <=  P(some segment)  <=  min[1 - product over g of (1 - P_g),  P(k of n broken anywhere)].
+// The result is the right side, which is the safe one. Conductors are independent of each other once the
 // common factor (F25) is given.
 #pragma once
 

@@ -1,15 +1,16 @@
 // Cycle counting: reversals of a strain history and the closed hysteresis loops (cycles) among them.
 //
 // Two countings of ASTM E1049-85, 5.4.4: half cycles (the history happens once) and the repeating history
-// (5.4.5; the history happens again and again, so every reversal belongs to a closed cycle). Conventions,
-// fatigue/README.md (F1):
-//   - reversals: the first and the last sample and every turn between; a plateau stands at its first sample;
-//   - a range closes a cycle when it is at least as large as the one before it: ties close;
-//   - only strains are compared, never differences or products of differences, so that no rounding or
-//   underflow
-//     decides: with below < top > next the range from top to next closes the one from below to top if next <=
-//     below;
-//   - a number that is not finite is refused, not skipped.
+// (5.4.5; the history happens again and again, so every reversal belongs to a closed cycle).
+//
+// Conventions, fatigue/README.md (F1):
+//   - Reversals are the first sample, the last sample and every turn between. A plateau counts at its first
+//     sample.
+//   - A range closes a cycle when it is at least as large as the one before it: ties close.
+//   - Only strains are compared, never differences or products of differences, so that no rounding or
+//     underflow decides. With below < top > next, the range from top to next closes the range from below to
+//     top if next <= below.
+//   - A number that is not finite is refused, not skipped.
 // Any quantity may be counted; the stage counts strain [1].
 #pragma once
 
@@ -90,8 +91,7 @@ std::size_t first_going_on(const List& list, const StrainOf& strain_of) {
   return list.size();
 }
 
-/// ASTM E1049-85, 5.4.4: full and half cycles of a history that happens once, in the order in which they are
-/// counted.
+/// ASTM E1049-85, 5.4.4: full and half cycles of a history that happens once, in the order of counting.
 /// @throws pipeline::InputError when rises and falls do not alternate: find_reversals() makes them.
 std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals);
 

@@ -1,19 +1,21 @@
 // Scatter of life: when the first wires break, and when so many have broken that a conductor fails.
 //
 // Every wire's life is the life of its worst place by the curves, which are medians, times a lognormal factor
-// (F14): log10(life) = log10(median) + s z, z normal, one z per wire. So a wire has broken by time t with
-// probability
+// (F14): log10(life) = log10(median) + s z, z normal, one z per wire. The probability that a wire has broken
+// by the time t is:
 //     p(t) = Phi(log10(t / median) / s)
-// and k of n wires with the upper tail of the Poisson-binomial distribution of their p (F15); percentiles are
-// found by bisection in log t. All lives are in repeats of the motion.
+// The probability that k of n wires have broken is the upper tail of the Poisson-binomial distribution of
+// their p (F15). Percentiles are found by bisection in log t. All lives are in repeats of the motion.
 //
-// Of the variance s^2 a share c is common to all wires of a dresspack (F25): z = sqrt(c) z_common + sqrt(1 -
-// c) z_own. With z_common given, (F15) holds with sqrt(1 - c) s; its distribution over ln t is spread by the
-// common factor in closed form, straight between tabulated points.
+// A share c of the variance s^2 is common to all wires of a dresspack (F25):
+//     z = sqrt(c) z_common + sqrt(1 - c) z_own.
+// With z_common given, (F15) holds with sqrt(1 - c) s; its distribution over ln t is spread by the common
+// factor in closed form, straight between tabulated points.
 //
-// Assumptions: wires are else independent of each other; the places of one wire are not (one z, since a
-// segment is no piece of metal of its own). A wire counts as broken wherever along the dresspack it breaks,
-// but in first_place_lives(), where a conductor's share must have broken in one segment.
+// Assumptions: apart from the common factor, wires are independent of each other; the places of one wire are
+// not (one z, because a segment is no separate piece of metal). A wire counts as broken wherever along the
+// dresspack it breaks, except in first_place_lives(), where a conductor's share must have broken in one
+// segment.
 #pragma once
 
 #include <array>

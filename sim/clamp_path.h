@@ -1,13 +1,12 @@
 // Where the clamps (and the robot's links) are at any time of a motion: from a robot and its routing, or
 // from a file of recorded clamp poses.
 //
-// (R2) clamp = F_link (p, R_clamp):  p [m] and the direction d lie in the link's frame, z of R_clamp is d,
-// (R3) x of R_clamp at roll 0 is e - (e d) d, normalised, with e the link's z axis, or its x axis where d
-// lies
-//      within 8 deg of z; roll turns about d.
+// (R2) clamp = F_link (p, R_clamp): p [m] and the direction d are in the link's frame, and the z axis of
+//      R_clamp is d.
+// (R3) The x axis of R_clamp at roll 0 is e - (e d) d, normalised, with e the link's z axis, or its x axis
+//      where d is within 8 deg of z. Roll turns about d.
 // (R4) A recorded pose between its rows: a C2 cubic spline (spline.h) through the positions and one through
-// the
-//      quaternions' four components, normalised: q = s/|s|. The rows' quaternions get the signs that make
+//      the quaternions' four components, normalised: q = s/|s|. The rows' quaternions get the signs that make
 //      neighbours closest. Through rows h apart the error is of order h^4, as is 1 - |s|.
 #pragma once
 

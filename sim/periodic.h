@@ -3,12 +3,11 @@
 //
 // (R8) A hose that rests by friction, or sways, may begin the second repeat elsewhere than the first. The
 // program is repeated, without a break, until two successive repeats begin alike; the last of them is what is
-// evaluated. Two states are
-// as far apart as the largest of
-//   |x - x'| + (d/2) |log(q^-1 q')| + tau |v - v'|
-// over the segments: how far a point of the hose's surface has moved, and by how much a sway of period 2 pi
-// tau will move it. tau = 0.1 s: slower sways differ less in speed than in place. A retraction unit counts
-// with the difference of its travel in the same way.
+// evaluated. The distance of two states is the largest value over the segments of
+//     |x - x'| + (d/2) |log(q^-1 q')| + tau |v - v'|,
+// how far a point of the hose's surface has moved, and how far a sway of period 2 pi tau will move it.
+// tau = 0.1 s: slower sways differ less in speed than in place. A retraction unit counts with the difference
+// of its travel in the same way.
 #pragma once
 
 #include "sim/clamp_path.h"

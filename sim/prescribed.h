@@ -2,15 +2,14 @@
 // and fatigue need no second way.
 //
 // (D1) The rotation of link i between the centres of segments i - 1 and i is the ordered product of exp(w ds)
-// along
-//      the given rates w(s) = (curvature1, curvature2, twist) in the turning frame; of rates that change
-//      along the dresspack by the fourth-order Magnus expansion over 1/8 of a segment at a time. The cable is
-//      laid from a base clamp at the world's origin, along z.
+//      along the given rates w(s) = (curvature1, curvature2, twist) in the turning frame. For rates that
+//      change along the dresspack it is the fourth-order Magnus expansion over 1/8 of a segment at a time.
+//      The cable starts at a base clamp at the world's origin, along z.
 // (D2) The centre of the next segment lies where the simulated chain has it (S1, S17), further by elongation
-// times
-//      the link's length along the link's tangent.
-// The strain stage measures rotations and gaps of the same links (W1 to W3) and so finds again what is
-// uniform along the dresspack to rounding, what changes along it as of a simulated chain (W2).
+//      times the link's length along the link's tangent.
+//
+// The strain stage measures rotations and gaps of the same links (W1 to W3). So it recovers what is uniform
+// along the dresspack to rounding, and what changes along it as it does for a simulated chain (W2).
 #pragma once
 
 #include <Eigen/Core>

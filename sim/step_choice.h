@@ -1,13 +1,13 @@
 // The error that the time step leaves in the curvature, estimated from the run itself, and the step that
 // keeps it small.
 //
-// (R10) In the liveliest seconds of the motion, those with the largest mean square acceleration of the
-// clamps, the run is done again from its own state with half the step. At second order the error of the step
-// h is
-//   e = 4/3 rms(kappa_h - kappa_{h/2}) / rms(kappa_{h/2})      (Richardson),
-// over all links and the second half of each window; the first half lets differences grow. e holds for the
-// lively seconds, hence bounds that of the motion; it does not count the segments' length. (R11) h' = h
-// sqrt(e'/e) reaches the error e'.
+// (R10) In the liveliest seconds of the motion, those with the largest mean square acceleration of its
+//       clamps, the run is done again from its own state with half the step. At second order the step h has
+//       the error:
+//           e = 4/3 rms(kappa_h - kappa_{h/2}) / rms(kappa_{h/2})      (Richardson)
+//       over all links and the second half of each window; the first half lets differences grow. e holds for
+//       the lively seconds, hence bounds that of the motion. It does not count the segments' length.
+// (R11) h' = h sqrt(e'/e) reaches the error e'.
 #pragma once
 
 #include <functional>

@@ -1,18 +1,19 @@
 // The strain along one part that slides in what it lies in, whatever its lay: from the stretch of its path,
 // friction along it and the grips of its clamps (README W34).
 //
-// Element i of the path has gained g_i over the path on which the part was laid in, with slack; if nothing
+// Element i of the path has gained g_i over the path on which the part was installed, with slack; if nothing
 // slid, its strain would be gamma_i = (1 + g_i) / (1 + slack) - 1. The part slides along its path, by u at
-// the nodes between elements, and has the strain eps_i = gamma_i + (u_{i+1} - u_i) / l_i. Its force T_i = E A
-// eps_i changes from element to element by no more than friction takes up at the node between them,
-//     |T_i - T_{i-1}| <= f_i,
-// at either clamp it is at most the grip, and a node slides only where its limit is reached, the way that
-// friction opposes. Over a step that is the minimum of the elastic energy and what friction takes; its dual,
+// the nodes between elements, and has the strain eps_i = gamma_i + (u_{i+1} - u_i) / l_i. The change of its
+// force T_i = E A eps_i from element to element is at most the friction at the node between them:
+//     |T_i - T_{i-1}| <= f_i.
+// At either clamp the force is at most the grip. A node slides only where its limit is reached, in the
+// direction that friction opposes. Over a step that is the minimum of the elastic energy and the work of
+// friction; its dual, a projection
 //     sum l_i (T_i - E A (eps_i before + gamma_i's change))^2 / (2 E A)  ->  least, under the limits above,
-// is a projection. Dynamic programming solves it exactly: with d_i(T) the slope of the least sum up to
-// element i that ends in T, piecewise linear and rising, a limit f moves its two sides apart by 2 f around
-// its zero, and an element adds a line (N. Johnson, J. Comput. Graph. Stat. 22 (2013), for the same sums in
-// statistics). No friction: T is everywhere the same, that of the mean. Limits beyond all forces: glued.
+// is solved exactly by dynamic programming: with d_i(T) the slope of the least sum up to element i that ends
+// in T, piecewise linear and rising, a limit f moves its two sides apart by 2 f around its zero, and an
+// element adds a line (N. Johnson, J. Comput. Graph. Stat. 22 (2013), for the same sums in statistics).
+// No friction: T is everywhere the same, that of the mean. Limits beyond all forces: glued.
 #pragma once
 
 #include <span>

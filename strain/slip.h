@@ -2,14 +2,16 @@
 //
 // `stick` glues a component to its parent. `free` lets it slide along its path without friction: its axial
 // strain is then the mean of its glued strain over the length within which it evens out,
-//     (path length now) / (path length at rest) - 1   of that length.
-// - clamp_to_clamp: a cable (a part of the first level that holds parts), whatever its lay: what its path,
-// its slack, friction and grips leave (strain/cable_paths.h). And what is straight, or has fewer than four
-// turns between the clamps, in straight ancestors or in a cable: the mean over all segments.
+//     (path length now) / (path length at rest) - 1   of that length:
+// - clamp_to_clamp: a cable (a part of the first level that holds parts), whatever its lay: its path, its
+//   slack, friction and grips decide (strain/cable_paths.h). And what is straight, or has fewer than four
+//   turns between the clamps, in straight ancestors or in a cable: the mean over all segments.
 // - over_pitch: other helices: the mean over its own phase, at the parent's state in the segment.
 // - along_ancestor: straight in a helical ancestor below the first level: the mean over that ancestor's
-// pitch, its own phase held. `friction` keeps the mean of `free` and lets the deviation from it build up to a
-// cap (strain/friction.h). A component's bending and torsion per path length stay as they are.
+//   pitch, its own phase held.
+//
+// `friction` keeps the mean of `free` and lets the deviation from it build up to a cap (strain/friction.h).
+// A component's bending and torsion per path length stay as they are.
 #pragma once
 
 #include <vector>

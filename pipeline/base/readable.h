@@ -5,13 +5,12 @@
 
 namespace dresslife::pipeline {
 
-/// `figures` significant figures: "0.0123", "1.5", "12,300", "4.56e+12" from ten digits on; "unlimited" for
-/// infinity,
-/// "-" for NaN.
+/// `figures` significant figures: "0.0123", "1.5", "12,300", "4.56e+12" from ten digits on. Infinity is
+/// "unlimited", NaN is "-".
 std::string readable(double value, int figures = 3);
 
-/// A life in whatever unit, readable() or "no damage" for infinity; hours: the same with their unit, "1,234
-/// h".
+/// A life in any unit: readable(), or "no damage" for infinity. hours_text: the same with its unit,
+/// "1,234 h".
 std::string life_text(double life, int figures = 3);
 std::string hours_text(double hours);
 

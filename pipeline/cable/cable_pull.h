@@ -1,8 +1,9 @@
 // How a straight cable carries a pull while it is twisted: the stretch of nested helices (strain/README.md,
 // W5 and W6) for a parent without curvature, where nothing depends on the angle:
-//   V^2 = (R sigma)^2 + lambda^2, sigma = tan(alpha)/R + twist, stretch cos(alpha) V, twist of the part sigma
-//   cos^2(alpha).
-// Wires are elastic and slide where they must to be strained alike; jacket and insulation carry nothing.
+//     V^2 = (R sigma)^2 + lambda^2,   sigma = tan(alpha)/R + twist,
+//     stretch = cos(alpha) V,   twist of the part = sigma cos^2(alpha).
+// Wires are elastic and slide where they must, so that all are strained alike; jacket and insulation carry
+// nothing.
 #pragma once
 
 #include <vector>

@@ -236,8 +236,8 @@ inline double rest_length(pipeline::Kinematics kinematics, const WireState<doubl
 }
 
 /// The fibre at angle phi (from n toward b) on a wire of radius r is stretch + r Y long per ideal length of
-/// the wire, Y = bend1 sin(phi) - bend2 cos(phi). Against the same at rest, index 0, with the axial strain e
-/// = stretch / stretch0 - 1,
+/// the wire, Y = bend1 sin(phi) - bend2 cos(phi). Against the same at rest, index 0, with the axial strain
+/// e = stretch / stretch0 - 1 of the wire,
 ///     (stretch + r Y) / (stretch0 + r Y0) - 1 = (e + r (Y - Y0) / stretch0) / (1 + r Y0 / stretch0). (W12)
 /// Precondition: r Y0 > -stretch0, the wire is thinner than its bend at rest is round.
 inline FibreShape fibre_shape(pipeline::Kinematics kinematics, const WireState<double>& rest, double r,

@@ -1,9 +1,9 @@
 // Parts of a dresspack without wires: hoses for air and water, optical fibres, fillers. They have mass and
-// stiffness, take room, push cables aside and pull at the clamps; a life of their own they have not here.
+// stiffness, take room, push cables aside and pull at the clamps. No life is computed for them.
 //
-// A tube of polymer (polymer.h), outer radius r and bore b, has
-//     E I = E pi (r^4 - b^4) / 4,   E A = E pi (r^2 - b^2),   mass = density pi (r^2 - b^2) + of what fills
-//     the bore.
+// A tube of polymer (polymer.h) with outer radius r and bore radius b has
+//     E I = E pi (r^4 - b^4) / 4,   E A = E pi (r^2 - b^2),
+//     mass per length = density pi (r^2 - b^2) + mass of what fills the bore.
 // A bending stiffness that is given sets E.
 #pragma once
 

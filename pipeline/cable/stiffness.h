@@ -1,20 +1,20 @@
-// How stiff a filled hose is by what it holds: `bending_stiffness_Nm2: from_construction`, so that the
+// The stiffness of a filled hose from its contents: `bending_stiffness_Nm2: from_construction`, so that the
 // simulation moves the hose whose wires the strain stage strains.
 //
-// Cables that lie straight in a hose share its bend and its twist, each about its own axis, and what fills
-// the middle and the wall share them, too:
+// Cables that lie straight in a hose share its bend and its twist, each about its own axis. What fills the
+// middle and the wall share them, too:
 //     E I = sum of (polymer + M(kappa) / kappa of its wires, cable_bending.h) + wall + core,
 //     G J = sum of (2/3 polymer + its wires', its length free where it has slack) + wall + core,
 //     E A = sum of its wires' where it has no slack                               + wall + core.
 // What a cable off the axis gains in a bend it keeps or loses along the whole hose: that is a force from
 // clamp to clamp (W34 of strain/README.md), no stiffness of the cross-section, and nothing where it has
-// slack. Only glued cables
-// (`stuck`) add E A R^2 / 2 to E I. Parts without wires (plain_part.h) count as polymer, in E A too.
+// slack. Only glued cables (`stuck`) add E A R^2 / 2 to E I. Parts without wires (plain_part.h) count as
+// polymer, in E A too.
 //
 // state: `sliding`, nothing rubs; `stuck`, nothing slides; `friction`, what friction and pressures hold at
 // construction_curvature. That is the secant of the first bend. A bend to and fro between -kappa and kappa
 // ends where the first bend did (Masing), so it is also that of the motion, whose losses are the damping's.
-// Twist is alike all along a lay, so slip does not relieve it: G J has two values only.
+// Twist is alike all along a lay, so slip does not reduce it: G J has two values only.
 //
 // The wall of a corrugated hose is a folded beam (W22): pulled by F per length around, a corrugation gives by
 // 4 F J / D, D = E wall^3 / 12, so that E A = 2 pi R pitch E wall^3 / (48 J), E I = E A R^2 / 2; twist shears

@@ -1,22 +1,20 @@
-// What a stage notes beside its output: from what it made it. Results are up to date when their receipts say
-// so; no time of day and no order of times decides.
+// The receipt of an output: what a stage made it from. Results are up to date when their receipts say so.
+// No time of day and no order of times decides.
 //
 //   recipe: digest of the settings that the result depends on, of the files beside the job (robot programs,
-//   meshes,
-//           recorded poses) and of the stage's program;
+//           meshes, recorded poses) and of the stage's program;
 //   input:  checksum of the file of the stage before ("-" for a job);
 //   output: checksum of the file that was made;
-//   state:  of the output as the stage left it. While size, inode and the two times are what they were then
-//   to the nanosecond, the checksum need not be compared again: a later change shows in one of them
-//   (FileState), if the file system's clock had moved on between the output and its receipt. Both times are
-//   the file system's own, which nobody can set. Where the receipt is not the younger one, the bytes are
-//   compared;
-//   told:   what the root of life.h5 says of the result, so that ten thousand are gathered without opening
-//   them, and
-//           the checks of motion.h5 (checks.h);
-//   with:   digests of the program and of each file, one by one: which of them changed.
+//   state:  size, inode and both times of the output as the stage left it (FileState). While they are the
+//           same to the nanosecond, the checksum need not be compared again: a later change shows in one of
+//           them, if the file system's clock moved on between the output and its receipt. Both times come
+//           from the file system; nobody can set them. Where the receipt is not younger than the output, the
+//           bytes are compared;
+//   told:   the results in the root of life.h5 and the checks of motion.h5 (checks.h), so that ten thousand
+//           results are gathered without opening them;
+//   with:   digests of the program and of each file, one by one: they show which of them changed.
 //
-// The receipt ends with a digest of all that stands before.
+// The receipt ends with a digest of everything before it.
 #pragma once
 
 #include <filesystem>

@@ -3,12 +3,11 @@
 //   dresspack:
 //     cable: {from: spot_welding, part: signal cable}     a cable of a dresspack of the catalogue
 //     cable: sensor_cable                                 the same where it has but one, or is itself a cable
-//     cable: {name: .., radius_mm: .., components: ..}    or the cable itself, keys as in
-//     dresspack.components
+//     cable: {name: .., radius_mm: .., components: ..}    the cable itself; keys as in dresspack.components
 //
 // It lies on the axis, straight, so that its levels are those that it has in its dresspack: first the cable,
-// then conductors, then wires. Where it lay among others, its slack, play and grips are left behind.
-// Stiffness, mass and damping may be left out: only a simulation needs them.
+// then conductors, then wires. Where it lay among others, its slack, play and grips are left out. Stiffness,
+// mass and damping may be absent: only a simulation needs them.
 #pragma once
 
 #include <string>

@@ -5,10 +5,12 @@
 // From the tree of links the chain from its root to `tip` is taken: 4 to 7 axes that turn (revolute,
 // continuous), before them at most sliding ones that carry the whole robot (prismatic: external axes). Links
 // on fixed joints belong to the link that carries them, their shapes too; a joint that mimics another follows
-// it, and its limits become the other's. What hangs on joints beside the chain is left out. Collision shapes:
-// box and mesh as they are (package:// and relative names), sphere a capsule without length, cylinder a
-// capsule as long as it, with four boxes crossing in its axis for the ends: an octagon inside, within 8 % of
-// the radius.
+// it, and its limits become the other's. Links on joints beside the chain are left out.
+//
+// Collision shapes: box and mesh as they are (package:// and relative names). A sphere becomes a capsule
+// without length. A cylinder becomes a capsule of the same length, with four boxes that cross in its axis for
+// its ends: an octagon inside it, within 8 % of the radius.
+//
 // A continuous joint gets +-100 turns. Accelerations and the pose in the world are not in a URDF.
 // Source: http://wiki.ros.org/urdf/XML; read by urdfdom, which only urdf.cpp includes.
 #pragma once

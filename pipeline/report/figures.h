@@ -41,10 +41,10 @@ JobFiles job_files(const std::filesystem::path& place);
 ///   strain       of the worst wire over time, the program below it (thesis, figures 16 and 17)
 ///   cycles       of the worst wire: how often each range occurs, and what it costs
 ///   damage       of the worst wire of each segment, along the dresspack
-///   deformation  curvature, twist and elongation along the dresspack at a time (figure 14 shows what they
-///   make of a wire) curvature    strain of the worst wire over the curvature of its segment (figure 15
-///   multiplies by E) scene        robot and dresspack at a time, the worst segment marked (figures 18 and
-///   19)
+///   deformation  curvature, twist and elongation along the dresspack at a time (figure 14 shows their effect
+///                on a wire)
+///   curvature    strain of the worst wire over the curvature of its segment (figure 15 multiplies by E)
+///   scene        robot and dresspack at a time, the worst segment marked (figures 18 and 19)
 /// time: [s], the nearest sample; absent: when the most damaging cycle closes. Errors: InputError for a file
 /// that is missing or cannot be read, or a job without a damaged wire where the figure needs one.
 std::string figure(Figure what, const JobFiles& files, std::optional<double> time);

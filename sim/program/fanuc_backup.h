@@ -1,12 +1,15 @@
 // What lies beside the listings in a backup of a Fanuc controller: the values of its registers, position
 // registers, frames and macros as variable files (.va), and which listing is the one that runs.
 //
-//   numreg.va    [*NUMREG*]$NUMREG    [5] = 3  'name'                             R[5]
-//   posreg.va    [*POSREG*]$POSREG    [1,7] = 'name' ...                          PR[7] of group 1
-//   sysframe.va  [*SYSTEM*]$MNUFRAME, $MNUTOOL  [1,2] = ...                       UFRAME[2], UTOOL[2] of
-//   group 1;
-//                $MNUFRAMENUM, $MNUTOOLNUM  [1] = 2                               UFRAME_NUM, UTOOL_NUM
-//   sysmacro.va  [*SYSTEM*]$MACROTABLE  $MACRO_NAME, $PROG_NAME                   macros
+//   file         variable                       line                  is
+//   numreg.va    [*NUMREG*]$NUMREG              [5] = 3  'name'       R[5]
+//   posreg.va    [*POSREG*]$POSREG              [1,7] = 'name' ...    PR[7] of group 1
+//   sysframe.va  [*SYSTEM*]$MNUFRAME            [1,2] = ...           UFRAME[2] of group 1
+//                [*SYSTEM*]$MNUTOOL             [1,2] = ...           UTOOL[2] of group 1
+//                [*SYSTEM*]$MNUFRAMENUM         [1] = 2               UFRAME_NUM
+//                [*SYSTEM*]$MNUTOOLNUM          [1] = 2               UTOOL_NUM
+//   sysmacro.va  [*SYSTEM*]$MACROTABLE          $MACRO_NAME, $PROG_NAME   macros
+//
 // A folder becomes a Backup by fanuc_backup() of backup.h. The values are those of the moment at which the
 // backup was made. Other variables are not read. Source: backups.
 #pragma once

@@ -2,32 +2,29 @@
 // meant.
 //
 // Six axes with a spherical wrist: axis 2 is perpendicular to axis 1, axis 3 parallel to axis 2, axes 4, 5, 6
-// meet in one point, the wrist centre W. With axes (p_i, w_i) at zero angles, all in closed form: (K1)
-// w2.R1(-q1)(W - p1) = w2.(W0 - p1): turning about axes 2 and 3 keeps W at its distance beside axis 1; two
-//      q1, in front of and behind the axis.
+// meet in one point, the wrist centre W. With axes (p_i, w_i) at zero angles, all in closed form:
+// (K1) w2.R1(-q1)(W - p1) = w2.(W0 - p1): turning about axes 2 and 3 keeps W at its distance beside axis 1;
+//      two q1, in front of and behind the axis.
 // (K2) |W' - p2|^2 = |p3 - p2|^2 + |W0 - p3|^2 + 2 (p3 - p2).R3(q3)(W0 - p3), in the plane across w2: two q3,
-// the
-//      elbow on either side; then q2 by the angle between what it turns.
-// (K3) w4.M w6 = w4.R5(q5) w6, M = (R1 R2 R3)^-1 R R0^-1: two q5; then q4 and q6 by what they turn. Where w6
-// comes
-//      to lie on w4, q4 is free: it stays where the robot was.
-// Each is a cos q + b sin q = c. Eight arms at most, and each axis may be whole turns away, within its
-// limits.
+//      the elbow on either side; then q2 by the angle between the two directions that it turns into one.
+// (K3) w4.M w6 = w4.R5(q5) w6, M = (R1 R2 R3)^-1 R R0^-1: two q5; then q4 and q6 from what they turn. Where
+//      w6 comes to lie on w4, q4 is free: it stays where the robot was.
+// Each is a cos q + b sin q = c. Eight arms at most. Each axis may be whole turns away, within its limits.
 //
 // The axes of a URDF that was written by hand fit this nearly: 1.57 or 1.57076 for a right angle leaves axes
 // 4, 5 and 6 some micrometres or a millimetre apart. Figures of two decimals are off by 5 mrad and 5 mm at
-// most; up to there the closed form gives starts and numerical_inverse.h brings them home, so that the flange
-// is where it is wanted on the robot as it is written. All other arms of six turning axes (UR, CRX, GoFa) are
-// solved by numerical_inverse.h alone: near the arm before along a path, from many starts for a single
-// target.
+// most. Up to there the closed form gives starts, and numerical_inverse.h iterates from them, so that the
+// flange of the robot as it is written reaches its target. All other arms of six turning axes (UR, CRX, GoFa)
+// are solved by numerical_inverse.h alone: along a path from the arm before, for a single target from many
+// starts.
 //
 // Which arm: front(1) = (W - p1).R1 x > 0; front(2): W in front of the line from p2 to p3, seen with the
 // arm's front to the right; q5 >= 0. At zero angles of axis 1 the arm's front is x.
-//   ABB confdata: floor(q/90 deg) of axes 1, 4, 6; cfx = 4 behind(1) + 2 behind(2) + (q5 < 0).
-//   KUKA: S = behind(1) + 2 front(2) + 4 (q5 < 0); bit i of T is q_i < 0.
-//   Fanuc: N where q5 <= 0, U where front(2), T where front(1); turns of axes 1, 4, 6 counted from 0 at +-180
-//   deg.
-// Source of the words: RAPID data types (confdata); KUKA System Software (status and turn); FANUC operator's
+//   ABB    confdata: floor(q/90 deg) of axes 1, 4, 6; cfx = 4 behind(1) + 2 behind(2) + (q5 < 0).
+//   KUKA   S = behind(1) + 2 front(2) + 4 (q5 < 0); bit i of T is q_i < 0.
+//   Fanuc  N where q5 <= 0, U where front(2), T where front(1); turns of axes 1, 4, 6 counted from 0 at
+//          +-180 deg.
+// Sources of the words: RAPID data types (confdata); KUKA System Software (status and turn); FANUC operator's
 // manual.
 #pragma once
 

@@ -2,15 +2,18 @@
 //
 // A joint move is one leg. A linear or circular move is cut into legs so short that the tool stays on its
 // path: between two points h apart, on a path that bends in joint space with radius r, a leg runs h^2/(8 r)
-// beside it; joint angles change by at most 0.1 rad and the tool moves at most 10 mm and turns at most 2 deg
+// beside it; joint angles change by at most 0.1 rad, and the tool moves at most 10 mm and turns at most 2 deg
 // from point to point.
-//   linear    x(u) = x0 + u (x1 - x0);   circular    on the circle through start, via and target;
-//   both      orientation slerp(q0, q1; u), tool in work object.
+//   linear    x(u) = x0 + u (x1 - x0)
+//   circular  on the circle through start, via and target
+//   both      orientation slerp(q0, q1; u), tool in work object
+//
 // (M6) Zones of tool paths: within the zone d of a corner (at most half of either move) the path is the
-// quadratic Bezier curve of A, the corner and B, A and B being d before and behind it: it leaves and joins
-// both paths tangentially and stays in their triangle, so the tool deviates by less than d. Orientations
-// likewise, by three slerps. Where a joint move takes part, the curve is one in joint space. (M7) A leg's
-// speed is the least that the axes, the tool's speed ds/dt and its turning dtheta/dt allow.
+//      quadratic Bezier curve of A, the corner and B, A and B being d before and behind it: it leaves and
+//      joins both paths tangentially and stays in their triangle, so the tool deviates by less than d.
+//      Orientations follow three slerps in the same way. Where a joint move takes part, the curve is one in
+//      joint space.
+// (M7) A leg's speed is the least that the axes, the tool's speed ds/dt and its turning dtheta/dt allow.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,23 +1,25 @@
 // The time law of a joint program: where every axis is at any time, within its speed and acceleration limits.
 //
 // A program is a chain of straight legs in joint space. Leg k has direction D_k (1 for its largest axis, so
-// its length L_k and speed are those of that axis) and everything that happens is a change of velocity (M1)
-// q'(t) = V0 + (V1 - V0) sigma(u),   u = (t - t0)/tau,   q(t) = q0 + tau (V0 u + (V1 - V0) S(u)), with sigma
-// rising from 0 to 1 with a trapezoidal acceleration: ramps of the fraction r = 1/4 of tau at both ends, so
-// that acceleration is continuous and jerk bounded. The largest acceleration is |V1 - V0| / (tau (1 - r)), so
+// its length L_k and speed are those of that axis) and everything that happens is a change of velocity:
+// (M1) q'(t) = V0 + (V1 - V0) sigma(u),   q(t) = q0 + tau (V0 u + (V1 - V0) S(u)),   u = (t - t0)/tau,
+// with sigma rising from 0 to 1 with a trapezoidal acceleration: ramps of the fraction r = 1/4 of tau at both
+// ends, so that acceleration is continuous and jerk bounded. The largest acceleration is
+// |V1 - V0| / (tau (1 - r)), so
 // (M2) tau = max_i |V1_i - V0_i| / A_i,   A_i = (1 - r) a_i.
 // Since S(1) = 1/2, a change between speeds v0 and v1 along a leg takes (v0 + v1) tau/2: all closed forms of
-// the trapezoidal law hold with A for the acceleration. With cruising speed c = fraction min_i v_i/|D_i|, A =
-// min_i A_i/|D_i|, and speeds v0, v1 where the leg is entered and left, the top speed is
+// the trapezoidal law hold with A for the acceleration. With cruising speed c = fraction min_i v_i/|D_i|,
+// A = min_i A_i/|D_i|, and speeds v0, v1 where the leg is entered and left, the top speed is
 // (M3) v = min(c, sqrt((2 A L + v0^2 + v1^2)/2)).
+//
 // Zone blending: the velocity changes from V0 = v D_k to V1 = v' D_{k+1} by (M1) from tau/2 before the
-// waypoint to tau/2 after it, as if both legs were driven without slowing down. (M4) The path leaves leg k at
-// v tau/2
-// <= zone before the waypoint and joins leg k+1 as far behind it; in between it lies in the triangle of these
-// three points (velocities are convex combinations), so no axis deviates by more than the zone, nor by more
-// than half a leg. (M5) Speeds v, v' = min(c_k, w), min(c_{k+1}, w) with the largest w for which (M4) holds
-// and both legs are long enough to change speed; found corner by corner and swept until all legs agree. w = 0
-// (zone 0, a dwell, the ends) is a full stop.
+// waypoint to tau/2 after it, as if both legs were driven without slowing down.
+// (M4) The path leaves leg k at v tau/2 <= zone before the waypoint and joins leg k+1 as far behind it. In
+//      between it lies in the triangle of these three points (velocities are convex combinations), so no axis
+//      deviates by more than the zone, nor by more than half a leg.
+// (M5) Speeds v, v' = min(c_k, w), min(c_{k+1}, w) with the largest w for which (M4) holds and both legs are
+//      long enough to change speed; found corner by corner and swept until all legs agree. w = 0 (zone 0, a
+//      dwell, the ends) is a full stop.
 //
 // A chain of moves without a stop that holds a tool path is laid out as a whole (legs.h: M6, M7;
 // path_motion.h). Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is

@@ -1,13 +1,13 @@
 // Joint angles of a six-axis arm whose flange is to be in a place, by iteration: for arms that no closed form
-// solves (no common point of axes 4, 5, 6), and to bring those home that nearly fit one (a URDF whose angles
-// were rounded).
+// solves (no common point of axes 4, 5, 6), and for arms that nearly fit one (a URDF with rounded angles),
+// from the closed form's answer.
 //
 // (K4) flange(q) = e1(q1) ... e6(q6) F0, e_i(q) the turn about the axis (p_i, w_i) at zero angles, F0 the
-// flange there. (K5) Newton with damping (Levenberg, Marquardt): error e = (position [m], rotation vector
-// [rad]) from flange(q) to
-//      the wanted one, dq = J^T (J J^T + m I)^-1 e, J's columns (w x (flange - p), w); m falls by ten where
-//      |e| shrinks and grows by ten where not. From a start near enough it stays on its branch of arms: a
-//      path that is followed in small steps keeps its configuration.
+//      flange there.
+// (K5) Newton with damping (Levenberg, Marquardt): error e = (position [m], rotation vector [rad]) from
+//      flange(q) to the wanted one, dq = J^T (J J^T + m I)^-1 e, J's columns (w x (flange - p), w); m falls
+//      by ten where |e| shrinks and grows by ten where not. From a start near enough it stays on its branch
+//      of arms: a path that is followed in small steps keeps its configuration.
 // All arms are sought from many starts: the limits' box by a Halton sequence, so that two runs find the same.
 // Arms in narrow corners of the box may be missed; an arm that is found is right to `rounding`.
 //

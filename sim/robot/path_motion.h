@@ -2,9 +2,9 @@
 //
 // A path comes as a chain of short legs in joint space, L_k long (largest axis), each with the largest speed
 // c_k that its axes and its tool allow. Laid out one by one as joint moves are (motion.h), every leg would
-// have accelerations of its own, at 40 Hz for points 10 mm apart at 0.4 m/s. Instead: (M8) q(s): through the
-// legs' ends goes a curve of cubics, s the length along the legs, with the slope at an end
-//      that of the parabola through it and its neighbours; a leg that is the whole of a joint move stays
+// have accelerations of its own, at 40 Hz for points 10 mm apart at 0.4 m/s. Instead:
+// (M8) q(s): through the legs' ends goes a curve of cubics, s the length along the legs, with the slope at an
+//      end that of the parabola through it and its neighbours; a leg that is the whole of a joint move stays
 //      straight.
 // (M9) u = ds/dt: with q'' = q_ss u^2 + q_s u', u <= c_k, |q_ss,i| u^2 <= 0.7 A_i, and what is left of A_i
 //      changes the speed, forward from the stop at the begin and backward from the one at the end.
@@ -13,6 +13,7 @@
 //      Ends of three equal controls make it begin and end at rest, without a jump of acceleration. It leaves
 //      the curve by (h u)^2/6 of its curvature: 6 um for 0.4 m/s on a radius of 1 m. Acceleration rises
 //      within 2 h.
+//
 // Where the controls exceed a limit, u is lowered there and (M9), (M10) done again; at last h is stretched,
 // so no limit is exceeded. (B-spline: L. Biagiotti, C. Melchiorri, 2008, chapter 8.)
 #pragma once

@@ -1,8 +1,13 @@
 // LDL^T of a symmetric block tridiagonal matrix with 6x6 blocks, one block at a time.
 //
-//     | D0   U0          |     Block i is factored once its diagonal is complete; eliminating it changes only
-//     the | U0^T D1   U1     |     diagonal and right-hand side of block i + 1, so the caller may assemble
-//     block i + 1 |      U1^T D2 ... |     just before, and the matrix passes through the cache once.
+//     | D0    U0             |
+//     | U0^T  D1    U1       |
+//     |       U1^T  D2  ...  |
+//     |             ...      |
+//
+// Block i is factored once its diagonal is complete. Eliminating it changes only the diagonal and the
+// right-hand side of block i + 1. So the caller may assemble block i + 1 just before, and the matrix passes
+// through the cache once.
 //
 // Of a diagonal block only the upper triangle is used. Plain loops of fixed length on row-major arrays: the
 // compiler unrolls and vectorises them.

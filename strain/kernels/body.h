@@ -402,9 +402,9 @@ struct RowsOfDresspack {
 /// With N = R sigma^2 + y X, V / V0 = 1 + e and (1 + e)^2 = 1 + q,
 ///     bend2 = c N / V (1 + strain) / (1 + e),    bend2 - bend2_0 = c / V0 (N - N0 + N m),
 ///     m = (1 + strain) / (1 + q) - 1 = (strain - q) / (1 + q);    glued, strain = e: m = -e / (1 + e),
-/// and the same for the twist with M = sigma stretch. Its own slopes in a parent that has none (`slopes`):
-/// along the parent radial' = -theta' X, X' = theta' radial, y' = R X', y'' = -R theta'^2 X, and with w =
-/// V'/V = y y'/V^2
+/// and the same for the twist with M = sigma stretch. Its own slopes in a parent that has none
+/// (`slopes`), along that parent:
+///     radial' = -theta' X,   X' = theta' radial,   y' = R X',   y'' = -R theta'^2 X,   w = V'/V = y y'/V^2,
 ///     a' = -R sigma y' / V^2,   a'' = -R sigma (y'' - 2 y' w) / V^2;   (N / V)' = (N' - N w) / V,
 /// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0.
 template <Sliding how, bool slopes, class Source>

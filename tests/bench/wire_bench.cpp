@@ -5,11 +5,13 @@
 // all free; one wire-sample is one wire at one sample. Two motions: `wire_...` is busy, 4.6 % of its
 // wire-samples are turning points above the gate, as many as in the hardest of the shipped jobs;
 // `wire_calm_...` has 0.4 %, as the two robots have.
-//   wire_gsamples_per_s: Evaluation (strain, turning points, bounds, probes) and DamageCounter.
-//   wire_strain_gsamples_per_s: Evaluation alone.
-//   wire_scan_gsamples_per_s: of that, strains and turning points in memory: no bounds, no probes, no sites'
-//   tables. wire_reference_gsamples_per_s: every sample of stored histories through a turning-point test, a
-//   stack and two comparisons, ranges summed: no strain, no damage; what the fastest public counters do.
+//   wire_gsamples_per_s            Evaluation (strain, turning points, bounds, probes) and DamageCounter.
+//   wire_strain_gsamples_per_s     Evaluation alone.
+//   wire_scan_gsamples_per_s       Of that, strains and turning points in memory: no bounds, no probes, no
+//                                  sites' tables.
+//   wire_reference_gsamples_per_s  Every sample of stored histories through a turning-point test, a stack and
+//                                  two comparisons, ranges summed: no strain, no damage. The fastest public
+//                                  counters do this.
 // The instruction set is the widest, or what DRESSLIFE_KERNELS names.
 #include <algorithm>
 #include <cmath>

@@ -62,6 +62,10 @@ TEST_CASE("scripts/check refuses what breaks an arrow, a home or a rule, and say
       {"pipeline/cable/helix.h", "  printf(\"x\");", "printing or exiting outside a main"},
       {"sim/README.md", "See [the rod](rod/gone.h).", "a page links to what is not there"},
       {"README.md", "It lives in `sim/gone.cpp`.", "names a file that is not there"},
+      {"sim/rod/rod.h",
+       "// A first line so full that a formatter with a smaller limit of columns has to wrap its last words,\n"
+       "// only these\n//     before the line that was to stand below them.",
+       "a formatter broke a comment"},
   };
   Scratch scratch;
   copy_tree(scratch);
@@ -78,6 +82,20 @@ TEST_CASE("scripts/check refuses what breaks an arrow, a home or a rule, and say
     scratch.write(broken.file, before);
   }
   CHECK(check(scratch).status == 0);
+}
+
+TEST_CASE("scripts/check lets a short comment line end a paragraph or a sentence, or stand in a table") {
+  const std::string full =
+      "// A first line so full that a formatter with a smaller limit of columns would have to wrap its words,";
+  const std::string ends[] = {"// its end", "// its end\n//\n// and a paragraph",
+                              "// it ends.\n// So another.", "// the list:\n//   an item",
+                              "//   a row\n//   another row"};
+  Scratch scratch;
+  copy_tree(scratch);
+  for (const std::string& end : ends) add_line(scratch, "sim/rod/rod.h", full + "\n" + end + "\n");
+  const Outcome outcome = check(scratch);
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
 }
 
 TEST_CASE("scripts/check refuses a folder with code that it does not know") {

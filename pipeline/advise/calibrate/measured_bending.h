@@ -1,13 +1,13 @@
 // A cable that was bent and its moment measured: what of it a model must say.
 //
-// A first bend follows M1(curvature), which the strain file of a job tells (/bending). Sliders with constant
+// A first bend follows M1(curvature), which the strain file of a job holds (/bending). Sliders with constant
 // caps remember where bending turned (Masing): from a turning point (k0, M0) on
-//     M = M0 + 2 M1((k - k0)/2),                                                              (P4)
+//     M = M0 + 2 M1((k - k0)/2),                                                                      (P4)
 // a branch that closes a loop goes on as the one before it. So each measured moment is a sum of values of M1.
 //
-// A piece held at one end that swings freely bends to and fro between -k phi and k phi, phi(x) the curvature
-// of a clamped bar's first natural form, 1 at the clamp. Each swing to and fro takes the loop that (P4)
-// closes from what is stored:
+// A piece held at one end that swings freely bends to and fro between -k phi and k phi, where phi(x) is the
+// curvature of a clamped bar's first natural form, 1 at the clamp. Each swing to and fro takes the loop that
+// (P4) closes from the stored energy:
 //     decrement = sum over x of [8 int_0^(k phi) M1 - 4 k phi M1(k phi)] / sum over x of k phi M1(k phi) (P5)
 #pragma once
 

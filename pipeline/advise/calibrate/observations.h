@@ -1,12 +1,13 @@
-// What was observed of cables and wires, held against what the model says: a table of observations, each with
-// the job that does to the model's cable what was done to the real one, and what of it is not known, over its
-// range.
+// Observations of cables and wires, compared with what the model says: a table of observations. Each has the
+// job that does to the model's cable what was done to the real one, and the values that are not known.
 //
 //   observations:
 //     - name: wenglor_chain
 //       job: {motion: {rig: {...}}, dresspack: {cable: {...}}}      a job, or a file of one
 //       vary: {fatigue.material: [copper_halved, copper_annealed]}  what is not known; every combination
-//       becomes a job cycles: 2e+6                                                or hours outcome: rating
+//                                                                   becomes a job
+//       cycles: 2e+6                                                or hours
+//       outcome: rating
 //       source: ...
 #pragma once
 

@@ -1,13 +1,14 @@
-// What a search may change: keys of the jobs, each with what it may be.
+// What a search may change: keys of the jobs, each with its allowed values.
 //
 //   free:
-//     routing.free_length_m: 1.9 .. 2.6                       any number between
-//     routing.tool_clamp.direction: 30 deg around             any direction in a cone about the job's
-//     routing.base_clamp.position_m: 0.05 around              each coordinate so far from the job's
-//     routing.base_clamp.position_m: -0.2 .. 0.3 along link_3 from the job's place along the link (or along
-//     [1, 0, 0]) dresspack: [spot_welding, slim.yaml]                    one of these
+//     routing.free_length_m: 1.9 .. 2.6                         any number between
+//     routing.tool_clamp.direction: 30 deg around               any direction in a cone about the job's
+//     routing.base_clamp.position_m: 0.05 around                each coordinate within this of the job's
+//     routing.base_clamp.position_m: -0.2 .. 0.3 along link_3   from the job's place along the axis of link_3
+//     routing.base_clamp.position_m: -0.2 .. 0.3 along [1, 0, 0]   the same along a direction
+//     dresspack: [spot_welding, slim.yaml]                      one of these
 //
-// A number with `around` is that far from the job's, up or down.
+// A number with `around` may differ from the job's by that much, up or down.
 #pragma once
 
 #include <Eigen/Core>

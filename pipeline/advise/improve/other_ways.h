@@ -1,14 +1,15 @@
 // What a robot program could do instead: the lines that cost most reach the same targets in another way.
 //
 // A wrist whose axes 4 and 6 lie along each other at axis 5 = 0, and whose axis 5 crosses them at a right
-// angle in a point, reaches every pose twice, and by whole turns of axes 4 and 6 more often, as R_x(pi)
-// R_y(-b) R_x(pi) = R_y(b):
-//     (q4, q5, q6) -> (q4 +- 180 deg, -q5, q6 +- 180 deg),   (q4 +- 360 deg, q5, q6),   (q4, q5, q6 +- 360
-//     deg)
-// and by another configuration of axes 1 to 3 (other_arms.h). Each way is tried at each line by itself and at
-// all lines together, which spares the turn there and back; each line more slowly; and by a point on its way,
-// so that arm and wrist move one after the other. Programs of steps with joint targets alone: targets of the
-// tool take the turn that is next.
+// angle in a point, reaches every pose twice, because R_x(pi) R_y(-b) R_x(pi) = R_y(b), and more often by
+// whole turns of axes 4 and 6:
+//     (q4, q5, q6) -> (q4 +- 180 deg, -q5, q6 +- 180 deg)
+//     (q4, q5, q6) -> (q4 +- 360 deg, q5, q6)
+//     (q4, q5, q6) -> (q4, q5, q6 +- 360 deg)
+// Another configuration of axes 1 to 3 (other_arms.h) reaches it, too. Each way is tried at each line by
+// itself, and at all lines together, which saves the turn there and back. Each line is also tried more
+// slowly, and through a point on its way, so that arm and wrist move one after the other. All this holds for
+// programs of steps with joint targets only: targets of the tool take the nearest turn.
 #pragma once
 
 #include <string>

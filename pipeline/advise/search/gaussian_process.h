@@ -1,12 +1,13 @@
-// A smooth function through what was seen at some places, and how sure it is between them.
+// A smooth function through values at some places, with its uncertainty between them.
 //
 // (Q4) values = m + f + noise, f a Gaussian process: cov f(x) f(x') = s^2 k(r),
 //      r^2 = sum ((x_i - x'_i)/l_i)^2, k(r) = (1 + sqrt(5) r + 5 r^2/3) exp(-sqrt(5) r)  (Matern 5/2;
 //      Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006, eq. 4.17), noise variance
 //      s^2 n. m is the mean of the values, s^2 the likeliest given the rest; l and n maximise the likelihood
-//      (eq. 5.8) times a wide lognormal prior on each. Several functions of the same places have one k, l
-//      and n and an m and s each; their likelihood is the mean of all, since they are not independent of
-//      each other.
+//      (eq. 5.8) times a wide lognormal prior on each.
+//
+// Several functions of the same places share k, l and n; each has its own m and s. Their likelihood is the
+// mean of all, since they are not independent of each other.
 #pragma once
 
 #include <Eigen/Cholesky>

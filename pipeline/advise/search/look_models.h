@@ -1,12 +1,13 @@
 // Models of all looks so far: of the aim, of each limit, and of whether a place runs.
 //
-// (Q5) A limit of which rehearsals tell is modelled in two parts, g(x) = r(x) + d(x): r through all
-//      rehearsals near the centre of the search, d through what looks differed from it; both Gaussian
+// (Q5) A limit that rehearsals compute is modelled in two parts, g(x) = r(x) + d(x): r through all rehearsals
+//      near the centre of the search, d through the differences between looks and r. Both are Gaussian
 //      processes (Q4), independent, so that their variances add up (M. Kennedy and A. O'Hagan, Biometrika 87
-//      (2000) 1, eq. 2 with rho = 1). Where a place was rehearsed, r is known. Before looks tell, d is
-//      believed to be about a tenth, as limits are graded. Other limits, and the aim, are modelled through
-//      the looks alone.
-// (Q7) Where rehearsals tell a limit in pieces, each piece is modelled and r is the largest of them: the
+//      (2000) 1, eq. 2 with rho = 1). Where a place was rehearsed, r is known. Before the first looks, d has
+//      a deviation of about a tenth, in the units in which limits are graded. Other limits, and the aim, are
+//      modelled through the looks alone.
+//
+// (Q7) Where rehearsals give a limit in pieces, each piece is modelled and r is the largest of them: the
 //      largest has an edge wherever another piece takes over, which no smooth function follows, its pieces
 //      have none (composite Bayesian optimization: R. Astudillo and P. Frazier, ICML 2019). A bound of r at
 //      c deviations is the largest of the pieces' bounds.
