@@ -24,7 +24,7 @@
 // A chain of moves without a stop that holds a tool path is laid out as a whole (legs.h: M6, M7;
 // path_motion.h). Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is
 // an estimate. (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic
-// Machines and Robots, 2008, chapters 3 and 5; the unified form here is derived in sim/README.md.)
+// Machines and Robots, 2008, chapters 3 and 5; the unified form is derived above.)
 #pragma once
 
 #include <Eigen/Core>

@@ -87,7 +87,7 @@ double worst_error(const Chain& chain, const Rate& rate, DeformationMeasure meas
 }
 
 /// A chain of the simulator's kind, turned at the links by `rotation`: rigid segments whose ends meet, a
-/// little further out where they bend (sim/README.md, S17).
+/// little further out where they bend (sim/rod/README.md, S17).
 Chain jointed_chain(double segment_length, const std::vector<Vector3d>& rotation) {
   Chain chain;
   Quaterniond q = Quaterniond::Identity();
