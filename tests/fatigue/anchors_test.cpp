@@ -1,5 +1,5 @@
 // The shipped materials of copper wire: that they follow from what their `source:` says, and how far they lie
-// from what was measured. Nothing is tuned to the measurements; fatigue/README.md shows the misses.
+// from what was measured. Nothing is tuned to the measurements; fatigue/measurements.md shows the misses.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -87,7 +87,7 @@ TEST_CASE("copper: the constants follow from their sources") {
   CHECK(universal_slopes(1, 0.889).ductility == Approx(halved.fatigue_ductility).epsilon(rounded));
 }
 
-TEST_CASE("copper: predicted beside measured, as fatigue/README.md tells it") {
+TEST_CASE("copper: predicted beside measured, as fatigue/measurements.md tells it") {
   constexpr double as_printed = 0.006;  // three digits
   struct Told {
     const char* name;
@@ -110,7 +110,7 @@ TEST_CASE("copper: predicted beside measured, as fatigue/README.md tells it") {
 }
 
 TEST_CASE("copper: 0.14 mm wire bent at a clip, one bending length for three angles") {
-  // At most 5.5e4 cycles at +-5 deg, fewer at 10, more than 1e5 at 1 deg (fatigue/README.md). The length over
+  // At most 5.5e4 cycles at +-5 deg, fewer at 10, more than 1e5 at 1 deg (fatigue/measurements.md). The length over
   // which it bends is not told: that which gives 5.5e4 at 5 deg must respect the other two, and be a few
   // diameters.
   for (const char* name : {"copper", "copper_halved", "copper_annealed", "copper_hard_drawn"}) {
