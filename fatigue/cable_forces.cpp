@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_pulls.h"
-#include "pipeline/job/believable.h"
 
 namespace dresslife::fatigue {
 namespace {

@@ -3,6 +3,7 @@
 #include "fatigue/memory.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/stage/stage.h"
 
 int main(int argc, char** argv) {

@@ -9,7 +9,7 @@
 
 #include "fatigue/strain_file.h"
 #include "fatigue/verdict.h"
-#include "pipeline/job/life_response.h"
+#include "pipeline/life/life_response.h"
 
 namespace dresslife::fatigue {
 

@@ -5,15 +5,16 @@
 
 #include "pipeline/files/checks.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/stage/stage.h"
-#include "sim/exercise.h"
-#include "sim/memory.h"
-#include "sim/motion_file.h"
-#include "sim/prescribed.h"
-#include "sim/preview.h"
-#include "sim/proposal.h"
-#include "sim/screening_file.h"
-#include "sim/simulate.h"
+#include "sim/route/exercise.h"
+#include "sim/route/preview.h"
+#include "sim/route/proposal.h"
+#include "sim/route/screening_file.h"
+#include "sim/run/memory.h"
+#include "sim/run/motion_file.h"
+#include "sim/run/prescribed.h"
+#include "sim/run/simulate.h"
 
 using namespace dresslife;
 

@@ -1,6 +1,7 @@
 // dresslife-strain: motion.h5 in, strain.h5 out.
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/stage/stage.h"
 #include "strain/memory.h"
 #include "strain/strain_file.h"

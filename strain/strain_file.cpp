@@ -9,11 +9,11 @@
 #include <span>
 
 #include "pipeline/base/threads.h"
+#include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/files/motion_layout.h"
-#include "pipeline/job/believable.h"
 #include "pipeline/job/job.h"
 #include "strain/evaluation.h"
 #include "strain/variations.h"

@@ -33,7 +33,7 @@ forgets pipeline/job/fatigue.h MeanStressRelaxation 1 fatigue/relaxation.cpp
 forgets pipeline/job/fatigue.h Stress 2
 forgets pipeline/job/fatigue.h Counting 2
 forgets pipeline/job/strain.h DeformationMeasure 2
-forgets pipeline/cable/kinematics.h Kinematics 2
+forgets pipeline/job/kinematics.h Kinematics 2
 forgets pipeline/job/strain.h Slip 3
 forgets pipeline/job/strain.h Equivalent 3
 forgets pipeline/job/dresspack.h Hand 2

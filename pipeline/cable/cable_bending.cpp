@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/shares.h"
 
 namespace dresslife::pipeline {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/cable/cyclic_curve.h"
+#include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/polymer.h"
 #include "pipeline/cable/stiffness.h"
 

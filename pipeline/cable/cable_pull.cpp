@@ -4,6 +4,8 @@
 #include <numbers>
 #include <vector>
 
+#include "pipeline/cable/plain_properties.h"
+
 namespace dresslife::pipeline {
 namespace {
 

@@ -20,8 +20,8 @@
 // minus one (W7). Nothing is approximated. `thesis` kinematics is Backman's set (12) to (23), see W9 there.
 #pragma once
 
-#include "pipeline/cable/kinematics.h"
 #include "pipeline/cable/series.h"
+#include "pipeline/job/kinematics.h"
 
 namespace dresslife::helices {
 

@@ -8,6 +8,7 @@
 
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/corrugation.h"
+#include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/polymer.h"
 
 namespace dresslife::pipeline {

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "pipeline/base/warnings.h"
+#include "pipeline/cable/plain_properties.h"
 #include "pipeline/job/dresspack.h"
 
 namespace dresslife::pipeline {

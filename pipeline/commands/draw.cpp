@@ -7,8 +7,8 @@
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/report/cross_section.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -7,6 +7,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/job/cluster.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/stage/program_manual.h"
 #include "pipeline/study/study.h"

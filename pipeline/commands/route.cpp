@@ -22,6 +22,7 @@
 #include "pipeline/files/digest.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/stage_program.h"
 

@@ -6,9 +6,9 @@
 
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/report/figures.h"
 #include "pipeline/report/file_summary.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

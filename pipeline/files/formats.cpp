@@ -559,7 +559,7 @@ Format make_life_format() {
        "the same over the scatter of wires alone; only where uncertainty is enabled", false, true},
       {"scatter_life_hours_p50", "the same of half of them", false, true},
       {"scatter_life_hours_p90", "the same of 90 %", false, true},
-      {"life_response", "how the life answers to what is not known, as pipeline/job/life_response.h writes "
+      {"life_response", "how the life answers to what is not known, as pipeline/life/life_response.h writes "
                         "it", true, true},
       {"life_shares", "which parameters explain how much of the variance of log life, largest first", true, true},
       {"measure_next", "the parameter that explains most; empty: the scatter of wires does", true, true},
@@ -686,12 +686,12 @@ Format make_screening_format() {
   add({"/candidate/refusal", Type::text, {"candidate"}, "1", "why it is no job, or does not run; empty: it is one"});
   add({"/candidate/rejected", Type::i32, {"candidate"}, "1", "1: cannot work, 0: may"});
   add({"/candidate/beyond", Type::f64, {"candidate", "limit"}, "1",
-       "how far beyond each limit, (V1) to (V6) in sim/screening.h, of the last run where there were "
+       "how far beyond each limit, (V1) to (V6) in sim/route/screening.h, of the last run where there were "
        "rehearsals; <= 0: kept; 0 where it is no job", true});
   add({"/candidate/time", Type::f64, {"candidate", "limit"}, "s", "when"});
   Dataset bend{"/candidate/bend", Type::f64, {"candidate", "bend"}, "1",
                "of short runs: (V3) of each dresspack, each part of the motion's time, each part of the hose "
-               "(sim/rehearsal.h); 0 where it does not run"};
+               "(sim/route/rehearsal.h); 0 where it does not run"};
   bend.may_be_absent = true;
   add(bend);
   format.attributes = {{"motion", "YAML of the motion for which routings are proposed; empty: the job's own", true}};

@@ -8,10 +8,7 @@
 #include <cmath>
 
 #include "pipeline/base/readable.h"
-#include "pipeline/job/catalogue.h"
-#include "pipeline/job/sources.h"
 #include "pipeline/settings/fields.h"
-#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 
@@ -62,17 +59,9 @@ void describe(Fields& f, Calibration& calibration) {
 
 namespace {
 
-/// Of uncertain_parameters(); uncertain_count: there is none of that name.
-std::size_t index_of_name(const std::string& name) {
-  const auto& known = uncertain_parameters();
-  const auto found =
-      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
-  return static_cast<std::size_t>(found - known.begin());
-}
-
 void check_parameter(const Calibration& calibration, std::size_t i) {
   const LearnedParameter& parameter = calibration.parameters[i];
-  if (index_of_name(parameter.name) == uncertain_count) {
+  if (index_of(parameter.name) == uncertain_count) {
     std::vector<std::string> names;
     for (const UncertainParameter& one : uncertain_parameters()) names.emplace_back(one.name);
     throw InputError(parameter.where, fmt::format("'{}' is no uncertain parameter", parameter.name),
@@ -128,7 +117,7 @@ ParameterKnowledge knowledge_of(const Calibration& calibration) {
   const Eigen::MatrixXd covariance = covariance_of(calibration);
   std::vector<Eigen::Index> place;
   for (const LearnedParameter& parameter : calibration.parameters)
-    place.push_back(static_cast<Eigen::Index>(index_of_name(parameter.name)));
+    place.push_back(static_cast<Eigen::Index>(index_of(parameter.name)));
   for (std::size_t i = 0; i < place.size(); ++i) {
     knowledge.mean[place[i]] = calibration.parameters[i].mean;
     for (std::size_t j = 0; j < place.size(); ++j)
@@ -136,42 +125,6 @@ ParameterKnowledge knowledge_of(const Calibration& calibration) {
           covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
   return knowledge;
-}
-
-namespace {
-
-/// Whether a job's tree says another value than the one that changes nothing, which resolved jobs write out.
-bool gives(const Node& job, const UncertainParameter& parameter) {
-  const std::size_t dot = parameter.key.find('.');
-  const Node* section = job.find(parameter.key.substr(0, dot));
-  const Node* value = section && section->is_map() ? section->find(parameter.key.substr(dot + 1)) : nullptr;
-  return value && value->text != shortest_text(parameter.value(0));
-}
-
-}  // namespace
-
-void apply_calibration(Node& job) {
-  Node* written = job.find("calibration");
-  if (!written) return;
-  if (written->is_scalar()) {
-    const Node asked = *written;
-    *written = read_document((folder_of(asked.where) / asked.text).lexically_normal());
-    if (!written->is_map())
-      throw InputError(written->where, "holds no calibration", "name a file that dresslife calibrate wrote");
-  }
-  Calibration calibration;
-  read_fields(*written, calibration);
-  check_calibration(calibration);
-  if (calibration.applied) return;
-  (*written)["applied"] = scalar("true");
-  const Where where = written->where;
-  for (const LearnedParameter& learned : calibration.parameters) {
-    const UncertainParameter& parameter = uncertain_parameters()[index_of_name(learned.name)];
-    if (gives(job, parameter)) continue;
-    Node value = scalar(shortest_text(parameter.value(learned.median)));
-    value.where = learned.where;
-    set_value(job, std::string(parameter.key), std::move(value), where);
-  }
 }
 
 std::vector<std::string> beyond(const LearnedWithin& within, const Experience& experience) {

@@ -69,10 +69,6 @@ void check_calibration(const Calibration& calibration);
 /// variance 1.
 ParameterKnowledge knowledge_of(const Calibration& calibration);
 
-/// In a job's tree that is not read yet: the calibration's file in place of its name, its medians in the keys
-/// that stand at their defaults. Errors: InputError.
-void apply_calibration(Node& job);
-
 /// Where a job goes beyond what a calibration was learned from: "a strain range of 0.012 (0.001 .. 0.006 in
 /// its tests)".
 struct Experience {

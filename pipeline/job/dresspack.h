@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/cable/plain_part.h"
 #include "pipeline/job/material.h"
+#include "pipeline/job/plain_part.h"
 #include "pipeline/job/rating.h"
 #include "pipeline/job/strain.h"
 #include "pipeline/settings/document.h"

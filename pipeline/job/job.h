@@ -6,14 +6,14 @@
 // and material are catalogue entries: a job names a file of config/ or holds the entry itself, and `from:
 // NAME` starts from a catalogue entry.
 //
-// Include setup.h or job_text.h where they do: what includes this is compiled anew for every key.
+// Include setup.h or pipeline/resolve/job_text.h where they do: what includes this is compiled anew for every key.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "pipeline/job/calibration.h"
 #include "pipeline/job/fatigue.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/job/strain.h"
 #include "pipeline/job/uncertainty.h"
@@ -26,6 +26,8 @@ struct Job : Setup {
   Uncertainty uncertainty;
   std::optional<Calibration> calibration;  ///< what observations have taught; its medians stand in the keys
 };
+
+void describe(Fields& f, Job& job);
 
 /// What is known of its parameters: from observations where it names a calibration, else its prior.
 ParameterKnowledge knowledge_of(const Job& job);

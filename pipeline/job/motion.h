@@ -144,11 +144,6 @@ void describe(Fields& f, Motion& motion);
 /// Errors: InputError at the step that is no whole move, dwell or block, or that the robot's axes do not fit.
 void check_motion(const Motion& motion, const Robot& robot);
 
-/// Files that a robot program may be read from besides those that the motion names: of a folder (or of the
-/// folder of a list of modules), those that end like robot programs, within it and the folders in it; of a
-/// KRL program, those of the robot's folder R1 in a backup, else those beside it. Sorted.
-std::vector<std::filesystem::path> program_files(const std::filesystem::path& program);
-
 /// One motion as YAML, and from a document that holds nothing else (checked key by key, not against a robot).
 std::string motion_text(const Motion& motion);
 Motion motion_from(const Node& document);

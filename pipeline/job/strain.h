@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/cable/kinematics.h"
+#include "pipeline/job/kinematics.h"
 
 namespace dresslife::pipeline {
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/settings/fields.h"
@@ -59,6 +60,13 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "dresspacks that broke, or have not, with their programs and hours (dresslife calibrate)"},
   }};
   return parameters;
+}
+
+std::size_t index_of(std::string_view name) {
+  const auto& known = uncertain_parameters();
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
+  return static_cast<std::size_t>(found - known.begin());
 }
 
 std::vector<std::string> sets_at(std::span<const double> z) {

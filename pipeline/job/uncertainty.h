@@ -51,6 +51,8 @@ struct UncertainParameter {
 
 const std::array<UncertainParameter, uncertain_count>& uncertain_parameters();
 constexpr std::size_t index_of(Uncertain parameter) { return static_cast<std::size_t>(parameter); }
+/// Of the parameter of this name; uncertain_count: there is none.
+std::size_t index_of(std::string_view name);
 
 /// "strain.friction_factor=2.5" and so on, as `--set` takes them, of all parameters whose z is not 0.
 /// Precondition: (parameter).

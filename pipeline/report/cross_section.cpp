@@ -8,6 +8,7 @@
 #include <set>
 
 #include "pipeline/cable/overlap.h"
+#include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/report/plot.h"
 

@@ -14,7 +14,6 @@
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/files/motion_layout.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/damage_tables.h"
 #include "pipeline/report/json.h"
@@ -25,6 +24,7 @@
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/section_data.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/row_warnings.h"
 

@@ -9,9 +9,9 @@
 
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/plot.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "pipeline/files/files.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/json.h"
@@ -16,6 +15,7 @@
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene_data.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

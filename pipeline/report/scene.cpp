@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "pipeline/files/files.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/hose_line.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -8,9 +8,9 @@
 #include <unordered_map>
 
 #include "pipeline/files/motion_layout.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/json.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

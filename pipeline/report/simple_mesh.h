@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipeline/job/mesh_file.h"
+#include "pipeline/base/mesh_file.h"
 
 namespace dresslife::pipeline {
 

@@ -17,7 +17,8 @@
 #include "pipeline/files/digest.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
-#include "pipeline/job/sources.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/stage/command_line.h"
 
 namespace dresslife::pipeline {

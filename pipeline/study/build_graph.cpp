@@ -18,7 +18,7 @@
 
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/receipt.h"
-#include "pipeline/job/job_text.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
-#include "pipeline/job/job_text.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {

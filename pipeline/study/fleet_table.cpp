@@ -6,7 +6,7 @@
 #include <map>
 #include <string_view>
 
-#include "pipeline/job/sources.h"
+#include "pipeline/resolve/sources.h"
 
 namespace dresslife::pipeline {
 namespace {

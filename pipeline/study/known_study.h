@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job/sources.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/study/build_graph.h"
 
 namespace dresslife::pipeline {

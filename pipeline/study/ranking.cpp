@@ -13,7 +13,7 @@
 #include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
-#include "pipeline/job/life_response.h"
+#include "pipeline/life/life_response.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/shown_rows.h"

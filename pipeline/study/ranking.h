@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipeline/base/warnings.h"
-#include "pipeline/job/believable.h"
+#include "pipeline/cable/believable.h"
 #include "pipeline/study/build_graph.h"
 
 namespace dresslife::pipeline {

@@ -8,9 +8,10 @@
 #include <map>
 
 #include "pipeline/base/readable.h"
-#include "pipeline/job/cable.h"
-#include "pipeline/job/catalogue.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/cable_alone.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 

@@ -11,8 +11,9 @@
 
 #include "pipeline/files/digest.h"
 #include "pipeline/files/files.h"
-#include "pipeline/job/cable.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/cable_alone.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/study/rate.h"
 

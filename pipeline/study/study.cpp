@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "pipeline/job/catalogue.h"
 #include "pipeline/job/job.h"
-#include "pipeline/job/sources.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/study/fleet_table.h"
 #include "pipeline/study/sampling.h"

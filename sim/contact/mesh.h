@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "pipeline/job/mesh_file.h"
+#include "pipeline/base/mesh_file.h"
 #include "sim/rod/rotation.h"
 
 namespace dresslife::sim {

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "pipeline/base/program_files.h"
 #include "sim/program/tokens.h"
 
 namespace dresslife::sim {

@@ -10,6 +10,7 @@
 
 #include "pipeline/files/checksum.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/stage/stage.h"
 #include "tests/pipeline/sample_life.h"
 

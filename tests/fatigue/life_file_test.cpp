@@ -15,7 +15,7 @@
 #include "fatigue/scatter.h"
 #include "fatigue/verdict.h"
 #include "pipeline/job/job.h"
-#include "pipeline/job/life_response.h"
+#include "pipeline/life/life_response.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/cable/plain_properties.h"
 #include "strain/cable_paths.h"
 #include "tests/strain/dresspacks.h"
 

@@ -5,6 +5,7 @@
 
 #include "fatigue/life_file.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
 #include "strain/strain_file.h"
 #include "tests/pipeline/sample_job.h"

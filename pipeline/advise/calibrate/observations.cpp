@@ -8,8 +8,9 @@
 #include <set>
 
 #include "pipeline/base/readable.h"
-#include "pipeline/job/catalogue.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {

@@ -7,7 +7,8 @@
 
 #include "pipeline/files/digest.h"
 #include "pipeline/job/job.h"
-#include "pipeline/job/sources.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -7,8 +7,9 @@
 
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/base/installation.h"
-#include "pipeline/job/catalogue.h"
-#include "pipeline/job/sources.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {

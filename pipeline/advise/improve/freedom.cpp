@@ -10,8 +10,9 @@
 #include <numbers>
 
 #include "pipeline/advise/improve/set_text.h"
-#include "pipeline/job/catalogue.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {

@@ -12,7 +12,7 @@
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
 #include "pipeline/job/job.h"
-#include "pipeline/job/sources.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 

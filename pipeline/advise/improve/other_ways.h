@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/job/job_text.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 

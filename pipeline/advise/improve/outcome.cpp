@@ -8,10 +8,10 @@
 #include <map>
 #include <stdexcept>
 
+#include "pipeline/cable/believable.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/checks.h"
 #include "pipeline/files/receipt.h"
-#include "pipeline/job/believable.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {

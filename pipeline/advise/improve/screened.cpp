@@ -6,7 +6,7 @@
 
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/files.h"
-#include "pipeline/job/job_text.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {

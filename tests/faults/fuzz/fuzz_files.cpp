@@ -25,6 +25,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/report/report.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/study/ranking.h"
 #include "strain/strain_file.h"
 

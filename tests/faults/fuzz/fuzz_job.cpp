@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/pipeline/sample_job.h"
 
 using namespace dresslife::pipeline;

@@ -1,13 +1,15 @@
 // Parts without wires: a tube's closed forms, what they add to a hose, and what is refused.
-#include "pipeline/cable/plain_part.h"
+#include "pipeline/job/plain_part.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/cable/cable_force.h"
+#include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/pipeline/sample_job.h"
 
 using namespace dresslife::pipeline;

@@ -8,6 +8,7 @@
 
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/pipeline/sample_job.h"
 
 using namespace dresslife::pipeline;

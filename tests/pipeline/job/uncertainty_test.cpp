@@ -5,6 +5,7 @@
 #include <set>
 
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

@@ -7,13 +7,13 @@
 #include <random>
 
 #include "pipeline/base/whole_file.h"
-#include "pipeline/job/job_text.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/key_samples.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/simple_mesh.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 

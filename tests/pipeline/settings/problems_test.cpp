@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

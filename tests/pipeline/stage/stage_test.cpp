@@ -8,6 +8,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

@@ -9,6 +9,7 @@
 
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/shared_stages.h"
 #include "tests/pipeline/sample_job.h"

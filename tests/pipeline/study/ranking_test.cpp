@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "pipeline/base/readable.h"
-#include "pipeline/job/life_response.h"
+#include "pipeline/life/life_response.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 

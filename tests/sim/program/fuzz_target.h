@@ -5,7 +5,7 @@
 #include <string>
 
 #include "pipeline/job/robot.h"
-#include "pipeline/job/urdf.h"
+#include "pipeline/urdf/urdf.h"
 #include "pipeline/settings/fields.h"
 #include "sim/program/import.h"
 

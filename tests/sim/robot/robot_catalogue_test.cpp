@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "pipeline/job/catalogue.h"
+#include "pipeline/resolve/catalogue.h"
 #include "pipeline/settings/fields.h"
 #include "sim/robot/inverse_kinematics.h"
 

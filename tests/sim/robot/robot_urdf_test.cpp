@@ -4,8 +4,8 @@
 #include <numbers>
 #include <random>
 
-#include "pipeline/job/catalogue.h"
-#include "pipeline/job/urdf.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/urdf/urdf.h"
 #include "pipeline/settings/fields.h"
 #include "sim/robot/robot.h"
 

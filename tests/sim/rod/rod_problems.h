@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "sim/equilibrium.h"
 #include "sim/rod/rod.h"
+#include "sim/run/equilibrium.h"
 #include "tests/sim/rod/smooth.h"
 
 namespace dresslife::sim::test {

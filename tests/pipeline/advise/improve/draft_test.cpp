@@ -9,6 +9,7 @@
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/base/errors.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

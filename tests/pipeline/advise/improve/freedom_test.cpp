@@ -9,6 +9,7 @@
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

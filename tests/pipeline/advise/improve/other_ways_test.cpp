@@ -8,6 +8,7 @@
 #include "pipeline/advise/improve/other_ways.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -1,0 +1,30 @@
+#include "pipeline/job/plain_part.h"
+
+#include <fmt/format.h>
+
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+void describe(Fields& f, PlainPart& part) {
+  f.place(part.where);
+  f.choice("kind", part.kind, "filler or optical fibre, both solid, or a hose with a bore");
+  f.maybe_number("bore_mm", part.bore, above(0),
+                 "inner diameter of a hose; without it two thirds of the outer");
+  f.choice("filled_with", part.medium, "what flows in a hose: air, which weighs nothing here, or water");
+  f.maybe_number("bending_stiffness_Nm2", part.bending_stiffness, above(0),
+                 "E I of the part; without it that of polymer of 50 MPa. E A goes with it");
+}
+
+void check_plain_part(const PlainPart& part, double radius, std::string_view name) {
+  if (part.kind != PlainKind::hose && (part.bore || part.medium != Medium::air))
+    throw InputError(part.where,
+                     fmt::format("'{}' is a {} and has a bore or a filling", name, word(part.kind)),
+                     "set kind: hose, or leave out bore_mm and filled_with");
+  if (part.bore && *part.bore >= 2 * radius)
+    throw InputError(part.where,
+                     fmt::format("'{}' has bore_mm {:.4g} (it is {:.4g} mm wide outside)", name,
+                                 1e3 * *part.bore, 2e3 * radius),
+                     "the bore is the inner diameter; radius_mm is half the outer one");
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,418 @@
+#include "pipeline/resolve/catalogue.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+#include <set>
+
+#include "pipeline/base/installation.h"
+#include "pipeline/resolve/cable_alone.h"
+#include "pipeline/resolve/data_sheet.h"
+#include "pipeline/resolve/sources.h"
+#include "pipeline/resolve/urdf_request.h"
+#include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
+
+namespace dresslife::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Shelf {
+  const char* key;     ///< of the job
+  const char* folder;  ///< of the catalogue
+};
+constexpr Shelf shelves[] = {{"robot", "robots"}, {"motion", "programs"}, {"dresspack", "dresspacks"}};
+
+/// Beside who names an entry and beside the job, and in their parents.
+std::vector<fs::path> folders_beside(const std::string& folder, const Where& named_at, const Where& job) {
+  std::vector<fs::path> folders;
+  std::error_code failure;
+  for (const Where& origin : {named_at, job}) {
+    fs::path here = fs::absolute(folder_of(origin) / "any", failure).lexically_normal().parent_path();
+    for (; !here.empty(); here = here.parent_path()) {
+      for (const fs::path& candidate : {here / folder, here / "config" / folder})
+        if (is_folder(candidate)) folders.push_back(candidate);
+      if (here == here.root_path()) break;
+    }
+  }
+  return folders;
+}
+
+void merge(Node& base, const Node& over) {
+  if (!base.is_map() || !over.is_map()) {
+    base = over;
+    return;
+  }
+  base.where = over.where;
+  for (const Entry& entry : over.entries) {
+    if (Node* found = base.find(entry.key))
+      merge(*found, entry.value);
+    else
+      base.entries.push_back(entry);
+  }
+}
+
+/// Items of the same `name` are merged, others added.
+void merge_by_name(Node& base, const Node& over) {
+  if (!base.is_list() || !over.is_list()) return merge(base, over);
+  const auto name = [](const Node& item) {
+    const Node* found = item.find("name");
+    return found ? found->text : std::string();
+  };
+  for (const Node& item : over.items) {
+    const auto same = std::find_if(base.items.begin(), base.items.end(), [&](const Node& known) {
+      return !name(item).empty() && name(known) == name(item);
+    });
+    if (same != base.items.end())
+      merge(*same, item);
+    else
+      base.items.push_back(item);
+  }
+}
+
+/// Accelerations are in no URDF: without this check the URDF's lines would be told to miss them.
+void check_accelerations(const Node& robot, const fs::path& urdf, const Where& asked) {
+  std::vector<std::string> without;
+  std::size_t driven = 0;
+  const Node* joints = robot.find("joints");
+  for (const Node& joint : joints ? joints->items : std::vector<Node>{}) {
+    if (!joint.is_map() || joint.find("follows")) continue;
+    ++driven;
+    const Node* name = joint.find("name");
+    if (!joint.find("acceleration_deg_per_s2")) without.push_back(name ? name->text : "?");
+  }
+  if (without.empty()) return;
+  throw InputError(
+      asked,
+      fmt::format("{} has no accelerations of {} (a URDF cannot hold any)", urdf.string(),
+                  fmt::join(without, ", ")),
+      fmt::format(
+          "give accelerations_deg_per_s2 beside 'urdf', {} numbers in the order of the axes (those of config/robots have "
+          "some 300 to 3,000)",
+          driven));
+}
+
+/// `urdf: FILE` and what else says how to read it; all other keys of the entry go over the robot in it.
+void read_urdf(Node& entry) {
+  Node about = entry, over = entry;
+  const auto is_about = [](const Entry& e) {
+    for (const char* key : {"urdf", "tip", "package_folder", "collision", "accelerations_deg_per_s2"})
+      if (e.key == key) return true;
+    return false;
+  };
+  std::erase_if(about.entries, [&](const Entry& e) { return !is_about(e); });
+  std::erase_if(over.entries, is_about);
+  UrdfRequest request;
+  read_fields(about, request);
+  std::error_code failure;
+  if (const fs::path shown = fs::proximate(request.urdf, failure); !failure && !shown.empty())
+    request.urdf = shown;
+  Node robot = robot_from_urdf(request);
+  for (const Entry& e : over.entries) {
+    Node& known = robot[e.key];
+    if (e.key == "joints" || e.key == "links" || e.key == "external_axes")
+      merge_by_name(known, e.value);
+    else
+      known = e.value;
+  }
+  check_accelerations(robot, request.urdf, entry.where);
+  entry = std::move(robot);
+}
+
+/// A robot's program in its own language, or joints as columns.
+bool is_program_file(const fs::path& file) {
+  std::string end = file.extension();
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char letter) { return std::tolower(letter); });
+  static const std::set<std::string> ends{".mod", ".modx", ".prg", ".pgf", ".src", ".ls", ".csv"};
+  return ends.contains(end) && is_file(file);
+}
+
+void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0);
+
+/// `cable: ...` of a dresspack (cable.h); the entry's other keys go over what becomes of it.
+void read_cable(Node& entry, const Where& job, int depth) {
+  const Node cable = *entry.find("cable");
+  const Node* from = cable.is_scalar() ? &cable : cable.find("from");
+  Node alone;
+  if (from) {
+    const Node* part = cable.find("part");
+    for (const Entry& other : cable.entries)
+      if (other.key != "from" && other.key != "part")
+        throw InputError(other.where, fmt::format("unknown key 'dresspack.cable.{}' beside from", other.key),
+                         "give from and part, or the cable itself without from");
+    Node dresspack = catalogue_entry("dresspacks", from->text, from->where, job);
+    resolve(dresspack, "dresspacks", job, depth + 1);
+    alone = cable_alone(dresspack, part ? part->text : std::string(), part ? part->where : cable.where);
+  } else if (cable.is_map()) {
+    alone = cable_alone(cable);
+  } else {
+    throw InputError(cable.where, "dresspack.cable is neither a name nor a map",
+                     "name a dresspack, or give name, radius_mm and components of the cable");
+  }
+  Node over = entry;
+  std::erase_if(over.entries, [](const Entry& e) { return e.key == "cable"; });
+  const Where where = entry.where;
+  merge(alone, over);
+  alone.where = where;
+  entry = std::move(alone);
+}
+
+void resolve(Node& entry, const std::string& folder, const Where& job, int depth) {
+  if (depth > 16) throw InputError(entry.where, "'from' goes in a circle", "let one entry stand alone");
+  if (entry.is_scalar()) {
+    entry = catalogue_entry(folder, entry.text, entry.where, job);
+    resolve(entry, folder, job, depth + 1);
+    return;
+  }
+  const Node* from = entry.is_map() ? entry.find("from") : nullptr;
+  if (!from && entry.is_map() && entry.find("cable") && folder == "dresspacks")
+    return read_cable(entry, job, depth);
+  if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
+  if (!from) return;
+  Node base = catalogue_entry(folder, from->text, from->where, job);
+  resolve(base, folder, job, depth + 1);
+  Node over = entry;
+  std::erase_if(over.entries, [](const Entry& e) { return e.key == "from"; });
+  merge(base, over);
+  entry = std::move(base);
+}
+
+/// Of a key path: "dresspack", "dresspacks.2.dresspack"; null: no catalogue entry stands there.
+const char* shelf_of(std::string_view path) {
+  constexpr std::string_view list = "dresspacks.";
+  if (path.starts_with(list)) {
+    const std::size_t item = path.find('.', list.size());
+    if (item == std::string_view::npos) return nullptr;
+    path = path.substr(item + 1);
+    if (path != "dresspack") return nullptr;
+  }
+  for (const Shelf& shelf : shelves)
+    if (path == shelf.key) return shelf.folder;
+  return nullptr;
+}
+
+void collect_materials(const Node& components, std::vector<const Node*>& names) {
+  for (const Node& component : components.items) {
+    if (const Node* name = component.find("material")) names.push_back(name);
+    if (const Node* inner = component.find("components")) collect_materials(*inner, names);
+  }
+}
+
+/// The catalogue's material of this name, which may stand for several.
+Node material_entry(const Node& name, const Node& job) {
+  Node material = catalogue_entry("materials", name.text, name.where, job.where);
+  resolve(material, "materials", job.where);
+  const Node* own_name = material.find("name");
+  if (!own_name || own_name->text != name.text)
+    throw InputError(material.where, fmt::format("the material is not named '{}' as its file is", name.text),
+                     fmt::format("write 'name: {}'", name.text));
+  return material;
+}
+
+void add_materials(Node& dresspack, const Node& job, const std::string& path, Problems& problems) {
+  std::vector<const Node*> names;
+  if (const Node* components = dresspack.find("components")) collect_materials(*components, names);
+  if (const Node* hose = dresspack.find("hose_material")) names.push_back(hose);
+  if (const Node* fatigue = job.find("fatigue"))
+    if (const Node* material = fatigue->find("material")) names.push_back(material);
+  std::vector<Node> wanted;
+  for (const Node* name : names) wanted.push_back(*name);  // the tree changes below
+
+  Node& materials = dresspack["materials"];
+  if (materials.kind == Node::Kind::null) materials.kind = Node::Kind::list;
+  std::set<std::string> unknown;  // each is told where it is named first
+  for (const Node& name : wanted) {
+    const bool there = std::any_of(materials.items.begin(), materials.items.end(), [&](const Node& material) {
+      const Node* known = material.find("name");
+      return known && known->text == name.text;
+    });
+    if (there || !name.is_scalar() || unknown.contains(name.text)) continue;
+    const bool found = problems.attempt(path + ".materials", name.where,
+                                        [&] { materials.items.push_back(material_entry(name, job)); });
+    if (!found) unknown.insert(name.text);
+  }
+  if (materials.items.empty())
+    std::erase_if(dresspack.entries, [](const Entry& e) { return e.key == "materials"; });
+}
+
+/// A dresspack that is one cable on its axis and nothing else is as wide as that.
+void add_width(Node& dresspack, const std::vector<Node>& components) {
+  if (dresspack.find("diameter_mm") || is_hose(dresspack) || components.size() != 1) return;
+  const Node* const radius = components.front().find("radius_mm");
+  const Node* const off_axis = components.front().find("helix_radius_mm");
+  char* end = nullptr;
+  const double millimetres = radius ? std::strtod(radius->text.c_str(), &end) : 0;
+  if (!(millimetres > 0) || *end != '\0' || !off_axis || off_axis->text != "0") return;
+  const Where where = radius->where;  // what is added moves the entries
+  Node& diameter = dresspack["diameter_mm"];
+  diameter = scalar(shortest_text(2 * millimetres));
+  diameter.where = where;
+}
+
+/// What nobody measured of a dresspack is taken from its construction, and its damping is that of the shipped
+/// ones.
+void add_estimates(Node& dresspack) {
+  const Node* components = dresspack.find("components");
+  if (!components || components->items.empty() || dresspack.find("cable_alone")) return;
+  add_width(dresspack, components->items);
+  const auto add = [&](const char* key, const std::string& text) {
+    Node& value = dresspack[key];
+    value = scalar(text);
+    value.where = dresspack.where;
+  };
+  for (const char* key :
+       {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})
+    if (!dresspack.find(key)) add(key, "from_construction");
+  if (dresspack.find("damping_time_ms") || dresspack.find("damping_source")) return;
+  add("damping_time_ms", is_hose(dresspack) ? "10" : "20");
+  add("damping_source", "ESTIMATE, the default of dresslife; a decay test of a hanging length decides");
+}
+
+/// A catalogue entry where a job has one: written out, of a dresspack with the layers of cables that are
+/// given by data sheets and the materials that its wires name.
+void resolve_entry(Node* entry, const std::string& path, const std::string& folder, const Node& job,
+                   Problems& problems) {
+  if (!entry || !problems.attempt(path, entry->where, [&] { resolve(*entry, folder, job.where); })) return;
+  if (folder != "dresspacks" || !entry->is_map()) return;
+  expand_data_sheets(*entry, path, problems);
+  add_estimates(*entry);
+  add_materials(*entry, job, path, problems);
+}
+
+/// Which item of a list a word of a key path names: there they count from 1. Nothing: none.
+std::optional<std::size_t> item_of(const Node& list, const std::string& word) {
+  std::size_t number = 0;
+  const char* const end = word.data() + word.size();
+  const auto [read, failure] = std::from_chars(word.data(), end, number);
+  const bool is_item = failure == std::errc() && read == end && number >= 1 && number <= list.items.size();
+  return is_item ? std::optional(number - 1) : std::nullopt;
+}
+
+/// The word of a key path at `begin`, which goes on to the next; beyond the path's end: that was the last.
+std::string next_word(const std::string& path, std::size_t& begin) {
+  const std::size_t dot = std::min(path.find('.', begin), path.size());
+  std::string word = path.substr(begin, dot - begin);
+  begin = dot + 1;
+  return word;
+}
+
+Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
+  if (node.is_list()) {
+    if (const auto item = item_of(node, word)) return &node.items[*item];
+    throw InputError(where, fmt::format("'{}' of {} is not an item of the list", word, path),
+                     fmt::format("items count from 1 to {}", node.items.size()));
+  }
+  if (node.is_scalar())
+    throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path),
+                     "shorten the path");
+  if (Node* found = node.find(word)) return found;
+  Node& added = node[word];
+  node.entries.back().where = added.where = where;
+  return &added;
+}
+
+}  // namespace
+
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
+                     const Where& job) {
+  if (name.ends_with(".urdf")) {  // alone: its entry is the file itself
+    Node entry;
+    entry["urdf"] = scalar(name);
+    place_at(entry, named_at);
+    return entry;
+  }
+  if (folder == "programs" && is_program_file(folder_of(named_at) / name)) {  // likewise
+    Node entry;
+    entry["program"] = scalar(name);
+    place_at(entry, named_at);
+    return entry;
+  }
+  const fs::path beside = (folder_of(named_at) / name).lexically_normal();
+  const bool is_path = name.ends_with(".yaml") || name.find('/') != std::string::npos;
+  std::error_code failure;
+  if (is_path && fs::status(beside, failure).type() != fs::file_type::not_found) return read_document(beside);
+  if (is_path)
+    throw InputError(named_at, fmt::format("there is no file '{}'", beside.string()),
+                     "check the path; it counts from the folder of the file that names it");
+  std::vector<std::string> names;
+  const auto found_in = [&](const fs::path& place) {
+    const fs::path file = place / (name + ".yaml");
+    if (is_file(file))
+      return file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file);
+    for (const auto& item : fs::directory_iterator(place, failure))
+      if (item.path().extension() == ".yaml") names.push_back(item.path().stem().string());
+    return fs::path();
+  };
+  for (const fs::path& place : folders_beside(folder, named_at, job))
+    if (const fs::path file = found_in(place); !file.empty()) return read_document(file);
+  if (const fs::path file = found_in(shipped_catalogue() / folder); !file.empty()) return read_document(file);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  const bool may_be_file = folder == "programs" && fs::path(name).has_extension();
+  throw InputError(
+      named_at,
+      fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,
+                  may_be_file ? fmt::format(", and there is no file '{}'", beside.string()) : ""),
+      names.empty() ? "write the entry itself or a path to a .yaml file"
+                    : fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
+void set_value(Node& job, const std::string& path, Node value, const Where& where) {
+  Node* node = &job;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t here = begin;
+    const std::string word = next_word(path, begin);
+    if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
+    // A catalogue entry is looked up as soon as a path leads into it.
+    if (here > 0 && word != "from" && word != "cable")
+      if (const char* folder = shelf_of(path.substr(0, here - 1))) resolve(*node, folder, job.where);
+    node = step_into(*node, word, where, path);
+  }
+  *node = std::move(value);
+}
+
+const Node* value_at(const Node& tree, const std::string& path) {
+  const Node* node = &tree;
+  for (std::size_t begin = 0; node && begin <= path.size();) {
+    const std::string word = next_word(path, begin);
+    if (node->is_list()) {
+      const auto item = item_of(*node, word);
+      node = item ? &node->items[*item] : nullptr;
+    } else {
+      node = node->find(word);
+    }
+  }
+  return node;
+}
+
+void apply_set(Node& job, const std::string& set) {
+  const Where where{"--set " + set};
+  const std::size_t equals = set.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(where, "is not key.path=value", "write for example --set simulation.segments=80");
+  Node value = parse_yaml(set.substr(equals + 1), where.file);
+  place_at(value, where);  // a command line has no lines to point at
+  set_value(job, set.substr(0, equals), std::move(value), where);
+}
+
+void resolve_job(Node& job, Problems& problems) {
+  for (const Shelf& shelf : shelves)
+    resolve_entry(job.find(shelf.key), shelf.key, shelf.folder, job, problems);
+  Node* list = job.find("dresspacks");
+  for (std::size_t i = 0; list && i < list->items.size(); ++i)
+    resolve_entry(list->items[i].find("dresspack"), fmt::format("dresspacks[{}].dresspack", i + 1),
+                  shelf_of("dresspack"), job, problems);
+}
+
+void resolve_job(Node& job) {
+  Problems problems;
+  resolve_job(job, problems);
+  problems.finish(job.where.file);
+}
+
+}  // namespace dresslife::pipeline

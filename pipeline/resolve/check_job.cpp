@@ -1,0 +1,189 @@
+#include "pipeline/resolve/check_job.h"
+
+#include <algorithm>
+
+#include "pipeline/cable/overlap.h"
+#include "pipeline/job/job_forms.h"
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+
+namespace {
+
+void check_names(const std::vector<MountedDresspack>& dresspacks) {
+  for (std::size_t d = 0; d < dresspacks.size(); ++d) {
+    const MountedDresspack& mounted = dresspacks[d];
+    if (mounted.name.find('/') != std::string::npos)
+      throw InputError(mounted.where, fmt::format("name '{}' holds a '/'", mounted.name),
+                       "choose another: it begins the paths of the dresspack's wires");
+    for (std::size_t other = 0; other < d; ++other)
+      if (dresspacks[other].name == mounted.name)
+        throw InputError(mounted.where, fmt::format("two dresspacks are named '{}'", mounted.name),
+                         "give each another name");
+  }
+}
+
+/// What all dresspacks of a robot share: one pose in which they are clamped, one material of each name.
+void check_shared(const std::vector<MountedDresspack>& dresspacks) {
+  Problems problems;
+  const MountedDresspack* posed = nullptr;
+  std::vector<const Material*> known;
+  for (const MountedDresspack& mounted : dresspacks) {
+    if (!mounted.routing.mounting_pose.empty()) {
+      if (posed && posed->routing.mounting_pose != mounted.routing.mounting_pose)
+        problems.add(mounted.routing.where,
+                     fmt::format("mounting_pose_deg differs from that of dresspack '{}' (all are clamped "
+                                 "in one pose)",
+                                 posed->name),
+                     "give the same, or give it once");
+      posed = &mounted;
+    }
+    for (const Material& material : mounted.dresspack.materials) {
+      const auto same = std::find_if(known.begin(), known.end(),
+                                     [&](const Material* other) { return other->name == material.name; });
+      if (same == known.end())
+        known.push_back(&material);
+      else if (to_yaml(echo_fields(**same)) != to_yaml(echo_fields(material)))
+        problems.add(material.where,
+                     fmt::format("material '{}' is another than that of the dresspack before", material.name),
+                     "give one of the two another name");
+    }
+  }
+  problems.finish();
+}
+
+/// A prescribed deformation is that of one dresspack of known length; nobody reads what would carry, touch or
+/// hold it.
+void check_prescribed(const Job& job, const Node& document) {
+  const char* key = job.motion.rig ? "motion.rig" : "motion.deformation";
+  Problems problems;
+  const auto refuse = [&](const Where& where, const std::string& what) {
+    problems.add(where, fmt::format("{} beside {} (which says how the dresspack deforms)", what, key),
+                 "leave it out");
+  };
+  for (const char* other : {"robot", "cell"})
+    if (const Node* given = document.find(other)) refuse(given->where, fmt::format("{} is given", other));
+  if (job.dresspacks.size() > 1)
+    problems.add(job.motion.where,
+                 fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),
+                 "keep one dresspack");
+  const Node* routing = document.find("routing");
+  if (job.motion.rig && routing) refuse(routing->where, "routing is given");
+  for (const Entry& entry : routing ? routing->entries : std::vector<Entry>{})
+    if (entry.key != "free_length_m" && entry.key != "tool_end" && entry.key != "pre_twist_deg" &&
+        entry.key != "tool_mass_kg")
+      refuse(entry.where, "routing." + entry.key + " is given");
+  const Routing& only = job.dresspacks.front().routing;
+  if (only.pre_twist != 0 || only.tool_mass != 0 || !is_clamped(only.tool_end))
+    refuse(only.where, "an end that is free or twisted is given");
+  problems.finish(document.where.file);
+}
+
+/// A simulated cable has the mass and the stiffness that a rig does without.
+void check_simulated(const Dresspack& dresspack) {
+  Problems problems;
+  const std::pair<const char*, double> needed[] = {{"mass_kg_per_m", dresspack.mass_per_length},
+                                                   {"bending_stiffness_Nm2", dresspack.bending_stiffness},
+                                                   {"torsional_stiffness_Nm2", dresspack.torsional_stiffness},
+                                                   {"axial_stiffness_N", dresspack.axial_stiffness}};
+  for (const auto& [key, value] : needed)
+    if (value <= 0)
+      problems.add(dresspack.where,
+                   fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
+                   "give it, or let motion.rig or motion.deformation move the cable");
+  if (dresspack.damping_source.empty())
+    problems.add(dresspack.where, "dresspack.damping_source is missing (a cable that is simulated needs it)",
+                 "give damping_time_ms and where it comes from");
+  problems.finish();
+}
+
+/// Of one dresspack. path: of what holds its keys, "" or "dresspacks[2].". Returns how many levels of parts
+/// it has, where that can be told.
+std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted, const std::string& path,
+                                 Problems& problems) {
+  const std::string dresspack = path + "dresspack", routing = path + "routing";
+  const auto judge = [&](const std::string& key, const Where& where, const auto& check) {
+    return !problems.touch(key) && problems.attempt(key, where, check);
+  };
+  if (!job.motion.is_prescribed() && !problems.touch("motion")) {
+    if (!problems.touch("robot") && !problems.touch(dresspack + ".diameter_mm"))
+      judge(routing, mounted.routing.where, [&] {
+        check_routing(mounted.routing, mounted.dresspack.diameter, job.robot,
+                      !job.motion.clamp_poses.empty());
+      });
+    judge(dresspack, mounted.dresspack.where, [&] { check_simulated(mounted.dresspack); });
+  }
+  std::optional<int> depth;
+  if (!problems.touch("strain"))
+    judge(dresspack + ".components", mounted.dresspack.where,
+          [&] { depth = check_dresspack(mounted.dresspack, job.strain.slip); });
+  judge(dresspack + ".materials", mounted.dresspack.where,
+        [&] { check_materials(mounted.dresspack.materials); });
+  judge(dresspack + ".components", mounted.dresspack.where,
+        [&] { refuse_gross_overlap(mounted.dresspack); });  // dresslife-strain warns of less
+  return depth;
+}
+
+void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
+  const JobForms forms = forms_of(job);
+  if (!forms.one)
+    problems.attempt("dresspacks", job.dresspacks.front().where, [&] { check_names(job.dresspacks); });
+  if (job.dresspacks.size() > 1 && !job.motion.clamp_poses.empty())
+    problems.add(job.motion.where,
+                 fmt::format("motion.clamp_poses brings the clamps of one dresspack (there are {})",
+                             job.dresspacks.size()),
+                 "describe the motion by a robot, or keep one dresspack", "motion");
+  int depth = 0;
+  bool told = true;  // how deep each is
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    const std::string path = forms.one ? "" : fmt::format("dresspacks[{}].", d + 1);
+    const std::optional<int> levels = check_mounted(job, job.dresspacks[d], path, problems);
+    told = told && levels;
+    depth = std::max(depth, levels.value_or(0));
+  }
+  if (told) problems.attempt("", job.motion.where, [&] { check_shared(job.dresspacks); });
+  if (told && job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
+    problems.add(
+        strain,
+        fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
+        "give one word, or one per level, outermost first");
+}
+
+/// A curve whose lives do not rise with falling strain is none.
+void check_slopes(const Job& job, const Where& where) {
+  for (const MountedDresspack& mounted : job.dresspacks)
+    for (const Material& material : mounted.dresspack.materials)
+      if (material.strain_life_table.empty() &&
+          !(material.fatigue_strength_exponent + job.fatigue.slope_change <= -0.02))
+        throw InputError(
+            where,
+            fmt::format("fatigue.slope_change {} leaves '{}' a slope b of {} (must be -0.02 or less)",
+                        job.fatigue.slope_change, material.name,
+                        material.fatigue_strength_exponent + job.fatigue.slope_change),
+            "give a smaller one");
+}
+
+}  // namespace
+
+void check_job(const Job& job, const Node& document, Problems& problems) {
+  const auto where = [&](const char* key) {
+    return document.find(key) ? document.find(key)->where : document.where;
+  };
+  const auto judge = [&](std::initializer_list<const char*> keys, const auto& check) {
+    if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return problems.touch(key); }))
+      problems.attempt(*keys.begin(), where(*keys.begin()), check);
+  };
+  if (job.motion.is_prescribed() && !job.dresspacks.empty())
+    judge({"motion", "routing"}, [&] { check_prescribed(job, document); });
+  if (job.motion.needs_robot()) judge({"robot"}, [&] { check_robot(job.robot, where("robot")); });
+  judge({"robot"}, [&] {
+    for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
+  });
+  judge({"cell"}, [&] { check_boxes(job.cell.boxes, where("cell")); });
+  judge({"motion", "robot"}, [&] { check_motion(job.motion, job.robot); });
+  if (!job.dresspacks.empty()) check_dresspacks(job, where("strain"), problems);
+  judge({"simulation"}, [&] { check_simulation(job.simulation, where("simulation")); });
+  judge({"fatigue", "dresspack", "dresspacks"}, [&] { check_slopes(job, where("fatigue")); });
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,13 @@
+// Whether the parts of a job fit together.
+#pragma once
+
+#include "pipeline/job/job.h"
+#include "pipeline/settings/problems.h"
+
+namespace dresslife::pipeline {
+
+/// Adds what does not fit to the problems. Parts that have problems already are not checked. document: from
+/// which the job was read.
+void check_job(const Job& job, const Node& document, Problems& problems);
+
+}  // namespace dresslife::pipeline

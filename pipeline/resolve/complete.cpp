@@ -1,0 +1,40 @@
+#include "pipeline/resolve/complete.h"
+
+#include "pipeline/cable/stiffness.h"
+#include "pipeline/job/job_forms.h"
+
+namespace dresslife::pipeline {
+
+namespace {
+
+/// Once what they are taken from is known to be sound.
+void take_stiffnesses(Dresspack& dresspack, const std::vector<Slip>& slip) {
+  if (!is_from_construction(dresspack)) return;
+  check_dresspack(dresspack, slip);
+  take_from_construction(dresspack);
+}
+
+/// strain.gate of a job with a rig that names none: above the rounding of strains in single precision (W26).
+constexpr double gate_of_rigs = 1e-6;
+
+}  // namespace
+
+void complete_job(Job& job, const Node& document, Problems& problems) {
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    MountedDresspack& mounted = job.dresspacks[d];
+    const std::string path = forms_of(job).one ? "" : fmt::format("dresspacks[{}].", d + 1);
+    if (!problems.touch("robot") && !problems.touch(path + "routing"))
+      problems.attempt(path + "routing", mounted.routing.where,
+                       [&] { place_clamps(mounted.routing, job.robot); });
+    if (!problems.touch(path + "dresspack"))
+      problems.attempt(path + "dresspack", mounted.dresspack.where,
+                       [&] { take_stiffnesses(mounted.dresspack, job.strain.slip); });
+  }
+  if (!job.motion.rig || problems.touch("motion")) return;
+  problems.attempt("motion", job.motion.where, [&] { check_rig(*job.motion.rig); });
+  const Node* strain = document.find("strain");
+  // Millions of cycles below the usual gate are what a rig is for, and its few samples cost nothing.
+  if (!strain || !strain->find("gate")) job.strain.gate = gate_of_rigs;
+}
+
+}  // namespace dresslife::pipeline

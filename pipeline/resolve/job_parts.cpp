@@ -1,0 +1,175 @@
+#include <algorithm>
+
+#include "pipeline/cable/cyclic_curve.h"
+#include "pipeline/job/job_forms.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+
+namespace {
+
+/// What of a wire's material decides strains: how stiff it is, and, where a grip bounds the force of a cable,
+/// its cyclic curve, given or as it follows from the strain-life constants.
+struct MetalKeys {
+  Material material;
+  bool pulls_at_grips = false;
+};
+
+void describe(Fields& echo, MetalKeys& keys) {
+  Material& m = keys.material;
+  echo.text("name", m.name, Need::required, "");
+  echo.number("youngs_modulus_GPa", m.youngs_modulus, Need::required, any_number(), "");
+  if (!keys.pulls_at_grips || !m.strain_life_table.empty()) return;  // a polymer is taken as elastic
+  m.cyclic_hardening_exponent = hardening_exponent(m);
+  m.cyclic_strength = cyclic_strength(m);
+  echo.maybe_number("cyclic_strength_MPa", m.cyclic_strength, any_number(), "");
+  echo.maybe_number("cyclic_hardening_exponent", m.cyclic_hardening_exponent, any_number(), "");
+}
+
+bool has_wires_of(const std::vector<Component>& components, const std::string& material) {
+  return std::any_of(components.begin(), components.end(), [&](const Component& component) {
+    return component.material == material || has_wires_of(component.components, material);
+  });
+}
+
+/// What of a dresspack decides the strain of its parts.
+struct StrainKeys {
+  MountedDresspack mounted;
+  std::vector<MetalKeys> materials{};
+
+  explicit StrainKeys(const MountedDresspack& of) : mounted(of) {
+    const std::vector<Component>& components = of.dresspack.components;
+    const bool grips = std::any_of(components.begin(), components.end(), [](const Component& component) {
+      return component.laying.base_grip || component.laying.tool_grip;
+    });
+    for (const Material& material : of.dresspack.materials)
+      if (has_wires_of(components, material.name)) materials.push_back({material, grips});
+  }
+  StrainKeys() = default;
+};
+
+void describe(Fields& echo, StrainKeys& keys) {
+  Dresspack& dresspack = keys.mounted.dresspack;
+  if (!keys.mounted.name.empty()) echo.text("name", keys.mounted.name, Need::required, "");
+  echo.list("components", dresspack.components, Need::optional, "");
+  echo.list("materials", keys.materials, Need::optional, "");
+  echo.maybe_number("inner_diameter_mm", dresspack.inner_diameter, any_number(), "");
+  if (dresspack.core_diameter != 0)
+    echo.number("core_diameter_mm", dresspack.core_diameter, Need::optional, any_number(), "");
+  if (dresspack.rest_curvature != 0)
+    echo.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(), "");
+  if (dresspack.construction_curvature != Dresspack{}.construction_curvature)
+    echo.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional,
+                any_number(), "");
+  echo.maybe_number("core_bending_stiffness_Nm2", dresspack.core_bending_stiffness, any_number(), "");
+  if (dresspack.hose_material.empty()) return;
+  echo.text("hose_material", dresspack.hose_material, Need::optional, "");
+  echo.maybe_number("hose_strain_factor", dresspack.hose_strain_factor, any_number(), "");
+  echo.maybe_group("hose_corrugation", dresspack.hose_corrugation, "");
+  echo.number("diameter_mm", dresspack.diameter, Need::optional, any_number(), "");
+}
+
+/// What of a dresspack decides its lives.
+struct FatigueKeys {
+  MountedDresspack mounted;
+};
+
+void describe(Fields& echo, FatigueKeys& keys) {
+  if (!keys.mounted.name.empty()) echo.text("name", keys.mounted.name, Need::required, "");
+  echo.list("materials", keys.mounted.dresspack.materials, Need::optional, "");
+}
+
+/// As in the job: the only one's keys stand alone, those of several in a list.
+template <class Keys>
+void describe_each(Fields& echo, const JobForms& forms, std::vector<Keys> keys) {
+  if (forms.one)
+    describe(echo, keys.front());
+  else
+    echo.list("dresspacks", keys, Need::required, "");
+}
+
+/// The motion hangs on how stiff the dresspack is, not on why.
+void count_as_numbers(Dresspack& dresspack) {
+  const Dresspack untold;
+  dresspack.mass_from_construction = false;
+  dresspack.bending_from_construction = dresspack.torsional_from_construction =
+      dresspack.axial_from_construction = false;
+  dresspack.construction_state = untold.construction_state;
+  dresspack.construction_curvature = untold.construction_curvature;
+  dresspack.core_bending_stiffness = dresspack.core_torsional_stiffness = dresspack.core_axial_stiffness = {};
+}
+
+void describe_sim(Fields& echo, Job copy) {
+  const JobForms forms = forms_of(copy);
+  for (MountedDresspack& mounted : copy.dresspacks) {
+    drop_ratings(mounted.dresspack);
+    Dresspack& dresspack = mounted.dresspack;
+    count_as_numbers(dresspack);
+    if (copy.motion.is_prescribed()) break;  // its wires say how a pull stretches the cable
+    dresspack.components.clear();
+    dresspack.materials.clear();
+    dresspack.hose_material.clear();
+    dresspack.hose_strain_factor.reset();
+    dresspack.hose_corrugation.reset();
+    dresspack.inner_diameter.reset();
+    dresspack.core_diameter = 0;
+  }
+  echo.group("motion", copy.motion, Need::required, "");
+  echo.group("robot", copy.robot, Need::optional, "", !copy.robot.joints.empty());
+  if (forms.one) {
+    echo.group("dresspack", copy.dresspacks.front().dresspack, Need::required, "");
+    echo.group("routing", copy.dresspacks.front().routing, Need::required, "", !copy.motion.rig);
+  } else {
+    echo.list("dresspacks", copy.dresspacks, Need::required, "");
+  }
+  echo.group("cell", copy.cell, Need::optional, "");
+  echo.group("simulation", copy.simulation, Need::optional, "");
+}
+
+void describe_strain(Fields& echo, Job copy) {
+  std::vector<StrainKeys> keys;
+  for (MountedDresspack& mounted : copy.dresspacks) {
+    drop_ratings(mounted.dresspack);
+    keys.push_back(StrainKeys(mounted));
+  }
+  describe_each(echo, forms_of(copy), keys);
+  echo.group("strain", copy.strain, Need::optional, "");
+  echo.boolean("uncertain", copy.uncertainty.enabled, Need::optional, "");
+}
+
+void describe_fatigue(Fields& echo, Job copy) {
+  std::vector<FatigueKeys> keys;
+  for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted});
+  describe_each(echo, forms_of(copy), keys);
+  echo.group("fatigue", copy.fatigue, Need::optional, "");
+  echo.group("uncertainty", copy.uncertainty, Need::optional, "");
+  echo.maybe_group("calibration", copy.calibration, "");
+}
+
+}  // namespace
+
+std::string part_text(const Job& job, Part part) {
+  const auto described = part == Part::sim      ? describe_sim
+                         : part == Part::strain ? describe_strain
+                                                : describe_fatigue;
+  return to_yaml(echo_fields(Describe([&](Fields& f) { described(f, job); })));
+}
+
+std::vector<std::filesystem::path> files_beside(const Job& job) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : {job.motion.clamp_poses, job.motion.deformation, job.motion.program})
+    if (!file.empty() && !is_folder(file)) files.push_back(file);
+  for (const ProgramFile& module : job.motion.modules) {
+    files.push_back(module.file);
+    for (const auto& file : files_of_program(module.file)) files.push_back(file);
+  }
+  for (const auto& file : files_of_program(job.motion.program)) files.push_back(file);
+  for (const Link& link : job.robot.links)
+    for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);
+  for (const MeshFile& mesh : job.cell.meshes) files.push_back(mesh.file);
+  return files;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,103 @@
+#include "pipeline/resolve/job_text.h"
+
+#include "pipeline/cable/overlap.h"
+#include "pipeline/cable/stiffness.h"
+#include "pipeline/job/job_forms.h"
+#include "pipeline/resolve/apply_calibration.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/check_job.h"
+#include "pipeline/resolve/complete.h"
+#include "pipeline/resolve/data_sheet.h"
+#include "pipeline/resolve/sources.h"
+#include "pipeline/resolve/urdf_request.h"
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+
+namespace {
+
+/// Exactly one of the two forms in which a job gives its dresspacks; of both, the list is kept.
+void check_forms(Node& document, Problems& problems) {
+  const Node* list = document.find("dresspacks");
+  for (const char* key : {"dresspack", "routing"}) {
+    const Node* alone = document.find(key);
+    if (list && alone)
+      problems.add(alone->where,
+                   fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
+                   "keep one of the two");
+    const Node* motion = document.find("motion");
+    const bool of_rig = key == std::string_view("routing") && motion && motion->find("rig");
+    if (!list && !alone && !of_rig)
+      problems.add(document.where, fmt::format("{} is missing (and there is no list dresspacks)", key),
+                   "give dresspack and routing, or a list dresspacks of name, dresspack, routing", key);
+  }
+  if (!list) return;
+  if (!list->is_list() || list->items.empty())
+    problems.add(list->where, "dresspacks holds no dresspack", "write a list of name, dresspack and routing",
+                 "dresspacks");
+  std::erase_if(document.entries, [](const Entry& e) { return e.key == "dresspack" || e.key == "routing"; });
+}
+
+}  // namespace
+
+Job job_from(Node document, const std::vector<std::string>& sets) {
+  if (!document.is_map())
+    throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
+  Problems problems;
+  for (const std::string& set : sets)
+    problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });
+  check_forms(document, problems);
+  resolve_job(document, problems);
+  if (const Node* calibration = document.find("calibration"))
+    problems.attempt("calibration", calibration->where, [&] { apply_calibration(document); });
+  Job job;
+  if (document.find("dresspacks")) job.dresspacks.clear();
+  read_fields(document, Describe([&](Fields& f) { describe(f, job); }), problems);
+  complete_job(job, document, problems);
+  check_job(job, document, problems);
+  problems.finish(document.where.file);
+  if (job.motion.rig)
+    job.dresspacks.front().routing.free_length =
+        rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
+  return job;
+}
+
+Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return job_from(read_document(file), sets);
+}
+
+Setup setup_from(Node document) { return job_from(std::move(document)); }
+
+std::string job_text(const Job& job) { return to_yaml(echo_fields(job)); }
+
+std::string job_text(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return job_text(read_job(file, sets));
+}
+
+Dresspack read_dresspack(const std::filesystem::path& file) {
+  Node job;
+  job["dresspack"] = read_yaml(file);
+  job.where = {file.string()};
+  const Node& written = *job.find("dresspack");
+  if (!written.is_map() || written.find("dresspack") || written.find("dresspacks"))
+    throw InputError({file.string()}, "holds no dresspack", "name a file of the keys of job.dresspack");
+  resolve_job(job);
+  Dresspack dresspack;
+  read_fields(*job.find("dresspack"), dresspack);
+  check_dresspack(dresspack, {Slip::free});
+  check_materials(dresspack.materials);
+  refuse_gross_overlap(dresspack);
+  take_from_construction(dresspack);
+  return dresspack;
+}
+
+std::string job_manual() {
+  const Describe both_forms = [](Fields& f) {
+    Job job;
+    describe_keys(f, job, {true, true});
+  };
+  return field_manual("job", both_forms) + field_manual<UrdfRequest>("job.robot from a URDF") +
+         field_manual<DataSheet>("dresspack.components from a data sheet (key data_sheet)");
+}
+
+}  // namespace dresslife::pipeline

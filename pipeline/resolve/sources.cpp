@@ -1,0 +1,102 @@
+#include "pipeline/resolve/sources.h"
+
+#include <fmt/format.h>
+
+#include "pipeline/base/program_files.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Those of this thread. Looks lie deep below who asks for jobs, and most of who ask want no notes.
+thread_local Sources* current = nullptr;
+
+const char* word(bool yes) { return yes ? "yes" : "no"; }
+
+bool is_file_now(const fs::path& path) {
+  std::error_code failure;
+  return fs::is_regular_file(path, failure);
+}
+bool is_folder_now(const fs::path& path) {
+  std::error_code failure;
+  return fs::is_directory(path, failure);
+}
+
+std::string program_names(const fs::path& program) {
+  std::string names;
+  try {
+    for (const fs::path& file : program_files(program)) names += file.string() + '\n';
+  } catch (const InputError& problem) {
+    return problem.what();
+  }
+  return names;
+}
+
+}  // namespace
+
+Sources::Sources() : outer_(std::exchange(current, this)) {}
+Sources::~Sources() { current = outer_; }
+
+std::string Sources::found_at(Kind kind, const fs::path& path) {
+  switch (kind) {
+    case Kind::text:
+      try {
+        return read_text(path);
+      } catch (const InputError&) {
+        return word(false);
+      }
+    case Kind::file:
+      return word(is_file_now(path));
+    case Kind::folder:
+      return word(is_folder_now(path));
+    case Kind::program:
+      break;
+  }
+  return program_names(path);
+}
+
+void note_source(Sources::Kind kind, const fs::path& path, const std::string& found) {
+  if (current) current->found_.try_emplace({kind, path.string()}, found);
+}
+
+/// The first look counts: all jobs of a study are made from the same.
+bool look(Sources::Kind kind, const fs::path& path, bool (*now)(const fs::path&)) {
+  if (!current) return now(path);
+  const auto [entry, fresh] = current->found_.try_emplace({kind, path.string()});
+  if (fresh) entry->second = word(now(path));
+  return entry->second == word(true);
+}
+
+std::string read_source(const fs::path& file) {
+  if (current)
+    if (const auto known = current->found_.find({Sources::Kind::text, file.string()});
+        known != current->found_.end() && known->second != word(false))
+      return known->second;
+  std::string text;
+  try {
+    text = read_text(file);
+  } catch (const InputError&) {
+    note_source(Sources::Kind::text, file, word(false));
+    throw;
+  }
+  note_source(Sources::Kind::text, file, text);
+  return text;
+}
+
+Node read_document(const fs::path& file) {
+  if (!current) return read_yaml(file);
+  std::shared_ptr<const Node>& known = current->documents_[file.string()];
+  if (!known) known = std::make_shared<const Node>(parse_yaml(read_source(file), file.string()));
+  return *known;
+}
+
+bool is_file(const fs::path& path) { return look(Sources::Kind::file, path, is_file_now); }
+bool is_folder(const fs::path& path) { return look(Sources::Kind::folder, path, is_folder_now); }
+
+std::vector<fs::path> files_of_program(const fs::path& program) {
+  if (!program.empty()) note_source(Sources::Kind::program, program, program_names(program));
+  return program_files(program);
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,38 @@
+// Which URDF a robot's entry is made from.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/settings/document.h"
+
+namespace dresslife::pipeline {
+
+/// Keys of a robot entry that say which URDF it is made from.
+struct UrdfRequest {
+  std::filesystem::path urdf;
+  std::string tip;                       ///< link at the flange; empty: tool0, else flange, else the only end
+  std::filesystem::path package_folder;  ///< holds the packages of package://; empty: found above the URDF
+  enum class Collision { keep, drop } collision = Collision::keep;
+  std::vector<double> accelerations;  ///< of the axes, in their order [rad/s2]
+};
+constexpr std::string_view word(UrdfRequest::Collision value) {
+  switch (value) {
+    case UrdfRequest::Collision::keep:
+      return "keep";
+    case UrdfRequest::Collision::drop:
+      return "drop";
+  }
+  return {};
+}
+
+class Fields;
+void describe(Fields& f, UrdfRequest& request);
+
+/// The robot of a URDF as the tree of a catalogue entry (pipeline/urdf/urdf.h). A program links one of two
+/// definitions: that of dresslife_urdf reads the file, that of dresslife_without_urdf refuses it. Stages that
+/// need no robot link the second, and no parser. Errors: InputError.
+Node robot_from_urdf(const UrdfRequest& request);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,307 @@
+#include "sim/route/preview.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "pipeline/job/setup.h"
+#include "sim/rod/start_curve.h"
+#include "sim/run/equilibrium.h"
+#include "sim/run/routing.h"
+#include "sim/run/simulate.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr int most_moments = 240;  // of the program: 0.2 s of curves
+constexpr int fewest_moments = 24;
+constexpr double moments_a_second = 5;
+constexpr int tried_lengths = 8, tried_poses = 8;  // of each span: 0.2 s of equilibria
+constexpr double before_the_program = -1;          // time of the mounting pose [s]
+
+struct Moment {
+  double time = 0;
+  int step = 0;
+  Pose pose;
+};
+
+void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
+
+class Previewer {
+ public:
+  explicit Previewer(const pipeline::Setup& setup)
+      : setup_(setup),
+        rod_(rod_of(setup)),
+        path_(path_of(setup)),
+        robot_(dynamic_cast<const RobotPath*>(path_.get())) {
+    if (robot_ && robot_->mounting_pose() != robot_->motion().position(0))
+      moments_.push_back({before_the_program, 0, robot_->pose(robot_->mounting_pose())});
+    find_longest();
+    const double duration = path_->duration();
+    const int count = std::clamp(static_cast<int>(duration * moments_a_second), fewest_moments, most_moments);
+    std::vector<double> times{0};
+    for (int k = 1; k <= count && duration > 0; ++k) times.push_back(duration * k / count);
+    for (const Longest& longest : longest_) times.push_back(longest.time);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    for (const double time : times) moments_.push_back({time, path_->step(time), path_->at(time)});
+    find_ways();
+  }
+
+  void write(pipeline::FileWriter& file) {
+    write_heads(file);
+    for (std::size_t k = 0; k < moments_.size(); ++k) write_moment(file, k);
+    if (robot_) {
+      std::vector<std::string> names;
+      for (const pipeline::Link& link : setup_.robot.links) names.push_back(link.name);
+      file.dataset_attribute("/robot/link_pose", "links", fmt::format("{}", fmt::join(names, ",")));
+    }
+    write_spans(file);
+    write_scan(file);
+    write_refusal(file);
+  }
+
+ private:
+  const RodProperties& properties(std::size_t span) const { return rod_.spans()[span].properties; }
+  bool is_free(std::size_t span) const { return properties(span).tool_end == End::free; }
+  double way(std::size_t moment, std::size_t span) const {
+    return ways_[moment * rod_.spans().size() + span];
+  }
+
+  void find_ways() {
+    for (const Moment& moment : moments_) {
+      const std::vector<double> ways = shortest_ways(setup_, rod_, moment.pose.clamps, moment.pose.rings);
+      for (std::size_t span = 0; span < ways.size(); ++span) ways_.push_back(is_free(span) ? 0 : ways[span]);
+    }
+  }
+
+  /// Step by step, as the simulation looks for it: it may fall between other moments.
+  void find_longest() {
+    longest_.assign(rod_.spans().size(), {});
+    const double step = std::max(setup_.simulation.time_step, path_->duration() / 100'000);
+    for (double time = 0; time <= path_->duration(); time += step) {
+      const Pose pose = path_->at(time);
+      const std::vector<double> ways = shortest_ways(setup_, rod_, pose.clamps, pose.rings);
+      for (std::size_t span = 0; span < ways.size(); ++span)
+        if (!is_free(span) && ways[span] > longest_[span].way) longest_[span] = {ways[span], time};
+    }
+  }
+
+  void write_heads(pipeline::FileWriter& file) const {
+    const std::vector<int> before = clamp_segments(rod_);
+    std::vector<double> lengths;
+    std::vector<std::int32_t> dresspacks;
+    std::vector<std::string> names;
+    for (int i = 0; i < rod_.segments(); ++i) {
+      lengths.push_back(rod_.span_of(i).segment_length);
+      dresspacks.push_back(rod_.span_of(i).dresspack);
+    }
+    for (const pipeline::MountedDresspack& mounted : setup_.dresspacks) names.push_back(mounted.name);
+    file.set_axis("segment", lengths.size());
+    file.set_axis("clamp", before.size());
+    file.set_axis("dresspack", names.size());
+    file.set_axis("span", rod_.spans().size());
+    if (robot_) {
+      file.set_axis("joint", setup_.robot.axes());
+      file.set_axis("link", setup_.robot.links.size());
+    }
+    file.append("/segment/length", std::span<const double>(lengths));
+    file.append("/segment/dresspack", std::span<const std::int32_t>(dresspacks));
+    file.append("/dresspack/name", std::span<const std::string>(names));
+    if (before.size() > 2)
+      file.append("/clamp/segment", std::span<const std::int32_t>(before.data(), before.size()));
+    file.append("/program/text", std::span<const std::string>(path_->step_texts()));
+  }
+
+  /// Guide rings hold the curve where they are: pieces between them share its segments by their straight
+  /// ways.
+  std::vector<Vector3> curve(std::size_t span, const Pose& pose) const {
+    const Span& of = rod_.spans()[span];
+    std::vector<Frame> ends{pose.clamps.end(static_cast<int>(2 * span))};
+    const std::vector<RoutedRing> routed = routed_rings(setup_);
+    for (std::size_t r = 0; r < pose.rings.size(); ++r)
+      if (routed[r].span == static_cast<int>(span)) ends.push_back(pose.rings[r]);
+    ends.push_back(pose.clamps.end(static_cast<int>(2 * span) + 1));
+    if (of.segments() < 2 * static_cast<int>(ends.size() - 1)) ends = {ends.front(), ends.back()};
+    std::vector<double> so_far{0};
+    for (std::size_t k = 1; k < ends.size(); ++k)
+      so_far.push_back(so_far.back() + (ends[k].position - ends[k - 1].position).norm());
+    std::vector<Vector3> line;
+    const int pieces = static_cast<int>(ends.size()) - 1;
+    int done = 0;
+    for (int k = 1; k <= pieces; ++k) {
+      const int wanted =
+          so_far.back() > 0 ? static_cast<int>(std::lround(of.segments() * so_far[k] / so_far.back())) : 0;
+      const int up_to =
+          k == pieces ? of.segments() : std::clamp(wanted, done + 2, of.segments() - 2 * (pieces - k));
+      RodProperties piece = of.properties;
+      piece.slider.reset();
+      piece.segments = up_to - done;
+      piece.length = piece.segments * of.segment_length;
+      if (k < pieces) piece.tool_end = End::clamped, piece.tip_mass = 0;
+      const Rod rod(piece);
+      const ClampFrames clamps{ends[k - 1], ends[k]};
+      const RodState state =
+          piece.tool_end == End::free ? rod.straight(clamps.base) : start_curve(rod, clamps).state;
+      line.insert(line.end(), state.position.begin(), state.position.end());
+      done = up_to;
+    }
+    return line;
+  }
+
+  void write_moment(pipeline::FileWriter& file, std::size_t k) const {
+    const Moment& moment = moments_[k];
+    std::vector<double> centres, clamps, links, joints;
+    std::vector<Vector3> last;
+    Pose pose = moment.pose;
+    for (std::size_t span = 0; span < rod_.spans().size(); ++span) {
+      const std::vector<Vector3> line = curve(span, pose);
+      for (const Vector3& centre : line) put(centres, centre);
+      if (is_free(span)) pose.clamps.end(static_cast<int>(2 * span) + 1).position = line.back();
+    }
+    for (const Frame& clamp : listed_clamps(rod_, pose.clamps)) put(clamps, clamp.position);
+    file.append("/time", std::span<const double>(&moment.time, 1));
+    file.append("/segment/position", std::span<const double>(centres));
+    file.append("/clamp/position", std::span<const double>(clamps));
+    const std::int32_t step = moment.step;
+    file.append("/program/step", std::span<const std::int32_t>(&step, 1));
+    file.append("/span/way", std::span<const double>(&ways_[k * rod_.spans().size()], rod_.spans().size()));
+    if (!robot_) return;
+    for (const Frame& link : pose.links) {
+      put(links, link.position);
+      links.insert(links.end(),
+                   {link.orientation.w(), link.orientation.x(), link.orientation.y(), link.orientation.z()});
+    }
+    file.append("/robot/link_pose", std::span<const double>(links));
+    file.append("/robot/joint_position", std::span<const double>(pose.joints.data(), setup_.robot.axes()));
+  }
+
+  void write_spans(pipeline::FileWriter& file) const {
+    std::vector<std::int32_t> dresspacks;
+    std::vector<std::string> names;
+    std::vector<double> lengths, working;
+    for (std::size_t span = 0; span < rod_.spans().size(); ++span) {
+      const Span& of = rod_.spans()[span];
+      const int first = rod_.first_span(of.dresspack), count = rod_.first_span(of.dresspack + 1) - first;
+      const int clamp = static_cast<int>(span) - first + 1;
+      dresspacks.push_back(of.dresspack);
+      names.push_back(
+          count == 1 ? "" : fmt::format("between clamps {} and {} of {}", clamp, clamp + 1, count + 1));
+      lengths.push_back(of.properties.length);
+      for (const double longest : {way(0, span), std::max(longest_[span].way, way(0, span))}) {
+        const WorkingLength here = working_length(longest);
+        working.insert(working.end(), {here.least, here.most});
+      }
+    }
+    file.append("/span/dresspack", std::span<const std::int32_t>(dresspacks));
+    file.append("/span/name", std::span<const std::string>(names));
+    file.append("/span/length", std::span<const double>(lengths));
+    file.append("/span/working_length", std::span<const double>(working));
+  }
+
+  /// The first, those with the nearest and the farthest clamps, and others evenly between.
+  std::vector<Pose> poses_to_try(std::size_t span) const {
+    std::vector<Pose> poses{moments_.front().pose, path_->at(longest_[span].time)};
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < moments_.size(); ++k)
+      if (way(k, span) < way(nearest, span)) nearest = k;
+    poses.push_back(moments_[nearest].pose);
+    for (int k = 1; k <= tried_poses - 3; ++k)
+      poses.push_back(moments_[k * (moments_.size() - 1) / (tried_poses - 2)].pose);
+    return poses;
+  }
+
+  /// Of the dresspack at rest: as long as that between two clamps, turning freely in the second. 0: no rest
+  /// is found.
+  double bend_radius(const Rod& rod, const Pose& pose, std::size_t span, const MotionLimits& limits) const {
+    const ClampFrames clamps{pose.clamps.end(static_cast<int>(2 * span)),
+                             pose.clamps.end(static_cast<int>(2 * span) + 1)};
+    EquilibriumSettings settings;
+    settings.iterations = 100;  // most take 20; what takes longer is slack and light
+    settings.tolerance = 1e-4;  // of the forces: a picture's worth
+    const Equilibrium found = find_equilibrium(rod, clamps, settings);
+    if (found.status != EquilibriumStatus::converged) return 0;
+    MotionChecks checks(rod, {limits});
+    checks.see(found.state, {}, 0);
+    double curvature = 0;
+    for (const Extreme& link : checks.curvature()) curvature = std::max(curvature, link.value);
+    return 1 / std::max(curvature, 1e-9);
+  }
+
+  void write_scan(pipeline::FileWriter& file) const {
+    constexpr int segments = 32;  // enough for a bend radius within a few percent
+    std::vector<std::int32_t> spans;
+    std::vector<double> lengths, radii;
+    for (std::size_t span = 0; span < rod_.spans().size(); ++span) {
+      const std::vector<RoutedRing> rings = routed_rings(setup_);
+      const bool ringed = std::any_of(rings.begin(), rings.end(), [&](const RoutedRing& ring) {
+        return ring.span == static_cast<int>(span);
+      });
+      if (is_free(span) || ringed || properties(span).slider || !(longest_[span].way > 0)) continue;
+      const MotionLimits limits = limits_of(setup_.dresspacks[rod_.spans()[span].dresspack].dresspack);
+      const WorkingLength range = working_length(std::max(longest_[span].way, way(0, span)));
+      const std::vector<Pose> poses = poses_to_try(span);
+      for (int k = 0; k < tried_lengths; ++k) {
+        RodProperties of = properties(span);
+        of.segments = std::min(of.segments, segments);
+        of.length =
+            range.least * std::pow(range.most / range.least, static_cast<double>(k) / (tried_lengths - 1));
+        of.tool_end = End::swivel;
+        const Rod rod(of);
+        double least = std::numeric_limits<double>::infinity();
+        for (const Pose& pose : poses) least = std::min(least, bend_radius(rod, pose, span, limits));
+        spans.push_back(static_cast<std::int32_t>(span));
+        lengths.push_back(of.length);
+        radii.push_back(least);
+      }
+    }
+    if (spans.empty()) return;
+    file.append("/scan/span", std::span<const std::int32_t>(spans));
+    file.append("/scan/length", std::span<const double>(lengths));
+    file.append("/scan/bend_radius", std::span<const double>(radii));
+  }
+
+  /// The simulation's own words; the moment where a span lacks most is when the clamps are too far apart.
+  void write_refusal(pipeline::FileWriter& file) const {
+    std::string refusal;
+    try {
+      const Simulation simulation(setup_);
+    } catch (const pipeline::InputError& problem) {
+      refusal = problem.what();
+    }
+    file.attribute("refusal", refusal);
+    if (refusal.empty()) return;
+    double most = 0;
+    std::optional<double> when;
+    for (std::size_t span = 0; span < longest_.size(); ++span) {
+      const double missing = longest_[span].way - properties(span).length;
+      if (!is_free(span) && missing > most) most = missing, when = longest_[span].time;
+    }
+    if (when) file.attribute("refusal_time", *when);
+  }
+
+  struct Longest {
+    double way = 0, time = 0;  ///< [m], [s]
+  };
+
+  const pipeline::Setup& setup_;
+  Rod rod_;
+  std::unique_ptr<ClampPath> path_;
+  const RobotPath* robot_;
+  std::vector<Moment> moments_;
+  std::vector<double> ways_;      // (moment, span)
+  std::vector<Longest> longest_;  // (span) over the program
+};
+
+}  // namespace
+
+WorkingLength working_length(double longest_way) {
+  return {longest_way / (1 - least_slack_share), longest_way / (1 - most_slack_share)};
+}
+
+void write_preview(const pipeline::Setup& setup, pipeline::FileWriter& file) { Previewer(setup).write(file); }
+
+}  // namespace dresslife::sim

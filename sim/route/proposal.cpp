@@ -1,0 +1,341 @@
+#include "sim/route/proposal.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include "pipeline/base/threads.h"
+#include "sim/robot/robot.h"
+#include "sim/route/rehearsal.h"
+#include "sim/run/clamp_path.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr int places = 3;  // base clamp, tool clamp, ring
+enum Place { base, tool, ring };
+
+/// Wished of each limit beyond keeping it, in the order of ScreenedLimit; a run bends, twists and sways on
+/// top of what geometry says.
+constexpr std::array<double, screened_limits> wished{0.02, 0.02, 0.25, 0.25, 0.25, 0};
+
+/// Likewise of a run with few segments, which sees less of a bend.
+constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 0.04, 0, 0.005};
+
+/// Likewise of the job's own run: its numbers are rounded when it is written.
+constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001};
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double farthest = 4;   // of a clamp from the link that carries it [diameters]
+constexpr int side_by_side = 4;  // rehearsals, however many threads there are
+
+struct Candidate {
+  std::array<Vector3, places> position;   // in their links [m]
+  std::array<Vector3, places> direction;  // in their links
+  double slack = 0;                       // share of the length
+  pipeline::Routing routing{};
+  Screening screening{};
+  double missing = 0;             // by geometry
+  Rehearsal rehearsal{};          // if it was rehearsed
+  double missing_in_run = never;  // likewise
+  bool whole = false;             // in the job's own segments and repeats
+};
+
+class Chance {
+ public:
+  explicit Chance(std::uint64_t seed) : bits_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
+  }
+  std::size_t below(std::size_t count) { return bits_() % count; }
+  /// Sum of twelve: nearly normal, and the same on every machine.
+  double normal() {
+    double sum = -6;
+    for (int k = 0; k < 12; ++k) sum += between(0, 1);
+    return sum;
+  }
+  Vector3 normal_vector() { return {normal(), normal(), normal()}; }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+class Search {
+ public:
+  Search(const pipeline::Setup& setup, const ProposalSettings& settings)
+      : setup_(setup), settings_(settings), screener_(setup), chance_(settings.seed) {
+    const pipeline::Routing& given = setup.dresspacks.front().routing;
+    if (!given.base_clamp || !given.tool_clamp)
+      throw pipeline::InputError(setup.motion.where,
+                                 "clamps are proposed on the links of a robot, and this motion has none",
+                                 "name a robot and its program");
+    setup_.dresspacks.resize(1);
+    diameter_ = setup_.dresspacks.front().dresspack.diameter;
+    links_ = {given.base_clamp->link, given.tool_clamp->link, settings.ring_link};
+    for (int k = 0; k < used(); ++k) link_[k] = find_link(setup_.robot, links_[k], given.where);
+    const std::unique_ptr<ClampPath> path = path_of(setup);
+    start_ = path->at(0).links;
+  }
+
+  /// As many searches as proposals, each from its own beginnings, so that they end at different places.
+  std::vector<Proposal> run() {
+    if (settings_.rehearsals > 0) return proposals_of(rehearsed_search());
+    std::vector<Candidate> found;
+    for (int k = 0; k < settings_.count; ++k)
+      found.push_back(best_of(std::max(10, settings_.tried / settings_.count)));
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
+    return proposals_of(found);
+  }
+
+ private:
+  static std::vector<Proposal> proposals_of(const std::vector<Candidate>& found) {
+    std::vector<Proposal> proposals;
+    for (const Candidate& candidate : found)
+      proposals.push_back({candidate.routing, candidate.screening, candidate.missing, candidate.rehearsal});
+    return proposals;
+  }
+
+  /// Geometry's best are rehearsed; then what did best is changed a little, again and again, by as much as
+  /// pays. Of a few changes the one is rehearsed that geometry likes most, which is asked for as much more of
+  /// a radius as its parent lacked in its run.
+  std::vector<Candidate> rehearsed_search() {
+    constexpr int begun = 12;           // searches by geometry alone
+    constexpr double hopeless = 0.5;    // missed by the best of the first third
+    constexpr std::size_t parents = 5;  // kept
+    std::vector<Candidate> beginnings, kept;
+    for (int k = 0; k < begun; ++k) beginnings.push_back(best_of(std::max(10, settings_.tried / begun)));
+    double size = 1;
+    int left = settings_.rehearsals;
+    const auto whole_ones = [&] { return std::count_if(kept.begin(), kept.end(), is_found); };
+    while (left > 0 && whole_ones() < settings_.count) {
+      std::vector<Candidate> next;
+      const bool begins = !beginnings.empty();
+      while (static_cast<int>(next.size()) < std::min(side_by_side, left)) {
+        if (begins && beginnings.empty()) break;
+        next.push_back(begins ? beginnings.back() : child(kept, size));
+        if (begins) beginnings.pop_back();
+      }
+      left -= static_cast<int>(next.size());
+      rehearse(next, rehearsed_segments, rehearsed_repeats, wished_in_run);
+      const double before = kept.empty() ? never : kept.front().missing_in_run;
+      for (Candidate& candidate : next) keep(kept, std::move(candidate), parents);
+      const bool better = kept.front().missing_in_run < before;
+      if (!begins) size = std::clamp(size * (better ? 1.3 : 0.9), 0.05, 2.0);
+      while (look_at_first_whole(kept)) --left;
+      if (3 * left < 2 * settings_.rehearsals && kept.front().missing_in_run > hopeless) break;
+    }
+    if (kept.size() > static_cast<std::size_t>(settings_.count)) kept.resize(settings_.count);
+    return kept;
+  }
+
+  static bool is_found(const Candidate& candidate) {
+    return candidate.whole && candidate.missing_in_run == 0;
+  }
+
+  static void keep(std::vector<Candidate>& kept, Candidate&& next, std::size_t most) {
+    const auto place = std::upper_bound(
+        kept.begin(), kept.end(), next,
+        [](const Candidate& a, const Candidate& b) { return a.missing_in_run < b.missing_in_run; });
+    kept.insert(place, std::move(next));
+    if (kept.size() > most) kept.pop_back();
+  }
+
+  /// Whether there was one that keeps all wishes and had not been looked at whole.
+  bool look_at_first_whole(std::vector<Candidate>& kept) const {
+    const auto first = std::find_if(kept.begin(), kept.end(),
+                                    [](const Candidate& of) { return !of.whole && of.missing_in_run == 0; });
+    if (first == kept.end()) return false;
+    std::vector<Candidate> one{*first};
+    kept.erase(first);
+    constexpr int as_the_job = std::numeric_limits<int>::max();
+    rehearse(one, as_the_job, as_the_job, wished_of_whole);
+    one.front().whole = true;
+    keep(kept, std::move(one.front()), kept.size() + 1);
+    return true;
+  }
+
+  void rehearse(std::vector<Candidate>& candidates, int segments, int repeats,
+                const std::array<double, screened_limits>& wishes) const {
+    const std::size_t threads = std::min(pipeline::thread_count(), candidates.size());
+    pipeline::in_parallel(threads, [&](std::size_t part) {
+      for (std::size_t k = part; k < candidates.size(); k += threads) {
+        pipeline::Setup setup = setup_;
+        setup.dresspacks.front().routing = candidates[k].routing;
+        candidates[k].rehearsal = rehearsed(std::move(setup), segments, repeats);
+      }
+    });
+    for (Candidate& candidate : candidates) {
+      constexpr double refused = 3;  // worse than what runs
+      candidate.missing_in_run = candidate.rehearsal.refusal.empty()
+                                     ? missing(candidate.rehearsal.seen, wishes)
+                                     : refused + candidate.missing;
+    }
+  }
+
+  Candidate child(const std::vector<Candidate>& kept, double size) {
+    constexpr int changes = 3;
+    const Candidate& parent = kept[chance_.below(std::min<std::size_t>(3, kept.size()))];
+    const auto bend = static_cast<std::size_t>(ScreenedLimit::bend);
+    const double lacked =
+        parent.rehearsal.refusal.empty() ? std::max(0.0, parent.rehearsal.seen.beyond[bend]) : 0;
+    Candidate best;
+    best.missing = never;
+    for (int k = 0; k < changes || !std::isfinite(best.missing); ++k) {
+      Candidate next = changed(parent, size);
+      std::array<double, screened_limits> wishes = wished;
+      wishes[bend] += lacked;
+      look_at(next, best.missing, wishes);
+      if (next.missing < best.missing) best = std::move(next);
+    }
+    best.whole = false;
+    return best;
+  }
+
+  Candidate best_of(int tried) {
+    constexpr std::size_t parents = 6;
+    std::vector<Candidate> kept;
+    for (int k = 0; k < tried; ++k) {
+      const double share = static_cast<double>(k) / tried;
+      Candidate next = share < 0.4 ? random() : changed(kept[chance_.below(kept.size())], 2 * (1 - share));
+      look_at(next, kept.size() < parents ? std::numeric_limits<double>::infinity() : kept.back().missing);
+      const auto place =
+          std::upper_bound(kept.begin(), kept.end(), next,
+                           [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
+      kept.insert(place, std::move(next));
+      if (kept.size() > parents) kept.pop_back();
+    }
+    return kept.front();
+  }
+
+  int used() const { return settings_.ring_link.empty() ? 2 : 3; }
+
+  Frame frame(int place) const { return start_[link_[place]]; }
+
+  Candidate random() {
+    Candidate candidate;
+    for (int k = 0; k < used(); ++k) candidate.position[k] = beside(link_[k]);
+    const Vector3 way =
+        frame(tool).point(candidate.position[tool]) - frame(base).point(candidate.position[base]);
+    for (int k = 0; k < used(); ++k) {
+      const Vector3 about = way.normalized() + 0.5 * chance_.normal_vector();
+      candidate.direction[k] = (frame(k).orientation.conjugate() * about).normalized();
+    }
+    candidate.slack = chance_.between(0.03, 0.3);
+    return candidate;
+  }
+
+  /// What of the link a clamp is beside: its capsules; of the last link the flange, where tools have their
+  /// brackets, as a line as long as those reach.
+  std::vector<pipeline::Capsule> shapes_of(int link) const {
+    const pipeline::Link& of = setup_.robot.links[link];
+    const bool flange = is_flange(link);
+    if (!flange && !of.capsules.empty()) return of.capsules;
+    const Vector3 from = flange ? setup_.robot.flange_position : Vector3::Zero();
+    const Vector3 axis = from_roll_pitch_yaw(setup_.robot.flange_orientation) * Vector3::UnitZ();
+    return {{from + 0.5 * diameter_ * axis, from + farthest * diameter_ * axis, 0}};
+  }
+
+  bool is_flange(int link) const { return link + 1 == static_cast<int>(setup_.robot.links.size()); }
+
+  Vector3 beside(int link) {
+    const std::vector<pipeline::Capsule> shapes = shapes_of(link);
+    const pipeline::Capsule& capsule = shapes[chance_.below(shapes.size())];
+    const Vector3 along = capsule.to - capsule.from;
+    const Vector3 axis = along.norm() > 1e-6 ? Vector3(along.normalized()) : Vector3(Vector3::UnitZ());
+    Vector3 out = chance_.normal_vector();
+    out -= out.dot(axis) * axis;
+    const double off = capsule.radius + chance_.between(is_flange(link) ? 1.5 : 0.8, farthest) * diameter_;
+    return capsule.from + chance_.between(0, 1) * along + off * out.normalized();
+  }
+
+  /// Whether a bracket can hold it there.
+  bool in_reach(int link, const Vector3& place) const {
+    for (const pipeline::Capsule& shape : shapes_of(link))
+      if (distance_to_axis(place, shape.from, shape.to) <= shape.radius + farthest * diameter_) return true;
+    return false;
+  }
+
+  Candidate changed(const Candidate& from, double size) {
+    Candidate candidate = from;
+    for (int k = 0; k < used(); ++k) {
+      if (chance_.below(2)) {
+        const Vector3 place = candidate.position[k] + size * diameter_ * chance_.normal_vector();
+        if (in_reach(link_[k], place)) candidate.position[k] = place;
+      }
+      if (chance_.below(2))
+        candidate.direction[k] = (candidate.direction[k] + 0.4 * size * chance_.normal_vector()).normalized();
+    }
+    candidate.slack = std::clamp(candidate.slack + 0.05 * size * chance_.normal(), 0.02, 0.32);
+    return candidate;
+  }
+
+  /// to_beat: what is worse need not be known exactly.
+  void look_at(Candidate& candidate, double to_beat,
+               const std::array<double, screened_limits>& wishes = wished) {
+    pipeline::Routing& routing = candidate.routing;
+    routing.where = setup_.dresspacks.front().routing.where;
+    routing.base_clamp = clamp(candidate, base);
+    routing.tool_clamp = clamp(candidate, tool);
+    routing.mounting_pose = setup_.dresspacks.front().routing.mounting_pose;
+    routing.rings.clear();
+    if (used() > ring) {
+      pipeline::GuideRing& guide = routing.rings.emplace_back();
+      guide.link = links_[ring];
+      guide.position = rounded(candidate.position[ring], 1e-3);
+      guide.direction = rounded(candidate.direction[ring], 1e-2);
+      guide.radius = 0.75 * diameter_;
+      guide.width = diameter_;
+      guide.friction = setup_.dresspacks.front().dresspack.friction;
+    }
+    routing.free_length = 1;
+    setup_.dresspacks.front().routing = routing;
+    const double way = screener_.longest_ways(setup_).front();
+    routing.free_length = std::max(0.1, std::ceil(200 * way / (1 - candidate.slack)) / 200);  // [5 mm]
+    setup_.dresspacks.front().routing.free_length = routing.free_length;
+    candidate.screening = screener_.screen(setup_);
+    candidate.missing = missing(candidate.screening, wishes);
+    if (candidate.missing >= to_beat) return;  // its weight would only add to that
+    Screening at_rest = candidate.screening;
+    double& bend = at_rest.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
+    bend = std::max(bend, screener_.bend_at_rest(setup_));
+    candidate.missing = missing(at_rest, wishes);
+  }
+
+  static double missing(const Screening& screening, const std::array<double, screened_limits>& wishes) {
+    double sum = 0;
+    for (int k = 0; k < screened_limits; ++k) sum += std::max(0.0, screening.beyond[k] + wishes[k]);
+    return sum;
+  }
+
+  /// As people write places (mm) and directions.
+  static Vector3 rounded(const Vector3& v, double step) { return (v / step).array().round() * step; }
+
+  pipeline::Clamp clamp(const Candidate& candidate, int place) const {
+    return {links_[place],
+            rounded(candidate.position[place], 1e-3),
+            rounded(candidate.direction[place], 1e-2),
+            {},
+            {}};
+  }
+
+  pipeline::Setup setup_;  // with the routing that is looked at
+  const ProposalSettings& settings_;
+  const Screener screener_;
+  Chance chance_;
+  double diameter_ = 0;
+  std::array<std::string, places> links_;
+  std::array<int, places> link_{};
+  std::vector<Frame> start_;  // of the links at the motion's begin
+};
+
+}  // namespace
+
+std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings) {
+  return Search(setup, settings).run();
+}
+
+}  // namespace dresslife::sim

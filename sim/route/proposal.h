@@ -1,0 +1,42 @@
+// A routing from nothing: clamps on two links, and a ring on a third if wanted, that the screening finds
+// nothing against.
+//
+// Places are drawn at random beside the links' shapes (beside the flange on the last link), directions about
+// the way from clamp to clamp, the length by the slack that it leaves where the way is longest (V1). The best
+// of what was tried are then changed a little, again and again (an evolution strategy without recombination;
+// it needs no derivatives, of which the screening has none). Goodness is the sum of what misses a wished
+// margin to each limit, the hose at rest under its weight. Then, if wanted, the best are changed likewise by
+// how they do in short runs (rehearsal.h). Equal seeds, equal proposals.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pipeline/job/setup.h"
+#include "sim/route/rehearsal.h"
+#include "sim/route/screening.h"
+
+namespace dresslife::sim {
+
+struct ProposalSettings {
+  int count = 1;     ///< proposals, best first, each of a search of its own
+  int tried = 1200;  ///< routings that are screened, by all searches: some milliseconds each
+  int rehearsals =
+      0;  ///< runs with few segments, a tenth of a second each, that try the best and better them; 0: none
+  std::uint64_t seed = 1;
+  std::string ring_link;  ///< a guide ring on it; empty: none
+};
+
+struct Proposal {
+  pipeline::Routing routing;
+  Screening screening;
+  double missing = 0;   ///< sum of what misses the wished margins; 0: all are kept
+  Rehearsal rehearsal;  ///< of the last run, if there were some
+};
+
+/// setup: its first dresspack's clamps name the links; all else of its routing is not read. Errors:
+/// InputError as of Screener, and for a motion without a robot.
+std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings);
+
+}  // namespace dresslife::sim

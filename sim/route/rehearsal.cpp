@@ -1,0 +1,100 @@
+#include "sim/route/rehearsal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/base/errors.h"
+#include "pipeline/files/check_names.h"
+#include "sim/run/simulate.h"
+
+namespace dresslife::sim {
+namespace {
+
+namespace check_name = pipeline::check_name;
+
+void see(Screening& seen, ScreenedLimit limit, double g, double time) {
+  const auto k = static_cast<std::size_t>(limit);
+  if (g > seen.beyond[k]) seen.beyond[k] = g, seen.time[k] = time;
+}
+
+void see(Screening& seen, const Check& check) {
+  if (check.name == check_name::bend_radius)
+    see(seen, ScreenedLimit::bend, std::log(check.limit / check.value), check.time);
+  if (check.name == check_name::twist)
+    see(seen, ScreenedLimit::twist, std::abs(check.value) / check.limit - 1, check.time);
+  // Limits of slack are shares of the length.
+  if (check.name == check_name::too_short)
+    see(seen, ScreenedLimit::too_short, least_slack_share * (1 - check.value / check.limit), check.time);
+  if (check.name == check_name::too_long)
+    see(seen, ScreenedLimit::too_long, most_slack_share * (check.value / check.limit - 1), check.time);
+  if (check.name == check_name::tension && check.value > 0)
+    see(seen, ScreenedLimit::tension, std::log(check.value / check.limit), check.time);
+}
+
+/// What a rehearsal's bends are taken from: the sharpest curvatures of one repeat.
+class Bends {
+ public:
+  explicit Bends(const Simulation& simulation)
+      : rod_(simulation.rod()), duration_(simulation.path().duration()) {
+    for (const pipeline::MountedDresspack& mounted : simulation.setup().dresspacks)
+      least_radius_.push_back(limits_of(mounted.dresspack).least_bend_radius);
+    begin();
+  }
+
+  void begin() { sharpest_.assign(least_radius_.size() * bend_moments * bend_stretches, 0.0); }
+
+  void see(const Sample& sample) {
+    const int moment = duration_ > 0 ? part_of(sample.time / duration_, bend_moments) : 0;
+    for (int j = 0; j < rod_.links(); ++j) {
+      const Span& span = rod_.span_of_link(j);
+      const int stretch = part_of(rod_.link_arc(j) / length_of(span.dresspack), bend_stretches);
+      double& sharpest = sharpest_[(span.dresspack * bend_moments + moment) * bend_stretches + stretch];
+      sharpest = std::max(sharpest, rod_.curvature(rod_.link_state(sample.state, j).turn, j));
+    }
+  }
+
+  std::vector<double> beyond() const {
+    constexpr double straight = 1e-6;  // [1/m], far from every limit, and its logarithm is finite
+    std::vector<double> g;
+    for (std::size_t k = 0; k < sharpest_.size(); ++k)
+      g.push_back(
+          std::log(least_radius_[k / (bend_moments * bend_stretches)] * std::max(sharpest_[k], straight)));
+    return g;
+  }
+
+ private:
+  static int part_of(double share, int parts) {
+    return std::clamp(static_cast<int>(share * parts), 0, parts - 1);
+  }
+  double length_of(int dresspack) const {
+    return rod_.link_arc(rod_.spans()[rod_.first_span(dresspack + 1) - 1].last_link());
+  }
+
+  const Rod& rod_;
+  double duration_;
+  std::vector<double> least_radius_, sharpest_;
+};
+
+}  // namespace
+
+Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats) {
+  Rehearsal rehearsal;
+  rehearsal.seen.beyond.fill(-std::numeric_limits<double>::infinity());
+  rehearsal.seen.time.fill(0);
+  setup.simulation.segments = std::min(setup.simulation.segments, segments);
+  setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, repeats);
+  try {
+    const Simulation simulation(setup);
+    Bends bends(simulation);
+    const RunSummary summary =
+        simulation.run({[&](const Sample& sample) { bends.see(sample); }, [&](int) { bends.begin(); }});
+    rehearsal.bends = bends.beyond();
+    for (const Check& check : summary.checks) see(rehearsal.seen, check);
+  } catch (const pipeline::InputError& problem) {
+    rehearsal.refusal = problem.what();
+  }
+  return rehearsal;
+}
+
+}  // namespace dresslife::sim

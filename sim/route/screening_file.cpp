@@ -1,0 +1,198 @@
+#include "sim/route/screening_file.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "pipeline/base/threads.h"
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
+#include "sim/route/proposal.h"
+#include "sim/route/rehearsal.h"
+
+namespace dresslife::sim {
+namespace {
+
+using pipeline::InputError;
+using pipeline::Node;
+
+/// What is known of one candidate.
+struct Verdict {
+  std::string changes, refusal;
+  Screening screening;
+  std::vector<double> bends{};             // of its rehearsal (rehearsal.h)
+  std::optional<pipeline::Setup> setup{};  // where it is a job
+};
+
+class Writer {
+ public:
+  explicit Writer(pipeline::FileWriter& file) : file_(file) {
+    std::vector<std::string> names;
+    for (int k = 0; k < screened_limits; ++k) names.emplace_back(word(static_cast<ScreenedLimit>(k)));
+    file_.set_axis("limit", names.size());
+    file_.append("/limit/name", std::span<const std::string>(names));
+  }
+
+  void write(const std::vector<Verdict>& verdicts) {
+    std::vector<std::string> changes, refusals;
+    std::vector<std::int32_t> rejected;
+    std::vector<double> beyond, times;
+    for (const Verdict& of : verdicts) {
+      changes.push_back(of.changes);
+      refusals.push_back(of.refusal);
+      rejected.push_back(!of.refusal.empty() || of.screening.rejected());
+      beyond.insert(beyond.end(), of.screening.beyond.begin(), of.screening.beyond.end());
+      times.insert(times.end(), of.screening.time.begin(), of.screening.time.end());
+    }
+    file_.append("/candidate/changes", std::span<const std::string>(changes));
+    file_.append("/candidate/refusal", std::span<const std::string>(refusals));
+    file_.append("/candidate/rejected", std::span<const std::int32_t>(rejected));
+    file_.append("/candidate/beyond", std::span<const double>(beyond));
+    file_.append("/candidate/time", std::span<const double>(times));
+    write_bends(verdicts);
+  }
+
+ private:
+  /// One row of numbers for each that ran, 0 for the others; nothing where none ran.
+  void write_bends(const std::vector<Verdict>& verdicts) {
+    std::size_t most = 0;
+    for (const Verdict& of : verdicts) most = std::max(most, of.bends.size());
+    if (most == 0) return;
+    file_.set_axis("bend", most);
+    for (const Verdict& of : verdicts) {
+      std::vector<double> row = of.bends;
+      row.resize(most);
+      file_.append("/candidate/bend", std::span<const double>(row));
+    }
+  }
+
+  pipeline::FileWriter& file_;
+};
+
+/// Screeners are kept as long as robot and motion stay.
+class Bench {
+ public:
+  Screening screen(const pipeline::Setup& setup, const Node& document) {
+    const std::string key = text_of(document, "robot") + text_of(document, "motion") + poses_of(setup);
+    if (!screener_ || key != key_) {
+      screener_.emplace(setup);
+      key_ = key;
+    }
+    return screener_->screen(setup);
+  }
+
+ private:
+  static std::string text_of(const Node& document, const char* key) {
+    const Node* part = document.find(key);
+    return part ? pipeline::to_yaml(*part) : "";
+  }
+  static std::string poses_of(const pipeline::Setup& setup) {
+    std::string text;
+    for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
+      for (const double angle : mounted.routing.mounting_pose) text += fmt::format("{} ", angle);
+    return text;
+  }
+
+  std::optional<Screener> screener_;
+  std::string key_;
+};
+
+Verdict verdict_of(Bench& bench, Node document, const Node& changes) {
+  Verdict verdict;
+  verdict.changes = pipeline::to_yaml(changes);
+  verdict.screening.beyond.fill(0);
+  verdict.screening.time.fill(0);
+  try {
+    for (const pipeline::Entry& change : changes.entries)
+      pipeline::set_value(document, change.key, change.value, change.where);
+    pipeline::resolve_job(document);
+    const pipeline::Setup setup = pipeline::setup_from(document);
+    if (setup.motion.is_prescribed())
+      throw InputError(setup.motion.where, "a prescribed deformation has no routing to screen",
+                       "leave it as it is");
+    verdict.screening = bench.screen(setup, document);
+    verdict.setup = setup;
+  } catch (const InputError& problem) {
+    verdict.refusal = problem.what();
+  }
+  return verdict;
+}
+
+/// Runs them, one beside the other. Of what does not run geometry says how far it is from that.
+void rehearse(std::vector<Verdict>& verdicts) {
+  std::vector<Verdict*> left;
+  for (Verdict& verdict : verdicts)
+    if (verdict.setup) left.push_back(&verdict);
+  std::vector<Rehearsal> done(left.size());
+  const std::size_t threads = std::min(pipeline::thread_count(), left.size());
+  pipeline::in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t k = part; k < left.size(); k += threads)
+      done[k] = rehearsed(*left[k]->setup, rehearsed_segments, rehearsed_repeats);
+  });
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    left[k]->refusal = done[k].refusal;
+    if (done[k].refusal.empty()) left[k]->screening = done[k].seen, left[k]->bends = std::move(done[k].bends);
+  }
+}
+
+std::string vector_text(const pipeline::Vector3d& v, int decimals) {
+  std::string text;
+  for (int k = 0; k < 3; ++k) {
+    std::string number = fmt::format("{:.{}f}", v[k] + 0.0, decimals);
+    number.erase(number.find_last_not_of('0') + 1);
+    if (number.ends_with('.')) number.pop_back();
+    text += (k ? ", " : "") + (number == "-0" ? "0" : number);
+  }
+  return "[" + text + "]";
+}
+
+std::string place_text(const std::string& link, const pipeline::Vector3d& position,
+                       const pipeline::Vector3d& direction) {
+  return fmt::format("link: {}, position_m: {}, direction: {}", link, vector_text(position, 3),
+                     vector_text(direction, 2));
+}
+
+std::string routing_text(const pipeline::Routing& routing) {
+  const auto clamp = [](const pipeline::Clamp& of) { return place_text(of.link, of.position, of.direction); };
+  std::string text = fmt::format("base_clamp: {{{}}}\n", clamp(*routing.base_clamp));
+  if (!routing.rings.empty()) text += "rings:\n";
+  for (const pipeline::GuideRing& ring : routing.rings)
+    text += fmt::format("  - {{{}, radius_mm: {:.4g}, width_mm: {:.4g}, friction_coefficient: {:.4g}}}\n",
+                        place_text(ring.link, ring.position, ring.direction), 1e3 * ring.radius,
+                        1e3 * ring.width, ring.friction);
+  return text + fmt::format("tool_clamp: {{{}}}\nfree_length_m: {:.3f}\n", clamp(*routing.tool_clamp),
+                            routing.free_length);
+}
+
+}  // namespace
+
+void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates, bool in_runs,
+                     pipeline::FileWriter& file) {
+  const Node list = pipeline::read_yaml(candidates);
+  if (!list.is_list())
+    throw InputError(list.where, "holds no list of changes", "write a list of maps {KEY.PATH: VALUE}");
+  const Node document = pipeline::parse_yaml(pipeline::job_text(job), candidates.string());
+  std::vector<Verdict> verdicts;
+  Bench bench;
+  for (const Node& changes : list.items) {
+    if (!changes.is_map())
+      throw InputError(changes.where, "is no map of key paths to values", "write {KEY.PATH: VALUE, ...}");
+    verdicts.push_back(verdict_of(bench, document, changes));
+  }
+  if (in_runs) rehearse(verdicts);
+  Writer(file).write(verdicts);
+  file.attribute("motion", "");
+}
+
+void write_proposals(const pipeline::Job& job, const ProposalSettings& settings, pipeline::FileWriter& file) {
+  std::vector<Verdict> verdicts;
+  for (const Proposal& proposal : propose(job, settings)) {
+    const bool rehearsed = settings.rehearsals > 0 && proposal.rehearsal.refusal.empty();
+    verdicts.push_back({routing_text(proposal.routing), proposal.rehearsal.refusal,
+                        rehearsed ? proposal.rehearsal.seen : proposal.screening});
+  }
+  Writer(file).write(verdicts);
+  file.attribute("motion", pipeline::motion_text(job.motion));
+}
+
+}  // namespace dresslife::sim

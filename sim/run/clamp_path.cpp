@@ -1,0 +1,86 @@
+#include "sim/run/clamp_path.h"
+
+#include <cassert>
+
+#include "pipeline/job/setup.h"
+#include "sim/program/import.h"
+
+namespace dresslife::sim {
+
+Frame clamp_frame(const pipeline::Clamp& clamp) {
+  constexpr double nearly_parallel = 0.99;  // cos 8 deg
+  const Vector3 z = clamp.direction.normalized();
+  const Vector3 reference = std::abs(z.z()) < nearly_parallel ? Vector3::UnitZ() : Vector3::UnitX();
+  Matrix3 axes;
+  axes.col(0) = (reference - reference.dot(z) * z).normalized();  // (R3)
+  axes.col(1) = z.cross(axes.col(0));
+  axes.col(2) = z;
+  return rolled({clamp.position, Quaternion(axes)}, clamp.roll.value_or(0));
+}
+
+std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
+  if (!setup.motion.clamp_poses.empty()) return std::make_unique<RecordedPath>(setup.motion.clamp_poses);
+  return std::make_unique<RobotPath>(setup);
+}
+
+RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, resolved_motion(setup.motion)) {}
+
+RobotPath::RobotPath(const pipeline::Setup& setup, const pipeline::Motion& motion)
+    : kinematics_(setup.robot),
+      motion_(motion, setup.robot),
+      left_out_(motion.left_out),
+      mounting_pose_(motion_.position(0)) {
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
+    const pipeline::Routing& routing = mounted.routing;
+    add_dresspack(setup, routing);
+    if (routing.mounting_pose.empty()) continue;
+    check_joint_limits(setup.robot, routing.mounting_pose, "routing.mounting_pose_deg", routing.where);
+    const auto axes = static_cast<long>(routing.mounting_pose.size());
+    mounting_pose_.head(axes) =  // external axes: as at the start
+        Eigen::Map<const Eigen::VectorXd>(routing.mounting_pose.data(), axes);
+  }
+}
+
+void RobotPath::add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing) {
+  const auto add = [&](const pipeline::Clamp& clamp) {
+    clamp_links_.push_back(find_link(setup.robot, clamp.link, clamp.where));
+    clamps_.push_back(clamp_frame(clamp));
+  };
+  const auto add_end = [&](bool free = false) {
+    end_clamps_.push_back(static_cast<int>(clamps_.size()) - 1);
+    end_links_.push_back(free ? no_link : clamp_links_.back());
+  };
+  const bool free = !is_clamped(routing.tool_end);
+  add(*routing.base_clamp);
+  add_end();
+  for (const pipeline::IntermediateClamp& between : routing.clamps) {
+    add(between.clamp);
+    add_end(), add_end();
+  }
+  if (!free) add(*routing.tool_clamp);
+  add_end(free);
+  for (const pipeline::GuideRing& ring : routing.rings) {
+    ring_links_.push_back(find_link(setup.robot, ring.link, ring.where));
+    rings_.push_back(clamp_frame({ring.link, ring.position, ring.direction, {}, ring.where}));
+  }
+}
+
+Pose RobotPath::pose(const Eigen::VectorXd& joints) const {
+  Pose pose;
+  pose.joints = joints;
+  pose.links.resize(kinematics_.links());
+  kinematics_.link_frames({joints.data(), static_cast<size_t>(joints.size())}, pose.links);
+  const int ends = static_cast<int>(end_clamps_.size());
+  pose.clamps.between.resize(ends - 2);
+  for (int e = 0; e < ends; ++e)
+    pose.clamps.end(e) = pose.links[clamp_links_[end_clamps_[e]]] * clamps_[end_clamps_[e]];
+  for (size_t k = 0; k < rings_.size(); ++k) pose.rings.push_back(pose.links[ring_links_[k]] * rings_[k]);
+  return pose;
+}
+
+void RobotPath::turn_clamp(int end, double roll) {
+  Frame& clamp = clamps_[end_clamps_[end]];
+  clamp = rolled(clamp, roll);
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,197 @@
+#include "sim/run/deformation_file.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/base/csv_rows.h"
+
+namespace dresslife::sim {
+namespace {
+
+using pipeline::InputError;
+
+enum Quantity { time, position, curvature1, curvature2, twist, elongation, quantities };
+
+struct Column {
+  std::string_view name;
+  Quantity quantity;
+  double to_si;
+  bool is_tension = false;
+};
+constexpr Column known[] = {{"t_s", time, 1},
+                            {"position_m", position, 1},
+                            {"kappa_1_1_per_m", curvature1, 1},
+                            {"kappa_2_1_per_m", curvature2, 1},
+                            {"twist_deg_per_m", twist, EIGEN_PI / 180},
+                            {"twist_rad_per_m", twist, 1},
+                            {"elongation", elongation, 1},
+                            {"tension_N", elongation, 1, true}};
+
+class Reader {
+ public:
+  explicit Reader(const pipeline::Setup& setup)
+      : file_(setup.motion.deformation.string()),
+        length_(setup.dresspacks.front().routing.free_length),
+        segment_(length_ / setup.simulation.segments),
+        stiffness_(axial_stiffness(setup.dresspacks.front().dresspack)) {
+    line_ =
+        read_csv(setup.motion.deformation, "deformation", [&](const std::vector<CsvCell>& cells, int line) {
+          line_ = line;
+          if (columns_.empty())
+            read_header(cells);
+          else
+            read_row(cells);
+        });
+    if (result_.times.empty())
+      fail(0, "deformation holds no row", "write a header (t_s, kappa_1_1_per_m, ...) and a row per time");
+    finish_time();
+    result_.steps.assign(result_.times.size(), 0);
+    result_.step_texts = {"deformation of " + setup.motion.deformation.filename().string()};
+  }
+
+  PrescribedDeformation take() { return std::move(result_); }
+
+ private:
+  [[noreturn]] void fail(int column, const std::string& what, const std::string& remedy) const {
+    throw InputError({file_, line_, column}, what, remedy);
+  }
+
+  void read_header(const std::vector<CsvCell>& cells) {
+    std::array<std::string_view, quantities> names{};
+    for (const CsvCell& cell : cells) {
+      const auto* column = std::find_if(std::begin(known), std::end(known),
+                                        [&](const Column& candidate) { return candidate.name == cell.text; });
+      if (column == std::end(known)) {
+        std::vector<std::string_view> all;
+        for (const Column& other : known) all.push_back(other.name);
+        fail(cell.column, fmt::format("'{}' is no column of a deformation", cell.text),
+             fmt::format("the first line names the columns, of: {}", fmt::join(all, ", ")));
+      }
+      if (!names[column->quantity].empty())
+        fail(cell.column,
+             fmt::format("column {} beside {} (both say the same)", cell.text, names[column->quantity]),
+             "keep one of the two");
+      names[column->quantity] = column->name;
+      columns_.push_back(column);
+    }
+    if (names[time].empty()) fail(1, "deformation has no column t_s", "give the time of each row in seconds");
+    if (names[curvature1].empty() && names[curvature2].empty() && names[twist].empty() &&
+        names[elongation].empty())
+      fail(1, "deformation has a time and nothing that deforms",
+           "add kappa_1_1_per_m, kappa_2_1_per_m, twist_deg_per_m or elongation");
+    has_places_ = !names[position].empty();
+  }
+
+  void read_row(const std::vector<CsvCell>& cells) {
+    if (cells.size() != columns_.size())
+      fail(cells.back().column,
+           fmt::format("row has {} cells (its header has {})", cells.size(), columns_.size()),
+           "write one number per column, separated by commas");
+    std::array<double, quantities> value{};
+    std::array<int, quantities> at{};
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const Column& column = *columns_[c];
+      const std::optional<double> number = number_in(cells[c].text);
+      if (!number || !std::isfinite(*number))
+        fail(cells[c].column, fmt::format("'{}' is not a finite number ({})", cells[c].text, column.name),
+             "write a decimal number");
+      value[column.quantity] = *number * column.to_si;
+      at[column.quantity] = cells[c].column;
+      if (column.is_tension) value[elongation] = elongation_of(*number, cells[c].column);
+    }
+    check_turn({value[curvature1], value[curvature2], value[twist]},
+               at[twist] ? at[twist] : std::max(at[curvature1], at[curvature2]));
+    if (std::abs(value[elongation]) > most_elongation)
+      fail(at[elongation],
+           fmt::format("elongation is {:.6g} (must be -0.5 .. 0.5: relative, 0.01 is one percent)",
+                       value[elongation]),
+           "check its unit, or the E A by which a tension becomes one");
+    add(value, at);
+  }
+
+  double elongation_of(double tension, int column) const {
+    if (stiffness_ <= 0)
+      fail(
+          column,
+          "tension_N is given and the dresspack has no axial_stiffness_N and no wires (it becomes an elongation by E A)",
+          "give dresspack.axial_stiffness_N, or a column elongation");
+    return tension / stiffness_;
+  }
+
+  void check_turn(const Vector3& rate, int column) const {
+    const double angle = rate.norm() * segment_;
+    if (angle > most_turn)
+      fail(column,
+           fmt::format("curvature and twist turn a segment of {:.4g} mm by {:.4g} deg (at most 120)",
+                       1e3 * segment_, angle * 180 / EIGEN_PI),
+           "check the units, or raise simulation.segments");
+  }
+
+  void add(const std::array<double, quantities>& value, const std::array<int, quantities>& at) {
+    const bool same_time = !result_.times.empty() && value[time] == result_.times.back();
+    if (same_time && !has_places_)
+      fail(at[time], fmt::format("time {} s stands twice", value[time]),
+           "drop a row, or give its place in a column position_m");
+    if (!same_time) begin_time(value[time], at[time]);
+    const std::size_t place = result_.states.size() - (result_.times.size() - 1) * places_;
+    if (has_places_) check_place(value[position], place, at[position]);
+    if (result_.times.size() == 1) result_.positions.push_back(value[position]);
+    result_.states.push_back({{value[curvature1], value[curvature2], value[twist]}, value[elongation]});
+  }
+
+  void begin_time(double value, int column) {
+    if (result_.times.empty() && value != 0)
+      fail(column, fmt::format("first time is {} s (must be 0)", value), "subtract it from every row");
+    if (!result_.times.empty() && value < result_.times.back())
+      fail(column, fmt::format("time {} s does not follow {} s (must increase)", value, result_.times.back()),
+           "sort the rows by time, then by position_m");
+    finish_time();
+    result_.times.push_back(value);
+  }
+
+  /// Every time has the places of the first.
+  void finish_time() {
+    if (result_.times.empty()) return;
+    if (result_.times.size() == 1) places_ = result_.positions.size();
+    if (const std::size_t left = result_.times.size() * places_ - result_.states.size(); left > 0)
+      fail(0,
+           fmt::format("time {} s has {} places (the first has {})", result_.times.back(), places_ - left,
+                       places_),
+           "give every time a row for each position_m");
+  }
+
+  void check_place(double value, std::size_t place, int column) const {
+    constexpr double rounding = 1e-6;  // of decimals, in the length
+    if (value < 0 || value > length_ * (1 + rounding))
+      fail(column,
+           fmt::format("position_m is {} (must lie in 0 .. {}, the dresspack's free_length_m)", value,
+                       length_),
+           "measure it from the base clamp along the dresspack");
+    if (result_.times.size() == 1) {
+      if (place > 0 && value <= result_.positions.back())
+        fail(column, fmt::format("position_m {} does not follow {}", value, result_.positions.back()),
+             "sort the rows of a time by position_m");
+    } else if (place >= places_ || value != result_.positions[place]) {
+      fail(column, fmt::format("position_m {} is not the place that the first time has here", value),
+           "give every time the same places in the same order");
+    }
+  }
+
+  static constexpr double most_elongation = 0.5;
+  std::string file_;
+  int line_ = 0;
+  double length_, segment_, stiffness_;
+  std::vector<const Column*> columns_;
+  bool has_places_ = false;
+  std::size_t places_ = 0;  // of every time, known once the first is through
+  PrescribedDeformation result_;
+};
+
+}  // namespace
+
+PrescribedDeformation read_deformation(const pipeline::Setup& setup) { return Reader(setup).take(); }
+
+}  // namespace dresslife::sim

@@ -1,0 +1,40 @@
+#include "sim/run/memory.h"
+
+#include <fmt/format.h>
+
+#include "pipeline/files/files.h"
+#include "sim/run/simulate.h"
+
+namespace dresslife::sim {
+
+pipeline::MemoryNeed memory_of(const Simulation& simulation) {
+  constexpr double program =
+      24 << 20;  // itself, its libraries, the catalogue, robot and world of a small job
+  constexpr double of_a_segment =
+      40'000;  // bodies, shapes and contacts, blocks of the solve, and the same at half the step
+  const RunDescription& run = simulation.description();
+  const pipeline::Simulation& settings = simulation.setup().simulation;
+  const double steps = simulation.path().duration() / settings.time_step;
+  const std::size_t segments = run.segment_length.size();
+  pipeline::MemoryNeed need;
+  need.add(program, "the program");
+  need.add(of_a_segment * static_cast<double>(segments), fmt::format("{} segments", segments),
+           "fewer simulation.segments");
+  // Liveliness of each step; the curvature of every link in the half of those windows that is compared.
+  constexpr double compared = 0.5 / 30, value = sizeof(double);
+  need.add(2 * steps * value + steps * compared * run.links * value,
+           fmt::format("the error of {:.0f} steps", steps),
+           "a longer simulation.time_step_ms, or a shorter motion");
+  need.add(
+      pipeline::file_buffers(pipeline::motion_format(), {{"sample", static_cast<std::size_t>(run.samples)},
+                                                         {"segment", segments},
+                                                         {"clamp", run.clamp_segment.size()},
+                                                         {"joint", static_cast<std::size_t>(run.joints)},
+                                                         {"link", run.link_names.size()},
+                                                         {"hose_link", static_cast<std::size_t>(run.links)},
+                                                         {"line", run.step_texts.size()}}),
+      "what is being written");
+  return need;
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,38 @@
+// Samples of a run into motion.h5 (the format's table is in pipeline/files/formats.cpp).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/files/files.h"
+#include "sim/run/simulate.h"
+
+namespace dresslife::sim {
+
+class MotionFile {
+ public:
+  /// Writes what holds for all samples. The file must outlive this and be committed by the caller.
+  MotionFile(pipeline::FileWriter& file, const RunDescription& description);
+
+  void add(const Sample& sample);
+  /// After the last sample: checks, and what the run says of itself. step_at: line of the program at a time
+  /// [s].
+  void finish(const RunSummary& summary, const std::function<int(double)>& step_at);
+
+ private:
+  void add_robot(const Pose& pose);
+  void add_touch(const Touch& touch);
+  void add_touch_of_motion();
+  void add_extremes(const std::string& group, const std::vector<Extreme>& extremes);
+  void add_checks(const std::vector<Check>& checks, const std::function<int(double)>& step_at);
+
+  pipeline::FileWriter& file_;
+  const RunDescription description_;
+  bool links_named_ = false;
+  std::vector<std::string> obstacles_;
+  std::vector<double> work_, largest_force_;  // (segment, obstacle) so far
+  std::vector<double> positions_, orientations_, poses_;
+};
+
+}  // namespace dresslife::sim

@@ -1,0 +1,339 @@
+#include "sim/run/simulate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/run/mounting.h"
+#include "sim/run/periodic.h"
+#include "sim/run/routing.h"
+
+namespace dresslife::sim {
+namespace {
+
+using pipeline::InputError;
+
+constexpr double same_step = 1e-9;  // [s]
+constexpr double exact_lead = 0.1;  // share of the repeat that leads in that has the motion's own step
+
+/// Intervals that cover the motion; a duration that is a whole number of them up to rounding takes no further
+/// one.
+int intervals(double duration, double rate) { return static_cast<int>(std::ceil(duration * rate - 1e-9)); }
+
+/// Before memory or time is spent on it. A repeat's liveliness is held step by step, 8 bytes each, its
+/// samples are written with 136 bytes a segment and more.
+void check_size(const pipeline::Setup& setup, double duration, int segments) {
+  constexpr double most_steps = 1e8, most_values = 1e9;  // 0.8 GB of memory, 140 GB of disk
+  const pipeline::Simulation& settings = setup.simulation;
+  const double steps = duration / settings.time_step, values = duration * settings.sample_rate * segments;
+  if (!(steps <= most_steps))
+    throw InputError(
+        setup.motion.where,
+        fmt::format("one repeat of the motion takes {:.6g} s, {:.3g} steps of {:.4g} ms (at most {:.0e})",
+                    duration, steps, 1e3 * settings.time_step, most_steps),
+        "look for a long dwell or many repeats, or choose a longer simulation.time_step_ms");
+  if (!(values <= most_values))
+    throw InputError(
+        setup.motion.where,
+        fmt::format("one repeat of the motion takes {:.6g} s: {:.3g} samples of {} segments, {:.0f} GB",
+                    duration, duration * settings.sample_rate, segments, 136e-9 * values),
+        "choose a lower simulation.sample_rate_Hz or fewer segments, or split the motion");
+}
+
+std::vector<MotionLimits> limits_of(const pipeline::Setup& setup) {
+  std::vector<MotionLimits> limits;
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
+    limits.push_back(sim::limits_of(mounted.dresspack));
+  return limits;
+}
+
+}  // namespace
+
+void describe_dresspack(RunDescription& description, const pipeline::MountedDresspack& mounted) {
+  description.dresspacks.push_back(mounted.name);
+  description.bending_stiffness.push_back(mounted.dresspack.bending_stiffness);
+  description.torsional_stiffness.push_back(mounted.dresspack.torsional_stiffness);
+  description.axial_stiffness.push_back(mounted.dresspack.axial_stiffness);
+}
+
+Simulation::Simulation(const pipeline::Setup& setup)
+    : setup_(setup), rod_(rod_of(setup_)), path_(path_of(setup_)) {
+  if (setup_.simulation.choose_time_step)
+    setup_.simulation.time_step = first_step(setup_.simulation.sample_rate);
+  robot_ = dynamic_cast<RobotPath*>(path_.get());
+  check_size(setup_, path_->duration(), rod_.segments());
+  description_.samples = intervals(path_->duration(), setup_.simulation.sample_rate) + 1;
+  for (const pipeline::MountedDresspack& mounted : setup_.dresspacks)
+    describe_dresspack(description_, mounted);
+  for (int i = 0; i < rod_.segments(); ++i) {
+    description_.dresspack.push_back(rod_.span_of(i).dresspack);
+    description_.segment_length.push_back(rod_.span_of(i).segment_length);
+  }
+  description_.clamp_segment = clamp_segments(rod_);
+  description_.links = rod_.links();
+  description_.joints = static_cast<int>(robot_ ? setup_.robot.axes() : 0);
+  description_.step_texts = path_->step_texts();
+  if (robot_)
+    for (const pipeline::Link& link : setup_.robot.links) description_.link_names.push_back(link.name);
+  check_reach();
+  start_ = mount(setup_, rod_, *path_, robot_);
+}
+
+Simulation::~Simulation() = default;
+
+std::vector<pipeline::Warning> Simulation::left_out() const {
+  return robot_ ? robot_->left_out() : std::vector<pipeline::Warning>{};
+}
+
+std::string Simulation::moment(double time) const {
+  const int step = path_->step(time);
+  return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, path_->step_texts()[step]);
+}
+
+/// The straight line between the ends of a span is the least length that every moment needs; the worst one is
+/// reported.
+void Simulation::check_reach() const {
+  double worst = 0, when = 0;
+  size_t where = 0;
+  const int steps = intervals(path_->duration(), 1 / setup_.simulation.time_step);
+  for (int k = 0; k <= steps; ++k) {
+    const double time = k * setup_.simulation.time_step;
+    const Pose pose = path_->at(time);
+    const std::vector<double> ways = shortest_ways(setup_, rod_, pose.clamps, pose.rings);
+    for (size_t span = 0; span < ways.size(); ++span) {
+      const RodProperties& p = rod_.spans()[span].properties;
+      const double missing = p.tool_end == End::free ? 0 : ways[span] - p.length;
+      if (missing > worst) worst = missing, when = time, where = span;
+    }
+  }
+  if (worst == 0) return;
+  const Span& span = rod_.spans()[where];
+  const double length = span.properties.length;
+  const std::string between = between_clamps(span);
+  throw InputError(
+      setup_.dresspacks[span.dresspack].routing.where,
+      fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
+                  pipeline::dresspack_words(setup_, span.dresspack), 1e3 * worst, moment(when),
+                  between.empty() ? "routing.free_length_m is" : "its length" + between + " is", length,
+                  length + worst),
+      "give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)");
+}
+
+std::string Simulation::between_clamps(const Span& span) const {
+  const int first = rod_.first_span(span.dresspack), spans = rod_.first_span(span.dresspack + 1) - first;
+  const int clamp = static_cast<int>(&span - rod_.spans().data()) - first + 1;
+  return spans == 1 ? "" : fmt::format(" between clamps {} and {} of {}", clamp, clamp + 1, spans + 1);
+}
+
+void Simulation::check_step(const StepReport& report, double time) const {
+  if (!report.finite)
+    throw InputError({setup_.dresspacks.front().routing.where.file},
+                     fmt::format("the simulation broke down {} (the state is not finite)", moment(time)),
+                     "choose a smaller simulation.time_step_ms, or check the dresspack's stiffness and mass");
+}
+
+void Simulation::check_taut(const RodState& state, double time) const {
+  const Span& span = rod_.most_stretched(state);
+  const double elongation = rod_.mean_elongation(state, span);
+  if (elongation <= longest_elongation) return;
+  throw InputError(
+      setup_.dresspacks[span.dresspack].routing.where,
+      fmt::format("{} is drawn taut{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
+                  pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span), moment(time),
+                  1e3 * elongation * span.properties.length, 1e2 * elongation),
+      "give it more free length, or keep the motion from winding it around the robot (dresslife preview shows "
+      "the clamps)");
+}
+
+std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {
+  pipeline::Setup setup = setup_;
+  setup.simulation.time_step = step;
+  return make_world(setup, rod_, robot_, state, pose);
+}
+
+int Simulation::steps_per_sample(double step) const {
+  return std::max(1, static_cast<int>(std::lround(1 / (setup_.simulation.sample_rate * step))));
+}
+
+struct Simulation::Repeat {
+  Repeat(const Simulation& s, double step)
+      : checks(s.rod_, limits_of(s.setup_)),
+        error(
+            s.rod_, *s.path_,
+            [&s](const RodState& state, const Pose& pose, double h) { return s.world_at(state, pose, h); },
+            step, (s.description_.samples - 1) * s.steps_per_sample(step)) {}
+  MotionChecks checks;
+  StepError error;
+};
+
+// (R8) What a repeat forgets need not be exact: the first one of a motion that returns only leads into the
+// cycle, with twice the step, but for its last tenth. Whether it did is judged as between any two repeats.
+// Null: it broke down or drew the dresspack taut; the motion then runs from rest, which says where.
+std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
+  const double h = setup_.simulation.time_step;
+  const int steps = (description_.samples - 1) * steps_per_sample(h);
+  const int coarse = static_cast<int>((1 - exact_lead) * steps / 2);
+  std::unique_ptr<World> world = world_at(start_, path_->at(0), 2 * h);
+  RodState before;
+  const auto advance = [&](int at) {
+    const Pose pose = path_->at(at * h);
+    if (at == 2 * coarse) before = world->state();
+    if (sinks.progress) sinks.progress(static_cast<double>(at) / steps);
+    return world->advance(pose.clamps, pose.links).finite &&
+           rod_.mean_elongation(world->state()) <= longest_elongation;
+  };
+  for (int k = 1; k <= coarse; ++k)
+    if (!advance(2 * k)) return nullptr;
+  if (coarse > 0)
+    world = world_at(with_half_step(world->state(), before), path_->at(2 * coarse * h), h);
+  else
+    world = world_at(start_, path_->at(0), h);
+  for (int k = 2 * coarse + 1; k <= steps; ++k)
+    if (!advance(k)) return nullptr;
+  return world;
+}
+
+RunSummary Simulation::run(const RunSinks& sinks) const {
+  const pipeline::Simulation& settings = setup_.simulation;
+  RunSummary summary;
+  summary.returns = returns(*path_);
+  summary.time_step = settings.time_step;
+  bool choose = settings.choose_time_step;
+  std::unique_ptr<World> world;
+  if (summary.returns && !choose && settings.most_repeats > 1) world = led_in(sinks);
+  summary.repeats = world ? 2 : 1;
+  if (!world) world = world_at(start_, path_->at(0), summary.time_step);
+  for (bool first = true;; first = false, ++summary.repeats) {  // (R8)
+    const RodState begin = world->state();
+    if (!first && sinks.begin) sinks.begin(summary.repeats);
+    Repeat repeat(*this, summary.time_step);
+    run_once(*world, repeat, sinks);
+    summary.distance = state_distance(rod_, begin, world->state());
+    summary.periodic = summary.returns && summary.distance <= settings.periodic_tolerance;
+    if (choose) {  // (R11) once, after the first repeat
+      choose = false;
+      const double step = chosen_step(summary.time_step, repeat.error.estimate(),
+                                      settings.curvature_error / 100, settings.sample_rate);
+      if (std::abs(step - summary.time_step) > same_step) {
+        summary.time_step = step;
+        world = world_at(summary.returns ? world->state() : start_, path_->at(0), step);
+        continue;
+      }
+    }
+    if (summary.returns && !summary.periodic && summary.repeats < settings.most_repeats) continue;
+    summary.curvature_error = repeat.error.estimate();
+    summary.curvature = repeat.checks.curvature();
+    summary.twist = repeat.checks.twist();
+    summary.tension = repeat.checks.tension();
+    summary.checks = repeat.checks.table();
+    return summary;
+  }
+}
+
+std::vector<double> Simulation::pulled_out(const RodState& state) const {
+  const auto slides = [](const Span& span) { return span.properties.slider.has_value(); };
+  if (std::none_of(rod_.spans().begin(), rod_.spans().end(), slides)) return {};
+  std::vector<double> ways;
+  for (int d = 0; d < rod_.dresspacks(); ++d) ways.push_back(state.travel[rod_.first_span(d)].way);
+  return ways;
+}
+
+void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) const {
+  const double step = world.time_step();
+  const int per_sample = steps_per_sample(step);
+  MotionChecks& checks = repeat.checks;
+  Pose pose = path_->at(0);
+  std::vector<double> tension(rod_.segments());
+  StepReport since;
+  Touch touch(rod_.segments(), description_.link_names, static_cast<int>(pose.rings.size()));
+  const auto hand_over = [&](int sample) {
+    const double time = sample / setup_.simulation.sample_rate;
+    const RodState& state = world.state();
+    const std::vector<double> pull = rod_.tensions(state);
+    for (const Span& span : rod_.spans())
+      for (int i = 0; i < span.segments(); ++i)
+        tension[span.first_segment + i] = (pull[span.first_link + i] + pull[span.first_link + i + 1]) / 2;
+    const std::vector<Frame> clamps = listed_clamps(rod_, state.clamps);
+    const std::vector<double> travel = pulled_out(state);
+    sinks.take({time, path_->step(time), state, clamps, travel, pose, rod_.energy(state), tension,
+                since.touching, since.max_depth, checks.net_twist(), touch});
+    since = {};
+    touch.begin_sample();
+    if (sinks.progress) sinks.progress((sample + 1.0) / description_.samples);
+  };
+  const auto ways = [&] {
+    return pose.rings.empty() ? std::vector<double>{}
+                              : shortest_ways(setup_, rod_, world.state().clamps, pose.rings);
+  };
+  checks.see(world.state(), {}, 0, ways());
+  repeat.error.see(0, world.state());
+  hand_over(0);
+  for (int sample = 1; sample < description_.samples; ++sample) {  // (R6)
+    for (int k = 1; k <= per_sample; ++k) {
+      const int count = (sample - 1) * per_sample + k;
+      const double time = count * step;
+      pose = path_->at(time);
+      const StepReport report = world.advance(pose.clamps, pose.links);
+      check_step(report, time);
+      checks.see(world.state(), world.contacts(), time, ways());
+      touch.add(world.contacts(), step);
+      repeat.error.see(count, world.state());
+      since.touching = std::max(since.touching, report.touching);
+      since.max_depth = std::max(since.max_depth, report.max_depth);
+    }
+    check_taut(world.state(), sample / setup_.simulation.sample_rate);
+    hand_over(sample);
+  }
+}
+
+// ---- what a person should be told -------------------------------------------------------------------------
+
+namespace {
+
+std::string in_words(double value, const std::string& unit) {
+  if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
+  if (unit == "rad/m") return fmt::format("{:.4g} deg/m", value * 180 / EIGEN_PI);
+  return fmt::format("{:.3g} {}", value, unit);
+}
+
+std::string check_words(const pipeline::Setup& setup, const Check& check) {
+  const std::string name = pipeline::name_among(setup, check.dresspack);
+  return name.empty() ? check.name : fmt::format("{}, {}", name, check.name);
+}
+
+}  // namespace
+
+std::vector<pipeline::Warning> check_warnings(const pipeline::Setup& setup, const std::vector<Check>& checks,
+                                              const std::function<std::string(double)>& moment) {
+  std::vector<pipeline::Warning> warnings;
+  for (const Check& check : checks)
+    if (check.warning)
+      warnings.push_back(
+          {*check.kind, "",
+           fmt::format("{}: {} (limit {}) {}", check_words(setup, check), in_words(check.value, check.unit),
+                       in_words(check.limit, check.unit), moment(check.time))});
+  return warnings;
+}
+
+std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {
+  std::vector<pipeline::Warning> warnings = simulation.left_out();
+  if (summary.returns && !summary.periodic)
+    warnings.push_back(
+        {pipeline::WarningKind::periodic, "",
+         fmt::format(
+             "after {} repeats the motion still begins {:.1f} mm from where it began the repeat before "
+             "(simulation.periodic_tolerance_mm is {:.3g}): friction leaves the dresspack several places; the "
+             "last repeat is evaluated",
+             summary.repeats, 1e3 * summary.distance,
+             1e3 * simulation.setup().simulation.periodic_tolerance)});
+  return pipeline::joined(warnings, check_warnings(simulation.setup(), summary.checks,
+                                                   [&](double time) { return simulation.moment(time); }));
+}
+
+std::string repeats_note(const RunSummary& summary) {
+  if (summary.repeats < 2 || (summary.returns && !summary.periodic)) return "";
+  return fmt::format(
+      "note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
+      summary.repeats, 1e3 * summary.distance);
+}
+
+}  // namespace dresslife::sim

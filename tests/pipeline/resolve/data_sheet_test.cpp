@@ -1,0 +1,201 @@
+#include "pipeline/resolve/data_sheet.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "pipeline/cable/overlap.h"
+#include "pipeline/job/dresspack.h"
+#include "pipeline/settings/fields.h"
+
+using namespace dresslife::pipeline;
+
+namespace {
+
+constexpr double straight = std::numeric_limits<double>::infinity();
+constexpr double pi = std::numbers::pi;
+
+int count_of(const std::vector<Ring>& rings) {
+  int count = 0;
+  for (const Ring& ring : rings) count += ring.count;
+  return count;
+}
+
+std::string sheet_text(const std::string& keys) {
+  return "name: hose\nsource: test\ncomponents:\n  - name: cable\n    helix_radius_mm: 0\n    data_sheet: {" +
+         keys + "}\n";
+}
+
+struct Cables {
+  std::vector<Component> components;
+};
+void describe(Fields& f, Cables& cables) { f.list("components", cables.components, Need::required, ""); }
+
+Component cable_of(const std::string& keys) {
+  Node dresspack = parse_yaml(sheet_text(keys), "pack.yaml");
+  expand_data_sheets(dresspack);
+  Cables cables;
+  std::erase_if(dresspack.entries, [](const Entry& entry) { return entry.key != "components"; });
+  read_fields(dresspack, cables);
+  return cables.components.front();
+}
+
+std::string refusal_of(const std::string& keys) {
+  try {
+    cable_of(keys);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+double wire_area(const Component& part) {
+  if (part.components.empty()) return part.count * pi * part.radius * part.radius;
+  double area = 0;
+  for (const Component& inner : part.components) area += wire_area(inner);
+  return part.count * area;
+}
+
+const std::string seven =
+    "cores: 7, cross_section_mm2: 0.5, wire_diameter_mm: 0.1, outer_diameter_mm: 8.2, "
+    "jacket_thickness_mm: 1.1, lay_length_mm: 60";
+
+}  // namespace
+
+TEST_CASE("cores are packed as narrowly as the standard for their bundles says") {
+  // IEC 60502-1, table A.2: width of n cores over that of one. It is meant to err to the wide side where a
+  // ring is not full, by up to 10 % (nine cores: 4, and eight around one are 3.61), and rounds up to two
+  // figures.
+  const std::map<int, double> standard{
+      {2, 2},     {3, 2.16},  {4, 2.42},  {5, 2.7},   {6, 3},    {7, 3.35}, {8, 3.66}, {9, 4},    {10, 4},
+      {11, 4},    {12, 4.16}, {13, 4.41}, {14, 4.41}, {15, 4.7}, {16, 4.7}, {17, 5},   {18, 5},   {19, 5},
+      {20, 5.33}, {21, 5.33}, {22, 5.67}, {23, 5.67}, {24, 6},   {25, 6},   {26, 6},   {27, 6.15}};
+  for (const auto& [count, width] : standard) {
+    const auto rings = packed(count, 1, straight, Fillers::allowed, {});
+    CAPTURE(count);
+    CHECK(count_of(rings) == count);
+    CHECK(width_of(rings, 1) < width + 0.005);
+    CHECK(width_of(rings, 1) > 0.895 * width);
+  }
+  // Full rings have closed forms: one, three, four, five in the middle, and rings around them.
+  CHECK(width_of(packed(19, 1, straight, Fillers::allowed, {}), 1) == Approx(5));
+  CHECK(width_of(packed(12, 1, straight, Fillers::allowed, {}), 1) == Approx(3 + 2 / std::sqrt(3.0)));
+  CHECK(width_of(packed(14, 1, straight, Fillers::allowed, {}), 1) == Approx(3 + std::sqrt(2.0)));
+}
+
+TEST_CASE("no two parts of a bundle overlap, whatever their number and lay") {
+  for (const double lay_length : {straight, 60.0, 40.0})
+    for (int count = 1; count <= 90; ++count)
+      for (const Fillers fillers : {Fillers::none, Fillers::allowed}) {
+        CAPTURE(count, lay_length);
+        const auto rings = packed(count, 1, lay_length, fillers, {});
+        CHECK(count_of(rings) == count);
+        double inner = -1;
+        for (const Ring& ring : rings) {
+          CHECK(ring.radius >= inner + 1 - 1e-9);
+          if (ring.count > 1) CHECK(neighbour_distance(ring.radius, ring.lay_angle, ring.count) >= 1 - 1e-8);
+          if (!std::isinf(lay_length))
+            CHECK(std::tan(ring.lay_angle) == Approx(2 * pi * ring.radius / lay_length));
+          inner = ring.radius;
+        }
+        // Wires leave no hole in their middle that another would fit into.
+        if (fillers == Fillers::none && std::isinf(lay_length)) CHECK(rings.front().radius < 1);
+      }
+}
+
+TEST_CASE("a data sheet's numbers come back from the layers it stands for") {
+  const Component cable = cable_of(seven);
+  CHECK(cable.radius == Approx(4.1e-3));
+  REQUIRE(cable.components.size() == 2);  // one in the middle, six around it
+  const Component &outer = cable.components[0], &middle = cable.components[1];
+  CHECK(outer.count == 6);
+  CHECK(middle.count == 1);
+  CHECK(middle.helix_radius == 0);
+  CHECK(outer.hand == Hand::left);
+  CHECK(std::tan(outer.lay_angle) == Approx(2 * pi * outer.helix_radius / 60e-3));
+  CHECK(outer.helix_radius + outer.radius == Approx(3e-3));  // 8.2 / 2 - 1.1 mm
+  // Stranding tables give 64 wires of 0.1 mm for 0.5 mm2; the metal is that of the sheet within one wire.
+  CHECK(wire_area(cable) == Approx(7 * 64 * pi / 4 * 0.01e-6));
+  for (const Component& wires : outer.components) {
+    CHECK(wires.hand == Hand::right);
+    CHECK(wires.material == "copper_halved");
+    CHECK(wires.helix_radius + wires.radius <= outer.radius);
+  }
+}
+
+TEST_CASE("pairs are twisted before they are laid") {
+  const Component cable = cable_of(
+      "cores: 4, cores_per_group: 2, cross_section_mm2: 0.25, wire_diameter_mm: 0.1, outer_diameter_mm: 8, "
+      "core_diameter_mm: 1.2, group_lay_length_mm: 25");
+  REQUIRE(cable.components.size() == 1);
+  const Component& pair = cable.components.front();
+  CHECK(pair.name == "pair");
+  CHECK(pair.count == 4);
+  CHECK(pair.radius == Approx(1.2e-3));
+  REQUIRE(pair.components.size() == 1);
+  CHECK(pair.components[0].name == "core");
+  CHECK(pair.components[0].count == 2);
+  CHECK(std::tan(pair.components[0].lay_angle) == Approx(2 * pi * 0.6e-3 / 25e-3));
+  CHECK(wire_area(cable) == Approx(8 * 0.25e-6).epsilon(0.02));  // 32 wires of 0.1 mm have 0.2513 mm2
+}
+
+TEST_CASE("a sheet's line is what its keys are") {
+  const auto expanded = [](const std::string& sheet) {
+    Node dresspack = parse_yaml("components: [{name: cable, helix_radius_mm: 0}]\n", "pack.yaml");
+    dresspack["components"].items[0]["data_sheet"] = parse_yaml(sheet, "sheet");
+    expand_data_sheets(dresspack);
+    return to_yaml(dresspack);
+  };
+  CHECK(
+      expanded(
+          "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm") ==
+      expanded("{" + seven + "}"));
+  CHECK(
+      expanded(
+          "4x2x0.25mm², Wire 0.1 mm, pair lay 25 mm, wire lay length 12 mm, core 1.2 mm, OD 9 mm, jacket 0.9 mm TPU") ==
+      expanded(
+          "{cores: 4, cores_per_group: 2, cross_section_mm2: 0.25, wire_diameter_mm: 0.1, group_lay_length_mm: 25, "
+          "wire_lay_length_mm: 12, core_diameter_mm: 1.2, outer_diameter_mm: 9, jacket_thickness_mm: 0.9}"));
+  const auto refusal = [&](const std::string& sheet) {
+    try {
+      expanded(sheet);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(refusal("7 x 0.5 mm2, screen 85 %, wire 0.1 mm"),
+             Catch::Contains("'screen 85 %' of a data sheet is not understood") &&
+                 Catch::Contains("write phrases as in"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, wires 0.1 mm"),
+             Catch::Contains("tells wire_diameter_mm a second time"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"),
+             Catch::Contains("outer_diameter_mm is missing"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, wire 1.2.3 mm, jacket 1 mm"), Catch::Contains("sheet:1:1: error: "));
+  CHECK_THAT(refusal("7 x 0.5 mm2, "),
+             Catch::Contains("'' of a data sheet is not understood") || Catch::Contains("missing"));
+}
+
+TEST_CASE("sheets that cannot be are refused with what does not fit") {
+  const auto with = [](std::string keys, const std::string& from, const std::string& to) {
+    return keys.replace(keys.find(from), from.size(), to);
+  };
+  CHECK_THAT(refusal_of(with(seven, "0.5,", "5,")),
+             Catch::Contains("pack.yaml:6:") && Catch::Contains("637 wires of 0.1 mm are a conductor"));
+  CHECK_THAT(refusal_of(with(seven, "diameter_mm: 0.1", "diameter_mm: 2")),
+             Catch::Contains("are 0.1592 wires (1 .. 5000)"));
+  CHECK_THAT(refusal_of(with(seven, "thickness_mm: 1.1", "thickness_mm: 4.1")),
+             Catch::Contains("leaves no room"));
+  CHECK_THAT(refusal_of(with(seven, "jacket_thickness_mm: 1.1, ", "")),
+             Catch::Contains("neither core_diameter_mm"));
+  CHECK_THAT(refusal_of(seven + ", core_diameter_mm: 2.5"), Catch::Contains("the cores make a bundle 7.6"));
+  CHECK_THAT(refusal_of(with(seven, "lay_length_mm: 60", "lay_length_mm: 2")),
+             Catch::Contains("give a longer lay"));
+  CHECK_THAT(refusal_of(with(seven, "cores: 7", "cores: 0")), Catch::Contains("cores is 0"));
+  CHECK_THAT(refusal_of(with(seven, "lay_length_mm: 60", "lay: 60")), Catch::Contains("lay"));
+  CHECK_THAT(refusal_of(seven + "}\n    radius_mm: 4\n    phase_deg: 0 #"),
+             Catch::Contains("both data_sheet and radius_mm"));
+}

@@ -1,0 +1,90 @@
+#include "sim/route/preview.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "pipeline/files/files.h"
+#include "tests/pipeline/scratch.h"
+#include "tests/sim/simple_job.h"
+
+namespace dresslife::sim {
+namespace {
+
+pipeline::FileReader preview_of(const pipeline::Scratch& scratch, const pipeline::Job& job) {
+  {
+    pipeline::FileWriter file(scratch / "preview.h5", pipeline::preview_format());
+    write_preview(job, file);
+    file.attribute("job", "");
+    file.attribute("history", "");
+    file.attribute("input_sha256", "");
+    file.commit();
+  }
+  return pipeline::FileReader(scratch / "preview.h5", pipeline::preview_format());
+}
+
+TEST_CASE("preview: lengths that work leave the slack that the checks ask for") {
+  const WorkingLength range = working_length(0.98);
+  CHECK(range.least == Approx(1));    // 0.02 of 1 m left
+  CHECK(range.most == Approx(1.47));  // 0.49 m left, a third of it
+  CHECK(working_length(0).most == 0);
+}
+
+TEST_CASE("preview: a weightless hose between tangents of a circle rests in its arc") {
+  // Tried length k is c/0.98 (0.98 1.5)^(k/7) with the chord c; for k = 3 the arc over it has half angle a
+  // with a / sin a = that ratio.
+  const double ratio = 1 / 0.98 * std::pow(0.98 * 1.5, 3.0 / 7);
+  double a = 1;
+  for (int i = 0; i < 50; ++i)
+    a -= (a / std::sin(a) - ratio) * std::sin(a) * std::sin(a) / (std::sin(a) - a * std::cos(a));
+  pipeline::Job job = simple_job();
+  job.motion.steps = {move_to(0, "start"), dwell_for(0.5)};
+  job.simulation.gravity = {0, 0, 0};
+  job.simulation.segments = 32;
+  pipeline::Routing& routing = job.dresspacks[0].routing;
+  routing.base_clamp->direction = {std::cos(a), 0, std::sin(a)};
+  routing.tool_clamp->direction = {std::cos(a), 0, -std::sin(a)};
+  routing.free_length = 0.9 * ratio;
+  const pipeline::Scratch scratch;
+  const pipeline::FileReader file = preview_of(scratch, job);
+  CHECK(file.text_attribute("refusal") == "");
+  CHECK(file.read<double>("/span/working_length")[2] == Approx(0.9 / 0.98));
+  const auto lengths = file.read<double>("/scan/length"), radii = file.read<double>("/scan/bend_radius");
+  REQUIRE(lengths.size() == 8);
+  CHECK(lengths[3] == Approx(routing.free_length));
+  // Links of l = L/32 turn by l/r each; stretch and rest tolerance are below 1e-3, the ends' corrections of
+  // order (l/r)^2.
+  CHECK(radii[3] == Approx(0.45 / std::sin(a)).epsilon(0.01));
+}
+
+TEST_CASE("preview: the moment at which the clamps are farthest apart is among its samples") {
+  // The tool clamp lies 0.3 m off the spindle's axis: way^2 = 0.9^2 + (0.6 sin(q/2))^2, farthest where q is
+  // largest.
+  pipeline::Job job = simple_job();
+  job.dresspacks[0].routing.base_clamp->position = {0, 0, 1.3};
+  job.dresspacks[0].routing.tool_clamp->position = {0.9, 0, 0.3};
+  job.dresspacks[0].routing.free_length = 1;
+  const pipeline::Scratch scratch;
+  const pipeline::FileReader file = preview_of(scratch, job);
+  const auto ways = file.read<double>("/span/way"), times = file.read<double>("/time");
+  const double farthest = std::hypot(0.9, 0.6 * std::sin(1));
+  CHECK(*std::max_element(ways.begin(), ways.end()) == Approx(farthest));
+  CHECK(ways.front() == Approx(0.9));
+  const std::string refusal = file.text_attribute("refusal");
+  CHECK(refusal.find(fmt::format("{:.1f} mm too short", 1e3 * (farthest - 1))) != std::string::npos);
+  const double when = file.number_attribute("refusal_time");
+  CHECK(std::find(times.begin(), times.end(), when) != times.end());
+  CHECK(refusal.find(fmt::format("at {:.3f} s", when)) != std::string::npos);
+}
+
+TEST_CASE("preview: a mounting pose of its own comes before the program") {
+  pipeline::Job job = simple_job();
+  job.dresspacks[0].routing.mounting_pose = {1};
+  const pipeline::Scratch scratch;
+  const pipeline::FileReader file = preview_of(scratch, job);
+  CHECK(file.read<double>("/time").front() == -1);
+  CHECK(file.read<double>("/time")[1] == 0);
+  CHECK(file.read<double>("/robot/joint_position").front() == 1);
+}
+
+}  // namespace
+}  // namespace dresslife::sim

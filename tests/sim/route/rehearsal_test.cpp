@@ -1,0 +1,107 @@
+// What a search is told of a short run, against the run itself; and routings that keep their limits in it.
+#include "sim/route/rehearsal.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "pipeline/advise/improve/scaled.h"
+#include "pipeline/resolve/job_text.h"
+#include "sim/route/exercise.h"
+#include "sim/route/proposal.h"
+#include "sim/run/simulate.h"
+#include "tests/sim/simple_job.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr int as_the_job = 1'000'000;
+
+double beyond(const Rehearsal& rehearsal, ScreenedLimit limit) {
+  return rehearsal.seen.beyond[static_cast<std::size_t>(limit)];
+}
+
+std::vector<Check> checks_of(const pipeline::Setup& setup) {
+  return Simulation(setup).run({[](const Sample&) {}}).checks;
+}
+
+}  // namespace
+
+TEST_CASE("a rehearsal grades what the run's checks saw") {
+  pipeline::Job job = simple_job();
+  const Rehearsal found = rehearsed(job, as_the_job, as_the_job);
+  REQUIRE(found.refusal.empty());
+  const std::vector<Check> checks = checks_of(job);
+  const auto check = [&](const char* name) {
+    return *std::find_if(checks.begin(), checks.end(), [&](const Check& of) { return of.name == name; });
+  };
+  CHECK(std::exp(beyond(found, ScreenedLimit::bend)) * check("smallest bend radius").value ==
+        Approx(10 * 0.04));
+  // 2 rad in 1 m; the hose sags, so that links take shares of it that differ a little.
+  constexpr double of_its_sag = 0.1;
+  CHECK(beyond(found, ScreenedLimit::twist) == Approx(2 / std::numbers::pi - 1).margin(of_its_sag));
+  CHECK(beyond(found, ScreenedLimit::too_short) == Approx(0.9 - 0.98).margin(1e-9));  // (V1), (V2)
+  CHECK(beyond(found, ScreenedLimit::too_long) == Approx(2.0 / 3 - 0.9).margin(1e-9));
+  job.dresspacks.front().dresspack.mass_per_length = 15;  // a heavy one hangs like a chain
+  job.dresspacks.front().dresspack.most_tension = 1;
+  CHECK(beyond(rehearsed(job, as_the_job, 1), ScreenedLimit::tension) > 1);
+  job.dresspacks.front().routing.free_length = 0.85;
+  CHECK(rehearsed(job, as_the_job, 1).refusal.find("too short") != std::string::npos);
+}
+
+TEST_CASE("bends of a rehearsal are told by moment and stretch, and their largest is the run's sharpest") {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  const Rehearsal found = rehearsed(job, as_the_job, 1);
+  REQUIRE(found.refusal.empty());
+  REQUIRE(found.bends.size() == bend_moments * bend_stretches);
+  // The samples and the ends of links, looked at one by one.
+  const Simulation simulation(job);
+  const Rod& rod = simulation.rod();
+  std::vector<double> sharpest(found.bends.size(), 0.0);
+  const double length = job.dresspacks.front().routing.free_length;
+  simulation.run({[&](const Sample& sample) {
+    int moment = 0, stretch = 0;
+    while (moment + 1 < bend_moments &&
+           (moment + 1) * simulation.path().duration() <= bend_moments * sample.time)
+      ++moment;
+    for (int j = 0; j < rod.links(); ++j) {
+      while (stretch + 1 < bend_stretches && (stretch + 1) * length <= bend_stretches * rod.link_arc(j))
+        ++stretch;
+      const Vector3 turn = rod.link_state(sample.state, j).turn;
+      double& of = sharpest[moment * bend_stretches + stretch];
+      of = std::max(of, std::hypot(turn.x(), turn.y()) / rod.bending_length(j));
+    }
+    stretch = 0;
+  }});
+  constexpr double least_radius = 10 * 0.04;
+  for (std::size_t k = 0; k < sharpest.size(); ++k)
+    CHECK(std::exp(found.bends[k]) == Approx(sharpest[k] * least_radius).epsilon(1e-9));
+  const double largest = *std::max_element(found.bends.begin(), found.bends.end());
+  CHECK(largest <= beyond(found, ScreenedLimit::bend) + 1e-12);
+  constexpr double between_samples = 0.01;  // what bends in seconds, seen every 40 ms
+  CHECK(largest > beyond(found, ScreenedLimit::bend) - between_samples);
+}
+
+TEST_CASE("proposals that were rehearsed keep all limits in the job's own run") {
+  pipeline::Job job = pipeline::read_job(
+      std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
+      {"robot=abb_irb2600_12_165", "simulation.segments=20"});
+  job.motion = exercise(job.robot);
+  job.dresspacks.front().dresspack = pipeline::scaled(job.dresspacks.front().dresspack, 0.3);
+  ProposalSettings settings;
+  settings.tried = 120;
+  settings.rehearsals = 60;
+  const Proposal found = propose(job, settings).front();
+  REQUIRE(found.rehearsal.refusal.empty());
+  CHECK(found.rehearsal.seen.violation() == 0);
+  job.dresspacks.front().routing = found.routing;
+  for (const Check& check : checks_of(job)) {
+    INFO(check.name << " " << check.value << " of " << check.limit);
+    CHECK_FALSE(check.warning);
+  }
+}
+
+}  // namespace dresslife::sim

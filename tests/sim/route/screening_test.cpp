@@ -1,0 +1,137 @@
+// What geometry alone says of a routing, against closed forms; and routings that are proposed by it.
+#include "sim/route/screening.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "pipeline/base/installation.h"
+#include "pipeline/resolve/job_text.h"
+#include "sim/robot/robot.h"
+#include "sim/route/exercise.h"
+#include "sim/route/proposal.h"
+#include "sim/run/clamp_path.h"
+#include "tests/sim/simple_job.h"
+
+namespace dresslife::sim {
+namespace {
+
+using std::numbers::pi;
+
+double beyond(const pipeline::Setup& setup, ScreenedLimit limit) {
+  return Screener(setup).screen(setup).beyond[static_cast<std::size_t>(limit)];
+}
+
+pipeline::Routing& routing(pipeline::Job& job) { return job.dresspacks.front().routing; }
+
+pipeline::Job shipped_job(const std::vector<std::string>& sets = {}) {
+  return pipeline::read_job(
+      std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml", sets);
+}
+
+}  // namespace
+
+TEST_CASE("length is screened by the straight way and the slack that checks ask for (V1), (V2)") {
+  pipeline::Job job = simple_job();  // 0.9 m apart all the time
+  for (const double length : {0.85, 0.95, 1.2, 1.6}) {
+    routing(job).free_length = length;
+    CHECK(beyond(job, ScreenedLimit::too_short) == Approx((0.9 - 0.98 * length) / length).margin(1e-12));
+    CHECK(beyond(job, ScreenedLimit::too_long) == Approx((2.0 / 3 * length - 0.9) / length).margin(1e-12));
+  }
+  routing(job).free_length = 0.89;  // shorter than the way
+  CHECK(Screener(job).screen(job).rejected());
+  CHECK(Screener(job).longest_ways(job).front() == Approx(0.9).epsilon(1e-12));
+}
+
+TEST_CASE("twist is counted from where the hose was clamped, whole turns too (V4)") {
+  pipeline::Job job = simple_job();
+  // The hose lies in a plane through the axis, so the turn of the clamp is its own: 2 rad in 1 m.
+  CHECK(beyond(job, ScreenedLimit::twist) == Approx(2 / pi - 1).margin(1e-9));
+  job.motion.steps = {move_to(0), move_to(4 * pi + 1), move_to(0)};
+  CHECK(beyond(job, ScreenedLimit::twist) == Approx((4 * pi + 1) / pi - 1).margin(1e-9));
+  // Clamped at 9 rad it has turned by 9 at the start and by 4 pi + 1 - 9 at the end.
+  routing(job).mounting_pose = {9};
+  CHECK(beyond(job, ScreenedLimit::twist) == Approx(9 / pi - 1).margin(1e-9));
+  routing(job).pre_twist = -2;
+  CHECK(beyond(job, ScreenedLimit::twist) == Approx(11 / pi - 1).margin(1e-9));
+}
+
+TEST_CASE("bend radius is that of a smooth curve between the clamps (V3)") {
+  pipeline::Job job = simple_job();
+  // Half a circle of 0.3 m. A cubic through its ends of the same length bends a little more somewhere.
+  routing(job).tool_clamp->position = {0, 0.6, 0};
+  routing(job).tool_clamp->direction = {-1, 0, 0};
+  routing(job).free_length = 0.3 * pi;
+  job.motion.steps = {move_to(0), move_to(0.001)};
+  const double radius = 10 * job.dresspacks.front().dresspack.diameter;
+  const double found = radius / std::exp(beyond(job, ScreenedLimit::bend));
+  CHECK(found < 0.3);
+  CHECK(found > 0.3 / 1.5);
+}
+
+TEST_CASE("a hose in a link is graded by how deep it lies there (V5)") {
+  pipeline::Job job = simple_job();
+  CHECK(beyond(job, ScreenedLimit::overlap) < -0.5);
+  job.robot.links[0].capsules = {
+      {{0.45, 0, 0.2}, {0.45, 0, 2}, 0.1}};  // a post that the hose goes through, however it sags
+  const double shallow = beyond(job, ScreenedLimit::overlap);
+  job.robot.links[0].capsules[0].radius = 0.2;
+  CHECK(shallow > 0);
+  CHECK(beyond(job, ScreenedLimit::overlap) == Approx(shallow + 0.1 / 0.04).epsilon(1e-9));
+  job.simulation.contact = false;
+  CHECK(beyond(job, ScreenedLimit::overlap) < -0.5);
+}
+
+TEST_CASE("a shipped routing passes the screening, and what cannot work does not") {
+  const pipeline::Job job = shipped_job();
+  const Screener screener(job);
+  CHECK_FALSE(screener.screen(job).rejected());
+  CHECK(screener.screen(shipped_job({"routing.free_length_m=1.5"})).rejected());
+  CHECK(screener.screen(shipped_job({"routing.tool_clamp.direction=[-1, 0, 0.35]"})).rejected());
+}
+
+TEST_CASE("proposals keep what the screening asks and are the same for the same seed") {
+  const pipeline::Job job = shipped_job();
+  ProposalSettings settings;
+  settings.count = 2;
+  settings.tried = 150;
+  const std::vector<Proposal> first = propose(job, settings), again = propose(job, settings);
+  REQUIRE(first.size() == 2);
+  CHECK_FALSE(first.front().screening.rejected());
+  CHECK(first.front().missing <= first.back().missing);
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    CHECK(first[k].routing.base_clamp->link == "link_3");
+    CHECK(first[k].routing.tool_clamp->link == "link_6");
+    CHECK(first[k].routing.free_length == again[k].routing.free_length);
+    CHECK(first[k].routing.base_clamp->position == again[k].routing.base_clamp->position);
+  }
+  settings.seed = 2;
+  CHECK(propose(job, settings).front().routing.base_clamp->position !=
+        first.front().routing.base_clamp->position);
+}
+
+TEST_CASE("every shipped robot has a home pose with its forearm level, and an exercise that it can run") {
+  for (const auto& file : std::filesystem::directory_iterator(pipeline::shipped_catalogue() / "robots")) {
+    const std::string name = file.path().stem().string();
+    const std::string motoman = name.starts_with("motoman") ? "_u" : "", last = motoman.empty() ? "" : "_t";
+    INFO(name);
+    pipeline::Job job = shipped_job(
+        {"robot=" + name, "routing.base_clamp.link=link_3" + motoman, "routing.tool_clamp.link=link_6" + last,
+         "motion={name: x, source: x, steps: [{joints_deg: [0, -50, 0, 0, 0, 0]}]}"});
+    job.motion = exercise(job.robot);
+    const RobotKinematics kinematics(job.robot);
+    std::vector<double> joints = home_pose(job.robot);
+    joints.resize(kinematics.axes());
+    std::vector<Frame> links(kinematics.links());
+    kinematics.link_frames(joints, links);
+    const Vector3 upper = (links[3].position - links[2].position).normalized();
+    const Vector3 forearm = (links[6].position - links[3].position).normalized();
+    CHECK(upper.z() > std::cos(25 * pi / 180));              // some shoulders stand beside the upper arm
+    CHECK(std::abs(forearm.z()) < std::sin(15 * pi / 180));  // and elbows above the forearm's axis
+    CHECK(forearm.x() > 0.9);
+    CHECK(path_of(job)->duration() > 5);
+  }
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,243 @@
+#include "sim/run/clamp_path.h"
+#include "pipeline/job/job.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <numbers>
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+/// Some tens of roundings of numbers near 1.
+constexpr double rounding = 1e-13;
+
+/// A file that is gone after the test.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& name, const std::string& text)
+      : path_(std::filesystem::temp_directory_path() / ("dresslife_clamp_path_" + name)) {
+    std::ofstream(path_, std::ios::binary) << text;
+  }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+const std::string unit_pose = ",0,0,0,1,0,0,0";
+
+std::string row(double time, const std::string& base = unit_pose, const std::string& tool = unit_pose) {
+  return fmt::format("{}{}{}\n", time, base, tool);
+}
+
+std::string message_of(const std::string& name, const std::string& text) {
+  const TemporaryFile file(name, text);
+  try {
+    const RecordedPath path(file.path());
+  } catch (const pipeline::InputError& error) {
+    const std::string message = error.what(), folder = file.path().parent_path().string() + "/";
+    REQUIRE(message.starts_with(folder));
+    return message.substr(folder.size());
+  }
+  return "no error";
+}
+
+TEST_CASE("clamp path: a spline goes through a cubic as it is") {
+  const std::vector<double> times{0, 0.3, 1, 1.2, 2, 3.5};
+  const auto cubic = [](double t) { return 1 - 2 * t + 0.7 * t * t - 0.3 * t * t * t; };
+  Eigen::MatrixXd values(2, 6);
+  for (int k = 0; k < 6; ++k) values.col(k) << cubic(times[k]), 5;
+  const CubicSpline spline(times, values);
+  for (double t = 0; t <= 3.5; t += 0.07) {
+    CHECK(spline.at(t)[0] == Approx(cubic(t)).margin(rounding));
+    CHECK(spline.at(t)[1] == Approx(5).epsilon(rounding));
+  }
+  CHECK(spline.at(-1)[0] == cubic(0));
+  CHECK(spline.at(9)[0] == cubic(3.5));
+}
+
+TEST_CASE("clamp path: few knots give a parabola, a line, a constant") {
+  const CubicSpline parabola({0, 1, 3}, Eigen::RowVector3d(0, 1, 9));
+  CHECK(parabola.at(2)[0] == Approx(4).epsilon(rounding));
+  const CubicSpline line({0, 2}, Eigen::RowVector2d(1, 5));
+  CHECK(line.at(0.5)[0] == Approx(2).epsilon(rounding));
+  const CubicSpline constant({0}, Eigen::MatrixXd::Constant(1, 1, 7));
+  CHECK(constant.at(4)[0] == 7);
+}
+
+TEST_CASE("clamp path: a spline's error falls with the fourth power of the step") {
+  const auto largest_error = [](int steps) {
+    std::vector<double> times;
+    Eigen::MatrixXd values(1, steps + 1);
+    for (int k = 0; k <= steps; ++k) {
+      times.push_back(2.0 * k / steps);
+      values(0, k) = std::sin(3 * times.back());
+    }
+    const CubicSpline spline(times, values);
+    double error = 0;
+    for (double t = 0; t < 2; t += 0.003)
+      error = std::max(error, std::abs(spline.at(t)[0] - std::sin(3 * t)));
+    return error;
+  };
+  const double order = std::log2(largest_error(40) / largest_error(80));
+  CHECK(order > 3.8);  // 4 less what the ends still differ at 40 knots
+  CHECK(order < 4.5);
+}
+
+TEST_CASE("clamp path: recorded poses are met at their rows and turn smoothly between") {
+  std::string text =
+      "t,x,y,z,qw,qx,qy,qz,x,y,z,qw,qx,qy,qz\n# a turn about z at 1 rad/s, signs as they come\n";
+  for (int k = 0; k <= 80; ++k) {
+    const double t = 0.1 * k;
+    Quaternion q(Eigen::AngleAxisd(t, Vector3::UnitZ()));
+    if (q.w() < 0) q.coeffs() = -q.coeffs();  // as many programs write it
+    text += fmt::format("{}, {},0,0,1,0,0,0, 1,0,{},{},{},{},{}\r\n", t, std::sin(t), std::cos(t), q.w(),
+                        q.x(), q.y(), q.z());
+  }
+  const TemporaryFile file("turn.csv", text);
+  const RecordedPath path(file.path());
+  CHECK(path.duration() == Approx(8));
+  CHECK(path.step_texts() == std::vector<std::string>{"clamp poses of dresslife_clamp_path_turn.csv"});
+  // Spline error of sin(t), step 0.1: 5/384 h^4 = 1.3e-6 inside, some times more in the end intervals.
+  constexpr double spline_error = 1e-5;
+  Quaternion before = path.at(0).clamps.tool.orientation;
+  for (double t = 0; t <= 8; t += 0.013) {
+    const Pose pose = path.at(t);
+    CHECK(std::abs(pose.clamps.base.position.x() - std::sin(t)) < spline_error);
+    CHECK(std::abs(pose.clamps.tool.position.z() - std::cos(t)) < spline_error);
+    const Quaternion& q = pose.clamps.tool.orientation;
+    CHECK(rotation_vector(q.conjugate() * Quaternion(Eigen::AngleAxisd(t, Vector3::UnitZ()))).norm() <
+          spline_error);
+    CHECK(q.dot(before) > 0.999);  // no jump of sign
+    CHECK(std::abs(q.norm() - 1) < rounding);
+    before = q;
+  }
+}
+
+TEST_CASE("clamp path: a bad cell is named by line and column") {
+  CHECK(message_of("a.csv", row(0) + "0.1,0,0,zero,1,0,0,0" + unit_pose + "\n") ==
+        "dresslife_clamp_path_a.csv:2:9: error: 'zero' is not a finite number (z of the base clamp); write a "
+        "decimal "
+        "number");
+  CHECK(message_of("b.csv", row(0) + row(0.1, ",0, nan,0,1,0,0,0")) ==
+        "dresslife_clamp_path_b.csv:2:8: error: 'nan' is not a finite number (y of the base clamp); write a "
+        "decimal "
+        "number");
+  CHECK(message_of("c.csv", row(0, ",,0,0,1,0,0,0")) ==
+        "dresslife_clamp_path_c.csv:1:3: error: '' is not a finite number (x of the base clamp); write a "
+        "decimal "
+        "number");
+  CHECK(message_of("d.csv", "t;x;y\n" + row(0) + "1,2,3\n") ==
+        "dresslife_clamp_path_d.csv:3:5: error: row has 3 cells (must be 15, separated by commas); write t, "
+        "then x y z "
+        "qw qx qy qz of the base clamp and of the tool clamp");
+  CHECK(message_of("e.csv", row(0) + "#\n\n" + row(0.5) + row(0.5)) ==
+        "dresslife_clamp_path_e.csv:5:1: error: time 0.5 s does not follow 0.5 s (must increase); sort the "
+        "rows and "
+        "drop repeated ones");
+  CHECK(message_of("f.csv", row(1)) ==
+        "dresslife_clamp_path_f.csv:1:1: error: first time is 1 s (must be 0); subtract it from every row");
+  CHECK(message_of("g.csv", row(0, unit_pose, ",0,0,0,0.9,0,0,0")) ==
+        "dresslife_clamp_path_g.csv:1:23: error: quaternion has length 0.9 (must be 1 within 0.001); write a "
+        "unit "
+        "quaternion, w first");
+  CHECK(message_of("h.csv", row(0) + row(1, ",0,0,0,0,0,0,1")) ==
+        "dresslife_clamp_path_h.csv:2:9: error: clamp turns by 180.0 deg from the row before (more than 120: "
+        "which way "
+        "is not clear); write rows closer in time");
+  CHECK(message_of("i.csv", "t,x\n\n") ==
+        "dresslife_clamp_path_i.csv:2: error: clamp_poses holds no row; write t and 14 numbers per row");
+}
+
+TEST_CASE("clamp path: a file that is not there is named") {
+  CHECK_THROWS_WITH(RecordedPath("no/such.csv"),
+                    "no/such.csv: error: clamp_poses cannot be read; check the file's name and rights");
+}
+
+TEST_CASE("clamp path: a clamp's frame has z along the hose and x toward the link's z") {
+  pipeline::Clamp clamp;
+  clamp.position = {1, 2, 3};
+  clamp.direction = {2, 0, 0};
+  Matrix3 expected;
+  expected << 0, 0, 1, 0, -1, 0, 1, 0, 0;  // columns x = link z, y, z = link x
+  CHECK((clamp_frame(clamp).orientation.toRotationMatrix() - expected).norm() < rounding);
+  CHECK(clamp_frame(clamp).position == clamp.position);
+  clamp.direction = {0, 0, -1};  // along the link's z: x toward the link's x
+  CHECK((clamp_frame(clamp).orientation * Vector3::UnitX() - Vector3::UnitX()).norm() < rounding);
+  clamp.roll = pi / 2;  // right-handed about -z
+  CHECK((clamp_frame(clamp).orientation * Vector3::UnitX() + Vector3::UnitY()).norm() < rounding);
+  CHECK((clamp_frame(clamp).orientation * Vector3::UnitZ() + Vector3::UnitZ()).norm() < rounding);
+}
+
+/// One joint about z at the origin; base clamp on the base, tool clamp on the turning link.
+pipeline::Job turning_job() {
+  pipeline::Job job;
+  job.robot.name = "turntable";
+  pipeline::Joint joint;
+  joint.name = "table";
+  joint.lower = -20;
+  joint.upper = 20;
+  joint.speed = 2;
+  joint.acceleration = 4;
+  job.robot.joints = {joint};
+  job.robot.links = {{"base", {}}, {"table", {}}};
+  for (const double angle : {0.0, 5 * pi}) {
+    pipeline::MotionStep step;
+    step.joints = {angle};
+    job.motion.steps.push_back(step);
+  }
+  job.dresspacks[0].routing.base_clamp =
+      pipeline::Clamp{"base", {0, 0, 1}, {0, 0, 1}, {}, {"job.yaml", 8, 3}};
+  job.dresspacks[0].routing.tool_clamp =
+      pipeline::Clamp{"table", {1, 0, 2}, {1, 0, 0}, 0.25, {"job.yaml", 9, 3}};
+  return job;
+}
+
+TEST_CASE("clamp path: the tool clamp goes round with its link for more than two turns without a jump") {
+  const RobotPath path(turning_job());
+  CHECK(path.end_links() == std::vector<int>{0, 1});
+  Quaternion before = path.at(0).clamps.tool.orientation;
+  for (double t = 0; t <= path.duration(); t += 0.01) {
+    const Pose pose = path.at(t);
+    const double angle = pose.joints[0];
+    CHECK((pose.clamps.tool.position - Vector3(std::cos(angle), std::sin(angle), 2)).norm() < rounding);
+    CHECK((tangent(pose.clamps.tool.orientation) - Vector3(std::cos(angle), std::sin(angle), 0)).norm() <
+          rounding);
+    CHECK(pose.clamps.tool.orientation.dot(before) > 0.9999);
+    CHECK(pose.clamps.base.position == Vector3(0, 0, 1));
+    before = pose.clamps.tool.orientation;
+  }
+}
+
+TEST_CASE("clamp path: the tool clamp can be turned about its direction") {
+  RobotPath path(turning_job());
+  const Quaternion before = path.at(0).clamps.tool.orientation;
+  path.turn_clamp(1, 0.5);
+  const Vector3 turn = rotation_vector(before.conjugate() * path.at(0).clamps.tool.orientation);
+  CHECK((turn - Vector3(0, 0, 0.5)).norm() < rounding);
+}
+
+TEST_CASE("clamp path: the pose of mounting is the first waypoint or what the routing says") {
+  pipeline::Job job = turning_job();
+  CHECK(RobotPath(job).mounting_pose()[0] == 0);
+  job.dresspacks[0].routing.mounting_pose = {1.5};
+  CHECK(RobotPath(job).mounting_pose()[0] == 1.5);
+  job.dresspacks[0].routing.mounting_pose = {30};
+  job.dresspacks[0].routing.where = {"job.yaml", 7, 1};
+  CHECK_THROWS_WITH(
+      RobotPath(job),
+      "job.yaml:7:1: error: routing.mounting_pose_deg turns table to 1718.87 deg (must be within "
+      "-1145.92 .. 1145.92 deg); move it inside the limits of turntable");
+}
+
+TEST_CASE("clamp path: a clamp on no link is named") {
+  pipeline::Job job = turning_job();
+  job.dresspacks[0].routing.tool_clamp->link = "tabel";
+  CHECK_THROWS_WITH(RobotPath(job),
+                    "job.yaml:9:3: error: turntable has no link 'tabel'; use one of base, table");
+}
+
+}  // namespace
+}  // namespace dresslife::sim

@@ -1,0 +1,192 @@
+#include "sim/run/periodic.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <thread>
+
+#include "sim/run/simulate.h"
+#include "tests/sim/simple_job.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The state at the begin of every repeat but the one that leads in and, last, at the end; and the last
+/// repeat's samples.
+struct Run {
+  std::vector<RodState> begin;
+  RodState end;
+  std::vector<double> times, net_twist;
+  RunSummary summary;
+};
+
+Run run(const Simulation& simulation) {
+  Run r;
+  r.summary = simulation.run({[&](const Sample& s) {
+                                if (s.time == 0) r.begin.push_back(s.state);
+                                r.times.push_back(s.time);
+                                r.net_twist.push_back(s.net_twist);
+                                r.end = s.state;
+                              },
+                              [&](int repeat) {
+                                CHECK(repeat == static_cast<int>(r.begin.size()) + 2);
+                                r.times.clear();
+                                r.net_twist.clear();
+                              }});
+  return r;
+}
+
+TEST_CASE("periodic: the distance of two states is what a point of the surface moves") {
+  const Rod rod(Simulation(simple_job()).rod());
+  const RodState a = rod.straight(Frame{});
+  CHECK(state_distance(rod, a, a) == 0);
+  RodState b = a;
+  b.position[7] += Vector3(0.003, 0, 0.004);
+  CHECK(state_distance(rod, a, b) == Approx(0.005));
+  b = a;
+  b.orientation[3] = b.orientation[3] * rotation({0, 0, 0.1});  // 0.04 m thick: its surface moves 2 mm
+  CHECK(state_distance(rod, a, b) == Approx(0.002));
+  b = a;
+  b.velocity[0].y() = 0.02;
+  CHECK(state_distance(rod, a, b) == Approx(0.002));
+  b = a;  // a retraction unit that is pulled out further, and one that moves
+  b.travel[0].way = 0.003;
+  CHECK(state_distance(rod, a, b) == Approx(0.003));
+  b.travel[0].speed = 0.01;
+  CHECK(state_distance(rod, a, b) == Approx(0.004));
+}
+
+TEST_CASE("periodic: a motion returns when its joints do, not when its clamps look alike") {
+  pipeline::Job job = simple_job();
+  CHECK(returns(RobotPath(job)));
+  job.motion.steps.back() = move_to(2 * pi);
+  CHECK_FALSE(returns(RobotPath(job)));
+}
+
+TEST_CASE("periodic: a motion is repeated until two repeats begin alike, and the last counts") {
+  pipeline::Job job = simple_job();  // it ends the moment it is back, with the hose still swaying
+  job.simulation.periodic_tolerance = 1e-4;
+  const Simulation simulation(job);
+  const Run r = run(simulation);
+  REQUIRE(r.summary.periodic);
+  REQUIRE(r.summary.repeats > 1);
+  REQUIRE(r.begin.size() == static_cast<size_t>(r.summary.repeats - 1));
+  CHECK(r.summary.distance == state_distance(simulation.rod(), r.begin.back(), r.end));
+  CHECK(r.summary.distance <= 1e-4);
+  for (size_t k = 0; k + 1 < r.begin.size(); ++k)
+    CHECK(state_distance(simulation.rod(), r.begin[k], r.begin[k + 1]) > 1e-4);
+  CHECK(static_cast<int>(r.times.size()) == simulation.description().samples);
+  CHECK(r.times.front() == 0);
+  CHECK_THAT(repeats_note(r.summary),
+             Catch::Matchers::Contains(
+                 fmt::format("note: the motion is periodic after {} repeats", r.summary.repeats)));
+}
+
+TEST_CASE("periodic: what never becomes periodic is run as often as allowed, and warned of") {
+  pipeline::Job job = simple_job();
+  job.simulation.periodic_tolerance = 1e-18;
+  job.simulation.most_repeats = 2;
+  const Simulation simulation(job);
+  const Run r = run(simulation);
+  CHECK_FALSE(r.summary.periodic);
+  CHECK(r.summary.repeats == 2);
+  CHECK_THAT(warnings_of(simulation, r.summary).front().line(),
+             Catch::Matchers::StartsWith("warning: after 2 repeats the motion still begins ") &&
+                 Catch::Matchers::Contains("simulation.periodic_tolerance_mm"));
+}
+
+TEST_CASE("periodic: one that only rests is led in, then found periodic at once") {
+  pipeline::Job job = simple_job();
+  job.motion.steps.push_back(dwell_for(20));
+  const Run r = run(Simulation(job));
+  CHECK(r.summary.repeats == 2);
+  CHECK(r.begin.size() == 1);
+}
+
+TEST_CASE("periodic: what the lead-in cannot do is told by the motion itself") {
+  pipeline::Job job = simple_job();  // wound once around a post, for which the hose is too short
+  job.robot.joints[0].axis = {0, 0, 1};
+  job.robot.links[0].capsules = {{{0, 0, 0}, {0, 0, 2}, 0.25}};
+  job.dresspacks[0].routing.base_clamp = pipeline::Clamp{"bench", {-1, 0.35, 1}, {1, 0, 0}, {}, {}};
+  job.dresspacks[0].routing.tool_clamp = pipeline::Clamp{"spindle", {0, 0.35, 0}, {1, 0, 0}, {}, {}};
+  job.dresspacks[0].routing.free_length = 1.5;
+  job.motion.steps = {move_to(0), move_to(-12, "wind up"), move_to(0, "home")};
+  job.simulation.floor = false;
+  const Simulation simulation(job);
+  CHECK_THROWS_WITH(simulation.run({[](const Sample&) {}}),
+                    Catch::Matchers::Contains("drawn taut") && Catch::Matchers::Contains("wind up"));
+}
+
+TEST_CASE("periodic: the repeat that leads in leaves the result that exact repeats give") {
+  pipeline::Job job = simple_job();
+  job.motion.steps = {move_to(0, "start"), move_to(2, "turn"), dwell_for(0.52), move_to(0, "back")};
+  job.motion.steps[1].duration = job.motion.steps[3].duration = 2;  // 4.52 s: a whole number of samples
+  constexpr double forgotten = 1e-6;                                // [m]
+  job.simulation.periodic_tolerance = forgotten;
+  job.simulation.most_repeats = 40;
+  const Run led = run(Simulation(job));
+  REQUIRE(led.summary.periodic);
+  pipeline::MotionStep block;  // forty repeats that are one motion, run but once: nothing leads in
+  block.repeat = 40;
+  block.steps.assign(job.motion.steps.begin() + 1, job.motion.steps.end());
+  job.motion.steps = {move_to(0, "start"), block};
+  job.simulation.most_repeats = 1;
+  const Simulation simulation(job);
+  const Run exact = run(simulation);
+  CHECK(state_distance(simulation.rod(), led.end, exact.end) < 10 * forgotten);  // a repeat forgets 9/10
+}
+
+TEST_CASE("periodic: a motion that does not return is run once") {
+  pipeline::Job job = simple_job();
+  job.motion.steps.back() = move_to(1);
+  const Run r = run(Simulation(job));
+  CHECK(r.summary.repeats == 1);
+  CHECK_FALSE(r.summary.returns);
+}
+
+TEST_CASE("periodic: a wrist that turns by whole turns winds the hose and unwinds it") {
+  pipeline::Job job = simple_job();
+  job.dresspacks[0].dresspack.bending_stiffness =
+      20;  // nearly straight, does not loop: what the wrist turns is all twist
+  job.dresspacks[0].dresspack.torsional_stiffness = 4;
+  job.dresspacks[0].routing.free_length = 0.905;
+  job.motion.steps = {move_to(0), move_to(2 * pi, "one turn"), move_to(-2 * pi, "and back"),
+                      move_to(0, "home"), dwell_for(1)};
+  const Simulation simulation(job);
+  const Run r = run(simulation);
+  const auto [least, most] = std::minmax_element(r.net_twist.begin(), r.net_twist.end());
+  constexpr double sagging = 0.02;  // share of a turn that goes into the shape of the slightly sagging hose
+  CHECK(*most - *least == Approx(4 * pi).epsilon(sagging));
+  const auto left = std::find_if(r.summary.checks.begin(), r.summary.checks.end(),
+                                 [](const Check& c) { return c.name == "net twist left by a repeat"; });
+  REQUIRE(left != r.summary.checks.end());
+  CHECK(left->value == r.net_twist.back() - r.net_twist.front());
+  // No friction here: nothing keeps twist. Both ends of a periodic repeat agree to the tolerance's turn of
+  // the surface.
+  const double tolerance = job.simulation.periodic_tolerance / (job.dresspacks[0].dresspack.diameter / 2);
+  CHECK(std::abs(left->value) < tolerance);
+}
+
+TEST_CASE("periodic: the same bits alone and beside other jobs in other threads") {
+  pipeline::Job first = simple_job(), second = simple_job();
+  first.robot.links[0].capsules = {{{0.45, -1, 0.85}, {0.45, 1, 0.85}, 0.1}};  // touches a bar
+  second.simulation.segments = 31;
+  const Run alone = run(Simulation(first));
+  Run beside;
+  std::thread other([&] {
+    for (int k = 0; k < 3; ++k) Simulation(second).run({[](const Sample&) {}});
+  });
+  std::thread again([&] {
+    const Simulation simulation(first);
+    beside.summary = simulation.run({[&](const Sample& s) { beside.end = s.state; }});
+  });
+  other.join();
+  again.join();
+  CHECK(beside.summary.repeats == alone.summary.repeats);
+  CHECK(beside.end.position == alone.end.position);
+  CHECK(beside.end.velocity == alone.end.velocity);
+}
+
+}  // namespace
+}  // namespace dresslife::sim
