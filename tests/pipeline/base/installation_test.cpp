@@ -33,7 +33,7 @@ class Variable {
 }  // namespace
 
 TEST_CASE("installation: the program's folder is where this test lies") {
-  CHECK(std::filesystem::exists(program_folder() / "test_pipeline"));
+  CHECK(std::filesystem::exists(program_folder() / "test_pipeline_base"));
 }
 
 TEST_CASE("installation: without /proc a program is found by its path, or where a shell finds it") {
