@@ -8,6 +8,7 @@
 #include <random>
 
 #include "fatigue/conductors.h"
+#include "tests/fatigue/wire_lives.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;
