@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "pipeline/base/errors.h"
+#include "tests/fatigue/four_point.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "strain/strand_contact.h"
+#include "tests/strain/strand_contact.h"
 
 using namespace dresslife::strain;
 
