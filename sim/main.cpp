@@ -122,7 +122,7 @@ int main(int argc, char** argv) {
            {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by; 0"},
            {"--seed", "NUMBER", "with --propose: of the search's chances; 1"},
            {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about"}},
-      .part = pipeline::Part::sim,
+      .part = pipeline::JobPart::sim,
       .told = pipeline::told_checks};
   return pipeline::run_stage(
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {

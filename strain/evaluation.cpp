@@ -114,8 +114,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
   find_probes(settings.probes);
 }
 
-void Evaluation::find_probes(const std::vector<pipeline::Probe>& probes) {
-  for (const pipeline::Probe& probe : probes) {
+void Evaluation::find_probes(const std::vector<pipeline::ProbeRequest>& probes) {
+  for (const pipeline::ProbeRequest& probe : probes) {
     const auto wire =
         std::find_if(wires_.begin(), wires_.end(), [&](const Wire& w) { return w.path == probe.component; });
     if (wire == wires_.end())

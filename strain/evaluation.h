@@ -202,7 +202,7 @@ class Evaluation {
                                                    const std::vector<const ClampMeans*>& ways,
                                                    const SegmentMotion& motion);
   const DeformationColumns& columns_of(Site site, const ClampMeans& means, const SegmentMotion& motion) const;
-  void find_probes(const std::vector<pipeline::Probe>& probes);
+  void find_probes(const std::vector<pipeline::ProbeRequest>& probes);
   BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means,
                              const SegmentMotion& motion, const std::vector<Fibre>& fibres,
                              Worker& worker) const;

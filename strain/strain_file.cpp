@@ -277,12 +277,12 @@ bool lies_in(const pipeline::Job& job, std::size_t d, const std::string& path) {
 pipeline::Strain settings_of(const pipeline::Job& job, std::size_t d) {
   pipeline::Strain settings = job.strain;
   std::erase_if(settings.probes,
-                [&](const pipeline::Probe& probe) { return !lies_in(job, d, probe.component); });
+                [&](const pipeline::ProbeRequest& probe) { return !lies_in(job, d, probe.component); });
   return settings;
 }
 
 void check_probes(const pipeline::Job& job) {
-  for (const pipeline::Probe& probe : job.strain.probes) {
+  for (const pipeline::ProbeRequest& probe : job.strain.probes) {
     bool known = false;
     for (std::size_t d = 0; d < job.dresspacks.size(); ++d) known |= lies_in(job, d, probe.component);
     if (!known)

@@ -10,8 +10,8 @@
 namespace dresslife::pipeline {
 namespace {
 
+using helices::ComponentState;
 using helices::Placement;
-using helices::Rod;
 using helices::Series;
 
 constexpr double pi = std::numbers::pi;
@@ -33,7 +33,7 @@ constexpr double no_friction = 0, all_friction = 1e12;  // levels
 
 /// A part of the cable at rest and slightly deformed.
 struct Deformed {
-  Rod<double> rest, now;
+  ComponentState<double> rest, now;
   double per_length;      ///< how many of it, times their length, per length of the cable
   double evening;         ///< path length of the nearest helix' pitch in it or above; 0: none [m]
   double friction_level;  ///< of what lies in it
@@ -68,11 +68,12 @@ void descend(const Dresspack& dresspack, const Component& layer, const Deformed&
     const Placement place =
         helices::make_placement(Kinematics::exact, R, std::tan(signed_angle), std::cos(signed_angle),
                                 2 * pi * (k + 0.5) / angles, parent.rest.stretch.order);
-    const Rod<double> rest = helices::child(parent.rest, place), glued = helices::child(parent.now, place);
+    const ComponentState<double> rest = helices::child(parent.rest, place),
+                                 glued = helices::child(parent.now, place);
     const double strain = glued.stretch.at[0] / rest.stretch.at[0] - 1;
     const double mean =
         R == 0 ? strain : helices::mean_path_rate(parent.now, place) / helices::mean_path_rate(parent.rest, place) - 1;
-    const Rod<double> now = helices::slid(glued, share * mean, rest, Kinematics::exact);
+    const ComponentState<double> now = helices::slid(glued, share * mean, rest, Kinematics::exact);
     const auto rate = [&](const Series<double>& of, const Series<double>& at_rest) {
       return (of.at[0] - at_rest.at[0]) / small;
     };
@@ -148,7 +149,7 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
 
 double CableBending::moment(double curvature, double friction_level) const {
   double sum = own_stiffness_ * curvature;
-  for (const Held& of : held_) {
+  for (const FrictionElement& of : held_) {
     const double away = of.strain_rate * curvature, cap = of.by_tension + friction_level * of.by_line_load;
     const double held = of.elastic * away + std::clamp((1 - of.elastic) * away, -cap, cap);
     sum += of.moment_per_strain * held;
@@ -158,13 +159,13 @@ double CableBending::moment(double curvature, double friction_level) const {
 
 double CableBending::free_stiffness() const {
   double sum = own_stiffness_;
-  for (const Held& of : held_) sum += of.moment_per_strain * of.elastic * of.strain_rate;
+  for (const FrictionElement& of : held_) sum += of.moment_per_strain * of.elastic * of.strain_rate;
   return sum;
 }
 
 double CableBending::stuck_stiffness(int levels) const {
   double sum = own_stiffness_;
-  for (const Held& of : held_)
+  for (const FrictionElement& of : held_)
     sum +=
         of.moment_per_strain * of.strain_rate * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
   return sum;

@@ -42,7 +42,7 @@ class CableBending {
 
  private:
   /// Parts or wires of a layer at one angle.
-  struct Held {
+  struct FrictionElement {
     int depth;                        ///< levels below the cable, 1 = in it
     double strain_rate;               ///< D [m]
     double moment_per_strain;         ///< E A D x how many per length of the cable [N m]
@@ -51,7 +51,7 @@ class CableBending {
   };
   int depth_ = 0;
   double own_stiffness_ = 0;  ///< of wires whose deviation is free [N m2]
-  std::vector<Held> held_;
+  std::vector<FrictionElement> held_;
 };
 
 /// What a straight cable's wires answer to elongation and twist, per length of it: pull = pull_by_elongation

@@ -26,7 +26,7 @@ int run_shard(const RunOptions& options) {
   const StudyRequest request = request_of(options);
   Standing standing = expanded(request);
   const fs::path& folder = standing.places.folder;
-  const FolderLock beside(folder, FolderLock::Held::with_shards);
+  const FolderLock beside(folder, FolderLock::Mode::with_shards);
   keep_shard(standing, shard);
   const FolderLock lock(folder / standing.places.notes());
   look_again(standing);

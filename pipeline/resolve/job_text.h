@@ -28,7 +28,7 @@ std::string job_text(const std::filesystem::path& file, const std::vector<std::s
 
 /// What of the job each stage's result depends on; equal text (and equal files beside it), equal result.
 enum class Part { sim, strain, fatigue };
-std::string part_text(const Job& job, Part part);
+std::string part_text(const Job& job, JobPart part);
 
 /// Files beyond the job and the catalogue that dresslife-sim reads.
 std::vector<std::filesystem::path> files_beside(const Job& job);

@@ -24,13 +24,13 @@
 namespace dresslife::pipeline {
 namespace {
 
-const char* part_name(Part part) {
+const char* part_name(JobPart part) {
   switch (part) {
-    case Part::sim:
+    case JobPart::sim:
       return "robot, motion, dresspack, routing or simulation";
-    case Part::strain:
+    case JobPart::strain:
       return "dresspack.components or strain";
-    case Part::fatigue:
+    case JobPart::fatigue:
       return "dresspack.materials or fatigue";
   }
   return "";
@@ -104,7 +104,7 @@ struct Settings {
 Settings settings_of(const StageCall& call) {
   const Job job = read_job(call.info.input_is_job ? call.input : call.job_file, call.sets);
   return {part_text(job, *call.info.part),
-          *call.info.part == Part::sim ? files_beside(job) : std::vector<std::filesystem::path>{}};
+          *call.info.part == JobPart::sim ? files_beside(job) : std::vector<std::filesystem::path>{}};
 }
 
 void say(const StageCall& call, Progress& progress, const Warning& warning) {
@@ -119,15 +119,16 @@ std::vector<Warning> warnings_in(const FileReader& file) {
                                         : std::vector<Warning>{};
 }
 
-const Format& format_of_output(Part part) {
-  return part == Part::sim ? motion_format() : part == Part::strain ? strain_format() : life_format();
+const Format& format_of_output(JobPart part) {
+  return part == JobPart::sim ? motion_format() : part == JobPart::strain ? strain_format() : life_format();
 }
 
 /// A log tells what its stage warned of, too, where the output is from an earlier run.
 void say_known_warnings(const StageCall& call) {
   std::vector<Warning> before;
-  if (*call.info.part != Part::sim) {
-    const Format& format = format_of_output(*call.info.part == Part::strain ? Part::sim : Part::strain);
+  if (*call.info.part != JobPart::sim) {
+    const Format& format =
+        format_of_output(*call.info.part == JobPart::strain ? JobPart::sim : JobPart::strain);
     before = warnings_in(FileReader(call.input, format, FileReader::Scope::attributes));
   }
   Progress silent(call.info.program, true);
@@ -254,7 +255,7 @@ int guarded(const std::string& program, const std::function<int()>& body) {
   }
 }
 
-Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before) {
+Job job_of(const StageCall& call, const FileReader& input, const std::vector<JobPart>& before) {
   const std::string own_text = input.text_attribute("job");
   const std::string own_name = input.where().file + " (attribute job)";
   // In a study it is the same text, which need not be understood twice.
@@ -263,7 +264,7 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
   const Job own = job_from(parse_yaml(own_text, own_name));
   const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets)
                                         : read_job(call.job_file, call.sets);
-  for (Part part : before)
+  for (JobPart part : before)
     if (part_text(own, part) != part_text(job, part))
       throw InputError(input.where(),
                        fmt::format("was made with other settings of {} than this job has", part_name(part)),

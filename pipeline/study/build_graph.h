@@ -46,7 +46,7 @@ struct JobState {
   std::string damaged;                          ///< "life.h5": is not what its stage wrote
   std::string failure;                          ///< why the last attempt with these recipes failed
   bool has_results = false;                     ///< of any settings
-  std::vector<Told> told;                       ///< what its life.h5 says, where its receipt tells
+  std::vector<ResultValue> told;                ///< what its life.h5 says, where its receipt tells
   /// Of a job that is not done: whether there is a result of other settings, files or programs, whole as it
   /// was made.
   bool has_last = false;

@@ -11,10 +11,10 @@ class FolderLock {
  public:
   /// Makes the folder. Waits for stages whose run was broken off, which end a moment later. Errors:
   /// InputError when another run holds it or the folder cannot be written.
-  explicit FolderLock(const std::filesystem::path& folder) : FolderLock(folder, Held::alone) {}
+  explicit FolderLock(const std::filesystem::path& folder) : FolderLock(folder, Mode::alone) {}
   /// shards: beside others that hold it so.
-  enum class Held { alone, with_shards };
-  FolderLock(const std::filesystem::path& folder, Held held);
+  enum class Mode { alone, with_shards };
+  FolderLock(const std::filesystem::path& folder, Mode held);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -22,7 +22,7 @@ struct JobResult {
   std::filesystem::path life_file;
   std::string failure;       ///< why there is no life file, one line; empty: the job is done
   std::string settings{};    ///< of which it is the result (JobState)
-  std::vector<Told> told{};  ///< by its receipt; empty: to be read from the file
+  std::vector<ResultValue> told{};  ///< by its receipt; empty: to be read from the file
   bool stale = false;  ///< the file is its last result, of other settings; `failure` says how the job stands
   std::string changed{};  ///< since then
 };

@@ -80,16 +80,16 @@ void LookModels::Known::build(const Shape& shape, const GaussianProcess::Scale& 
   if (places.rows() > 0) model.emplace(places, values, shape, scale);
 }
 
-GaussianProcess::Told LookModels::Limit::at(const VectorXd& place, double deviations) const {
-  GaussianProcess::Told told;
+GaussianProcess::Prediction LookModels::Limit::at(const VectorXd& place, double deviations) const {
+  GaussianProcess::Prediction told;
   if (rehearsed.model) {
-    const GaussianProcess::ToldOfEach each = rehearsed.model->of_each(place);
+    const GaussianProcess::Predictions each = rehearsed.model->of_each(place);
     Index largest = 0;
     (each.means + deviations * each.deviations).maxCoeff(&largest);
     told = {each.means[largest], each.deviations[largest]};
   }
   if (difference.model) {
-    const GaussianProcess::Told missed = difference.model->at(place);
+    const GaussianProcess::Prediction missed = difference.model->at(place);
     told = {told.mean + missed.mean, std::hypot(told.deviation, missed.deviation)};
   }
   return told;
@@ -205,7 +205,7 @@ void LookModels::learn(const std::vector<Look>& rehearsals) {
 
 VectorXd LookModels::beyond(const VectorXd& place, double deviations) const {
   std::vector<double> g;
-  const auto bound = [&](const GaussianProcess::Told& told) {
+  const auto bound = [&](const GaussianProcess::Prediction& told) {
     g.push_back(told.mean + deviations * told.deviation);
   };
   for (const Limit& limit : limits_)
@@ -220,7 +220,7 @@ double LookModels::excess(const VectorXd& place, double deviations) const {
 
 double LookModels::aim_at(const VectorXd& place, double deviations) const {
   if (!aim_.model) return 0;
-  const GaussianProcess::Told told = aim_.model->at(place);
+  const GaussianProcess::Prediction told = aim_.model->at(place);
   return told.mean - deviations * told.deviation;
 }
 

@@ -70,7 +70,7 @@ class LookModels {
     Known difference{};
     bool varies = false;
     /// Of the piece whose bound at so many deviations is the largest.
-    GaussianProcess::Told at(const Eigen::VectorXd& place, double deviations) const;
+    GaussianProcess::Prediction at(const Eigen::VectorXd& place, double deviations) const;
   };
 
   void add_rehearsal(const Look& rehearsal);

@@ -171,12 +171,12 @@ TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the nu
   CHECK_THAT(job_text(taken), Contains("bending_stiffness_Nm2: from_construction"));
   const Job again = job_from(parse_yaml(job_text(taken), "job.yaml"));
   CHECK(again.dresspacks[0].dresspack.bending_stiffness == dresspack.bending_stiffness);
-  CHECK(part_text(again, Part::sim) == part_text(taken, Part::sim));
+  CHECK(part_text(again, JobPart::sim) == part_text(taken, JobPart::sim));
   const Job number = job_with(
       {fmt::format("dresspack.bending_stiffness_Nm2={:.17g}", dresspack.bending_stiffness), wall, profile});
-  CHECK(part_text(number, Part::sim) == part_text(taken, Part::sim));
-  CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), Part::sim) !=
-        part_text(taken, Part::sim));
+  CHECK(part_text(number, JobPart::sim) == part_text(taken, JobPart::sim));
+  CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), JobPart::sim) !=
+        part_text(taken, JobPart::sim));
   CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") &&
                                             Contains("N m2 from construction (friction at 1 1/m)") &&
                                             Contains("G J 4 N m2 given"));

@@ -425,10 +425,10 @@ TEST_CASE("functions of the same places are modelled as each by itself, with one
   const auto shape = GaussianProcess::likeliest_shape(points, values, GaussianProcess::usual_shape(2), 100);
   const GaussianProcess both(points, values, shape);
   for (const VectorXd& place : {vector_of({0.1, 0.8}), vector_of({0.5, 0.5}), vector_of({0.9, 0.9})}) {
-    const GaussianProcess::ToldOfEach told = both.of_each(place);
+    const GaussianProcess::Predictions told = both.of_each(place);
     for (Eigen::Index k = 0; k < 2; ++k) {
       const VectorXd own = values.col(k);
-      const GaussianProcess::Told alone = GaussianProcess(points, own, shape).at(place);
+      const GaussianProcess::Prediction alone = GaussianProcess(points, own, shape).at(place);
       CHECK(told.means[k] == Approx(alone.mean).epsilon(1e-12));
       CHECK(told.deviations[k] == Approx(alone.deviation).epsilon(1e-12).margin(1e-15));
     }
