@@ -95,6 +95,7 @@ struct Routine {
   std::vector<Problem> problems;           ///< of its lines; they count when it is run
   Place handler;                           ///< of errors (RAPID's ERROR, UNDO, BACKWARD)
   std::vector<std::string> handler_words;  ///< in it, in lower case; it is not run
+  std::string robot;  ///< of an INFORM job: "rb1" that it moves, "rb1,rb2"; empty: none is named
 };
 
 /// What has names of its own: a RAPID module; a KRL program with the data list of its name.
@@ -108,7 +109,8 @@ struct Module {
 struct Datum {
   Statement statement;
   int module = -1;
-  bool local = false;  ///< known in its module alone
+  bool local = false;      ///< known in its module alone
+  bool by_backup = false;  ///< a value of the time of the backup: it counts where no program gives one
 };
 
 /// Name of an instruction whose first argument tells the routine that it calls: %"step" + ValToStr(n)%;

@@ -100,7 +100,8 @@ void Interpreter::index_data() {
     Scope& scope = datum.local && datum.module >= 0 ? module_data_[datum.module] : globals_;
     if (code_.values.contains(datum.statement.name)) scopes[datum.statement.name].insert(&scope);
     Variable& variable = scope[datum.statement.name];
-    if (!variable.datum) {
+    if (variable.datum && datum.by_backup) continue;
+    if (!variable.datum || variable.datum->by_backup) {
       variable.datum = &datum;
       variable.written = datum.statement.place;
     } else if (!variable.rival && !same_declaration(*variable.datum, datum)) {
@@ -444,6 +445,20 @@ void Interpreter::make_unknown(const Expression& target, Cause cause) {
   Value unknown;
   unknown.cause = std::make_shared<const Cause>(std::move(cause));
   assign(target, std::move(unknown));
+}
+
+void Interpreter::forget_numbers(const std::string& why) {
+  charge(globals_.size());
+  const auto cause = std::make_shared<const Cause>(Cause{"", why});
+  for (auto& [name, variable] : globals_) {
+    const bool list = variable.datum ? dialect_.type_of(variable.datum->statement.text) != nullptr
+                                     : variable.value.kind == Value::Kind::list;
+    if (list) continue;
+    variable.state = Variable::State::ready;
+    variable.value = Value{};
+    variable.value.cause = cause;
+    variable.assigned = true;
+  }
 }
 
 std::string Interpreter::because(const Value& unknown) const {

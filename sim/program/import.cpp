@@ -8,6 +8,7 @@
 #include "sim/program/encoding.h"
 #include "sim/program/fanuc.h"
 #include "sim/program/fanuc_backup.h"
+#include "sim/program/inform.h"
 #include "sim/program/krl.h"
 #include "sim/program/rapid.h"
 #include "sim/program/rapid_types.h"
@@ -67,6 +68,7 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
   }
   step.path = static_cast<pipeline::PathKind>(instruction.kind);
   step.joints = instruction.target.joints;
+  if (instruction.kind == Instruction::Kind::circular) step.circle_joints = instruction.target.circle_joints;
   if (step.joints.empty()) {
     step.position = numbers_of(instruction.target.pose.position);
     step.quaternion = numbers_of(instruction.target.pose.orientation);
@@ -78,10 +80,13 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
   if (instruction.tool >= 0) step.tool = program.tools[instruction.tool].name;
   if (instruction.work_object >= 0) step.work_object = program.work_objects[instruction.work_object].name;
   step.speed_percent = instruction.speed.axis_percent;
+  step.speed = instruction.speed.axis;
+  step.acceleration = instruction.speed.axis_acceleration;
+  step.tool_acceleration = instruction.speed.tool_acceleration;
   step.tool_speed = instruction.speed.tool;
   step.turn_speed = instruction.speed.orientation;
   step.duration = instruction.speed.duration;
-  if (step.duration) step.speed_percent = step.tool_speed = step.turn_speed = std::nullopt;
+  if (step.duration) step.speed_percent = step.speed = step.tool_speed = step.turn_speed = std::nullopt;
   if (instruction.acceleration_percent != 100) step.acceleration_percent = instruction.acceleration_percent;
   if (instruction.zone.percent > 0)
     step.stop_zone = instruction.zone.percent;
@@ -104,6 +109,8 @@ Language language_of(const std::filesystem::path& file) {
                                                           {".sub", Language::krl},
                                                           {".ls", Language::fanuc},
                                                           {".va", Language::fanuc},
+                                                          {".jbi", Language::inform},
+                                                          {".cnd", Language::inform},
                                                           {".csv", Language::joint_columns},
                                                           {".yaml", Language::ros_trajectory},
                                                           {".yml", Language::ros_trajectory},
@@ -113,7 +120,7 @@ Language language_of(const std::filesystem::path& file) {
     if (extension == end) return language;
   throw pipeline::InputError({file.string()},
                              fmt::format("is no robot program by its name ('{}')", extension),
-                             "give RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), joints "
+                             "give RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM (.jbi), joints "
                              "(.csv), ROS (.yaml, .json), or "
                              "the folder of a backup");
 }
@@ -125,7 +132,9 @@ namespace {
 void parse_files(Code& code, Language language, Problems& problems) {
   for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
     Problems found;
-    language == Language::rapid ? parse_rapid(code, file, found) : parse_krl(code, file, found);
+    language == Language::rapid ? parse_rapid(code, file, found)
+    : language == Language::krl ? parse_krl(code, file, found)
+                                : parse_inform(code, file, found);
     if (!found.full())
       code.sort_problems(file, found);
     else
@@ -176,19 +185,25 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
   program.name = std::filesystem::path(files[0].name()).stem().string();
   switch (language) {
     case Language::rapid:
-    case Language::krl: {
+    case Language::krl:
+    case Language::inform: {
       Code code;
       code.files = std::move(files);
       code.written_beside = options.written_beside;
-      language == Language::rapid ? add_rapid_types(code) : add_krl_types(code);
+      language == Language::rapid ? add_rapid_types(code)
+      : language == Language::krl ? add_krl_types(code)
+                                  : add_inform_types(code);
       parse_files(code, language, problems);
       add_requests(code, options, language == Language::krl, problems);
+      if (language == Language::inform) name_inform_values(code);
       code.index();
       if (!problems.empty()) return program;
       if (language == Language::rapid)
         run_rapid(code, options, tools, work_objects, program, problems);
-      else
+      else if (language == Language::krl)
         run_krl(code, options, tools, work_objects, program, problems);
+      else
+        run_inform(code, options, tools, work_objects, program, problems);
       for (const Problem& unread : code.problems)  // they may be why
         if (problems.empty())
           program.skipped.push_back({unread.where, "not read: " + unread.what, true});
@@ -233,7 +248,7 @@ std::vector<std::filesystem::path> add_all(std::vector<std::filesystem::path> li
   return list;
 }
 
-/// The modules, each once; a KRL program sees what lies beside it and beside its modules, as on the
+/// The modules, each once; a KRL or INFORM program sees what lies beside it and beside its modules, as on the
 /// controller.
 void add_modules(const pipeline::Motion& motion, bool beside, std::deque<SourceFile>& files) {
   std::vector<std::filesystem::path> wanted;
@@ -273,7 +288,8 @@ Program read_program(const pipeline::Motion& motion) {
     language = language_of(motion.program);
     files.push_back(source_of(motion.program));
   }
-  add_modules(motion, language == Language::krl && !is_backup(motion.program), files);
+  const bool sees_its_folder = language == Language::krl || language == Language::inform;
+  add_modules(motion, sees_its_folder && !is_backup(motion.program), files);
   if (language == Language::fanuc &&
       !is_backup(motion.program))  // programs that it calls and the registers of its backup lie beside it
     for (const std::filesystem::path& beside : fanuc_files_beside(motion.program)) {

@@ -134,6 +134,8 @@ class Interpreter {
   void make_unknown(const Expression& target, Cause cause);
   /// The same for all that a call of a routine may write to, as it stands in a module.
   void forget_writes_of(const Statement& call, int module, const std::string& why);
+  /// Every number and text of all modules becomes unknown: what is not read may have written it. Lists stay.
+  void forget_numbers(const std::string& why);
   /// Of all modules, as it was written there.
   void set(const std::string& name, Value value, const Place& written = {});
   void forget(const std::string& name);
@@ -233,6 +235,7 @@ class Interpreter {
                         const Place& place);
   bool holds_loop_exit(const std::vector<Statement>& body) const;
   bool jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const;
+  void end_where_it_repeats(Passes& passes, const Place& place);
 
   Value evaluate_inner(const Expression& expression);
   Value name_value(const Expression& expression);

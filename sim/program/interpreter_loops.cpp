@@ -44,8 +44,10 @@ struct Interpreter::Again {
 };
 
 Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
-  std::optional<Round> round;  // of jumps back
+  std::optional<Round> round;            // of jumps back
+  std::map<std::size_t, Passes> passes;  // from each label back to it
   for (std::size_t i = 0; i < body.size(); ++i) {
+    if (body[i].kind == Kind::label) passes.try_emplace(i, program_.instructions);
     const Flow flow = execute(body[i]);
     if (flow == Flow::next) continue;
     if (flow != Flow::jump) return flow;
@@ -56,16 +58,29 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
     const auto target = static_cast<std::size_t>(label - body.begin());
     if (target <= i) {
       if (!round) round.emplace(*this, jump_->place);
-      const long passes = round->again();
-      if (jumps_for_ever(body, target, i) && passes >= std::max(1, options_.passes)) {
-        note(jump_->place, "an endless loop, of which the motion is " + passes_text(passes));
+      const long count = round->again();
+      if (jumps_for_ever(body, target, i) && count >= std::max(1, options_.passes)) {
+        note(jump_->place, "an endless loop, of which the motion is " + passes_text(count));
         throw Stop{};
       }
+      end_where_it_repeats(passes.try_emplace(target, program_.instructions).first->second, jump_->place);
     }
     charge(1);
     i = target;
   }
   return Flow::next;
+}
+
+/// At a jump back: with the data of an earlier one everything repeats for ever.
+void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
+  if (passes.count() >= searched_passes) return;
+  passes.add(state());
+  const auto wanted = static_cast<std::size_t>(options_.passes);
+  if (!passes.repeats() || passes.count() < wanted) return;
+  const std::size_t kept = passes.kept(wanted);
+  program_.instructions.resize(passes.end(kept));
+  note(place, "an endless loop, of which the motion is " + passes_text(static_cast<long>(kept)));
+  throw Stop{};
 }
 
 /// The jump stands in `body` itself, and nothing between it and its label leaves the way round.

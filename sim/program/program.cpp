@@ -22,6 +22,10 @@ std::string ArmConfiguration::text() const {
       return fmt::format("abb {}", fmt::join(numbers, " "));
     case Kind::kuka:
       return fmt::format("kuka {}", fmt::join(numbers, " "));
+    case Kind::motoman:
+      return fmt::format("motoman {}", fmt::join(numbers, " "));
+    case Kind::near:
+      return fmt::format("near {}", fmt::join(numbers, " "));
     case Kind::fanuc:
       break;
   }
@@ -53,8 +57,10 @@ std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
   const std::size_t count = read.numbers.size();
   if (kind == "abb") read.kind = ArmConfiguration::Kind::abb;
   if (kind == "kuka") read.kind = ArmConfiguration::Kind::kuka;
-  const bool whole =
-      (kind == "abb" && count == 4) || (kind == "kuka" && count == 2) || (kind == "fanuc" && count == 6);
+  if (kind == "motoman") read.kind = ArmConfiguration::Kind::motoman;
+  if (kind == "near") read.kind = ArmConfiguration::Kind::near;
+  const bool six = kind == "fanuc" || kind == "motoman" || kind == "near";
+  const bool whole = (kind == "abb" && count == 4) || (kind == "kuka" && count == 2) || (six && count == 6);
   return whole ? std::optional(read) : std::nullopt;
 }
 

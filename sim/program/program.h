@@ -26,13 +26,16 @@ namespace dresslife::sim {
 
 /// Which of the arms that reach a pose is meant, in the words of its controller.
 struct ArmConfiguration {
-  enum class Kind { any, abb, kuka, fanuc };
+  enum class Kind { any, abb, kuka, fanuc, motoman, near };
   Kind kind = Kind::any;
   /// abb: quadrants of axes 1, 4, 6 and cfx. kuka: status, turn. fanuc: wrist flipped, arm up, arm in front
-  /// (1 or 0), then the turns of axes 1, 4 and 6.
+  /// (1 or 0), then the turns of axes 1, 4 and 6. motoman: the first six of RCONF: wrist (0, 1: axis R within
+  /// 90 deg of its zero or not; 2, 3: axis B at 0 or above, or below), arm lower, behind, and whether axes R, T
+  /// and S stand 180 deg or more from zero. near: the arm nearest to these angles of the axes [deg].
   std::vector<int> numbers;
 
-  /// "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty for any.
+  /// "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 1 0 0 0 0 0", "near 0 -90 90 0 90 0"; empty for
+  /// any.
   std::string text() const;
   bool operator==(const ArmConfiguration&) const = default;
 };
@@ -46,6 +49,7 @@ struct Target {
   Frame pose;                         ///< of the tool in the work object
   ArmConfiguration configuration;     ///< of a pose
   std::vector<double> external_axes;  ///< as programmed, mm or deg as the axis is; empty: none
+  std::vector<double> circle_joints;  ///< of a circular move to joint angles: a point of its circle beyond its way [rad]
 };
 
 struct NamedFrame {
@@ -56,9 +60,12 @@ struct NamedFrame {
 
 struct MoveSpeed {
   std::optional<double> axis_percent;  ///< of each axis' largest speed [%]
+  std::optional<double> axis;          ///< largest of the fastest axis [rad/s]
   std::optional<double> tool;          ///< largest of the tool's origin [m/s]
   std::optional<double> orientation;   ///< largest of the tool's rotation [rad/s]
   std::optional<double> duration;      ///< of the whole move [s]
+  std::optional<double> axis_acceleration;  ///< largest of the fastest axis [rad/s2]
+  std::optional<double> tool_acceleration;  ///< largest of the tool's origin along its path [m/s2]
 };
 
 struct MoveZone {

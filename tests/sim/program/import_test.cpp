@@ -135,9 +135,9 @@ TEST_CASE("import: a damaged URDF becomes a robot or a message") {
 TEST_CASE("import: the example programs read without a problem") {
   const std::string folder = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/";
   // Home twice, two approaches, sixteen spots with their welds, two ways out; start, four times eight, end;
-  // start, twice four, a wait, end.
+  // start, twice four, a wait, end; home, twice eight moves, two waits and a circle of five, home.
   const std::pair<const char*, std::size_t> examples[] = {
-      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}};
+      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}, {"door_handling.jbi", 34}};
   for (const auto& [name, count] : examples) {
     pipeline::Motion motion;
     motion.program = folder + name;
