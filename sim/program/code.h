@@ -124,6 +124,7 @@ struct RecordType {
   std::vector<std::string> field_types{};  ///< of a KRL structure, in lower case; else empty
   std::vector<int> sizes{};                ///< likewise: of fields that are lists, else 0
   int optional_from = 1'000'000;           ///< fields from here on may be left out
+  bool indexed = false;                    ///< its fields have numbers, too: URScript's pose[2]
 };
 
 struct Code {

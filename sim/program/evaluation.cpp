@@ -255,10 +255,10 @@ Value* Interpreter::locate(const Expression& expression) {
   if (!whole) return nullptr;
   if (expression.kind == Kind::field) return const_cast<Value*>(whole->field(expression.text));
   for (double index : indices) {
-    if (whole->kind != Value::Kind::list || whole->type) return nullptr;
+    if (whole->kind != Value::Kind::list || (whole->type && !whole->type->indexed)) return nullptr;
     const auto count = static_cast<double>(whole->items.size());
     if (!(index >= 1 && index <= count) || index != std::trunc(index)) {
-      complain(expression.place, fmt::format("has the index {} of a list of {}", index, count),
+      complain(expression.place, fmt::format("has the index {} of a list of {}", index - 1 + dialect_.first_index(), count),
                "mend the index (the controller stops here)");
       return nullptr;
     }

@@ -15,6 +15,7 @@
 #include "sim/program/request.h"
 #include "sim/program/tokens.h"
 #include "sim/program/trajectory.h"
+#include "sim/program/urscript.h"
 
 namespace dresslife::sim {
 namespace {
@@ -111,6 +112,8 @@ Language language_of(const std::filesystem::path& file) {
                                                           {".va", Language::fanuc},
                                                           {".jbi", Language::inform},
                                                           {".cnd", Language::inform},
+                                                          {".script", Language::urscript},
+                                                          {".urscript", Language::urscript},
                                                           {".csv", Language::joint_columns},
                                                           {".yaml", Language::ros_trajectory},
                                                           {".yml", Language::ros_trajectory},
@@ -120,12 +123,18 @@ Language language_of(const std::filesystem::path& file) {
     if (extension == end) return language;
   throw pipeline::InputError({file.string()},
                              fmt::format("is no robot program by its name ('{}')", extension),
-                             "give RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM (.jbi), joints "
-                             "(.csv), ROS (.yaml, .json), or "
+                             "give RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM (.jbi), URScript "
+                             "(.script), joints (.csv), ROS (.yaml, .json), or "
                              "the folder of a backup");
 }
 
 namespace {
+
+Grammar grammar_of(Language language) {
+  return language == Language::krl        ? Grammar::krl
+         : language == Language::urscript ? Grammar::urscript
+                                          : Grammar::rapid;
+}
 
 /// A mistake in a routine counts only if that runs, one outside of routines only if the program fails; but a
 /// file that is given up has lost routines and data that nobody would miss.
@@ -133,8 +142,9 @@ void parse_files(Code& code, Language language, Problems& problems) {
   for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
     Problems found;
     language == Language::rapid ? parse_rapid(code, file, found)
-    : language == Language::krl ? parse_krl(code, file, found)
-                                : parse_inform(code, file, found);
+    : language == Language::krl    ? parse_krl(code, file, found)
+    : language == Language::inform ? parse_inform(code, file, found)
+                                   : parse_urscript(code, file, found);
     if (!found.full())
       code.sort_problems(file, found);
     else
@@ -186,15 +196,17 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
   switch (language) {
     case Language::rapid:
     case Language::krl:
-    case Language::inform: {
+    case Language::inform:
+    case Language::urscript: {
       Code code;
       code.files = std::move(files);
       code.written_beside = options.written_beside;
       language == Language::rapid ? add_rapid_types(code)
-      : language == Language::krl ? add_krl_types(code)
-                                  : add_inform_types(code);
+      : language == Language::krl    ? add_krl_types(code)
+      : language == Language::inform ? add_inform_types(code)
+                                     : add_urscript_types(code);
       parse_files(code, language, problems);
-      add_requests(code, options, language == Language::krl, problems);
+      add_requests(code, options, grammar_of(language), problems);
       if (language == Language::inform) name_inform_values(code);
       code.index();
       if (!problems.empty()) return program;
@@ -202,8 +214,10 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
         run_rapid(code, options, tools, work_objects, program, problems);
       else if (language == Language::krl)
         run_krl(code, options, tools, work_objects, program, problems);
-      else
+      else if (language == Language::inform)
         run_inform(code, options, tools, work_objects, program, problems);
+      else
+        run_urscript(code, options, tools, program, problems);
       for (const Problem& unread : code.problems)  // they may be why
         if (problems.empty())
           program.skipped.push_back({unread.where, "not read: " + unread.what, true});

@@ -13,7 +13,7 @@
 
 namespace dresslife::sim {
 
-enum class Language { rapid, krl, fanuc, inform, joint_columns, ros_trajectory };
+enum class Language { rapid, krl, fanuc, inform, urscript, joint_columns, ros_trajectory };
 
 /// By extension. Errors: InputError for one that no reader knows.
 Language language_of(const std::filesystem::path& file);

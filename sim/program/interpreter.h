@@ -100,6 +100,8 @@ class Dialect {
   virtual Value initial(const std::string& type) const = 0;
   /// Assigns a value to a variable or to a part of one.
   virtual void store(Value& place, Value value) const { place = std::move(value); }
+  /// Of a list, as programs write it.
+  virtual int first_index() const { return 1; }
   /// Whether a name that a module uses and no file read declares belongs to all modules, not to it alone.
   virtual bool shares(const std::string& name, int module) const {
     static_cast<void>(name);

@@ -27,7 +27,7 @@ constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$i
 class KrlParser : StatementParser {
  public:
   KrlParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
-      : StatementParser(code, file, tokens, problems, true) {}
+      : StatementParser(code, file, tokens, problems, Grammar::krl) {}
 
   void run() {
     module_ = module_of_file();

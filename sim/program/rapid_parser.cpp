@@ -11,7 +11,7 @@ using Kind = Statement::Kind;
 class RapidParser : StatementParser {
  public:
   RapidParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
-      : StatementParser(code, file, tokens, problems, false) {}
+      : StatementParser(code, file, tokens, problems, Grammar::rapid) {}
 
   void run() {
     while (!at_.at_end() && !at_.at_word("module")) at_.next();  // %%% VERSION and LANGUAGE %%%

@@ -148,7 +148,7 @@ class Cutter {
   }
 
   void sign() {
-    static constexpr std::string_view pairs[] = {":=", "<>", "<=", ">=", "=="};
+    static constexpr std::string_view pairs[] = {":=", "<>", "<=", ">=", "==", "!="};
     for (std::string_view pair : pairs)
       if (text_.substr(at_, 2) == pair) {
         add(Token::Kind::sign, at_, at_ + 2);

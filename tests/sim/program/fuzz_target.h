@@ -25,6 +25,8 @@ inline const char* name_of(sim::Language language) {
       return "p.ls";
     case sim::Language::inform:
       return "p.jbi";
+    case sim::Language::urscript:
+      return "p.script";
     case sim::Language::joint_columns:
       return "p.csv";
     case sim::Language::ros_trajectory:

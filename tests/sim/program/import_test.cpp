@@ -135,9 +135,10 @@ TEST_CASE("import: a damaged URDF becomes a robot or a message") {
 TEST_CASE("import: the example programs read without a problem") {
   const std::string folder = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/";
   // Home twice, two approaches, sixteen spots with their welds, two ways out; start, four times eight, end;
-  // start, twice four, a wait, end; home, twice eight moves, two waits and a circle of five, home.
+  // start, twice four, a wait, end; home, twice eight moves, two waits and a circle of five, home; home, four times
+  // five with a wait, home.
   const std::pair<const char*, std::size_t> examples[] = {
-      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}, {"door_handling.jbi", 34}};
+      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}, {"door_handling.jbi", 34}, {"tray_filling.script", 26}};
   for (const auto& [name, count] : examples) {
     pipeline::Motion motion;
     motion.program = folder + name;
