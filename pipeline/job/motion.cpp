@@ -100,7 +100,7 @@ void describe(Fields& f, Motion& motion) {
          "work objects, in the robot's base frame; likewise");
   f.path("program", motion.program, Need::optional,
          "a robot program instead of steps: RAPID (.mod, .prg, .sys, .pgf), KRL (.src), Fanuc (.ls), INFORM (.jbi), "
-         "joints (.csv), ROS (.yaml, .json), or the folder of a controller's backup");
+         "URScript (.script), joints (.csv), ROS (.yaml, .json), or the folder of a controller's backup");
   f.list("modules", motion.modules, Need::optional,
          "further files of the program: modules, .dat files, called programs");
   f.text(

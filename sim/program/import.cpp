@@ -41,7 +41,7 @@ std::vector<pipeline::MotionFrame> frames_of(const std::vector<NamedFrame>& read
   return frames;
 }
 
-SourceFile source_of(const std::filesystem::path& file) {
+SourceFile source_of(const std::filesystem::path& file, const std::map<std::string, std::string>& instead) {
   std::error_code failure;
   if (const auto size = std::filesystem::file_size(file, failure);
       !failure && size > ImportLimits::file_bytes)
@@ -49,7 +49,9 @@ SourceFile source_of(const std::filesystem::path& file) {
                                fmt::format("has {} bytes (at most {})", size, ImportLimits::file_bytes),
                                "split the program");
   const std::filesystem::path shown = std::filesystem::proximate(file, failure);
-  return {failure || shown.empty() ? file.string() : shown.string(), decoded_text(pipeline::read_text(file))};
+  const std::string name = failure || shown.empty() ? file.string() : shown.string();
+  const auto other = instead.find(name);
+  return {name, decoded_text(other == instead.end() ? pipeline::read_text(file) : other->second)};
 }
 
 /// "sill.mod:34 main: MoveL p20, v500, z10, gun;"
@@ -264,7 +266,8 @@ std::vector<std::filesystem::path> add_all(std::vector<std::filesystem::path> li
 
 /// The modules, each once; a KRL or INFORM program sees what lies beside it and beside its modules, as on the
 /// controller.
-void add_modules(const pipeline::Motion& motion, bool beside, std::deque<SourceFile>& files) {
+void add_modules(const pipeline::Motion& motion, bool beside, const std::map<std::string, std::string>& instead,
+                 std::deque<SourceFile>& files) {
   std::vector<std::filesystem::path> wanted;
   for (const pipeline::ProgramFile& module : motion.modules) wanted.push_back(module.file);
   const std::size_t modules = wanted.size();
@@ -278,12 +281,16 @@ void add_modules(const pipeline::Motion& motion, bool beside, std::deque<SourceF
   known.insert(std::filesystem::weakly_canonical(motion.program, failure));
   for (const std::filesystem::path& file : wanted)
     if (known.insert(std::filesystem::weakly_canonical(file, failure)).second)
-      files.push_back(source_of(file));
+      files.push_back(source_of(file, instead));
 }
 
 }  // namespace
 
-Program read_program(const pipeline::Motion& motion) {
+Language language_of(const pipeline::Motion& motion) {
+  return is_backup(motion.program) ? backup_of(motion.program, motion.routine).language : language_of(motion.program);
+}
+
+Program read_program(const pipeline::Motion& motion, const std::map<std::string, std::string>& instead) {
   ImportOptions options = options_of(motion);
   Language language = Language::rapid;
   std::deque<SourceFile> files;
@@ -293,17 +300,17 @@ Program read_program(const pipeline::Motion& motion) {
     language = backup.language;
     options.routine = backup.routine;
     options.written_beside = backup.written_beside;
-    for (const std::filesystem::path& file : backup.files) files.push_back(source_of(file));
+    for (const std::filesystem::path& file : backup.files) files.push_back(source_of(file, instead));
     if (files.empty())
       throw pipeline::InputError({motion.program.string()}, "holds none of the files that its lists name",
                                  "name the folder or the file that holds the program");
     missing = backup.missing;
   } else {
     language = language_of(motion.program);
-    files.push_back(source_of(motion.program));
+    files.push_back(source_of(motion.program, instead));
   }
   const bool sees_its_folder = language == Language::krl || language == Language::inform;
-  add_modules(motion, sees_its_folder && !is_backup(motion.program), files);
+  add_modules(motion, sees_its_folder && !is_backup(motion.program), instead, files);
   if (language == Language::fanuc &&
       !is_backup(motion.program))  // programs that it calls and the registers of its backup lie beside it
     for (const std::filesystem::path& beside : fanuc_files_beside(motion.program)) {
@@ -312,7 +319,7 @@ Program read_program(const pipeline::Motion& motion) {
         return std::filesystem::equivalent(m.file, beside, failure) ||
                lower_case(m.file.filename().string()) == lower_case(beside.filename().string());
       });
-      if (!listed) files.push_back(source_of(beside));
+      if (!listed) files.push_back(source_of(beside, instead));
     }
   Problems problems;
   Program program = read_program(language, std::move(files), options, frames_of(motion.tools),

@@ -205,6 +205,7 @@ class Layout {
     } else if (!reach(step, line, external, move)) {
       return;
     }
+    made_.targets.push_back(move.to);
     if (place_.size() == 0) {  // the robot starts here
       place_ = move.to;
       return;
