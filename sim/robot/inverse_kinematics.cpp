@@ -60,7 +60,7 @@ InverseKinematics::InverseKinematics(const pipeline::Robot& robot)
   std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
   kinematics_.link_frames({zero.data(), static_cast<std::size_t>(zero.size())}, frames);
   base_ = frames[0];
-  to_program_ = inverse(base_ * Frame{robot.program_base, Quaternion::Identity()});
+  to_program_ = inverse(base_ * Frame{robot.program_base, from_roll_pitch_yaw(robot.program_orientation)});
   zero_ = flange(zero);
   check_geometry();
 }

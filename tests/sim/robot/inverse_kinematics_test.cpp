@@ -1,5 +1,6 @@
 #include "sim/robot/inverse_kinematics.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
@@ -263,6 +264,32 @@ TEST_CASE(
     CHECK((*near - joints).cwiseAbs().maxCoeff() < 1e-5);
   }
   CHECK(own >= rounds - 5);  // starts may miss an arm in a narrow corner (numerical_inverse.h)
+}
+
+TEST_CASE("inverse kinematics: a UR arm from ROS has the poses of its controller, whose base is turned by 180 degrees") {
+  pipeline::Robot robot = ur10();
+  robot.program_orientation = {0, 0, pi};
+  robot.flange_position = {0, .0922, 0};
+  robot.flange_orientation = {-pi / 2, pi, 0};
+  const InverseKinematics arm(robot);
+  // Denavit-Hartenberg as the maker publishes it: turn q and shift d along z, shift a and turn along x.
+  const double d[] = {.1273, 0, 0, .163941, .1157, .0922}, a[] = {0, -.612, -.5723, 0, 0, 0},
+               alpha[] = {pi / 2, 0, 0, pi / 2, -pi / 2, 0};
+  std::mt19937 random(29);
+  for (int round = 0; round < 50; ++round) {
+    const VectorXd joints = random_joints(robot, random);
+    Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < 6; ++i)
+      expected = expected * Eigen::AngleAxisd(joints[i], z) * Eigen::Translation3d(a[i], 0, d[i]) *
+                 Eigen::AngleAxisd(alpha[i], x);
+    const Frame found = arm.flange(joints);
+    CHECK((found.position - expected.translation()).norm() < 1e-12);  // a dozen roundings of a metre
+    CHECK((found.orientation.toRotationMatrix() - expected.linear()).norm() < 1e-12);
+    std::string reason;
+    const auto near = arm.solve(found, {}, joints, reason);
+    REQUIRE(near.has_value());
+    CHECK((*near - joints).cwiseAbs().maxCoeff() < 1e-5);
+  }
 }
 
 TEST_CASE("inverse kinematics: the iteration finds the arms that the closed form finds") {
