@@ -32,7 +32,8 @@ std::vector<Command> add_commands(CLI::App& program) {
                                 add_page(program),      add_route(program)};
   program.add_subcommand(
       "import",
-      "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help");
+      "write a robot program (RAPID, KRL, Fanuc, INFORM, URScript, columns, ROS) as a motion; see dresslife "
+      "import --help");
   commands.push_back(add_manual(program));
   return commands;
 }

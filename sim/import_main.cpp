@@ -60,9 +60,8 @@ int main(int argc, char** argv) {
   const pipeline::StageInfo info{
       .program = "dresslife-import",
       .purpose =
-          "Reads a robot program (RAPID, KRL, Fanuc, joint columns, ROS), or the folder of a controller's "
-          "backup, "
-          "and writes its motion as YAML.",
+          "Reads a robot program (RAPID, KRL, Fanuc, INFORM, URScript, joint columns, ROS), or the folder of a "
+          "controller's backup, and writes its motion as YAML.",
       .input = "PROGRAM or FOLDER",
       .output = "motion.yaml",
       .example = "dresslife-import config/programs/side_panel.mod -o motion.yaml",
