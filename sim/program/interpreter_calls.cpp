@@ -84,9 +84,12 @@ const Routine* Interpreter::routine_named(const std::string& name, const Place& 
 }
 
 void Interpreter::declare(const Statement& statement) {
-  if (statement.arguments[0].kind == Expression::Kind::none)
-    for (const Parameter& parameter : routines_.back()->parameters)
-      if (parameter.name == statement.name) return declare_parameter(statement);
+  const bool valued = statement.arguments[0].kind != Expression::Kind::none;
+  for (const Parameter& parameter : routines_.back()->parameters) {
+    if (parameter.name != statement.name) continue;
+    if (!valued) return declare_parameter(statement);
+    if (locals_.back().contains(parameter.name)) return;  // URScript: the value of a call that gives none
+  }
   locals_.back().insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
                                                            .value = declared_value(statement),
                                                            .written = statement.place});

@@ -183,7 +183,8 @@ class Script final : public Dialect {
     const auto function = plain.find(name);
     const bool two = name == "atan2" || name == "pow";
     const bool list = name == "norm" || name == "length" || name == "get_list_length" || name == "point_dist";
-    if (function == plain.end() && !pose_function && !two && !list) return {};
+    const bool turn = name == "rpy2rotvec" || name == "rotvec2rpy";
+    if (function == plain.end() && !pose_function && !two && !list && !turn) return {};
     if (unknown != values.end()) return unknown_value(*unknown);
     const auto number = [](double value) { return std::isfinite(value) ? number_value(value) : Value{}; };
     if (function != plain.end() && values.size() == 1 && values[0].is_number())
@@ -196,7 +197,21 @@ class Script final : public Dialect {
       for (const Value& item : values[0].items) squares += item.number * item.number;
       return number(name == "norm" ? std::sqrt(squares) : static_cast<double>(values[0].items.size()));
     }
+    if (turn) return values.size() == 1 ? turn_arithmetic(name, values[0]) : Value{};
     return pose_arithmetic(name, values);
+  }
+
+  /// Roll, pitch, yaw about the axes of the base, and a rotation vector.
+  static Value turn_arithmetic(const std::string& name, const Value& value) {
+    const auto n = [&](std::size_t i) { return value.items[i].number; };
+    if (value.kind != Value::Kind::list || value.items.size() != 3) return unknown_value("", "is no list of three angles");
+    Vector3 result = rotation_vector(rotation({0, 0, n(2)}) * rotation({0, n(1), 0}) * rotation({n(0), 0, 0}));
+    if (name == "rotvec2rpy") {
+      const Eigen::Matrix3d r = rotation({n(0), n(1), n(2)}).toRotationMatrix();
+      result = {std::atan2(r(2, 1), r(2, 2)), std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))),
+                std::atan2(r(1, 0), r(0, 0))};
+    }
+    return list_value({number_value(result[0]), number_value(result[1]), number_value(result[2])});
   }
 
   Value pose_arithmetic(const std::string& name, const std::vector<Value>& values) const {

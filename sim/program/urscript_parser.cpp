@@ -104,7 +104,8 @@ class ScriptParser : StatementParser {
     } else if (!assignment(s)) {
       call(s);
     }
-    if (!line_done()) at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "mend the line");
+    if (!line_done() && at_.peek().kind != Token::Kind::word)  // one line may hold several statements
+      at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "mend the line");
     into.push_back(std::move(s));
   }
 
@@ -176,14 +177,15 @@ class ScriptParser : StatementParser {
     read.written = std::string(at_.peek().text);
     read.name = at_.word("the function's name");
     read.module = module_;
+    std::vector<Statement> usual;  // values of parameters that a call leaves out
     if (thread) read.robot = "thread";
     if (at_.take_sign("("))
       while (!at_.take_sign(")")) {
         if (at_.take_sign(",")) continue;
         if (line_done()) at_.fail("ends in a list of parameters", "close it");
-        Parameter parameter{at_.word("a parameter"), false, false};
-        if (at_.take_sign("=")) at_.expression();  // a value for those that are left out; they are unknown then
-        read.parameters.push_back(std::move(parameter));
+        const Place place = at_.place();
+        read.parameters.push_back({at_.word("a parameter"), false, false});
+        if (at_.take_sign("=")) usual.push_back(declaration(read.parameters.back().name, place, at_.expression()));
       }
     at_.take_sign(":");
     routines_[index].written = read.written;
@@ -200,6 +202,7 @@ class ScriptParser : StatementParser {
     routines_here_.pop_back();
     if (!whole) skip_line();
     read.last_line = at_.place().line;
+    read.body.insert(read.body.begin(), usual.begin(), usual.end());
     routines_[index] = std::move(read);
   }
 
@@ -243,14 +246,17 @@ class ScriptParser : StatementParser {
     for (const std::string& name : assigned_[index])
       if (!globals_.contains(name)) own.insert(name);
     for (const Parameter& parameter : routine.parameters) own.erase(parameter.name);
-    for (const std::string& name : own) {
-      Statement s;
-      s.kind = Kind::declare;
-      s.place = routine.place;
-      s.name = name;
-      s.arguments.emplace_back();
-      routine.body.insert(routine.body.begin(), std::move(s));
-    }
+    for (const std::string& name : own)
+      routine.body.insert(routine.body.begin(), declaration(name, routine.place, {}));
+  }
+
+  static Statement declaration(const std::string& name, const Place& place, Expression value) {
+    Statement s;
+    s.kind = Kind::declare;
+    s.place = place;
+    s.name = name;
+    s.arguments.push_back(std::move(value));
+    return s;
   }
 
   int module_ = -1, threads_ = 0;

@@ -234,9 +234,7 @@ simulation: {segments: 20, sample_rate_Hz: 25}
   REQUIRE(fs::exists(patch));
   CHECK(content(patch).find("--- a/short.mod\n+++ b/short.mod\n@@ ") == 0);
   // The patch fits the program, and what it makes is a program again.
-  const std::string apply = "patch -s -o '" + (scratch / "changed.mod").string() + "' '" +
-                            (scratch / "short.mod").string() + "' '" + patch.string() + "'";
-  REQUIRE(std::system(apply.c_str()) == 0);
+  REQUIRE(run_shell(scratch, "patch -s -o changed.mod short.mod runs/job_reprogram/as_it_is_01.patch").status == 0);
   const Outcome read = run(scratch, "dresslife-import", "changed.mod -o changed.yaml");
   INFO(read.out << read.err);
   CHECK(read.status == 0);

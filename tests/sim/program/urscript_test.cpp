@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numbers>
 
 #include "tests/sim/program/reading.h"
@@ -119,6 +120,21 @@ TEST_CASE("urscript: poses are composed as the manual says") {
   CHECK((position(10) - Vector3(1, 2, 9)).norm() < rounding);
 }
 
+TEST_CASE("urscript: roll, pitch and yaw are about the axes of the base, one after the other") {
+  // A quarter about x, then one about z: z goes to -y and on to x, x stays and goes to y. The axis is (1,1,1).
+  const Reading r = program(
+      "v = rpy2rotvec([pi/2,0,pi/2])\nw = rotvec2rpy([0.3,0,0])\nu = rotvec2rpy(rpy2rotvec([0.4,-0.5,0.6]))\n"
+      "movej([v[0],v[1],v[2],w[0],w[1],w[2]])\nmovej([u[0],u[1],u[2],0,0,0])\n");
+  REQUIRE(r.problem() == "no such problem");
+  const std::vector<double> first = r.move(0).target.joints, second = r.move(1).target.joints;
+  const double third = 2 * pi / 3 / std::sqrt(3.0);
+  for (int i = 0; i < 3; ++i) {
+    CHECK(first[i] == Approx(third).margin(rounding));
+    CHECK(first[3 + i] == Approx(i == 0 ? 0.3 : 0).margin(rounding));
+    CHECK(second[i] == Approx(std::vector{0.4, -0.5, 0.6}[i]).margin(rounding));
+  }
+}
+
 TEST_CASE("urscript: functions, their variables and loops run as on the controller") {
   const std::string functions = "def go" + go + "def twice(x):\n  local n = x\n  m = n + n\n  n = m\n  return n\nend\n";
   const Reading r = run(functions +
@@ -137,6 +153,19 @@ TEST_CASE("urscript: functions, their variables and loops run as on the controll
   CHECK(first_axes(own) == std::vector<double>{1});
   const Reading cycle = run("def main():\n  k = 0\n  while True:\n    k = (k + 1) % 3\n    movej([k,0,0,0,0,0])\n  end\nend\n");
   CHECK(first_axes(cycle) == std::vector<double>{1, 2, 0});
+}
+
+TEST_CASE("urscript: arguments may be left out or named, and a line may hold several statements") {
+  const Reading r = run("def turn(a, b=0.5, slow=False):\nif slow: movej([a,b,0,0,0,0], v=0.1)\nelse: movej([a,b,0,0,0,0], v=1) end\nend\n"
+                        "def main():\nw = 0.1\nturn(w) w = -w\nturn(w, 2)\nturn(w, slow=True, b=3) turn(4)\nend\n");
+  REQUIRE(r.problem() == "no such problem");
+  REQUIRE(r.program.instructions.size() == 4);
+  const double expected[4][3] = {{0.1, 0.5, 1}, {-0.1, 2, 1}, {-0.1, 3, 0.1}, {4, 0.5, 1}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(r.move(k).target.joints[0] == expected[k][0]);
+    CHECK(r.move(k).target.joints[1] == expected[k][1]);
+    CHECK(r.move(k).speed.axis.value() == expected[k][2]);
+  }
 }
 
 TEST_CASE("urscript: inputs are asked for by their calls; threads are named") {
