@@ -158,8 +158,7 @@ class Estimates {
       if (!dresspack_.find(key)) add(dresspack_, key, "from_construction");
     estimate(dresspack_, "friction_coefficient", estimated_friction);
     if (dresspack_.find("damping_time_ms") || dresspack_.find("damping_source")) return;
-    list_.note("damping_time_ms", add(dresspack_, "damping_time_ms", is_hose(dresspack_) ? "10" : "20").text,
-               "");
+    list_.note("damping_time_ms", add(dresspack_, "damping_time_ms", rounded(estimated_damping_time)).text, "");
     add(dresspack_, "damping_source",
         "ESTIMATE, the default of dresslife; a decay test of a hanging length decides");
   }
