@@ -1,6 +1,7 @@
 // dresslife-import: a robot program in, the same motion as YAML out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include "pipeline/base/limits.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/stage/stage.h"
+#include "sim/program/answers.h"
 #include "sim/program/explain.h"
 #include "sim/program/import.h"
 
@@ -15,7 +17,7 @@ namespace {
 
 using namespace dresslife;
 
-enum Option { routine, assume, module, frames, value, passes, explain };
+enum Option { routine, answers, assume, module, frames, value, passes, explain };
 
 /// "NAME=VALUE" cut at its first or last '='.
 std::pair<std::string, std::string> halves(const std::string& option, const std::string& written,
@@ -30,6 +32,8 @@ pipeline::Motion request(const pipeline::StageCall& call) {
   const auto& given = call.options;
   pipeline::Motion motion;
   if (!given[frames].empty()) motion = pipeline::motion_from(pipeline::read_yaml(given[frames].back()));
+  if (!given[answers].empty() && std::filesystem::exists(given[answers].back()))
+    sim::add_answers(given[answers].back(), motion);
   motion.program = call.input;
   const std::filesystem::path input = std::filesystem::absolute(call.input).lexically_normal();
   motion.source = "imported from " + (input.has_filename() ? input : input.parent_path()).filename().string();
@@ -54,6 +58,50 @@ pipeline::Motion request(const pipeline::StageCall& call) {
   return motion;
 }
 
+std::string counted(std::size_t questions) {
+  return questions == 1 ? "this question" : fmt::format("these {} questions", questions);
+}
+
+/// Whether the file of answers holds each of the questions, without an answer.
+bool all_are_empty(const std::vector<sim::Problem>& problems, const pipeline::Motion& asked) {
+  for (const sim::Problem& problem : problems)
+    for (const sim::Question& question : problem.questions)
+      if (std::none_of(asked.values.begin(), asked.values.end(),
+                       [&](const auto& v) { return v.value.empty() && v.name == question.name; }) &&
+          std::none_of(asked.assume.begin(), asked.assume.end(),
+                       [&](const auto& a) { return a.take.empty() && a.line == question.name; }))
+        return false;
+  return true;
+}
+
+/// The file itself, else with the first number behind its name that no file has.
+std::filesystem::path free_name(const std::filesystem::path& wanted) {
+  std::filesystem::path name = wanted;
+  for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(name)); ++number)
+    name = wanted.parent_path() /
+           fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
+  return name;
+}
+
+/// Reads the program. Where it asks, the questions go to a file of answers, if there is to be one.
+sim::Program program_of(const pipeline::Motion& asked, const std::vector<std::string>& answer_files) {
+  try {
+    return sim::read_program(asked);
+  } catch (const sim::Unread& unread) {
+    const std::size_t count = sim::question_count(unread.problems);
+    if (count == 0) throw;
+    if (answer_files.empty())
+      throw unread.with(fmt::format("--answers FILE writes {} to a file, to be filled in", counted(count)));
+    const std::filesystem::path file = answer_files.back();
+    if (std::filesystem::exists(file) && all_are_empty(unread.problems, asked))
+      throw unread.with(fmt::format("{}: no answer is written there to {}", file.string(), counted(count)));
+    const std::filesystem::path written = free_name(file);
+    pipeline::write_text_if_changed(written, sim::answers_text(unread.problems, asked));
+    throw unread.with(fmt::format("{}: holds {}: fill it in, and import with --answers {}", written.string(),
+                                  counted(count), written.string()));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -71,13 +119,15 @@ int main(int argc, char** argv) {
       .options = {{"--routine", "NAME",
                    "where to start, with arguments where it takes some: 'name(1, p20)'; without it "
                    "main, or the first routine"},
+                  {"--answers", "FILE.yaml",
+                   "what the program asks: written there to be filled in, read where the file exists"},
                   {"--assume", "LINE=then|else|VALUE",
-                   "how a branch goes that hangs on inputs, or the value by which a "
+                   "one answer: how a branch goes that hangs on inputs, or the value by which a "
                    "choice of several goes; LINE may be FILE:LINE"},
                   {"--module", "FILE", "a further module, data file or called program"},
-                  {"--frames", "FILE.yaml", "tools and work_objects that lie in the controller"},
+                  {"--frames", "FILE.yaml", "answers: tools and work_objects that lie in the controller"},
                   {"--value", "NAME=VALUE",
-                   "an input, register, variable or position that only the running robot knows"},
+                   "one answer: an input, register, variable or position that only the running robot knows"},
                   {"--passes", "N", "of an endless main loop; without it until the program repeats itself"},
                   {"--explain", "",
                    "print each move with tool, work object, speed and zone, and where each comes from"}}};
@@ -87,7 +137,7 @@ int main(int argc, char** argv) {
           throw pipeline::InputError({call.input.string()}, "would be read for nothing",
                                      "name a file with -o, or ask for --explain");
         const pipeline::Motion asked = request(call);
-        const sim::Program program = sim::read_program(asked);
+        const sim::Program program = program_of(asked, call.options[answers]);
         progress.clear();
         if (!call.options[explain].empty())
           for (const std::string& line : sim::explanation(program)) fmt::print("{}\n", line);

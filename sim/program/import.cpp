@@ -1,6 +1,7 @@
 #include "sim/program/import.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "pipeline/base/program_files.h"
@@ -162,6 +163,36 @@ void tell_nothing(const Program& program, const ImportOptions& options, Problems
       "--module");
 }
 
+/// External axes that move, with what a job's robot needs of them: programs give positions alone.
+void tell_external_axes(Program& program) {
+  struct Way {
+    double low = INFINITY, high = -INFINITY;
+  };
+  std::vector<Way> ways;
+  for (const Instruction& instruction : program.instructions)
+    for (std::size_t i = 0; i < instruction.target.external_axes.size(); ++i) {
+      if (ways.size() <= i) ways.resize(i + 1);
+      ways[i].low = std::min(ways[i].low, instruction.target.external_axes[i]);
+      ways[i].high = std::max(ways[i].high, instruction.target.external_axes[i]);
+    }
+  if (std::none_of(ways.begin(), ways.end(), [](const Way& way) { return way.high > way.low; })) return;
+  std::string moving, entries;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const Way& way = ways[i];
+    moving += fmt::format("{}{} from {:.6g} to {:.6g}", i ? ", " : "", i + 1, way.low, way.high);
+    entries += fmt::format(
+        "{}{{name: external_{}, kind: linear, carries: robot, axis: [1, 0, 0], lower_mm: {:.6g}, upper_mm: {:.6g}, "
+        "speed_mm_per_s: 1000, acceleration_mm_per_s2: 1000}}",
+        i ? ", " : "", i + 1, std::min(way.low, 0.0), std::max(way.high, way.low + 1));
+  }
+  program.skipped.push_back(
+      {program.start,
+       fmt::format("note: external axes move: {} (mm or deg). A job simulates them with robot: {{external_axes: [{}]}}. The "
+                   "direction, the speed and the acceleration are estimates: write those of the axis; kind: rotary for one "
+                   "that turns, carries: nothing for one that does not move the robot",
+                   moving, entries)});
+}
+
 bool moves_anywhere(const Program& program) {
   return std::any_of(program.instructions.begin(), program.instructions.end(),
                      [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
@@ -208,6 +239,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       break;
   }
   if (problems.empty() && !moves_anywhere(program)) tell_nothing(program, options, problems);
+  tell_external_axes(program);
   return program;
 }
 
@@ -217,12 +249,15 @@ ImportOptions options_of(const pipeline::Motion& motion) {
   options.spot_time = motion.spot_time;
   options.passes = motion.passes;
   for (const pipeline::BranchAssumption& assumption : motion.assume)
-    if (assumption.take == "then" || assumption.take == "else")
+    if (assumption.take.empty())
+      continue;  // an answer that nobody wrote
+    else if (assumption.take == "then" || assumption.take == "else")
       options.assume[assumption.line] =
           assumption.take == "then" ? Assumption::then_branch : Assumption::else_branch;
     else
       options.choose[assumption.line] = assumption.take;
-  for (const pipeline::ProgramValue& given : motion.values) options.values[given.name] = given.value;
+  for (const pipeline::ProgramValue& given : motion.values)
+    if (!given.value.empty()) options.values[given.name] = given.value;
   return options;
 }
 
@@ -312,11 +347,12 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   motion.left_out = moves_left_out(program);
   for (pipeline::Warning& warning : motion.left_out)  // wherever the program lies
     warning.where = std::filesystem::path(warning.where).filename().string();
-  for (const Instruction& instruction : program.instructions) {
-    const bool waits_at_start =
-        motion.steps.empty() && instruction.kind == Instruction::Kind::dwell;  // somewhere
-    if (!waits_at_start) motion.steps.push_back(step_of(instruction, program));
-  }
+  for (const Instruction& instruction : program.instructions)
+    motion.steps.push_back(step_of(instruction, program));
+  // A motion begins where its first move leads: the robot stands there while it waits before that move.
+  const auto first_move =
+      std::find_if(motion.steps.begin(), motion.steps.end(), [](const auto& step) { return step.is_move(); });
+  if (first_move != motion.steps.end()) std::rotate(motion.steps.begin(), first_move, first_move + 1);
   return motion;
 }
 
@@ -382,7 +418,7 @@ std::vector<std::string> skipped_lines(const Program& program) {
   for (const Skipped& skipped : program.skipped) {
     if (skipped.may_move) continue;
     const auto [name, reason] = name_and_reason(skipped.what);
-    if (name.empty())
+    if (name.empty() || name == "note")
       lines.push_back(fmt::format("{}: note: {}", skipped.where.text(), reason));
     else
       ++harmless[reason][name];

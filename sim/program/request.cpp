@@ -51,6 +51,17 @@ std::pair<std::string, std::string> routine_and_arguments(const std::string& wri
   return {written.substr(0, end), arguments};
 }
 
+namespace {
+
+/// What $CONFIG.DAT holds as KUKA delivers it. In 11 public backups PDEFAULT and LDEFAULT are these, FHOME in 10 of 11.
+constexpr std::pair<const char*, const char*> delivered[] = {
+    {"pdefault", "{VEL 100, ACC 100, APO_DIST 100}"},
+    {"ldefault", "{VEL 2, ACC 100, APO_DIST 100}"},
+    {"fhome", "{TOOL_NO 1, BASE_NO 0, IPO_FRAME #BASE}"},
+    {"def_vel_cp", "2"}};
+
+}  // namespace
+
 void add_requests(Code& code, const ImportOptions& options, bool krl, Problems& problems) {
   for (const auto& [name, text] : options.values)
     read_text(code, "value " + name, text, krl, problems,
@@ -58,6 +69,10 @@ void add_requests(Code& code, const ImportOptions& options, bool krl, Problems& 
   for (const auto& [line, text] : options.choose)
     read_text(code, "assumption " + line, text, krl, problems,
               [&, &line = line](Cursor& at) { code.choices[line] = at.expression(); });
+  for (const auto& [name, text] : delivered)
+    if (krl)
+      read_text(code, std::string("delivered ") + name, text, krl, problems,
+                [&, &name = name, &text = text](Cursor& at) { code.presets[name] = {text, at.expression()}; });
   const auto [routine, arguments] = routine_and_arguments(options.routine);
   code.start = lower_case(routine);
   if (!arguments.empty())

@@ -149,8 +149,11 @@ class Layout {
   }
 
   bool refuse(const MotionStep& step, int line, const std::string& reason) {
+    const bool lacks = step.external_axes.size() > axes_.size() - robot_.axes();
     problems_.add(step.where, fmt::format("target of '{}' {}", made_.texts[line], reason),
-                  "check target, tool, work object, configuration and where the robot stands");
+                  lacks ? "check target, tool, work object and configuration; the step also names external axes that "
+                          "robot.external_axes does not have: without them the robot stands elsewhere"
+                        : "check target, tool, work object, configuration and where the robot stands");
     return false;
   }
 
