@@ -515,10 +515,12 @@ Value* Interpreter::given_part(const Expression& expression) {
     std::optional<Value> value;
     if (!kept) value = dialect_.constant(path);
     if (!kept && (!value || !value->known())) value = given(path);
-    if (value && value->kind == Value::Kind::list)
-      kept = &scope_of(path)
-                  .insert_or_assign(path, Variable{.state = Variable::State::ready, .value = *std::move(value), .assigned = true})
-                  .first->second;
+    if (value && value->kind == Value::Kind::list) {
+      kept = &scope_of(path)[path];
+      kept->state = Variable::State::ready;
+      kept->value = *std::move(value);
+      kept->assigned = true;
+    }
     if (kept) whole = ready(*kept);
   }
   if (!whole) whole = given_part(outer);
@@ -538,6 +540,11 @@ const std::string& Interpreter::base_name(const Expression& expression) {
   const Expression* base = &expression;
   while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
   return base->text;
+}
+
+bool Interpreter::was_assigned(const Expression& expression) const {
+  const Variable* variable = const_cast<Interpreter*>(this)->base_of(expression);
+  return variable && variable->assigned;
 }
 
 bool Interpreter::is_constant(const Variable& variable) {

@@ -154,6 +154,8 @@ class Interpreter {
   Place origin(const Expression& expression);
   /// Name of the data that an expression is; of a parameter, of what the caller gave. Empty: it is no name.
   std::string name_of(const Expression& expression);
+  /// Whether the program has written to the data that an expression begins with.
+  bool was_assigned(const Expression& expression) const;
   /// The expression as it stands in its file, up to the argument's end.
   std::string written(const Expression& expression) const;
   /// Runs a routine by its name, "name" or "module:name".

@@ -181,7 +181,8 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
   if (goes) forget_assigned(routines_.back()->body, why, done);
   --quiet_;
   if (!goes) return Flow::next;
-  result_ = unknown_value(unknown);
+  result_ = Value{};
+  result_.cause = std::make_shared<const Cause>(std::move(why));
   return Flow::give_back;
 }
 

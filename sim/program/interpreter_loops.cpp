@@ -266,7 +266,8 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
                        fmt::format("in pass {} of the loop in {}: --passes {} ends before", passes.count(),
                                    short_place(statement.place), passes.count() - 1));
       hinted = true;
-      if (barren.again() || (wanted && passes.count() >= wanted)) throw Stop{};
+      const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
+      if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) throw Stop{};
       continue;
     }
     if (passes.count() == wanted || (!wanted && passes.repeats())) break;
@@ -362,7 +363,8 @@ void Interpreter::run_cycles(const Routine& routine) {
     if (ended) return;
     passes.add(state());
     if (asking) {  // what later cycles ask counts, too
-      if (barren.again() || (wanted && passes.count() >= wanted)) return;
+      const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
+      if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) return;
       continue;
     }
     if (passes.count() == 1 && wanted <= 1 && state() == state_before) return;

@@ -104,15 +104,15 @@ void Problems::hint(std::size_t from, const std::string& more) {
   for (std::size_t i = from; i < problems_.size(); ++i) problems_[i].remedy += fmt::format(" ({})", more);
 }
 
-bool Problems::full() const {
-  const auto questions = static_cast<std::size_t>(std::count_if(
-      problems_.begin(), problems_.end(), [](const Problem& problem) { return !problem.questions.empty(); }));
-  return problems_.size() - questions >= listed_problems || questions >= most_questions;
+std::size_t Problems::mistakes() const {
+  return static_cast<std::size_t>(std::count_if(
+      problems_.begin(), problems_.end(), [](const Problem& problem) { return problem.questions.empty(); }));
 }
 
-bool Problems::asks() const {
-  return std::any_of(problems_.begin(), problems_.end(),
-                     [](const Problem& problem) { return !problem.questions.empty(); });
+bool Problems::asks() const { return mistakes() < problems_.size(); }
+
+bool Problems::full() const {
+  return mistakes() >= listed_problems || problems_.size() - mistakes() >= most_questions;
 }
 
 namespace {

@@ -138,6 +138,7 @@ class Problems {
   bool empty() const { return problems_.empty(); }
   bool full() const;  ///< more would not help anybody
   bool asks() const;  ///< one of them has a question
+  std::size_t mistakes() const;  ///< those that have none
   const std::vector<Problem>& list() const { return problems_; }
   std::size_t count() const { return problems_.size(); }
   /// Adds to the remedies of those from the given one on.

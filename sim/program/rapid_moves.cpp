@@ -126,9 +126,12 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
   const auto q = rapid_orientation(value->items[1]);
   if (!q) {
     const bool unset = *value == rapid_initial(code_, "robtarget");
-    const std::string path = unset ? run.answer_name(run.path_of(written)) : "";
+    // One that the program itself has set to zeros is no question: the controller stops here.
+    const std::string path = unset && !run.was_assigned(written) ? run.answer_name(run.path_of(written)) : "";
     if (path.empty())
-      run.complain(written.place, "has a target whose quaternion has not the length 1", "mend its orientation");
+      run.complain(written.place,
+                   unset ? "has a target that the program set to zeros" : "has a target whose quaternion has not the length 1",
+                   "mend its orientation");
     else
       run.miss(path, written.place, "has a target that was never given a value (all of it is 0)",
                fmt::format("give it one, in the program or with --value '{}=...'", path),

@@ -51,6 +51,19 @@ double tool_length(const Reading& reading, std::size_t move) {
 
 }  // namespace
 
+TEST_CASE("krl controller: a CHAR is the number of its letter") {
+  const auto counts = [](const std::string& condition) {
+    return run("DECL INT i\nDECL CHAR c\nDECL CHAR a[3]\nc=\"3\"\ni=c\na[]=\"321\"\nIF " + condition + " THEN\nPTP " + axes(1) +
+               "\nENDIF\nPTP " + axes(2))
+        .program.instructions.size();
+  };
+  for (const char* holds : {"i==51", "i>50", "c==51", "a[1]>a[3]", "a[3]==\"1\"", "c==a[1]", "c<>a[2]"}) {
+    INFO(holds);
+    CHECK(counts(holds) == 2);
+  }
+  for (const char* fails : {"i==3", "a[1]<a[3]", "c==50"}) CHECK(counts(fails) == 1);
+}
+
 TEST_CASE("krl: inline forms reach FDAT_ACT, PDAT_ACT and LDAT_ACT that $CONFIG.DAT declares") {
   // BAS(#PTP_PARAMS, v): acceleration and approximation of PDAT_ACT, frames of FDAT_ACT, v % of the speed.
   const Reading r =
