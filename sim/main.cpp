@@ -1,5 +1,4 @@
 // dresslife-sim: a job in, motion.h5 out.
-#include <charconv>
 #include <optional>
 #include <string>
 
@@ -9,7 +8,6 @@
 #include "pipeline/stage/stage.h"
 #include "sim/route/exercise.h"
 #include "sim/route/preview.h"
-#include "sim/route/proposal.h"
 #include "sim/route/screening_file.h"
 #include "sim/run/memory.h"
 #include "sim/run/motion_file.h"
@@ -20,37 +18,12 @@ using namespace dresslife;
 
 namespace {
 
-enum Option { preview, screen, rehearse, propose, ring, tried, rehearsals, seed, exercise };
-
-/// A count on the command line. Errors: InputError at the option.
-std::uint64_t whole(const std::string& option, const std::string& text, std::uint64_t least,
-                    std::uint64_t most) {
-  std::uint64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || value < least || value > most)
-    throw pipeline::InputError(
-        {option}, fmt::format("'{}' is no whole number from {} to {}", text, least, most), "write one");
-  return value;
-}
-
-void write_proposals(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::FileWriter& file) {
-  const auto last = [&](Option option) {
-    return call.options[option].empty() ? "" : call.options[option].back();
-  };
-  sim::ProposalSettings settings;
-  settings.count = static_cast<int>(whole("--propose", last(propose), 1, 24));
-  if (!last(tried).empty()) settings.tried = static_cast<int>(whole("--tried", last(tried), 1, 1'000'000));
-  if (!last(rehearsals).empty())
-    settings.rehearsals = static_cast<int>(whole("--rehearsals", last(rehearsals), 0, 100'000));
-  if (!last(seed).empty()) settings.seed = whole("--seed", last(seed), 0, 1'000'000'000);
-  settings.ring_link = last(ring);
-  sim::write_proposals(job, settings, file);
-}
+enum Option { preview, screen, rehearse, ring, exercise };
 
 /// What is asked for without a run. Returns false when it is the run that is asked for.
 bool told_at_rest(const pipeline::StageCall& call, pipeline::Job& job) {
   const auto asked = [&](Option option) { return !call.options[option].empty(); };
-  if (!asked(preview) && !asked(screen) && !asked(propose)) return false;
+  if (!asked(preview) && !asked(screen)) return false;
   if (job.motion.is_prescribed())
     throw pipeline::InputError(job.motion.where,
                                "a prescribed deformation has no cell to preview (nothing moves)",
@@ -60,10 +33,11 @@ bool told_at_rest(const pipeline::StageCall& call, pipeline::Job& job) {
                             asked(preview) ? pipeline::preview_format() : pipeline::screening_format());
   if (asked(preview))
     sim::write_preview(job, file);
-  else if (asked(screen))
-    sim::write_screening(job, call.options[screen].back(), asked(rehearse), file);
   else
-    write_proposals(call, job, file);
+    sim::write_screening(job,
+                         {call.options[screen].back(), asked(rehearse), asked(exercise),
+                          asked(ring) ? call.options[ring].back() : std::string()},
+                         file);
   pipeline::stamp(file, call, job, "");
   file.commit();
   return true;
@@ -114,13 +88,8 @@ int main(int argc, char** argv) {
            {"--screen", "LIST.yaml",
             "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)"},
            {"--rehearse", "", "with --screen: run each with few segments, and write what was seen"},
-           {"--propose", "COUNT",
-            "simulate nothing; write routings with clamps on the job's links that geometry finds nothing "
-            "against (screening.h5)"},
-           {"--ring", "LINK", "with --propose: also a guide ring on this link"},
-           {"--tried", "COUNT", "with --propose: routings that are looked at; 1200"},
-           {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by; 0"},
-           {"--seed", "NUMBER", "with --propose: of the search's chances; 1"},
+           {"--ring", "LINK",
+            "with --screen: routings of the routing box (routing_at) have a guide ring on this link, too"},
            {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about"}},
       .part = pipeline::Part::sim,
       .told = pipeline::told_checks};

@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 
-#include "pipeline/advise/improve/draft.h"
-#include "pipeline/advise/improve/outcome.h"
-#include "pipeline/advise/improve/screened.h"
+#include "pipeline/advise/route/draft.h"
+#include "pipeline/advise/route/routing_search.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
@@ -31,30 +28,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int trials = 3;  // routings of one search that are run through the whole chain
-
 struct Options : RunOptions {
   RouteRequest request;
-  std::string ring, job, scale = "auto";
-  int tried = 400, rehearsals = 160, seed = 1;
+  RoutingRequest search;
+  std::string job, scale = "auto";
 };
 
-/// One search and what became of its routings.
-struct Trial {
+/// What was found in one size of the dresspack.
+struct Sized {
   double factor = 1;
-  ScreenedList proposals;
-  std::vector<Outcome> outcomes;  // (proposal) empty limits: it was not run
-  std::optional<std::size_t>
-      best;  // that ran: feasible and of the longest life, else least beyond its limits
-
-  bool feasible() const { return best && outcomes[*best].feasible(); }
+  RoutingFound found;
+  const RoutingTrial& best() const { return found.trials[*found.best]; }
 };
-
-/// Whether a job that ran is to be preferred.
-bool better(const Outcome& a, const Outcome& b) {
-  if (a.violation() != b.violation()) return a.violation() < b.violation();
-  return a.hours > b.hours;
-}
 
 constexpr std::string_view mark = "# Proposed by dresslife route";
 
@@ -67,65 +52,19 @@ void check_job_file(const fs::path& file) {
                      "name another file after --job");
 }
 
-ScreenedList proposed(const Draft& draft, const Options& options, double factor, const fs::path& folder) {
-  Node document = parse_yaml(job_text(draft.job), "draft");
-  if (factor != 1) document["dresspack"] = *routed(draft, "{}", "{}", factor).find("dresspack");
-  const fs::path job = folder / "draft.yaml";
-  write_text_if_changed(job, to_yaml(document));
-  const PassingFile told("screening.h5");
-  std::vector<std::string> arguments{job.string(),
-                                     "--propose",
-                                     std::to_string(trials),
-                                     "--tried",
-                                     std::to_string(options.tried),
-                                     "--rehearsals",
-                                     std::to_string(options.rehearsals),
-                                     "--seed",
-                                     std::to_string(options.seed),
-                                     "-o",
-                                     told.path().string(),
-                                     "--quiet"};
-  if (draft.exercise) arguments.push_back("--exercise");
-  if (!options.ring.empty()) arguments.insert(arguments.end(), {"--ring", options.ring});
-  if (run_stage_program("dresslife-sim", arguments) != 0)
-    throw InputError({draft.name}, "no routing can be proposed (see above)", "mend what is told there");
-  return read_screening(told.path());
+RunRouting runner(const Draft& draft, double factor, const Options& options, const StudyPlaces& places) {
+  return [&, factor](const std::string& routing, const std::string& motion, std::size_t trial) {
+    Study study{fmt::format("{} at {:.0f} %", draft.name, 100 * factor), {}};
+    study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * factor, trial + 1),
+                          std::make_shared<const Job>(job_from(routed(draft, routing, motion, factor))), ""});
+    const RankingRow row = made_rows(study, places, options).front();
+    return outcome_of(row, places.job(row.job));
+  };
 }
 
-/// Runs a routing through the whole chain.
-void run(Trial& trial, std::size_t k, const Draft& draft, const Options& options, const StudyPlaces& places) {
-  const ScreenedCandidate& candidate = trial.proposals.candidates[k];
-  const Node document = routed(draft, candidate.changes, trial.proposals.motion, trial.factor);
-  Study study{fmt::format("{} at {:.0f} %", draft.name, 100 * trial.factor), {}};
-  study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
-                        std::make_shared<const Job>(job_from(document)), ""});
-  const RankingRow row = made_rows(study, places, options).front();
-  trial.outcomes[k] = outcome_of(row, places.job(row.job));
-  if (!trial.outcomes[k].failure.empty()) return;
-  if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
-}
-
-/// Those that kept all limits in their rehearsal, until one does in the whole chain.
-Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places) {
-  Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}};
-  trial.outcomes.resize(trial.proposals.candidates.size());
-  for (std::size_t k = 0; k < trial.outcomes.size() && !trial.feasible(); ++k)
-    if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
-      run(trial, k, draft, options, places);
-  return trial;
-}
-
-/// What stood against the best of them.
-std::string obstacle(const Trial& trial) {
-  if (trial.best) return trial.outcomes[*trial.best].words();
-  const ScreenedCandidate& first = trial.proposals.candidates.front();
-  return first.refusal.empty() ? trial.proposals.words(first) : first.refusal;
-}
-
-/// Of its best, by its rehearsal; infinite: it does not run.
-double violation(const Trial& trial) {
-  const ScreenedCandidate& first = trial.proposals.candidates.front();
-  return first.refusal.empty() ? first.violation() : std::numeric_limits<double>::infinity();
+/// What stood against the best routing in this size.
+std::string obstacle(const RoutingFound& found) {
+  return found.best ? found.trials[*found.best].outcome.words() : found.obstacle;
 }
 
 std::vector<double> factors_of(const Options& options) {
@@ -144,14 +83,14 @@ void write_page(const fs::path& job, const fs::path& page) {
     write_text_if_changed(page, preview_page(told.path(), job.stem().string(), xxh3(shell_digest())));
 }
 
-std::string words_of(const Trial& trial, const Draft& draft) {
-  const Outcome& best = trial.outcomes[*trial.best];
+std::string words_of(const Sized& chosen, const Draft& draft) {
+  const Outcome& best = chosen.best().outcome;
   const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
-  std::string text = trial.proposals.candidates[*trial.best].changes;
-  if (trial.factor != 1)
+  std::string text = chosen.best().routing;
+  if (chosen.factor != 1)
     text += fmt::format(
         "This is not for {} as it is but for one of the same make at {:.0f} % of its size, {:.0f} mm wide\n",
-        dresspack.name, 100 * trial.factor, 1e3 * dresspack.diameter * trial.factor);
+        dresspack.name, 100 * chosen.factor, 1e3 * dresspack.diameter * chosen.factor);
   if (draft.exercise)
     text += "No program was given: the wrist was only moved about. Look again with yours.\n";
   const std::string life =
@@ -162,6 +101,30 @@ std::string words_of(const Trial& trial, const Draft& draft) {
                                    best.words(), life));
 }
 
+/// The biggest size in which a routing keeps all limits, else the best that runs.
+std::optional<Sized> found_in_sizes(const Draft& draft, const Options& options, const StudyPlaces& places) {
+  std::optional<Sized> chosen, nearest;
+  for (const double factor : factors_of(options)) {
+    const RunRouting run = runner(draft, factor, options, places);
+    Sized sized{factor, find_routing(draft, factor, options.search, places.folder, run)};
+    const bool feasible = sized.found.feasible();
+    if (!feasible)
+      tell(fmt::format("note: at {:.0f} % of the dresspack's size: {}\n", 100 * factor, obstacle(sized.found)));
+    if (sized.found.best && (!chosen || better(sized.best(), chosen->best())))
+      chosen = std::move(sized);
+    else if (!nearest || sized.found.violation < nearest->found.violation)
+      nearest = std::move(sized);
+    if (feasible) break;
+  }
+  if (!chosen && !nearest->found.nearest.empty()) {
+    const RunRouting run = runner(draft, nearest->factor, options, places);
+    RoutingFound& found = nearest->found;
+    found.add({found.nearest, run(found.nearest, found.motion, found.trials.size())});
+    if (found.best) chosen = std::move(nearest);
+  }
+  return chosen;
+}
+
 int route(const Options& options) {
   const Draft draft = draft_of(options.request);
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
@@ -170,29 +133,12 @@ int route(const Options& options) {
   check_replaceable(page);
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
-  std::optional<Trial> chosen, nearest;
-  for (const double factor : factors_of(options)) {
-    Trial trial = tried(draft, options, factor, places);
-    const bool feasible = trial.feasible();
-    if (!feasible)
-      tell(fmt::format("note: at {:.0f} % of the dresspack's size: {}\n", 100 * factor, obstacle(trial)));
-    const bool nearer = !nearest || violation(trial) < violation(*nearest);
-    if (trial.best && (!chosen || better(trial.outcomes[*trial.best], chosen->outcomes[*chosen->best])))
-      chosen = std::move(trial);
-    else if (nearer)
-      nearest = std::move(trial);
-    if (feasible) break;
-  }
-  if (!chosen && std::isfinite(violation(*nearest))) {
-    run(*nearest, 0, draft, options, places);
-    if (nearest->best) chosen = std::move(nearest);
-  }
+  const std::optional<Sized> chosen = found_in_sizes(draft, options, places);
   if (!chosen)
     throw InputError({options.request.of},
                      "no routing was found that runs (the notes above say what stands against it)",
                      "try other links (--from, --to), another --seed, a ring, or a gentler program");
-  const std::string& routing = chosen->proposals.candidates[*chosen->best].changes;
-  const Node document = routed(draft, routing, chosen->proposals.motion, chosen->factor);
+  const Node document = routed(draft, chosen->best().routing, chosen->found.motion, chosen->factor);
   write_text_if_changed(job, fmt::format("{} {}\n{}", mark, options.request.of, to_yaml(document)));
   write_page(job, page);
   print(shown(words_of(*chosen, draft)));
@@ -223,21 +169,21 @@ Command add_route(CLI::App& program) {
       ->type_name("LINK");
   words->add_option("--to", options->request.tool_link, "link of the tool clamp; else the job's, or the last")
       ->type_name("LINK");
-  words->add_option("--ring", options->ring, "also a guide ring on this link")->type_name("LINK");
+  words->add_option("--ring", options->search.ring_link, "also a guide ring on this link")->type_name("LINK");
   words->add_option("--scale", options->scale, "of the dresspack's size; auto: as it is, or as big as goes")
       ->type_name("auto|FACTOR")
       ->capture_default_str();
-  words->add_option("--tried", options->tried, "routings that geometry looks at, of each size")
+  words->add_option("--tried", options->search.tried, "routings that geometry looks at, of each size")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("COUNT")
       ->capture_default_str();
   words
-      ->add_option("--rehearsals", options->rehearsals,
-                   "short runs that the best of them are tried in and changed by, of each size")
+      ->add_option("--rehearsals", options->search.rehearsals,
+                   "short runs by which the search goes on from the best of them, of each size")
       ->check(CLI::Range(1, 100'000))
       ->type_name("COUNT")
       ->capture_default_str();
-  words->add_option("--seed", options->seed, "of the search's chances")
+  words->add_option("--seed", options->search.seed, "of the search's chances")
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   words->add_option("--job", options->job, "job to write; else NAME_routed.yaml here")

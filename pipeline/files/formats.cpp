@@ -676,7 +676,7 @@ Format make_preview_format() {
 }
 
 Format make_screening_format() {
-  Format format{"dresslife-screening", 1, "dresslife-sim --screen or --propose",
+  Format format{"dresslife-screening", 1, "dresslife-sim --screen",
                 "what geometry alone, or a short run, says of routings", {}, {}};
   const auto add = [&](Dataset dataset) { format.datasets.push_back(std::move(dataset)); };
   add({"/limit/name", Type::text, {"limit"}, "1",

@@ -7,8 +7,9 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
-#include "sim/route/proposal.h"
+#include "pipeline/settings/fields.h"
 #include "sim/route/rehearsal.h"
+#include "sim/route/routing_box.h"
 
 namespace dresslife::sim {
 namespace {
@@ -72,13 +73,13 @@ class Writer {
 /// Screeners are kept as long as robot and motion stay.
 class Bench {
  public:
-  Screening screen(const pipeline::Setup& setup, const Node& document) {
+  const Screener& screener(const pipeline::Setup& setup, const Node& document) {
     const std::string key = text_of(document, "robot") + text_of(document, "motion") + poses_of(setup);
     if (!screener_ || key != key_) {
       screener_.emplace(setup);
       key_ = key;
     }
-    return screener_->screen(setup);
+    return *screener_;
   }
 
  private:
@@ -96,44 +97,6 @@ class Bench {
   std::optional<Screener> screener_;
   std::string key_;
 };
-
-Verdict verdict_of(Bench& bench, Node document, const Node& changes) {
-  Verdict verdict;
-  verdict.changes = pipeline::to_yaml(changes);
-  verdict.screening.beyond.fill(0);
-  verdict.screening.time.fill(0);
-  try {
-    for (const pipeline::Entry& change : changes.entries)
-      pipeline::set_value(document, change.key, change.value, change.where);
-    pipeline::resolve_job(document);
-    const pipeline::Setup setup = pipeline::setup_from(document);
-    if (setup.motion.is_prescribed())
-      throw InputError(setup.motion.where, "a prescribed deformation has no routing to screen",
-                       "leave it as it is");
-    verdict.screening = bench.screen(setup, document);
-    verdict.setup = setup;
-  } catch (const InputError& problem) {
-    verdict.refusal = problem.what();
-  }
-  return verdict;
-}
-
-/// Runs them, one beside the other. Of what does not run geometry says how far it is from that.
-void rehearse(std::vector<Verdict>& verdicts) {
-  std::vector<Verdict*> left;
-  for (Verdict& verdict : verdicts)
-    if (verdict.setup) left.push_back(&verdict);
-  std::vector<Rehearsal> done(left.size());
-  const std::size_t threads = std::min(pipeline::thread_count(), left.size());
-  pipeline::in_parallel(threads, [&](std::size_t part) {
-    for (std::size_t k = part; k < left.size(); k += threads)
-      done[k] = rehearsed(*left[k]->setup, rehearsed_segments, rehearsed_repeats);
-  });
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    left[k]->refusal = done[k].refusal;
-    if (done[k].refusal.empty()) left[k]->screening = done[k].seen, left[k]->bends = std::move(done[k].bends);
-  }
-}
 
 std::string vector_text(const pipeline::Vector3d& v, int decimals) {
   std::string text;
@@ -164,35 +127,87 @@ std::string routing_text(const pipeline::Routing& routing) {
                             routing.free_length);
 }
 
+constexpr const char* box_key = "routing_at";  // of a candidate that is a place of the routing box
+
+std::vector<double> place_in_box(const Node& changes) {
+  std::vector<double> place;
+  pipeline::read_fields(changes, pipeline::Describe([&](pipeline::Fields& f) {
+                          f.numbers(box_key, place, pipeline::Need::required, "");
+                        }));
+  return place;
+}
+
+/// The candidate's changes in the job's tree, as YAML.
+std::string change(Node& document, const Node& changes, const RoutingBox* box) {
+  if (!changes.find(box_key)) {
+    for (const pipeline::Entry& entry : changes.entries)
+      pipeline::set_value(document, entry.key, entry.value, entry.where);
+    return pipeline::to_yaml(changes);
+  }
+  const std::string text = routing_text(box->routing_at(place_in_box(changes)));
+  Node& routing = document["routing"];
+  std::erase_if(routing.entries, [](const pipeline::Entry& entry) { return entry.key == "rings"; });
+  for (const pipeline::Entry& entry : pipeline::parse_yaml(text, box_key).entries)
+    routing[entry.key] = entry.value;
+  return text;
+}
+
+Verdict verdict_of(Bench& bench, Node document, const Node& changes, const RoutingBox* box) {
+  Verdict verdict;
+  verdict.changes = pipeline::to_yaml(changes);
+  verdict.screening.beyond.fill(0);
+  verdict.screening.time.fill(0);
+  try {
+    verdict.changes = change(document, changes, box);
+    pipeline::resolve_job(document);
+    const pipeline::Setup setup = pipeline::setup_from(document);
+    if (setup.motion.is_prescribed())
+      throw InputError(setup.motion.where, "a prescribed deformation has no routing to screen",
+                       "leave it as it is");
+    verdict.screening = bench.screener(setup, document).screen(setup);
+    verdict.setup = setup;
+  } catch (const InputError& problem) {
+    verdict.refusal = problem.what();
+  }
+  return verdict;
+}
+
+/// Runs them, one beside the other. Of what does not run geometry says how far it is from that.
+void rehearse(std::vector<Verdict>& verdicts) {
+  std::vector<Verdict*> left;
+  for (Verdict& verdict : verdicts)
+    if (verdict.setup) left.push_back(&verdict);
+  std::vector<Rehearsal> done(left.size());
+  const std::size_t threads = std::min(pipeline::thread_count(), left.size());
+  pipeline::in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t k = part; k < left.size(); k += threads)
+      done[k] = rehearsed(*left[k]->setup, rehearsed_segments, rehearsed_repeats);
+  });
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    left[k]->refusal = done[k].refusal;
+    if (done[k].refusal.empty()) left[k]->screening = done[k].seen, left[k]->bends = std::move(done[k].bends);
+  }
+}
+
 }  // namespace
 
-void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates, bool in_runs,
-                     pipeline::FileWriter& file) {
-  const Node list = pipeline::read_yaml(candidates);
+void write_screening(const pipeline::Job& job, const ScreeningRequest& request, pipeline::FileWriter& file) {
+  const Node list = pipeline::read_yaml(request.candidates);
   if (!list.is_list())
     throw InputError(list.where, "holds no list of changes", "write a list of maps {KEY.PATH: VALUE}");
-  const Node document = pipeline::parse_yaml(pipeline::job_text(job), candidates.string());
+  const Node document = pipeline::parse_yaml(pipeline::job_text(job), request.candidates.string());
   std::vector<Verdict> verdicts;
   Bench bench;
+  std::optional<RoutingBox> box;
   for (const Node& changes : list.items) {
     if (!changes.is_map())
       throw InputError(changes.where, "is no map of key paths to values", "write {KEY.PATH: VALUE, ...}");
-    verdicts.push_back(verdict_of(bench, document, changes));
+    if (changes.find(box_key) && !box) box.emplace(job, bench.screener(job, document), request.ring_link);
+    verdicts.push_back(verdict_of(bench, document, changes, box ? &*box : nullptr));
   }
-  if (in_runs) rehearse(verdicts);
+  if (request.in_runs) rehearse(verdicts);
   Writer(file).write(verdicts);
-  file.attribute("motion", "");
-}
-
-void write_proposals(const pipeline::Job& job, const ProposalSettings& settings, pipeline::FileWriter& file) {
-  std::vector<Verdict> verdicts;
-  for (const Proposal& proposal : propose(job, settings)) {
-    const bool rehearsed = settings.rehearsals > 0 && proposal.rehearsal.refusal.empty();
-    verdicts.push_back({routing_text(proposal.routing), proposal.rehearsal.refusal,
-                        rehearsed ? proposal.rehearsal.seen : proposal.screening});
-  }
-  Writer(file).write(verdicts);
-  file.attribute("motion", pipeline::motion_text(job.motion));
+  file.attribute("motion", request.exercise ? pipeline::motion_text(job.motion) : "");
 }
 
 }  // namespace dresslife::sim

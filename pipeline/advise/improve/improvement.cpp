@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "pipeline/advise/improve/obstacle.h"
+#include "pipeline/advise/improve/rehearsed.h"
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
 #include "pipeline/job/job.h"
@@ -197,17 +198,6 @@ class Improver {
     }
     done_.rehearsals += static_cast<int>(places.size() * screened_.size());
     return looks;
-  }
-
-  static void add_rehearsal(Look& look, const ScreenedList& list, const ScreenedCandidate& candidate) {
-    const bool runs = candidate.refusal.empty();
-    if (!runs && look.ran) look = {look.place, false, {}, {}};
-    if (runs != look.ran) return;
-    const std::vector<double> beyond =
-        runs ? limits_of_rehearsal(list.limits, candidate.beyond) : candidate.beyond;
-    if (runs) add_bends(look.pieces, candidate.bends);
-    if (look.beyond.empty()) look.beyond = beyond;
-    for (std::size_t k = 0; k < beyond.size(); ++k) look.beyond[k] = std::max(look.beyond[k], beyond[k]);
   }
 
   std::vector<double> surely_beyond(const std::vector<VectorXd>& places) const {

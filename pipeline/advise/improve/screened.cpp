@@ -49,7 +49,7 @@ ScreenedList read_screening(const std::filesystem::path& path) {
 }
 
 ScreenedList screening_of(const Job& job, const std::string& candidates, ScreenedBy by,
-                          const std::filesystem::path& folder) {
+                          const std::filesystem::path& folder, const std::vector<std::string>& options) {
   const std::filesystem::path draft = folder / "screened.yaml", list = folder / "candidates.yaml";
   write_text_if_changed(draft, job_text(job), Sync::never);
   write_text_if_changed(list, candidates, Sync::never);
@@ -57,6 +57,7 @@ ScreenedList screening_of(const Job& job, const std::string& candidates, Screene
   std::vector<std::string> arguments{draft.string(), "--screen",           list.string(),
                                      "-o",           told.path().string(), "--quiet"};
   if (by == ScreenedBy::short_runs) arguments.push_back("--rehearse");
+  arguments.insert(arguments.end(), options.begin(), options.end());
   return run_stage_program("dresslife-sim", arguments) == 0 ? read_screening(told.path()) : ScreenedList{};
 }
 

@@ -71,15 +71,18 @@ SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& setti
     for (const double weight : {1.0, 0.5, 0.8, 0.2, 0.9}) regions_.push_back({weight, first_width});
 }
 
+/// Anywhere in the box.
+VectorXd SurrogateSearch::drawn() {
+  VectorXd place(variables_);
+  for (double& u : place) u = numbers_.uniform();
+  return place;
+}
+
 /// Far from all looks, and not rejected where that is possible.
 VectorXd SurrogateSearch::first_look() {
-  constexpr int drawn = 40;
+  constexpr int count = 40;
   std::vector<VectorXd> some;
-  for (int k = 0; k < drawn; ++k) {
-    VectorXd place(variables_);
-    for (double& u : place) u = numbers_.uniform();
-    some.push_back(std::move(place));
-  }
+  for (int k = 0; k < count; ++k) some.push_back(drawn());
   const std::vector<double> beyond = rehearse_ ? std::vector<double>(some.size(), 0.0) : screen_(some);
   std::size_t best = 0;
   for (std::size_t k = 1; k < some.size(); ++k)
@@ -228,10 +231,25 @@ std::vector<Look> SurrogateSearch::rehearsals_from(std::size_t first) const {
   return {rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end()};
 }
 
+/// So many, each the one of its share of what is drawn that the screen finds least beyond.
+std::vector<VectorXd> SurrogateSearch::screened_spread(int count) {
+  const auto share = static_cast<std::size_t>(std::max(1, settings_.screened / std::max(1, count)));
+  std::vector<VectorXd> some, spread;
+  while (some.size() < share * static_cast<std::size_t>(count)) some.push_back(drawn());
+  const std::vector<double> beyond = screen_(some);
+  for (std::size_t k = 0; k < some.size(); k += share) {
+    const auto first = beyond.begin() + static_cast<std::ptrdiff_t>(k);
+    const auto least = std::min_element(first, first + static_cast<std::ptrdiff_t>(share));
+    spread.push_back(some[static_cast<std::size_t>(least - beyond.begin())]);
+  }
+  return spread;
+}
+
 /// So many, far from each other and from all looks; about the nearest of them the search ahead begins.
 void SurrogateSearch::rehearse_spread(int count) {
   ahead_from_ = rehearsals_.size();
   ahead_width_ = first_width;
+  if (settings_.screened > 0) return rehearse(screened_spread(count));
   std::vector<VectorXd> spread;
   while (static_cast<int>(spread.size()) < count) {
     spread.push_back(first_look());

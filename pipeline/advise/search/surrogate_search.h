@@ -17,6 +17,7 @@ struct SurrogateSettings {
   int first_looks = 0;   ///< spread over the box before a model is made; 0: twice as many as variables, and 2
   std::size_t aims = 1;  ///< 2: places along the front between both
   int rehearsals = 0;    ///< most before the first look is asked for; 0: 40 times as many as variables
+  int screened = 0;      ///< places drawn, of which the screen takes those that are rehearsed first; 0: none
 };
 
 class SurrogateSearch : public Search {
@@ -44,6 +45,7 @@ class SurrogateSearch : public Search {
     bool anywhere;             ///< else in the trust region
   };
 
+  Eigen::VectorXd drawn();
   Eigen::VectorXd first_look();
   double distance_to_known(const Eigen::VectorXd& place) const;
   LookModels models_of(const std::vector<Look>& looks, std::size_t first = 0);
@@ -55,6 +57,7 @@ class SurrogateSearch : public Search {
                                  const Trust& trust);
   Eigen::VectorXd nearest_rehearsal(const LookModels& models, std::size_t first = 0) const;
   std::vector<Look> rehearsals_from(std::size_t first) const;
+  std::vector<Eigen::VectorXd> screened_spread(int count);
   void rehearse_spread(int count);
   std::vector<Eigen::VectorXd> next_rehearsals(LookModels& models, const Eigen::VectorXd& centre,
                                                std::size_t count);

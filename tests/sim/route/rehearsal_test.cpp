@@ -1,16 +1,11 @@
-// What a search is told of a short run, against the run itself; and routings that keep their limits in it.
+// What a search is told of a short run, against the run itself.
 #include "sim/route/rehearsal.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
-#include "pipeline/advise/improve/scaled.h"
-#include "pipeline/resolve/job_text.h"
-#include "sim/route/exercise.h"
-#include "sim/route/proposal.h"
 #include "sim/run/simulate.h"
 #include "tests/sim/simple_job.h"
 
@@ -83,25 +78,6 @@ TEST_CASE("bends of a rehearsal are told by moment and stretch, and their larges
   CHECK(largest <= beyond(found, ScreenedLimit::bend) + 1e-12);
   constexpr double between_samples = 0.01;  // what bends in seconds, seen every 40 ms
   CHECK(largest > beyond(found, ScreenedLimit::bend) - between_samples);
-}
-
-TEST_CASE("proposals that were rehearsed keep all limits in the job's own run") {
-  pipeline::Job job = pipeline::read_job(
-      std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
-      {"robot=abb_irb2600_12_165", "simulation.segments=20"});
-  job.motion = exercise(job.robot);
-  job.dresspacks.front().dresspack = pipeline::scaled(job.dresspacks.front().dresspack, 0.3);
-  ProposalSettings settings;
-  settings.tried = 120;
-  settings.rehearsals = 60;
-  const Proposal found = propose(job, settings).front();
-  REQUIRE(found.rehearsal.refusal.empty());
-  CHECK(found.rehearsal.seen.violation() == 0);
-  job.dresspacks.front().routing = found.routing;
-  for (const Check& check : checks_of(job)) {
-    INFO(check.name << " " << check.value << " of " << check.limit);
-    CHECK_FALSE(check.warning);
-  }
 }
 
 }  // namespace dresslife::sim

@@ -1,4 +1,4 @@
-// What geometry alone says of a routing, against closed forms; and routings that are proposed by it.
+// What geometry alone says of a routing, against closed forms.
 #include "sim/route/screening.h"
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,6 @@
 #include "pipeline/resolve/job_text.h"
 #include "sim/robot/robot.h"
 #include "sim/route/exercise.h"
-#include "sim/route/proposal.h"
 #include "sim/run/clamp_path.h"
 #include "tests/sim/simple_job.h"
 
@@ -89,26 +88,6 @@ TEST_CASE("a shipped routing passes the screening, and what cannot work does not
   CHECK_FALSE(screener.screen(job).rejected());
   CHECK(screener.screen(shipped_job({"routing.free_length_m=1.5"})).rejected());
   CHECK(screener.screen(shipped_job({"routing.tool_clamp.direction=[-1, 0, 0.35]"})).rejected());
-}
-
-TEST_CASE("proposals keep what the screening asks and are the same for the same seed") {
-  const pipeline::Job job = shipped_job();
-  ProposalSettings settings;
-  settings.count = 2;
-  settings.tried = 150;
-  const std::vector<Proposal> first = propose(job, settings), again = propose(job, settings);
-  REQUIRE(first.size() == 2);
-  CHECK_FALSE(first.front().screening.rejected());
-  CHECK(first.front().missing <= first.back().missing);
-  for (std::size_t k = 0; k < first.size(); ++k) {
-    CHECK(first[k].routing.base_clamp->link == "link_3");
-    CHECK(first[k].routing.tool_clamp->link == "link_6");
-    CHECK(first[k].routing.free_length == again[k].routing.free_length);
-    CHECK(first[k].routing.base_clamp->position == again[k].routing.base_clamp->position);
-  }
-  settings.seed = 2;
-  CHECK(propose(job, settings).front().routing.base_clamp->position !=
-        first.front().routing.base_clamp->position);
 }
 
 TEST_CASE("every shipped robot has a home pose with its forearm level, and an exercise that it can run") {

@@ -1,4 +1,4 @@
-#include "pipeline/advise/improve/scaled.h"
+#include "pipeline/advise/route/scaled.h"
 
 #include <fmt/format.h>
 

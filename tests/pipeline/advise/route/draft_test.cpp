@@ -5,9 +5,9 @@
 #include <fstream>
 #include <limits>
 
-#include "pipeline/advise/improve/draft.h"
+#include "pipeline/advise/route/draft.h"
 #include "pipeline/advise/improve/outcome.h"
-#include "pipeline/advise/improve/scaled.h"
+#include "pipeline/advise/route/scaled.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/resolve/job_text.h"
 

@@ -1,11 +1,11 @@
-#include "pipeline/advise/improve/draft.h"
+#include "pipeline/advise/route/draft.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "pipeline/advise/improve/scaled.h"
+#include "pipeline/advise/route/scaled.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
