@@ -108,3 +108,15 @@ TEST_CASE("the later stages refuse files that are not theirs, cut off or damaged
                 "motion.h5: error: is the input itself", "strain.h5");
   CHECK(content(scratch / "motion.h5") == whole);
 }
+
+TEST_CASE("the stages that need no robot say how a job with a URDF gets to them") {
+  Scratch scratch;
+  write_small_job(scratch);
+  REQUIRE(run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --quiet").status == 0);
+  scratch.write("with_urdf.yaml", content(scratch / "job.yaml") + "robot: {urdf: arm.urdf}\n");
+  const Outcome told = run(scratch, "dresslife-strain", "motion.h5 --job with_urdf.yaml -o strain.h5 --quiet");
+  check_refused(scratch, told,
+                "arm.urdf: error: is a URDF, which this stage does not read (it needs no robot); name the "
+                "resolved job after --job: dresslife show JOB.yaml > RESOLVED.yaml",
+                "strain.h5");
+}
