@@ -1,0 +1,53 @@
+// Warnings: results stand, but a person should look before believing them. Each stage writes its own, after
+// those of the file that it read, into the root attribute `warnings` of its output, so that the last file has
+// all of a job.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dresslife::pipeline {
+
+/// What is not as it should be; a column KIND_ok of ranking.csv each.
+enum class WarningKind {
+  program,      ///< instructions of a robot program that may move it were left out
+  bend_radius,  ///< the dresspack bends tighter than allowed
+  twist,        ///< it is twisted more than allowed
+  tension,      ///< it is pulled harder than allowed
+  slack,        ///< it is too short or too long, or its retraction unit too short
+  periodic,     ///< the motion did not become periodic
+  overlap,      ///< parts of the dresspack lie in each other
+  mesh,         ///< segments are too long for what is evaluated
+  force,        ///< strains rest on forces that nobody sees
+  material,     ///< constants of a material contradict each other
+  strain,       ///< strains that no wire is meant for
+  calibration   ///< the job goes beyond the tests from which its calibration was learned
+};
+inline constexpr int warning_kinds_count = static_cast<int>(WarningKind::calibration) + 1;
+
+/// "bend_radius": in files and names of columns.
+const char* word(WarningKind kind);
+/// "bend radius", "skipped instructions": for people.
+const char* title(WarningKind kind);
+
+struct Warning {
+  WarningKind kind{};
+  std::string where;  ///< "side_panel.mod:45"; empty: of the whole job
+  std::string words;  ///< what, and what to do; one line
+  /// "side_panel.mod:45: warning: skipped: ..."
+  std::string line() const;
+  /// The same for a table that holds nothing but warnings.
+  std::string text() const;
+  bool operator==(const Warning&) const = default;
+};
+
+/// For the attribute: a line each, kind, place and words between tabs. No warning is cut; where all of them do not fit
+/// into an attribute (60,000 bytes), the first ones are kept and the last line says how many are left out.
+std::string warnings_text(const std::vector<Warning>& warnings);
+/// And back. Lines that are none, of a newer program perhaps, are left out.
+std::vector<Warning> warnings_from(const std::string& text);
+
+/// After those of the file before; each once.
+std::vector<Warning> joined(std::vector<Warning> earlier, const std::vector<Warning>& own);
+
+}  // namespace dresslife::pipeline
