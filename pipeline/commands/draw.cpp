@@ -18,7 +18,7 @@ struct Options {
 };
 
 int draw(const Options& options) {
-  if (!options.picture.empty()) check_picture(options.picture);
+  if (!options.picture.empty()) check_replaceable(options.picture);
   const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"));
   print(shown(construction_text(dresspack)));
   for (const Warning& warning : joined(overlap_warnings(dresspack), stiffness_warnings(dresspack)))

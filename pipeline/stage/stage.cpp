@@ -14,7 +14,7 @@
 #include "pipeline/base/limits.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/files/checksum.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -36,31 +36,15 @@ const char* part_name(Part part) {
   return "";
 }
 
-/// A result that a user can make again at any time: ours, or nothing yet.
-bool may_be_replaced(const StageCall& call) {
-  const FileState state = state_of(call.output);
-  if (!state.exists() || state.size == 0) return true;
-  if (call.info.part) return is_dresslife_file(call.output);
-  return read_text(call.output).find("source: imported from ") != std::string::npos;
-}
-
-void check_output(const StageCall& call, bool force) {
+void check_output(const StageCall& call, const StageFlags& flags) {
+  if (flags.force) let_replace_files_of_others();
+  if (!flags.receipt.empty()) check_replaceable(flags.receipt);
   if (call.info.may_lack_output && call.output.empty()) return;
-  check_replaceable(call.output);
-  std::error_code failure;
-  for (const StageInput& input : call.inputs)
-    if (std::filesystem::equivalent(input.file, call.output, failure))
-      throw InputError({call.output.string()},
-                       input.file == call.input ? "is the input itself" : "is one of the files that are read",
-                       "name another output after -o");
   const auto folder = call.output.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder, failure))
+  if (!folder.empty() && kind_of(folder) != FileKind::folder)
     throw InputError({call.output.string()}, "lies in a folder that does not exist",
                      fmt::format("make {} first", folder.string()));
-  if (!force && !may_be_replaced(call))
-    throw InputError({call.output.string()},
-                     fmt::format("is there already and no {} of {}'s", call.info.output, call.info.program),
-                     "name another file after -o, or replace it with --force");
+  check_replaceable(call.output);
 }
 
 /// Of the file behind links: inputs may lie anywhere.
@@ -73,6 +57,8 @@ FileState input_state(const std::filesystem::path& file) {
 /// Two changes within one tick of the clock of file times have the same state: of a file that was changed so
 /// lately, or by a clock that ran ahead, the bytes count.
 StageInput input_as_it_is(const std::filesystem::path& file) {
+  if (kind_of(file) == FileKind::other) PlainFile{file};  // refuses it
+  note_input(file);
   constexpr auto tick = std::chrono::milliseconds(10);  // of the slowest kernels
   const FileState state = input_state(file);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -146,8 +132,8 @@ void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt
   std::istringstream lines(read_text(flags.likes));
   for (std::string line; std::getline(lines, line);) folders.push_back(line);
   for (const std::filesystem::path& folder : folders) {
-    std::filesystem::remove(folder / note);  // it tells of a file that is about to go
-    give_output(call.output, folder / name);
+    remove_ours(folder / note);  // it is of a file that is about to go
+    give_second_name(call.output, folder / name);
   }
   write_receipt(flags.receipt, receipt, call.output);
   for (const std::filesystem::path& folder : folders) write_receipt(folder / note, receipt, folder / name);
@@ -172,7 +158,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
     wanted.output = known->output;
     wanted.told = known->told;
   } else {
-    std::filesystem::remove(flags.receipt);  // it tells of a file that is about to go
+    remove_ours(flags.receipt);  // it is of a file that is about to go
     body();
     wanted.output = told_checksum(call.output).value_or("damaged");
     if (call.info.told) wanted.told = call.info.told(call.output);
@@ -197,7 +183,7 @@ void run_body(StageCall& call, const StageFlags& flags,
   if (call.info.part && (call.info.input_is_job || !call.job_file.empty())) settings = settings_of(call);
   if (settings)
     for (const std::filesystem::path& file : settings->files) watch(file);
-  check_output(call, flags.force);
+  check_output(call, flags);
   if (!call.info.input_is_job)  // jobs are short
     call.input_sha256 = beside<std::string>([file = call.input] { return sha256_of_file(file); }).share();
   if (flags.receipt.empty()) return body(call, progress);
@@ -233,20 +219,19 @@ int guarded(const std::string& program, const std::function<int()>& body) {
   } catch (const InputError& problem) {
     tell(fmt::format("{}\n", problem.what()));
     return 1;
+  } catch (const DiskError& problem) {
+    tell(fmt::format("{}\n", problem.what()));
+    return 1;
   } catch (const std::filesystem::filesystem_error& problem) {
     tell(fmt::format("{}: error: {}; check the folder and its permissions\n", problem.path1().string(),
                      problem.code().message()));
     return 1;
   } catch (const std::bad_alloc&) {
-    tell(
-        fmt::format("{}: error: out of memory; run fewer jobs at a time, ask for fewer segments or samples, "
-                    "or allow more\n",
-                    program));
-    return 3;
+    end_without_memory();
   } catch (const std::system_error& problem) {
     tell(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits\n",
                      program, problem.what()));
-    return 3;
+    return 1;
   } catch (const std::exception& problem) {
     tell(fmt::format("{}: error: internal fault ({}); please report it with the job\n", program,
                      problem.what()));
@@ -258,7 +243,7 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
   const std::string own_text = input.text_attribute("job");
   const std::string own_name = input.where().file + " (attribute job)";
   // In a study it is the same text, which need not be understood twice.
-  if (!call.job_file.empty() && call.sets.empty() && read_source(call.job_file) == own_text)
+  if (!call.job_file.empty() && call.sets.empty() && without_mark(read_source(call.job_file)) == own_text)
     return read_job(call.job_file);
   const Job own = job_from(parse_yaml(own_text, own_name));
   const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets)

@@ -288,13 +288,6 @@ class Improver {
   Improvement done_;
 };
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 std::optional<std::size_t> Improvement::best() const {

@@ -1,4 +1,4 @@
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 
 #include <catch2/catch.hpp>
 

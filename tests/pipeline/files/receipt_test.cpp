@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 
 using namespace dresslife::pipeline;
 namespace fs = std::filesystem;
