@@ -2,11 +2,14 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/ownership.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/stage/program_manual.h"
 #include "pipeline/stage/stage.h"
@@ -33,6 +36,11 @@ std::vector<Command> add_commands(CLI::App& program) {
   program.add_subcommand(
       "import",
       "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help");
+  constexpr std::array<std::string_view, 3> write_nothing{"status", "show", "clean"};
+  for (const Command& command : commands)
+    if (std::find(write_nothing.begin(), write_nothing.end(), command.words->get_name()) == write_nothing.end())
+      command.words->add_flag_callback("--force", let_replace_files_of_others,
+                                       "replace files that dresslife did not write; never one that it reads");
   commands.push_back(add_manual(program));
   return commands;
 }

@@ -209,6 +209,7 @@ void check_replaceable(const fs::path& file) {
 }
 
 void let_replace_files_of_others() { policy().replaces_files_of_others = true; }
+bool replaces_files_of_others() { return policy().replaces_files_of_others; }
 
 void note_input(const fs::path& file) {
   struct stat status {};
@@ -219,9 +220,9 @@ void note_input(const fs::path& file) {
 
 bool remove_ours(const fs::path& file) {
   const FileState state = state_of(file);
-  if (!state.exists()) return fs::symlink_status(file).type() == fs::file_type::not_found;
-  if ((state.size == 0 && !lies_in_notes(file)) || !is_ours(file)) return false;
   std::error_code failure;
+  if (!state.exists()) return !fs::exists(fs::symlink_status(file, failure));
+  if ((state.size == 0 && !lies_in_notes(file)) || !is_ours(file)) return false;
   if (fs::remove(file, failure); failure)
     throw InputError({file.string()}, fmt::format("cannot be removed ({})", failure.message()), "remove it");
   return true;

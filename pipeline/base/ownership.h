@@ -41,6 +41,7 @@ bool lies_in_notes(const std::filesystem::path& file);
 void check_replaceable(const std::filesystem::path& file);
 /// Lets this program replace files of others, too, where a user says so (--force). Inputs stay.
 void let_replace_files_of_others();
+bool replaces_files_of_others();
 /// What this program reads for the user it never replaces.
 void note_input(const std::filesystem::path& file);
 

@@ -133,6 +133,12 @@ std::string PlainFile::text() const {
   return beginning(static_cast<std::size_t>(size()));
 }
 
+std::filesystem::path as_seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  // ".." leads out of a folder that is no link.
+  const std::filesystem::path here = std::filesystem::weakly_canonical(folder.empty() ? "." : folder);
+  return std::filesystem::absolute(file).lexically_normal().lexically_relative(here);
+}
+
 std::string read_text(const std::filesystem::path& file) { return PlainFile(file).text(); }
 
 std::string beginning_of(const std::filesystem::path& file, std::size_t bytes) {

@@ -68,6 +68,10 @@ class PlainFile {
   FileState state_;
 };
 
+/// A file's path as it leads there from a folder, so that both can be moved together; both may be given relative to
+/// the current folder. Errors: std::filesystem::filesystem_error.
+std::filesystem::path as_seen_from(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 /// The whole of a text file. Errors: those of PlainFile.
 std::string read_text(const std::filesystem::path& file);
 

@@ -38,7 +38,7 @@ std::string recipe_of(std::string_view settings, const std::vector<std::filesyst
   };
   add(settings);
   for (const std::filesystem::path& file : files) {
-    add(file.string());
+    add(file.filename().string());
     add(digests.of(file));
   }
   add(digests.of(program));

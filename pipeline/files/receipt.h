@@ -44,7 +44,8 @@ struct Receipt {
   std::string recipe, input, output;
   FileState state;
   std::vector<Told> told{};
-  /// What else the recipe is of, with digests: the program by its name, and files by their paths.
+  /// What else the recipe is of, with digests: the program by its name, and files as seen from the folder of the
+  /// output.
   std::vector<std::pair<std::string, std::string>> made_with{};
   std::int64_t written_ns = 0;  ///< when the receipt itself was changed last
   bool state_suffices() const { return state.exists() && written_ns > state.changed_ns; }

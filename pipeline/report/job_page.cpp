@@ -34,8 +34,7 @@ namespace {
 using Reader = std::unique_ptr<const FileReader>;
 
 Reader opened(const std::filesystem::path& file, const Format& format, std::vector<std::string>& notes) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(file, ignored)) return std::make_unique<FileReader>(file, format);
+  if (kind_of(file) == FileKind::file) return std::make_unique<FileReader>(file, format);
   notes.push_back(
       fmt::format("{} is not there (run the job again to see what it tells)", file.filename().string()));
   return nullptr;

@@ -91,8 +91,7 @@ bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && 
 
 /// Of a page beside the job's results, as seen from the study's; empty where there is none.
 std::string page_address(const RankingRow& row, const std::string& page) {
-  std::error_code ignored;
-  if (row.life_file.empty() || !std::filesystem::is_regular_file(row.life_file.parent_path() / page, ignored))
+  if (row.life_file.empty() || kind_of(row.life_file.parent_path() / page) != FileKind::file)
     return "";
   std::string address;
   for (const char c : row.job)
@@ -433,8 +432,7 @@ std::string charts(const RankingRow& row) {
 /// The worst moment as a picture; none when the motion file has been cleared away.
 std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  std::error_code ignored;
-  if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
+  if (!damaged(row) || kind_of(motion) != FileKind::file) return "";
   const std::string picture =
       scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
   return picture.empty()
@@ -447,8 +445,7 @@ std::string scene(const RankingRow& row) {
 /// What a cell designer asks; none when the motion file has been cleared away.
 std::string checks(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(motion, ignored)) return "";
+  if (kind_of(motion) != FileKind::file) return "";
   const std::string table = check_table(motion);
   return table.empty() ? "" : "<h3>Checks of the motion</h3>\n" + table;
 }

@@ -37,7 +37,7 @@ std::optional<int> read_command_line(const StageInfo& info, int argc, char** arg
       app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)
           ->type_name(info.options[i].value)
           ->allow_extra_args(false);
-  app.add_flag("--force", flags.force, "replace an output that is no " + info.output);
+  app.add_flag("--force", flags.force, "replace files that dresslife did not write; never one that it reads");
   if (info.part) {
     CLI::Option* noted =
         app.add_option("--receipt", receipt,

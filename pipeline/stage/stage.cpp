@@ -148,7 +148,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
   wanted.recipe = recipe_of(settings.text, settings.files, program_file(), digests);
   wanted.made_with.emplace_back(call.info.program, digests.of(program_file()));
   for (const std::filesystem::path& file : settings.files)
-    wanted.made_with.emplace_back(file.string(), digests.of(file));
+    wanted.made_with.emplace_back(as_seen_from(call.output.parent_path(), file).string(), digests.of(file));
   wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
   const std::optional<Receipt> known = read_receipt(flags.receipt);
   const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
@@ -239,6 +239,29 @@ int guarded(const std::string& program, const std::function<int()>& body) {
   }
 }
 
+namespace {
+
+/// Lines of a history: the files beside a job that its simulation reads, by their bytes.
+constexpr std::string_view reads = "\n  reads ";
+std::string files_read(const Job& job) {
+  std::string lines;
+  Digests digests;
+  for (const std::filesystem::path& file : files_beside(job))
+    lines += fmt::format("{}{} xxh3-128 {}", reads, file.filename().string(), digests.of(file));
+  return lines;
+}
+
+/// Those lines of a file's history; nothing of files by older programs.
+std::optional<std::string> files_read(const FileReader& file) {
+  std::istringstream history(file.text_attribute("history"));
+  std::string lines;
+  for (std::string line; std::getline(history, line);)
+    if (("\n" + line).starts_with(reads)) lines += '\n' + line;
+  return lines.empty() ? std::nullopt : std::optional(lines);
+}
+
+}  // namespace
+
 Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before) {
   const std::string own_text = input.text_attribute("job");
   const std::string own_name = input.where().file + " (attribute job)";
@@ -254,6 +277,9 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
                        fmt::format("was made with other settings of {} than this job has", part_name(part)),
                        fmt::format("run the stage before again with the same --job and --set, then {}",
                                    call.info.program));
+  if (const auto lines = files_read(input); lines && !call.job_file.empty() && *lines != files_read(job))
+    throw InputError(input.where(), "was made with other files beside the job than this job has",
+                     fmt::format("run the stage before again with the same --job, then {}", call.info.program));
   return job;
 }
 
@@ -272,7 +298,9 @@ void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::s
                                  call.input.filename().string());
   if (!call.job_file.empty()) line += " --job " + call.job_file.filename().string();
   for (const std::string& set : call.sets) line += " --set " + set;
-  file.attribute("job", job_text(job));
+  if (call.info.part == Part::sim) line += files_read(job);
+  const std::filesystem::path& described_by = call.job_file.empty() ? call.input : call.job_file;
+  file.attribute("job", stored_job_text(job, described_by.parent_path()));
   file.attribute("history", earlier.empty() ? line : earlier + "\n" + line);
   file.attribute("input_sha256",
                  call.input_sha256.valid() ? call.input_sha256.get() : sha256_of_file(call.input));

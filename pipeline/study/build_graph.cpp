@@ -148,11 +148,10 @@ std::string rules(const StudyPlaces& places, const StageLimits& limits, const st
     // as the stage.
     text += fmt::format(
         "rule {0}\n  command = exec {9}\"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
-        "--force "
-        "--quiet --job-time {6} --job-memory {7}$likes 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
+        "{10}--quiet --job-time {6} --job-memory {7}$likes 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
         stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(),
         limits.seconds, limits.megabytes, (launcher.empty() ? log_file(stage) : launcher_log(stage)).string(),
-        launching(launcher, stage));
+        launching(launcher, stage), replaces_files_of_others() ? "--force " : "");
   }
   return text;
 }
@@ -458,7 +457,7 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     const fs::path folder = places.job(job.name);
     const bool is_new = fs::create_directory(folder);
     make_notes(folder / ".stage");
-    write_text_if_changed(folder / "job.yaml", with_mark(job_text(*job.job), Mark::yaml), Sync::never);
+    write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml), Sync::never);
     if (states[k].done()) continue;
     for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
       for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])})
