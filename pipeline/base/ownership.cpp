@@ -9,6 +9,7 @@
 #include <mutex>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "pipeline/base/digest.h"
 #include "pipeline/base/whole_file.h"
@@ -22,6 +23,11 @@ constexpr std::string_view notes_name = ".stage", notes_mark = "README";
 constexpr std::string_view words = "Written by dresslife; ", yours = "yours once it is changed ",
                            ours = "made again once it is changed ";
 constexpr std::size_t digest_digits = 32;
+
+/// What our programs put into a folder of notes.
+constexpr std::array<std::string_view, 8> notes{notes_mark,    "study",      "failure",     "memory",
+                                                ".ninja_log",  ".ninja_deps", "build.ninja", ".lock"};
+constexpr std::array<std::string_view, 5> ends_of_notes{".receipt", ".log", ".launcher", ".likes", ".part"};
 
 /// How files of ours begin that have no line of comment, and those of older versions, which had none.
 struct Beginning {
@@ -243,7 +249,21 @@ void make_notes(const fs::path& folder) {
 
 void remove_notes(const fs::path& folder) {
   std::error_code failure;
-  if (fs::exists(fs::symlink_status(folder, failure)) && is_notes(folder)) fs::remove_all(folder, failure);
+  if (fs::symlink_status(folder, failure).type() != fs::file_type::directory || !is_notes(folder)) return;
+  std::vector<fs::path> files, folders{folder};
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const std::string name = path.filename().string(), end = path.extension().string();
+    const bool is_note = std::find(notes.begin(), notes.end(), name) != notes.end() ||
+                         std::find(ends_of_notes.begin(), ends_of_notes.end(), end) != ends_of_notes.end();
+    if (entry.is_symlink()) continue;
+    if (entry.is_directory())
+      folders.push_back(path);
+    else if (is_note)
+      files.push_back(path);
+  }
+  for (const fs::path& file : files) fs::remove(file, failure);
+  for (auto at = folders.rbegin(); at != folders.rend(); ++at) fs::remove(*at, failure);  // those that are empty now
 }
 
 }  // namespace dresslife::pipeline

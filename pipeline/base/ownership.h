@@ -52,7 +52,7 @@ bool remove_ours(const std::filesystem::path& file);
 /// Makes a folder, of the name .stage, for what our programs note beside results; all in it is ours. Errors:
 /// InputError when it is there already and not ours, or cannot be made.
 void make_notes(const std::filesystem::path& folder);
-/// Removes such a folder with all that is in it; leaves any other.
+/// Removes what our programs have put into such a folder, and the folder when nothing else is in it; leaves any other.
 void remove_notes(const std::filesystem::path& folder);
 
 }  // namespace dresslife::pipeline
