@@ -34,7 +34,7 @@ struct Beginning {
   std::string_view begins, contains = "";
 };
 constexpr std::array beginnings{
-    Beginning{"dresslife file\n"},                                     // HDF5 (files/checksum.h)
+    Beginning{"dresslife file\n"},                                     // HDF5 (pipeline/files/checksum.h)
     Beginning{"recipe "},                                              // receipts
     Beginning{"dresslife study "},                                     // what a run notes of its study
     Beginning{"== dresslife-"},                                        // logs
@@ -102,7 +102,7 @@ std::size_t place_of_mark(std::string_view text, Mark mark) {
   return behind_first_line ? text.find('\n') + 1 : 0;
 }
 
-/// What a job's last attempt failed of begins with three digests (study/build_graph.cpp).
+/// What a job's last attempt failed of begins with three digests (pipeline/study/build_graph.cpp).
 bool is_note_of_failure(const fs::path& file) {
   const std::string begin = beginning_of(file, 3 * (digest_digits + 1));
   return file.filename() == "failure" && begin.size() == 3 * (digest_digits + 1) && begin.back() == '\n' &&
@@ -234,6 +234,11 @@ bool remove_ours(const fs::path& file) {
   return true;
 }
 
+void remove_empty(const fs::path& folder) {
+  std::error_code failure;
+  if (fs::is_empty(folder, failure) && !failure) fs::remove(folder, failure);
+}
+
 void make_notes(const fs::path& folder) {
   std::error_code failure;
   const fs::file_status status = fs::symlink_status(folder, failure);
@@ -263,7 +268,7 @@ void remove_notes(const fs::path& folder) {
       files.push_back(path);
   }
   for (const fs::path& file : files) fs::remove(file, failure);
-  for (auto at = folders.rbegin(); at != folders.rend(); ++at) fs::remove(*at, failure);  // those that are empty now
+  for (auto at = folders.rbegin(); at != folders.rend(); ++at) remove_empty(*at);
 }
 
 }  // namespace dresslife::pipeline

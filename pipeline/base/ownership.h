@@ -49,6 +49,9 @@ void note_input(const std::filesystem::path& file);
 /// and cannot be removed.
 bool remove_ours(const std::filesystem::path& file);
 
+/// Removes a folder when nothing is in it.
+void remove_empty(const std::filesystem::path& folder);
+
 /// Makes a folder, of the name .stage, for what our programs note beside results; all in it is ours. Errors:
 /// InputError when it is there already and not ours, or cannot be made.
 void make_notes(const std::filesystem::path& folder);

@@ -36,11 +36,10 @@ std::uintmax_t bytes_in(const fs::path& folder) {
 /// Of a job that the study has no more: our files, and the folder if nothing else is in it.
 void remove_job(const fs::path& folder, Freed& freed) {
   const std::uintmax_t before = bytes_in(folder);
-  std::error_code ignored;
   for (const char* file : own_files) remove_ours(folder / file);
   remove_notes(folder / ".stage");
   const std::uintmax_t left = bytes_in(folder);
-  if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
+  remove_empty(folder);
   freed.bytes += before - left;
   ++freed.folders;
 }

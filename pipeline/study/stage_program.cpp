@@ -15,6 +15,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/whole_file.h"
 
 namespace dresslife::pipeline {
 
@@ -60,8 +61,9 @@ PassingFile::PassingFile(const std::string& name) {
 }
 
 PassingFile::~PassingFile() {
-  std::error_code ignored;
-  std::filesystem::remove_all(file_.parent_path(), ignored);
+  remove_leftovers(file_.parent_path());
+  remove_ours(file_);
+  remove_empty(file_.parent_path());
 }
 
 }  // namespace dresslife::pipeline
