@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "pipeline/base/limits.h"
+
 namespace dresslife::pipeline {
 namespace {
 

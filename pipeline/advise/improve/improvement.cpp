@@ -11,6 +11,7 @@
 #include "pipeline/advise/improve/obstacle.h"
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
