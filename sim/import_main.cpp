@@ -1,9 +1,9 @@
 // dresslife-import: a robot program in, the same motion as YAML out.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "pipeline/base/limits.h"
 #include "pipeline/base/whole_file.h"
@@ -15,7 +15,13 @@ namespace {
 
 using namespace dresslife;
 
-enum Option { routine, assume, module, frames, value, passes, explain };
+/// What the options of this program ask for.
+struct Request {
+  std::string routine, frames;
+  std::vector<std::string> assume, modules, values;
+  std::optional<int> passes;
+  bool explain = false;
+};
 
 /// "NAME=VALUE" cut at its first or last '='.
 std::pair<std::string, std::string> halves(const std::string& option, const std::string& written,
@@ -26,37 +32,30 @@ std::pair<std::string, std::string> halves(const std::string& option, const std:
   return {written.substr(0, equals), written.substr(equals + 1)};
 }
 
-pipeline::Motion request(const pipeline::StageCall& call) {
-  const auto& given = call.options;
+pipeline::Motion motion_asked_for(const Request& request, const std::filesystem::path& program) {
   pipeline::Motion motion;
-  if (!given[frames].empty()) motion = pipeline::motion_from(pipeline::read_yaml(given[frames].back()));
-  motion.program = call.input;
-  const std::filesystem::path input = std::filesystem::absolute(call.input).lexically_normal();
+  if (!request.frames.empty()) motion = pipeline::motion_from(pipeline::read_yaml(request.frames));
+  motion.program = program;
+  const std::filesystem::path input = std::filesystem::absolute(program).lexically_normal();
   motion.source = "imported from " + (input.has_filename() ? input : input.parent_path()).filename().string();
-  if (!given[routine].empty()) motion.routine = given[routine].back();
-  for (const std::string& written : given[assume]) {
+  if (!request.routine.empty()) motion.routine = request.routine;
+  for (const std::string& written : request.assume) {
     const auto [line, take] = halves("--assume", written, written.rfind('='), "main.mod:12=then");
     motion.assume.push_back({line, take});
   }
-  for (const std::string& file : given[module]) motion.modules.push_back({file});
-  for (const std::string& written : given[value]) {
+  for (const std::string& file : request.modules) motion.modules.push_back({file});
+  for (const std::string& written : request.values) {
     const auto [name, text] = halves("--value", written, written.find('='), "di5=1");
     motion.values.push_back({name, text});
   }
-  if (!given[passes].empty()) {
-    const std::string& written = given[passes].back();
-    const char* end = written.data() + written.size();
-    const auto read = std::from_chars(written.data(), end, motion.passes);
-    if (read.ec != std::errc() || read.ptr != end || motion.passes < 1)
-      throw pipeline::InputError({"--passes " + written}, "is no number of passes",
-                                 "write a whole number from 1 on");
-  }
+  if (request.passes) motion.passes = *request.passes;
   return motion;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  Request request;
   const pipeline::StageInfo info{
       .program = "dresslife-import",
       .purpose =
@@ -70,26 +69,32 @@ int main(int argc, char** argv) {
       .may_lack_output = true,
       .options = {{"--routine", "NAME",
                    "where to start, with arguments where it takes some: 'name(1, p20)'; without it "
-                   "main, or the first routine"},
+                   "main, or the first routine",
+                   &request.routine},
                   {"--assume", "LINE=then|else|VALUE",
                    "how a branch goes that hangs on inputs, or the value by which a "
-                   "choice of several goes; LINE may be FILE:LINE"},
-                  {"--module", "FILE", "a further module, data file or called program"},
-                  {"--frames", "FILE.yaml", "tools and work_objects that lie in the controller"},
+                   "choice of several goes; LINE may be FILE:LINE",
+                   &request.assume},
+                  {"--module", "FILE", "a further module, data file or called program", &request.modules},
+                  {"--frames", "FILE.yaml", "tools and work_objects that lie in the controller",
+                   &request.frames},
                   {"--value", "NAME=VALUE",
-                   "an input, register, variable or position that only the running robot knows"},
-                  {"--passes", "N", "of an endless main loop; without it until the program repeats itself"},
+                   "an input, register, variable or position that only the running robot knows",
+                   &request.values},
+                  {"--passes", "N", "of an endless main loop; without it until the program repeats itself",
+                   &request.passes, {.range = {{1, 1'000'000'000}}}},
                   {"--explain", "",
-                   "print each move with tool, work object, speed and zone, and where each comes from"}}};
+                   "print each move with tool, work object, speed and zone, and where each comes from",
+                   &request.explain}}};
   return pipeline::run_stage(
-      info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
-        if (call.output.empty() && call.options[explain].empty())
+      info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
+        if (call.output.empty() && !request.explain)
           throw pipeline::InputError({call.input.string()}, "would be read for nothing",
                                      "name a file with -o, or ask for --explain");
-        const pipeline::Motion asked = request(call);
+        const pipeline::Motion asked = motion_asked_for(request, call.input);
         const sim::Program program = sim::read_program(asked);
         progress.clear();
-        if (!call.options[explain].empty())
+        if (request.explain)
           for (const std::string& line : sim::explanation(program)) fmt::print("{}\n", line);
         if (!call.quiet)
           for (const std::string& line : sim::skipped_lines(program)) pipeline::tell(line + "\n");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/advise/calibrate/learning.h"
@@ -37,15 +36,14 @@ int calibrate(const RunOptions& options) {
 
 }  // namespace
 
-Command add_calibrate(CLI::App& program) {
+Command calibrate_command() {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* words = program.add_subcommand(
-      "calibrate",
-      "learn what is not known of cables from lives that were observed; a job that names the result starts from it");
-  words->add_option("observations", options->study, "OBSERVATIONS.yaml")->required()->type_name("");
-  add_run_options(*words, *options);
-  add_study_options(*words, *options);
-  return {words, [options] { return calibrate(*options); }};
+  return {"calibrate",
+          "learn what is not known of cables from lives that were observed; a job that names the result starts "
+          "from it",
+          joined({{{"observations", "", "OBSERVATIONS.yaml", &options->study, {.required = true}}},
+                  run_options(*options), study_options(*options)}),
+          [options] { return calibrate(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
 #include <set>
@@ -79,14 +78,11 @@ int clean(const StudyOptions& options) {
 
 }  // namespace
 
-Command add_clean(CLI::App& program) {
+Command clean_command() {
   const auto options = std::make_shared<StudyOptions>();
-  CLI::App* words = program.add_subcommand(
-      "clean",
-      "remove what a study does not keep (its key keep), and the results of jobs that it has no more");
-  words->add_option("study", options->study, "STUDY.yaml")->required()->type_name("");
-  add_study_options(*words, *options);
-  return {words, [options] { return clean(*options); }};
+  return {"clean", "remove what a study does not keep (its key keep), and the results of jobs that it has no more",
+          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}}, study_options(*options)}),
+          [options] { return clean(*options); }};
 }
 
 }  // namespace dresslife::pipeline

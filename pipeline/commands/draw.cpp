@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/cable/overlap.h"
@@ -30,13 +29,12 @@ int draw(const Options& options) {
 
 }  // namespace
 
-Command add_draw(CLI::App& program) {
+Command draw_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand(
-      "draw", "list a dresspack's layers and what they add up to, and draw its cross-section to scale");
-  words->add_option("dresspack", options->dresspack, "DRESSPACK.yaml")->required()->type_name("");
-  words->add_option("-o,--output", options->picture, "picture to write, .svg or .png")->type_name("FILE");
-  return {words, [options] { return draw(*options); }};
+  return {"draw", "list a dresspack's layers and what they add up to, and draw its cross-section to scale",
+          {{"dresspack", "", "DRESSPACK.yaml", &options->dresspack, {.required = true}},
+           {"-o,--output", "FILE", "picture to write, .svg or .png", &options->picture}},
+          [options] { return draw(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/base/errors.h"
@@ -32,20 +31,15 @@ int export_job(const Options& options) {
 
 }  // namespace
 
-Command add_export(CLI::App& program) {
+Command export_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand(
-      "export", "write a job's motion and results for ParaView (5.11 or newer), which plays them in 3D");
-  words->add_option("job", options->job, "the job's folder, or one of its .h5 files")
-      ->required()
-      ->type_name("");
-  words
-      ->add_option("--paraview", options->xdmf,
-                   "file to write; it names the .h5 files, which must stay. Of ParaView's three readers "
-                   "only 'XDMF Reader' reads parts of their tables")
-      ->required()
-      ->type_name("FILE.xdmf");
-  return {words, [options] { return export_job(*options); }};
+  return {"export", "write a job's motion and results for ParaView (5.11 or newer), which plays them in 3D",
+          {{"job", "", "the job's folder, or one of its .h5 files", &options->job, {.required = true}},
+           {"--paraview", "FILE.xdmf",
+            "file to write; it names the .h5 files, which must stay. Of ParaView's three readers only 'XDMF "
+            "Reader' reads parts of their tables",
+            &options->xdmf, {.required = true}}},
+          [options] { return export_job(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <thread>
@@ -16,35 +15,34 @@ namespace fs = std::filesystem;
 
 RunOptions::RunOptions() : jobs(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {}
 
-void add_sets(CLI::App& command, const std::string& what, std::vector<std::string>& sets) {
-  command.add_option("--set", sets, what + "; may be repeated")
-      ->type_name("KEY.PATH=VALUE")
-      ->allow_extra_args(false);
+Option study_or_job(StudyOptions& options) {
+  return {"study", "", "STUDY.yaml, or JOB.yaml for a study of one", &options.study, {.required = true}};
 }
 
-void add_study_options(CLI::App& command, StudyOptions& options) {
-  command.add_option("-o,--output", options.out, "folder of the results")
-      ->type_name("DIR")
-      ->capture_default_str();
-  add_sets(command, "override a key in every job", options.sets);
+Option sets_option(const std::string& what, std::vector<std::string>& sets) {
+  return {"--set", "KEY.PATH=VALUE", what + "; may be repeated", &sets};
 }
 
-void add_run_options(CLI::App& command, RunOptions& options) {
-  command.add_option("-j,--jobs", options.jobs, "stages at a time")
-      ->check(CLI::Range(1, 1024))
-      ->default_str("one per core");
-  command.add_flag("--quiet", options.quiet, "no progress, no notes");
+std::vector<Option> study_options(StudyOptions& options) {
+  return {{"-o,--output", "DIR", "folder of the results", &options.out},
+          sets_option("override a key in every job", options.sets)};
 }
 
-void add_launcher(CLI::App& command, RunOptions& options) {
-  command
-      .add_option(
-          "--launcher", options.launcher,
-          "shell words before each stage's command, which start it elsewhere and end as it ends: 'srun -n1 -c1 --exact'")
-      ->type_name("WORDS")
-      ->check([](const std::string& text) {
-        return text.find('\n') == std::string::npos ? std::string() : std::string("must be one line");
-      });
+std::vector<Option> run_options(RunOptions& options) {
+  return {{"-j,--jobs", "COUNT", "stages at a time", &options.jobs,
+           {.range = {{1, 1024}}, .shown_default = "one per core"}},
+          {"--quiet", "", "no progress, no notes", &options.quiet}};
+}
+
+Option launcher_option(RunOptions& options) {
+  return {"--launcher", "WORDS",
+          "shell words before each stage's command, which start it elsewhere and end as it ends: 'srun -n1 -c1 "
+          "--exact'",
+          [&options](const std::string& text) {
+            if (text.find('\n') != std::string::npos)
+              throw InputError({"--launcher"}, "has more than one line", "write it as one line");
+            options.launcher = text;
+          }};
 }
 
 namespace {

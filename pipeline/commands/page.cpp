@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/base/errors.h"
@@ -26,12 +25,11 @@ int page(const fs::path& folder) {
 
 }  // namespace
 
-Command add_page(CLI::App& program) {
-  const auto folder = std::make_shared<std::string>();
-  CLI::App* words = program.add_subcommand(
-      "page", "write the page of one job: robot and dresspack in motion, its damage over place and time");
-  words->add_option("folder", *folder, "folder of its results: runs/STUDY/JOB")->required()->type_name("");
-  return {words, [folder] { return page(*folder); }};
+Command page_command() {
+  const auto folder = std::make_shared<fs::path>();
+  return {"page", "write the page of one job: robot and dresspack in motion, its damage over place and time",
+          {{"folder", "", "folder of its results: runs/STUDY/JOB", folder.get(), {.required = true}}},
+          [folder] { return page(*folder); }};
 }
 
 }  // namespace dresslife::pipeline

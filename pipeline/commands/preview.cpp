@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/base/errors.h"
@@ -50,17 +49,15 @@ int preview(const Options& options) {
 
 }  // namespace
 
-Command add_preview(CLI::App& program) {
+Command preview_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words =
-      program.add_subcommand("preview",
-                             "show a job before its run: robot, clamps and dresspack over the program, "
-                             "which lengths suit, and what is refused");
-  words->add_option("job", options->job, "JOB.yaml")->required()->type_name("");
-  words->add_option("-o,--output", options->page, "page to write (HTML); else JOB_preview.html here")
-      ->type_name("FILE.html");
-  add_sets(*words, "override a key", options->sets);
-  return {words, [options] { return preview(*options); }};
+  return {"preview",
+          "show a job before its run: robot, clamps and dresspack over the program, which lengths suit, and what "
+          "is refused",
+          {{"job", "", "JOB.yaml", &options->job, {.required = true}},
+           {"-o,--output", "FILE.html", "page to write (HTML); else JOB_preview.html here", &options->page},
+           sets_option("override a key", options->sets)},
+          [options] { return preview(*options); }};
 }
 
 }  // namespace dresslife::pipeline

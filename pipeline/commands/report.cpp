@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/commands/making.h"
@@ -54,13 +53,11 @@ int report(const StudyOptions& options) {
 
 }  // namespace
 
-Command add_report(CLI::App& program) {
+Command report_command() {
   const auto options = std::make_shared<StudyOptions>();
-  CLI::App* words =
-      program.add_subcommand("report", "rank and report what has been computed, without running anything");
-  words->add_option("study", options->study, "STUDY.yaml")->required()->type_name("");
-  add_study_options(*words, *options);
-  return {words, [options] { return report(*options); }};
+  return {"report", "rank and report what has been computed, without running anything",
+          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}}, study_options(*options)}),
+          [options] { return report(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -151,23 +150,18 @@ int reprogram(const Options& options) {
 
 }  // namespace
 
-Command add_reprogram(CLI::App& program) {
+Command reprogram_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand(
-      "reprogram",
-      "tell what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
-      "a point, or slower");
-  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
-      ->required()
-      ->type_name("");
-  words->add_option("--lines", options->lines, "of the program that are tried, those first that cost most")
-      ->check(CLI::Range(0, 1000))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  add_run_options(*words, *options);
-  add_launcher(*words, *options);
-  add_study_options(*words, *options);
-  return {words, [options] { return reprogram(*options); }};
+  return {"reprogram",
+          "tell what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
+          "a point, or slower",
+          joined({{study_or_job(*options),
+                   {"--lines", "COUNT", "of the program that are tried, those first that cost most",
+                    &options->lines, {.range = {{0, 1000}}}}},
+                  run_options(*options),
+                  {launcher_option(*options)},
+                  study_options(*options)}),
+          [options] { return reprogram(*options); }};
 }
 
 }  // namespace dresslife::pipeline

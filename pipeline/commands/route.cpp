@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -131,7 +131,9 @@ double violation(const Trial& trial) {
 std::vector<double> factors_of(const Options& options) {
   if (options.scale == "auto") return {1, 0.8, 0.65, 0.5, 0.4, 0.3};
   double factor = 0;
-  if (!CLI::detail::lexical_cast(options.scale, factor) || !(factor >= 0.05 && factor <= 2))
+  const char* const end = options.scale.data() + options.scale.size();
+  const auto [rest, failure] = std::from_chars(options.scale.data(), end, factor);
+  if (failure != std::errc() || rest != end || !(factor >= 0.05 && factor <= 2))
     throw InputError({"--scale"},
                      fmt::format("'{}' is neither auto nor a number from 0.05 to 2", options.scale),
                      "write one");
@@ -202,52 +204,33 @@ int route(const Options& options) {
 
 }  // namespace
 
-Command add_route(CLI::App& program) {
+Command route_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand("route",
-                                           "propose a routing from nothing: clamps on two links and a "
-                                           "length, tried in a run, as a job with its preview");
-  words->add_option("of", options->request.of, "JOB.yaml whose routing does not count, or a ROBOT")
-      ->required()
-      ->type_name("");
-  words
-      ->add_option("--dresspack", options->request.dresspack, "instead of the job's; of a robot spot_welding")
-      ->type_name("NAME");
-  words
-      ->add_option("--motion", options->request.motion,
-                   "instead of the job's; of a robot one that moves its wrist about")
-      ->type_name("NAME");
-  words
-      ->add_option("--from", options->request.base_link,
-                   "link of the base clamp; else the job's, or that which axis 3 moves")
-      ->type_name("LINK");
-  words->add_option("--to", options->request.tool_link, "link of the tool clamp; else the job's, or the last")
-      ->type_name("LINK");
-  words->add_option("--ring", options->ring, "also a guide ring on this link")->type_name("LINK");
-  words->add_option("--scale", options->scale, "of the dresspack's size; auto: as it is, or as big as goes")
-      ->type_name("auto|FACTOR")
-      ->capture_default_str();
-  words->add_option("--tried", options->tried, "routings that geometry looks at, of each size")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  words
-      ->add_option("--rehearsals", options->rehearsals,
-                   "short runs that the best of them are tried in and changed by, of each size")
-      ->check(CLI::Range(1, 100'000))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  words->add_option("--seed", options->seed, "of the search's chances")
-      ->check(CLI::Range(0, 1'000'000'000))
-      ->capture_default_str();
-  words->add_option("--job", options->job, "job to write; else NAME_routed.yaml here")
-      ->type_name("FILE.yaml");
-  words->add_option("-o,--output", options->out, "folder of the runs that try it")
-      ->type_name("DIR")
-      ->capture_default_str();
-  add_run_options(*words, *options);
-  add_sets(*words, "override a key of the job", options->request.sets);
-  return {words, [options] { return route(*options); }};
+  RouteRequest& request = options->request;
+  return {"route",
+          "propose a routing from nothing: clamps on two links and a length, tried in a run, as a job with its "
+          "preview",
+          joined({{{"of", "", "JOB.yaml whose routing does not count, or a ROBOT", &request.of, {.required = true}},
+                   {"--dresspack", "NAME", "instead of the job's; of a robot spot_welding", &request.dresspack},
+                   {"--motion", "NAME", "instead of the job's; of a robot one that moves its wrist about",
+                    &request.motion},
+                   {"--from", "LINK", "link of the base clamp; else the job's, or that which axis 3 moves",
+                    &request.base_link},
+                   {"--to", "LINK", "link of the tool clamp; else the job's, or the last", &request.tool_link},
+                   {"--ring", "LINK", "also a guide ring on this link", &options->ring},
+                   {"--scale", "auto|FACTOR", "of the dresspack's size; auto: as it is, or as big as goes",
+                    &options->scale},
+                   {"--tried", "COUNT", "routings that geometry looks at, of each size", &options->tried,
+                    {.range = {{1, 1'000'000}}}},
+                   {"--rehearsals", "COUNT",
+                    "short runs that the best of them are tried in and changed by, of each size",
+                    &options->rehearsals, {.range = {{1, 100'000}}}},
+                   {"--seed", "NUMBER", "of the search's chances", &options->seed, {.range = {{0, 1'000'000'000}}}},
+                   {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
+                   {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},
+                  run_options(*options),
+                  {sets_option("override a key of the job", request.sets)}}),
+          [options] { return route(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -77,29 +76,21 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
-Command add_run(CLI::App& program) {
+Command run_command() {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* words =
-      program.add_subcommand("run", "run what is not up to date in a study, then rank and report");
-  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
-      ->required()
-      ->type_name("");
-  add_run_options(*words, *options);
-  words->add_option("--job-time", options->limits.seconds, "let no stage of a job take longer; 0: no limit")
-      ->type_name("SECONDS")
-      ->capture_default_str();
-  words
-      ->add_option("--job-memory", options->limits.megabytes,
-                   "let no stage of a job take more memory; 0: no limit")
-      ->type_name("MB")
-      ->default_str("all of the machine's");
-  add_launcher(*words, *options);
-  words
-      ->add_option("--shard", options->shard,
-                   "make only the Kth of N parts of the study, beside runs of the others, and rank nothing")
-      ->type_name("K/N");
-  add_study_options(*words, *options);
-  return {words, [options] { return run(*options); }};
+  return {"run", "run what is not up to date in a study, then rank and report",
+          joined({{study_or_job(*options)},
+                  run_options(*options),
+                  {{"--job-time", "SECONDS", "let no stage of a job take longer; 0: no limit",
+                    &options->limits.seconds},
+                   {"--job-memory", "MB", "let no stage of a job take more memory; 0: no limit",
+                    &options->limits.megabytes, {.shown_default = "all of the machine's"}},
+                   launcher_option(*options),
+                   {"--shard", "K/N",
+                    "make only the Kth of N parts of the study, beside runs of the others, and rank nothing",
+                    &options->shard}},
+                  study_options(*options)}),
+          [options] { return run(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -33,15 +32,14 @@ int show(const Options& options) {
 
 }  // namespace
 
-Command add_show(CLI::App& program) {
+Command show_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand(
-      "show",
-      "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a "
-      "job's folder its life.h5");
-  words->add_option("job", options->file, "JOB.yaml, FILE.h5, or a job's folder")->required()->type_name("");
-  add_sets(*words, "override a key", options->sets);
-  return {words, [options] { return show(*options); }};
+  return {"show",
+          "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a "
+          "job's folder its life.h5",
+          {{"job", "", "JOB.yaml, FILE.h5, or a job's folder", &options->file, {.required = true}},
+           sets_option("override a key", options->sets)},
+          [options] { return show(*options); }};
 }
 
 }  // namespace dresslife::pipeline

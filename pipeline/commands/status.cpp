@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/commands/options.h"
@@ -30,13 +29,11 @@ int status(const StudyOptions& options) {
 
 }  // namespace
 
-Command add_status(CLI::App& program) {
+Command status_command() {
   const auto options = std::make_shared<StudyOptions>();
-  CLI::App* words =
-      program.add_subcommand("status", "tell which jobs of a study are done, stale, failed or to do");
-  words->add_option("study", options->study, "STUDY.yaml")->required()->type_name("");
-  add_study_options(*words, *options);
-  return {words, [options] { return status(*options); }};
+  return {"status", "tell which jobs of a study are done, stale, failed or to do",
+          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}}, study_options(*options)}),
+          [options] { return status(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/advise/calibrate/observations.h"
@@ -33,14 +32,12 @@ int validate(const RunOptions& options) {
 
 }  // namespace
 
-Command add_validate(CLI::App& program) {
+Command validate_command() {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* words = program.add_subcommand(
-      "validate", "hold observed lives of cables and wires against what the model says of the same tests");
-  words->add_option("observations", options->study, "OBSERVATIONS.yaml")->required()->type_name("");
-  add_run_options(*words, *options);
-  add_study_options(*words, *options);
-  return {words, [options] { return validate(*options); }};
+  return {"validate", "hold observed lives of cables and wires against what the model says of the same tests",
+          joined({{{"observations", "", "OBSERVATIONS.yaml", &options->study, {.required = true}}},
+                  run_options(*options), study_options(*options)}),
+          [options] { return validate(*options); }};
 }
 
 }  // namespace dresslife::pipeline

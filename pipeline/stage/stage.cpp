@@ -19,7 +19,6 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
-#include "pipeline/stage/command_line.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -94,6 +93,41 @@ void check_inputs_unchanged(const StageCall& call) {
     if (!is_unchanged(input))
       throw InputError({input.file.string()}, fmt::format("has changed while {} ran", call.info.program),
                        "run it again");
+}
+
+/// What only the command line of a stage says.
+struct StageFlags {
+  bool force = false;
+  std::filesystem::path receipt;
+  std::filesystem::path likes;  ///< names the folders of jobs to which this output belongs, too, line by line
+};
+
+Command command_of(const StageInfo& info, StageCall& call, StageFlags& flags) {
+  std::vector<Option> options{
+      {"input", "", info.input, &call.input, {.required = true}},
+      {"-o,--output", "FILE", "where to write " + info.output, &call.output, {.required = !info.may_lack_output}}};
+  if (!info.input_is_job)
+    options.push_back({"--job", "JOB.yaml", "take the settings from this job instead of the one in the input",
+                       &call.job_file});
+  options.push_back({"--set", "KEY.PATH=VALUE",
+                     "override a key of the job, for example simulation.segments=80; may be repeated",
+                     &call.sets});
+  options.insert(options.end(), info.options.begin(), info.options.end());
+  options.push_back({"--force", "", "replace an output that is no " + info.output, &flags.force});
+  if (info.part) {
+    options.push_back({"--receipt", "FILE",
+                       "note there from what the output is made, and make it only when that has changed",
+                       &flags.receipt, {.needs = info.input_is_job ? "" : "--job"}});
+    options.push_back({"--likes", "FILE",
+                       "a list of folders that get the same output and note, each under its name", &flags.likes,
+                       {.needs = "--receipt"}});
+  }
+  options.push_back(
+      {"--job-time", "SECONDS", "give up after so long", &call.limits.seconds, {.shown_default = ""}});
+  options.push_back(
+      {"--job-memory", "MB", "take no more memory than this", &call.limits.megabytes, {.shown_default = ""}});
+  options.push_back({"--quiet", "", "no progress, no notes", &call.quiet});
+  return {.name = info.program, .purpose = info.purpose, .options = options, .example = info.example};
 }
 
 /// The settings that this stage's result depends on, and the files beside them.
@@ -212,8 +246,10 @@ int run_stage(const StageInfo& info, int argc, char** argv,
   end_with_parent();
   StageCall call;
   StageFlags flags;
-  if (const std::optional<int> status = read_command_line(info, argc, argv, call, flags)) return *status;
+  call.info = info;
   return guarded(info.program, [&] {
+    if (const auto status = read_command_line(command_of(info, call, flags), argc, argv)) return *status;
+    call.of_a_study = !flags.receipt.empty();
     run_body(call, flags, body);
     return 0;
   });

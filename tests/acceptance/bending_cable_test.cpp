@@ -2,11 +2,11 @@
 // blocks must show when the upper one comes down.
 #include <Eigen/Core>
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife;

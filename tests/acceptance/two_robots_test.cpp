@@ -1,10 +1,10 @@
 // The two welding robots, from the study files to the ranking: what the 2018 thesis found and what must hold
 // of it.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

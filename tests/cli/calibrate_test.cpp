@@ -1,12 +1,12 @@
 // `dresslife calibrate`, and jobs that name what it wrote, as a user runs them.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

@@ -1,8 +1,7 @@
 // dresslife draw: a dresspack as a list and as a picture.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
-
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

@@ -1,7 +1,7 @@
 // dresslife improve: jobs that live longer, and a search that is killed.
-#include <catch2/catch.hpp>
 #include <map>
 
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

@@ -1,10 +1,10 @@
 // The page of a job: written with its results, and in a browser, where one is installed.
-#include <catch2/catch.hpp>
 
 #include "pipeline/files/files.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/report.h"
 #include "pipeline/settings/units.h"
+#include "tests/catch.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
 

@@ -1,7 +1,8 @@
 // dresslife plot and show: what came out of a job, as figures and in words.
-#include <catch2/catch.hpp>
 
 #include "tests/cli/process.h"
+
+#include "tests/catch.h"
 
 using namespace dresslife::tests;
 

@@ -1,7 +1,7 @@
 // dresslife preview: a job before its run, also one that the simulation refuses.
-#include <catch2/catch.hpp>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
 

@@ -1,8 +1,8 @@
 // `dresslife rate` and `dresslife validate`, as a user runs them.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>
 
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

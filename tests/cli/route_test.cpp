@@ -1,7 +1,7 @@
 // dresslife route: a job from a robot and a hose.
-#include <catch2/catch.hpp>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

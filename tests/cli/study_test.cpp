@@ -1,7 +1,7 @@
 // Studies: what runs, what does not run again, what a failed job does to the others.
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

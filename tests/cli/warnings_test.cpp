@@ -1,13 +1,13 @@
 // Every warning of a stage, from jobs that provoke it to where people look.
-#include <catch2/catch.hpp>
 
 #include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
 using namespace dresslife::pipeline;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -4,7 +4,6 @@
 
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +15,7 @@
 #include "fatigue/verdict.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/life_response.h"
+#include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

@@ -1,10 +1,10 @@
 // Strain with shear: closed forms of single loads, and what turning the axes must not change.
 #include "fatigue/multiaxial.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

@@ -1,11 +1,11 @@
 // Lives from the strain-life curves: published numbers, round trips, limits, and the thesis' own orders.
 #include "fatigue/strain_life.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "fatigue/stress_path.h"
+#include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

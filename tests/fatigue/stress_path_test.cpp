@@ -3,11 +3,11 @@
 #include "fatigue/stress_path.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "fatigue/strain_life.h"
+#include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

@@ -1,6 +1,5 @@
 // What a stage leaves behind when the disk, the memory or another writer fails it: its file whole, or none.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <random>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 #include "tests/faults/failing_calls.h"
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -15,6 +14,7 @@
 #include <thread>
 
 #include "pipeline/study/ranking.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 #include "tests/faults/failing_calls.h"
 

@@ -1,10 +1,10 @@
 #include "pipeline/cable/cable_bending.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "strain/construction.h"
 #include "strain/strand_bending.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

@@ -1,12 +1,12 @@
 // Cables between two clamps: what is held against what (W10) says, loose ones without play against those, the
 // onset of tension with slack, lays from straight to steep, memory, forces and moments.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/cable/plain_properties.h"
 #include "strain/cable_paths.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

@@ -1,6 +1,5 @@
 // Two dresspacks in one file: strain and life of each are those of a file of its own.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "fatigue/life_file.h"
@@ -8,6 +7,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
 #include "strain/strain_file.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

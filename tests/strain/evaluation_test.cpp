@@ -1,12 +1,12 @@
 #include "strain/evaluation.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <random>
 
 #include "pipeline/base/errors.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

@@ -2,13 +2,13 @@
 #include "strain/friction.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "pipeline/cable/shares.h"
 #include "strain/evaluation.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -13,6 +12,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

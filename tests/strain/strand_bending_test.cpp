@@ -2,12 +2,12 @@
 #include "strain/strand_bending.h"
 
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "strain/strand_contact.h"
+#include "tests/catch.h"
 
 using namespace dresslife::strain;
 

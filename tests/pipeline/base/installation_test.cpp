@@ -1,9 +1,9 @@
 #include "pipeline/base/installation.h"
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
 
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

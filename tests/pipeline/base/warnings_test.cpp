@@ -1,6 +1,6 @@
 #include "pipeline/base/warnings.h"
 
-#include <catch2/catch.hpp>
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 

@@ -3,12 +3,12 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <thread>
 
 #include "pipeline/base/limits.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

@@ -1,9 +1,9 @@
 // The force of a cable from its strain: closed forms of one wire, and the thesis' cable by hand.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/cable/cable_force.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife;

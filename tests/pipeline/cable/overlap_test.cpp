@@ -1,8 +1,9 @@
 #include "pipeline/cable/overlap.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 

@@ -1,7 +1,6 @@
 // Parts without wires: a tube's closed forms, what they add to a hose, and what is refused.
 #include "pipeline/job/plain_part.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -10,10 +9,11 @@
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 
 using namespace dresslife::pipeline;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

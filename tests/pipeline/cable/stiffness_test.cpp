@@ -2,17 +2,17 @@
 // makes of it.
 #include "pipeline/cable/stiffness.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 
 using namespace dresslife::pipeline;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -1,11 +1,11 @@
 #include "pipeline/files/files.h"
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "tests/catch.h"
 #include "tests/pipeline/files/library.h"
 #include "tests/pipeline/scratch.h"
 

@@ -1,9 +1,10 @@
 #include "pipeline/life/life_response.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 

@@ -1,7 +1,6 @@
 #include "pipeline/report/job_page.h"
 
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -14,6 +13,7 @@
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/simple_mesh.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 

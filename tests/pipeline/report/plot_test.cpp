@@ -1,11 +1,12 @@
 #include "pipeline/report/plot.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <utility>
 #include <vector>
+
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

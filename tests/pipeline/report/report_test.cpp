@@ -1,6 +1,5 @@
 #include "pipeline/report/report.h"
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/plot.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 

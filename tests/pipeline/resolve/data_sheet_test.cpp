@@ -1,6 +1,5 @@
 #include "pipeline/resolve/data_sheet.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "pipeline/cable/overlap.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/settings/fields.h"
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 

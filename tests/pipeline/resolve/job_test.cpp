@@ -1,11 +1,11 @@
 #include "pipeline/job/job.h"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -355,7 +355,7 @@ TEST_CASE("job: a dresspack may have limits of its maker") {
   CHECK(job.dresspacks[0].dresspack.most_twist.value() == Approx(90 * degree));
   CHECK_FALSE(job_of_text(sample_job).dresspacks[0].dresspack.most_twist);
   CHECK_THAT(message_of([&] { job_of_text(with("most_twist_deg_per_m: 0")); }),
-             Catch::Matchers::Contains("dresspack.most_twist_deg_per_m is 0 (must be > 0 deg/m); give that"));
+             Catch::Contains("dresspack.most_twist_deg_per_m is 0 (must be > 0 deg/m); give that"));
 }
 
 TEST_CASE("job: what contradicts itself is refused") {

@@ -3,10 +3,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <csignal>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

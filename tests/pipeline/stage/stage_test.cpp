@@ -2,13 +2,13 @@
 
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <functional>
 
 #include "pipeline/base/installation.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -119,7 +119,8 @@ TEST_CASE("stage: help and version go to standard output and end with 0") {
 TEST_CASE(
     "stage: the man page and the completions name every option, also of a stage alone, and need no input") {
   StageInfo special = info;
-  special.options = {{"--assume", "LINE=then|else", "how a branch goes"}};
+  std::vector<std::string> assumed;
+  special.options = {{"--assume", "LINE=then|else", "how a branch goes", &assumed}};
   const auto manual = [&](const std::string& kind) {
     const Outcome outcome = run(
         {"--manual", kind}, [](const StageCall&) {}, special);

@@ -1,7 +1,6 @@
 // The build graph with stages that compute nothing: what runs when, what a failure does, what is believed.
 #include "pipeline/study/build_graph.h"
 
-#include <catch2/catch.hpp>
 #include <csignal>
 #include <set>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/shared_stages.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

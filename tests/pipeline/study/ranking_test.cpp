@@ -2,12 +2,12 @@
 #include "pipeline/study/row_warnings.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/life/life_response.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 

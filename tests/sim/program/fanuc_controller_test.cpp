@@ -1,7 +1,7 @@
 // What a Fanuc controller does with listings as they lie on it, each with its reason.
-#include <catch2/catch.hpp>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;

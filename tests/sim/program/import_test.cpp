@@ -1,8 +1,8 @@
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 
 #include "pipeline/job/motion.h"
+#include "tests/catch.h"
 #include "tests/sim/program/fuzz_target.h"
 #include "tests/sim/program/reading.h"
 #include "tests/sim/program/samples.h"

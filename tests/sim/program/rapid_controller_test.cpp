@@ -1,7 +1,7 @@
 // What an ABB controller makes of modules as they lie on it: each case says what it does and why.
-#include <catch2/catch.hpp>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;

@@ -1,10 +1,10 @@
 #include "sim/robot/inverse_kinematics.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 
 #include "pipeline/job/robot.h"
+#include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {

@@ -1,11 +1,11 @@
 #include "sim/robot/legs.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/motion.h"
 #include "sim/robot/tool_path.h"
+#include "tests/catch.h"
 #include "tests/sim/robot/small_arm.h"
 
 namespace dresslife::sim {

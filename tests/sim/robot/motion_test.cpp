@@ -1,8 +1,9 @@
 #include "sim/robot/motion.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+
+#include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {

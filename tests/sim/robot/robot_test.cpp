@@ -1,9 +1,10 @@
 #include "sim/robot/robot.h"
 
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
+
+#include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {

@@ -1,6 +1,5 @@
 // A robot written as URDF and read again stands where it stood, whatever lies on fixed joints in between.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 
@@ -8,6 +7,7 @@
 #include "pipeline/urdf/urdf.h"
 #include "pipeline/settings/fields.h"
 #include "sim/robot/robot.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 void describe(Fields& f, Robot& robot);

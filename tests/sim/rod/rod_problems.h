@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 
 #include "sim/rod/rod.h"
 #include "sim/run/equilibrium.h"
+#include "tests/catch.h"
 #include "tests/sim/rod/smooth.h"
 
 namespace dresslife::sim::test {

@@ -2,7 +2,6 @@
 #include "sim/route/rehearsal.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "sim/route/exercise.h"
 #include "sim/route/proposal.h"
 #include "sim/run/simulate.h"
+#include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {

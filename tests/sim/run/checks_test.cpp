@@ -1,9 +1,9 @@
 #include "sim/run/checks.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 
 #include "sim/run/simulate.h"
+#include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {

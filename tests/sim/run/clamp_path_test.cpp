@@ -1,7 +1,7 @@
-#include "sim/run/clamp_path.h"
 #include "pipeline/job/job.h"
+#include "sim/run/clamp_path.h"
+#include "tests/catch.h"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <numbers>
 

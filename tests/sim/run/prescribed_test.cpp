@@ -1,6 +1,5 @@
 #include "sim/run/prescribed.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +8,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/deformation_file.h"
 #include "sim/run/rig_deformation.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::sim {

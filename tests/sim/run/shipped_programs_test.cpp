@@ -1,10 +1,10 @@
 // The jobs that come with dresslife make sense: poses that a robot on the floor with a weld gun can take, and
 // a dresspack that survives them.
-#include <catch2/catch.hpp>
 
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/simulate.h"
+#include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {

@@ -1,8 +1,9 @@
 #include "pipeline/advise/calibrate/likelihood.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

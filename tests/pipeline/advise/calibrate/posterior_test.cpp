@@ -1,10 +1,11 @@
 #include "pipeline/advise/calibrate/posterior.h"
 
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {
