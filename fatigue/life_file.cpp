@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 
 #include "fatigue/attribution.h"
 #include "fatigue/cable_forces.h"
@@ -16,6 +16,7 @@
 #include "fatigue/verdict.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
 
@@ -679,13 +680,15 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
   experience.materials = {pipeline::material_of(c.job, c.sites.material()[c.worst]).name};
   std::vector<pipeline::Warning> warnings;
   for (const std::string& words : pipeline::beyond(c.job.calibration->within, experience))
-    warnings.push_back(
-        {pipeline::WarningKind::calibration, "", "beyond what its calibration was learned from: " + words});
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::calibration, "", "the job goes beyond the tests of its calibration: " + words,
+        "no observation of the calibration strains a cable like this job",
+        "add an observation that does to the list for dresslife calibrate, or leave out the key calibration"));
   return warnings;
 }
 
 std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
-  std::set<std::string> contradictions;  // sorted and once each
+  std::map<std::string, pipeline::Warning> contradictions;  // sorted and once each
   for (const std::string& name : c.sites.material().values) {
     const auto& packs = c.job.dresspacks;
     if (std::any_of(packs.begin(), packs.end(), [&](const pipeline::MountedDresspack& mounted) {
@@ -694,21 +697,26 @@ std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<D
       continue;
     const pipeline::Material& material = pipeline::material_of(c.job, name);
     if (!yields(c.job.fatigue.stress) || !material.strain_life_table.empty()) continue;
-    const std::string warning = compatibility_warning(material);
-    if (!warning.empty()) contradictions.insert(warning);
+    if (const auto warning = compatibility_warning(material)) contradictions.emplace(warning->words, *warning);
   }
   const auto torn = std::count_if(worst_cycles.begin(), worst_cycles.end(), [](const DamagingCycle& d) {
     return d.damage >= d.cycle.count * 2 / fewest_reversals;
   });
   std::vector<pipeline::Warning> warnings;
-  for (const std::string& words : contradictions)
-    warnings.push_back({pipeline::WarningKind::material, "", words});
-  if (torn > 0)
-    warnings.push_back(
-        {pipeline::WarningKind::strain, "",
-         fmt::format("{} of the worst wire's cycles tear it on their first reversal (strain up to "
-                     "{:.3g}); check slip, lay angles and bend radii, no wire is meant for this",
-                     torn, c.damage.range[c.worst])});
+  for (const auto& [words, warning] : contradictions) warnings.push_back(warning);
+  if (torn > 0) {
+    const bool sticks = std::any_of(c.job.strain.slip.begin(), c.job.strain.slip.end(),
+                                    [](pipeline::Slip slip) { return !slides(slip); });
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::strain, "",
+        fmt::format("{} of the cycles of {} tear it on their first reversal (strain range up to {:.3g}), in segment {} from the tool", torn,
+                    c.component[c.worst], c.damage.range[c.worst],
+                    static_cast<int>(c.segment_length.size()) - c.sites.segment(c.worst)),
+        sticks ? "its parts stick to each other (strain.slip is stick)"
+               : "the dresspack bends too tightly, or a lay is too long or missing",
+        sticks ? "strain.slip: friction"
+               : "a larger bend radius (see its warnings, or dresslife improve), or lay_angle_deg of its layers as measured"));
+  }
   return pipeline::joined(warnings, beyond_calibration(c));
 }
 

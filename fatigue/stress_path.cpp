@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "pipeline/base/warning_words.h"
+
 namespace dresslife::fatigue {
 namespace {
 
@@ -53,16 +55,20 @@ double CyclicCurve::stress(double strain) const {
   return std::copysign(s, strain);
 }
 
-std::string compatibility_warning(const pipeline::Material& m) {
+std::optional<pipeline::Warning> compatibility_warning(const pipeline::Material& m) {
   if (!m.cyclic_strength && !m.cyclic_hardening_exponent) return {};
   const CyclicCurve curve(m);
   const double exponent = compatible_exponent(m), strength = compatible_strength(m, exponent);
   const auto differs = [](double a, double b) { return std::fabs(a - b) > agreement * b; };
   if (!differs(curve.hardening_exponent(), exponent) && !differs(curve.strength(), strength)) return {};
-  return fmt::format(
-      "material {}: K' {:.4g} MPa and n' {:.3g} disagree with the life curve (K' {:.4g} MPa, n' {:.3g} by "
-      "sigma_f', epsilon_f', b, c); leave them out or take all six from one test series",
-      m.name, curve.strength() / 1e6, curve.hardening_exponent(), strength / 1e6, exponent);
+  return pipeline::warning_of(
+      pipeline::WarningKind::material, "",
+      fmt::format("material {}: K' {:.4g} MPa and n' {:.3g} disagree with its strain-life curve, which gives {:.4g} MPa and "
+                  "{:.3g} (limit {:.0f} %)",
+                  m.name, curve.strength() / 1e6, curve.hardening_exponent(), strength / 1e6, exponent, 100 * agreement),
+      "the six constants come from different test series",
+      fmt::format("cyclic_strength_MPa: {:.4g} and cyclic_hardening_exponent: {:.3g}, or leave both out", strength / 1e6,
+                  exponent));
 }
 
 double MemoryPath::on_curve(double input) const { return std::copysign(curve_(std::fabs(input)), input); }

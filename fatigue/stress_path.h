@@ -10,9 +10,10 @@
 #pragma once
 
 #include <functional>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/fatigue.h"
 #include "pipeline/job/material.h"
 
@@ -44,7 +45,7 @@ class CyclicCurve {
 /// What to tell the user when the material's own K' or n' differs by more than a tenth from (F5): then
 /// elastic and plastic strain of the cyclic curve are not those of the life curve, and cyclic stress and life
 /// contradict each other. Empty when they agree or are not given.
-std::string compatibility_warning(const pipeline::Material& material);
+std::optional<pipeline::Warning> compatibility_warning(const pipeline::Material& material);
 
 /// Masing branches with material memory (F3, F4) over a curve given for values >= 0. Starts at rest in the
 /// origin. With stress(strain) as curve it gives stress along a strain path; with a notch rule's curves (F6)

@@ -9,8 +9,10 @@
 #include <span>
 
 #include "pipeline/base/threads.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_bending.h"
+#include "pipeline/cable/excess.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/files/motion_layout.h"
@@ -338,12 +340,12 @@ struct Evaluations {
 /// pieces: of a loose cable in a segment.
 std::vector<Warning> mesh_warnings(double error, std::size_t pieces) {
   if (error <= believable_mesh_error) return {};
-  return {
-      {WarningKind::mesh, "",
-       fmt::format(
-           "{} to a segment, pieces are too long for how loose cables bend: they miss {:.3g} of it (more than "
-           "{:g}); give strain.cable_elements_per_segment: {} or more, or more simulation.segments",
-           pieces, error, believable_mesh_error, 2 * pieces)}};
+  return {pipeline::warning_of(
+      WarningKind::mesh, "",
+      fmt::format("loose cables are cut into {} pieces in each segment, which misses {:.3g} of their curvature (limit {:g})",
+                  pieces, error, believable_mesh_error),
+      "the cables lie in waves shorter than these pieces resolve",
+      fmt::format("strain.cable_elements_per_segment: {} or more, or more simulation.segments", 2 * pieces))};
 }
 
 /// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the
@@ -359,6 +361,8 @@ class CableRows {
       component_.push_back(cables.component(k));
       pulled_.push_back(&cables.pulled(k));
       for (const double slipped : cables.grip_slip(k)) slip_.push_back(slipped);
+      for (const double gain : cables.path_gain(k)) gain_.push_back(gain);
+      room_.push_back(cables.room(k));
       for (const auto& at_clamp : pulled_.back()->place)
         place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
     }
@@ -373,6 +377,8 @@ class CableRows {
     file.append("/cable/component", component_);
     file.append("/cable/grip_slip", slip_);
     file.append("/cable/clamp_place", place_);
+    file.append("/cable/path_gain", gain_);
+    file.append("/cable/room", room_);
     std::vector<double> rows;
     for (std::size_t t = 0; t < samples; ++t)
       for (const pipeline::PulledCable* of : pulled_)
@@ -383,7 +389,7 @@ class CableRows {
  private:
   std::vector<std::string> names_;
   std::vector<std::int32_t> span_, dresspack_, component_;
-  std::vector<double> slip_, place_;
+  std::vector<double> slip_, place_, gain_, room_;
   std::vector<const pipeline::PulledCable*> pulled_;
 };
 
@@ -426,8 +432,7 @@ std::vector<Warning> write_cables(FileWriter& file,
 std::vector<Warning> construction_warnings(const pipeline::Job& job) {
   std::vector<Warning> all;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks)
-    for (Warning warning : pipeline::joined(pipeline::overlap_warnings(mounted.dresspack),
-                                            pipeline::stiffness_warnings(mounted.dresspack))) {
+    for (Warning warning : pipeline::construction_warnings(mounted.dresspack, slides(job.strain.slip.front()))) {
       warning.where = mounted.name;  // its line in the resolved job helps nobody
       all.push_back(warning);
     }

@@ -2,8 +2,7 @@
 
 #include <memory>
 
-#include "pipeline/cable/overlap.h"
-#include "pipeline/cable/stiffness.h"
+#include "pipeline/cable/excess.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/report/cross_section.h"
@@ -18,12 +17,16 @@ struct Options {
 
 int draw(const Options& options) {
   if (!options.picture.empty()) check_picture(options.picture);
-  const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"));
+  std::string faults;
+  const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"), faults);
+  if (!faults.empty()) {  // the picture marks what does not fit
+    if (!options.picture.empty()) write_picture(options.picture, cross_section_picture(dresspack));
+    tell(faults + "\n");
+    return 1;
+  }
   print(shown(construction_text(dresspack)));
-  for (const Warning& warning : joined(overlap_warnings(dresspack), stiffness_warnings(dresspack)))
-    tell(warning.line() + "\n");
-  if (options.picture.empty()) return 0;
-  write_picture(options.picture, cross_section_picture(dresspack));
+  for (const Warning& warning : construction_warnings(dresspack, true)) tell(warning.line() + "\n");
+  if (!options.picture.empty()) write_picture(options.picture, cross_section_picture(dresspack));
   return 0;
 }
 

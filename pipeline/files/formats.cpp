@@ -236,6 +236,11 @@ void add_cables(std::vector<Dataset>& datasets) {
       "its axis at its base and its tool clamp, toward d1 and d2 of the dresspack");
   add("/cable/grip_slip", Type::f64, {"cable", "2"}, "m",
       "length that slips through its base and its tool clamp per repeat, both ways added up");
+  datasets.push_back({"/cable/room", Type::f64, {"cable"}, "m",
+                      "radius of the helix into which it can wind; 0: it is held", true, true});
+  add("/cable/path_gain", Type::f64, {"cable", "2"}, "1",
+      "least and most that its path gains over the motion, without its slack and where it has moved within its room: a "
+      "slack between the two is neither too long nor too short at any time");
   add("/cable/offset_sample", Type::u32, {"picture"}, "1", "samples at which /cable/offset tells");
   add("/cable/offset", Type::f64, {"picture", "cable", "segment", "2"}, "m",
       "where loose cables lie, from their places toward d1 and d2; only with one span");
@@ -671,6 +676,9 @@ Format make_preview_format() {
   format.attributes = {
       {"refusal", "why the simulation refuses the job; empty: it takes it", true},
       {"refusal_time", "when, s; absent: not at a time of the program", false, true},
+      {"warnings",
+       "what geometry and statics warn of, a line each: kind, place and words between tabs; absent in files of older programs",
+       true, true},
   };
   return format;
 }

@@ -8,6 +8,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/files/digest.h"
 #include "pipeline/report/chart_style.h"
+#include "pipeline/report/glossary.h"
 #include "pipeline/report/page_assets.h"
 #include "pipeline/report/plot.h"
 
@@ -43,7 +44,7 @@ std::filesystem::path three_folder() {
 
 std::string shell_digest() {
   return xxh3(
-      fmt::format("{}{}{}{}{}", chart_style(), page_style(), page_scripts(), three_scripts(), version()));
+      fmt::format("{}{}{}{}{}{}", chart_style(), page_style(), page_scripts(), three_scripts(), glossary_html(), version()));
 }
 
 std::string whole_page(const std::string& title, const std::string& made_from, const std::string& body,
@@ -51,9 +52,9 @@ std::string whole_page(const std::string& title, const std::string& made_from, c
   return fmt::format(
       "{}{} -->\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}"
-      "<p class=\"soft\">dresslife {}</p>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
+      "{}<p class=\"soft\">dresslife {} \u00b7 <a href=\"#words\">what the words mean</a></p>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
       "{}<script>{}</script>\n</body>\n</html>\n",
-      before_digest, made_from, escaped(title), chart_style() + std::string(page_style()), body, version(),
+      before_digest, made_from, escaped(title), chart_style() + std::string(page_style()), body, glossary_html(), version(),
       data, three_scripts(), page_scripts());
 }
 

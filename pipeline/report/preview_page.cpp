@@ -237,7 +237,7 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
   body += ill;
   for (const std::string& note : notes) body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
   body +=
-      "<div id=\"view\"></div>\n<p class=\"soft\">The dresspack is drawn as a smooth curve of its length "
+      "<div id=\"view\"></div>\n<div id=\"clamp\"></div>\n<p class=\"soft\">The dresspack is drawn as a smooth curve of its length "
       "between its clamps, as the "
       "search for its rest begins with: it does not sag, swing or touch yet.</p>\n<div class=\"beside\"><div "
       "id=\"timeline\"></div>\n<div>\n";

@@ -14,6 +14,8 @@ namespace {
 
 /// 24 characters of the page for a triangle: 0.7 MB for all meshes of a robot together.
 constexpr std::size_t most_triangles = 30'000;
+/// Between a link's surface and what it carries [m].
+constexpr double longest_bracket = 0.15;
 
 std::string pose(const Vector3d& position, const Vector3d& roll_pitch_yaw) {
   const Eigen::Quaterniond turn = from_roll_pitch_yaw(roll_pitch_yaw);
@@ -51,10 +53,9 @@ class Scene {
     for (const Link& link : setup_.robot.links)
       add(links, fmt::format("{{\"name\":{},\"shapes\":{}}}", json(link.name), shapes(link)));
     for (std::size_t d = 0; d < setup_.dresspacks.size(); ++d) {
-      const MountedDresspack& mounted = setup_.dresspacks[d];
-      add_routing(mounted, clamps, rings);
+      add_routing(d, clamps, rings);
       add(hoses, fmt::format("{{\"name\":{},\"radius\":{}}}", json(name_among(setup_, d)),
-                             json(mounted.dresspack.diameter / 2)));
+                             json(setup_.dresspacks[d].dresspack.diameter / 2)));
     }
     for (const MountingPoint& point : setup_.robot.mounting_points)
       add(points, fmt::format("{{\"name\":{},{}}}", json(point.name),
@@ -64,8 +65,9 @@ class Scene {
     return fmt::format(
         "{{\"joints\":{},\"links\":[{}],\"cell\":{},\"floor\":{},\"clamps\":[{}],\"rings\":[{}],\"mounting_"
         "points\":[{}],"
-        "\"hoses\":[{}]}}",
-        json(joints), links, shapes(setup_.cell), setup_.simulation.floor, clamps, rings, points, hoses);
+        "\"hoses\":[{}],\"bracket\":{}}}",
+        json(joints), links, shapes(setup_.cell), setup_.simulation.floor, clamps, rings, points, hoses,
+        json(longest_bracket));
   }
 
  private:
@@ -79,18 +81,19 @@ class Scene {
                        json(Vector3d(direction.normalized())));
   }
 
-  void add_routing(const MountedDresspack& mounted, std::string& clamps, std::string& rings) const {
+  void add_routing(std::size_t dresspack, std::string& clamps, std::string& rings) const {
+    const MountedDresspack& mounted = setup_.dresspacks[dresspack];
     const Routing& routing = mounted.routing;
     const std::string before = mounted.name.empty() ? "" : mounted.name + ", ";
-    const auto clamp = [&](const std::string& name, const Clamp& one) {
-      add(clamps,
-          fmt::format("{{\"name\":{},\"radius\":{},{}}}", json(before + name),
-                      json(mounted.dresspack.diameter / 2), place(one.link, one.position, one.direction)));
+    const auto clamp = [&](const std::string& name, const std::string& key, double at, const Clamp& one) {
+      add(clamps, fmt::format("{{\"name\":{},\"key\":{},\"dresspack\":{},\"at\":{},\"radius\":{},{}}}", json(before + name),
+                              json(key), dresspack, json(at), json(mounted.dresspack.diameter / 2),
+                              place(one.link, one.position, one.direction)));
     };
-    if (routing.base_clamp) clamp("base clamp", *routing.base_clamp);
+    if (routing.base_clamp) clamp("base clamp", "base_clamp", 0, *routing.base_clamp);
     for (const IntermediateClamp& between : routing.clamps)
-      clamp(fmt::format("clamp at {:.2f} m", between.at_length), between.clamp);
-    if (routing.tool_clamp) clamp("tool clamp", *routing.tool_clamp);
+      clamp(fmt::format("clamp at {:.2f} m", between.at_length), "clamp", between.at_length, between.clamp);
+    if (routing.tool_clamp) clamp("tool clamp", "tool_clamp", routing.free_length, *routing.tool_clamp);
     for (const GuideRing& ring : routing.rings)
       add(rings,
           fmt::format("{{\"name\":{},\"radius\":{},\"width\":{},{}}}", json(before + "ring"),

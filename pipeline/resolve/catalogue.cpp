@@ -10,6 +10,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/resolve/cable_alone.h"
 #include "pipeline/resolve/data_sheet.h"
+#include "pipeline/resolve/placement.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/resolve/urdf_request.h"
 #include "pipeline/settings/fields.h"
@@ -280,6 +281,7 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
   if (!entry || !problems.attempt(path, entry->where, [&] { resolve(*entry, folder, job.where); })) return;
   if (folder != "dresspacks" || !entry->is_map()) return;
   expand_data_sheets(*entry, path, problems);
+  expand_places(*entry, path, problems);
   add_estimates(*entry);
   add_materials(*entry, job, path, problems);
 }

@@ -36,6 +36,9 @@ std::vector<std::filesystem::path> files_beside(const Job& job);
 /// A dresspack's file by itself, with its materials, checked as in a job whose parts may all slide. Errors:
 /// InputError.
 Dresspack read_dresspack(const std::filesystem::path& file);
+/// The same for a picture that marks what does not fit: problems of parts that do not are not thrown but go to `faults`, a
+/// line each; then what is taken from the construction stays 0.
+Dresspack read_dresspack(const std::filesystem::path& file, std::string& faults);
 
 /// Every key of a job, as Markdown tables.
 std::string job_manual();

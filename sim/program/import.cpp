@@ -4,6 +4,7 @@
 #include <set>
 
 #include "pipeline/base/program_files.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/backup.h"
 #include "sim/program/encoding.h"
@@ -333,8 +334,6 @@ std::pair<std::string, std::string> name_and_reason(const std::string& what) {
                                     : std::pair(what.substr(0, colon), what.substr(colon + 2));
 }
 
-constexpr int listed_lines = 5;  // of one thing that is skipped; the rest is counted
-
 struct SkippedGroup {
   pipeline::Where first;
   std::string name, reason;
@@ -343,7 +342,7 @@ struct SkippedGroup {
 };
 
 void add_to_group(SkippedGroup& group, const Skipped& skipped) {
-  if (++group.more > listed_lines) return;
+  ++group.more;
   const std::string file = std::filesystem::path(skipped.where.file).filename().string();
   const bool same_file = skipped.where.file == group.first.file;
   group.lines +=
@@ -366,11 +365,14 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
   }
   std::vector<pipeline::Warning> warnings;
   for (const SkippedGroup& group : groups) {
-    const std::string more = fmt::format(" (and {} more: line {}{})", group.more, group.lines,
-                                         group.more > listed_lines ? ", ..." : "");
-    warnings.push_back({pipeline::WarningKind::program, group.first.text(),
-                        fmt::format("skipped: {}{}{}", group.name.empty() ? "" : group.name + ": ",
-                                    group.reason, group.more == 0 ? "" : more)});
+    const std::string more = fmt::format(" (and {} more: line {})", group.more, group.lines);
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::program, group.first.text(),
+        fmt::format("skipped: {}{}{}", group.name.empty() ? "" : group.name + ": ", group.reason,
+                    group.more == 0 ? "" : more),
+        "an instruction that the importer does not run and that may move the robot",
+        "describe what it does by motion.values or motion.assume, or take it out of a copy of the program if it moves "
+        "nothing (dresslife import --explain lists every move)"));
   }
   return warnings;
 }

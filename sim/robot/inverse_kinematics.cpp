@@ -242,6 +242,38 @@ std::vector<VectorXd> InverseKinematics::with_turns(const VectorXd& arm) const {
   return list;
 }
 
+/// "joint_4 at 361.2 deg, 11.2 deg above its 350"; turns: by how many an axis may be turned to get nearer to its limits.
+/// most: gets the largest excess [rad].
+std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, double* most) const {
+  std::string words;
+  for (long axis = 0; axis < 6; ++axis) {
+    const pipeline::Joint& joint = robot_.joints[axis];
+    const auto excess = [&](double angle) { return std::max(joint.lower - angle, angle - joint.upper); };
+    double best = arm[axis];
+    for (int k = -turns; k <= turns; ++k)
+      if (const double angle = arm[axis] + 2 * pi * k; excess(angle) < excess(best)) best = angle;
+    if (excess(best) <= limit_rounding) continue;
+    if (most) *most = std::max(*most, excess(best));
+    const bool above = best > joint.upper;
+    words += fmt::format("{}{} at {:.1f} deg, {:.1f} deg {} its {:.6g}", words.empty() ? "" : "; ", joint.name, best * 180 / pi,
+                         excess(best) * 180 / pi, above ? "above" : "below",
+                         (above ? joint.upper : joint.lower) * 180 / pi);
+  }
+  return words;
+}
+
+/// Of the arm that needs least.
+std::string InverseKinematics::least_beyond(const std::vector<VectorXd>& arms) const {
+  std::string words;
+  double least = INFINITY;
+  for (const VectorXd& arm : arms) {
+    double most = 0;
+    const std::string own = beyond_limits(arm, 3, &most);
+    if (most < least) least = most, words = own;
+  }
+  return words;
+}
+
 /// Angles near a boundary of a quadrant or a sign may be meant on either side of it: written with few digits.
 bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& wanted,
                                 bool with_sides) const {
@@ -300,12 +332,10 @@ std::optional<VectorXd> InverseKinematics::follow(const Frame& flange, const Vec
     reason = "is out of reach";
     return {};
   }
-  for (int i = 0; i < 6; ++i)
-    if ((*arm)[i] < robot_.joints[i].lower - limit_rounding ||
-        (*arm)[i] > robot_.joints[i].upper + limit_rounding) {
-      reason = "is reached only outside the joint limits";
-      return {};
-    }
+  if (const std::string beyond = beyond_limits(*arm, 0); !beyond.empty()) {
+    reason = "is reached only outside the joint limits: " + beyond;
+    return {};
+  }
   return whole(*arm, near);
 }
 
@@ -363,7 +393,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
   if (reaching.empty())
     reason = "is out of reach";
   else if (!within_limits)
-    reason = "is reached only outside the joint limits";
+    reason = "is reached only outside the joint limits: " + least_beyond(reaching);
   else
     reason = fmt::format("is not reached in configuration {} (but in {})", configuration.text(),
                          fmt::join(others, "; "));

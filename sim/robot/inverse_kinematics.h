@@ -88,6 +88,8 @@ class InverseKinematics {
   void add_wrists(const Frame& flange, double q1, double q2, double q3, const Eigen::VectorXd& near,
                   std::vector<Eigen::VectorXd>& found) const;
   std::vector<Eigen::VectorXd> with_turns(const Eigen::VectorXd& arm) const;
+  std::string beyond_limits(const Eigen::VectorXd& arm, int turns, double* most = nullptr) const;
+  std::string least_beyond(const std::vector<Eigen::VectorXd>& arms) const;
   bool matches(const Eigen::VectorXd& joints, const ArmConfiguration& wanted, bool with_sides) const;
 
   const pipeline::Robot robot_;

@@ -79,7 +79,7 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
       {"cable", "--set simulation.periodic_tolerance_mm=1e-9", "periodic",
        "after 2 repeats the motion still begins"},
       {"cable", "", "overlap", "the 66 parts 'wire' are 0.1839 mm apart"},
-      {"robot", "", "force", "nobody sees in a dresspack"},
+      {"robot", "", "force", "so that the hours are not believable"},
       {"cable", "", "material", "material odd: K' 100 MPa"},
   };
   const Scratch scratch;
@@ -94,6 +94,7 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
     for (const Warning& warning : warnings)
       if (word(warning.kind) == one.kind) text = warning.text();
     REQUIRE_THAT(text, Contains(one.words));
+    CHECK_THAT(text, Contains(". Likely cause: ") && Contains(". Remedy: ") && !Contains("..."));
     CHECK_THAT(content(folder / one.job / "log"), Contains("warning: ") && Contains(one.words));
     CHECK_THAT(outcome.err, Contains(fmt::format("{}: warning: {}\n", one.job, text)));
     CHECK_THAT(outcome.out, Contains("\n   WARNING: "));

@@ -229,7 +229,7 @@ TEST_CASE("clamp path: the pose of mounting is the first waypoint or what the ro
   CHECK_THROWS_WITH(
       RobotPath(job),
       "job.yaml:7:1: error: routing.mounting_pose_deg turns table to 1718.87 deg (must be within "
-      "-1145.92 .. 1145.92 deg); move it inside the limits of turntable");
+      "-1145.92 .. 1145.92 deg); turn it 573 deg less, inside the limits of turntable");
 }
 
 TEST_CASE("clamp path: a clamp on no link is named") {
