@@ -99,7 +99,9 @@ int main(int argc, char** argv) {
         if (!call.quiet)
           for (const std::string& line : sim::skipped_lines(program)) pipeline::tell(line + "\n");
         if (call.output.empty()) return;
-        pipeline::write_text_if_changed(call.output, pipeline::motion_text(sim::motion_of(program, asked)));
+        pipeline::write_text_if_changed(
+            call.output,
+            pipeline::with_mark(pipeline::motion_text(sim::motion_of(program, asked)), pipeline::Mark::yaml));
         progress.note(
             fmt::format("{}: {} moves and dwells", call.output.string(), program.instructions.size()));
       });

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
+#include <cstdlib>
+#include <string>
+
+#include "pipeline/base/limits.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::sim {
 
@@ -29,22 +33,70 @@ std::optional<double> number_in(std::string_view text) {
   return value;
 }
 
+namespace {
+
+/// Calls `take` for each line of a file, a block of which is read at a time.
+void each_line(const pipeline::PlainFile& file, const std::function<void(std::string&)>& take) {
+  constexpr std::size_t block = 1 << 16;
+  std::string line, read;
+  for (std::uint64_t at = 0; at < file.size(); at += read.size()) {
+    read.resize(static_cast<std::size_t>(std::min<std::uint64_t>(block, file.size() - at)));
+    file.read(read.data(), read.size(), at);
+    for (std::size_t begin = 0; begin < read.size();) {
+      const std::size_t end = read.find('\n', begin);
+      line.append(read, begin, end - begin);
+      if (end == std::string::npos) break;
+      take(line);
+      line.clear();
+      begin = end + 1;
+    }
+  }
+  if (!line.empty()) take(line);
+}
+
+}  // namespace
+
 int read_csv(const std::filesystem::path& file, const char* key,
              const std::function<void(const std::vector<CsvCell>&, int)>& take) {
-  std::ifstream input(file);
-  if (!input || std::filesystem::is_directory(file))
+  if (pipeline::kind_of(file) != pipeline::FileKind::file)
     throw pipeline::InputError({file.string()}, fmt::format("{} cannot be read", key),
                                "check the file's name and rights");
+  const pipeline::PlainFile input(file);
+  input.check_is_text();
   int number = 0;
-  for (std::string line; std::getline(input, line);) {
+  each_line(input, [&](std::string& line) {
     ++number;
     if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // byte order mark
     std::replace_if(
         line.begin(), line.end(), [](char c) { return c == '\r' || c == '\t'; }, ' ');
-    if (line.find_first_not_of(' ') == std::string::npos || line.starts_with('#')) continue;
+    if (line.find_first_not_of(' ') == std::string::npos || line.starts_with('#')) return;
     take(cells_of(line), number);
-  }
+  });
   return number;
 }
 
 }  // namespace dresslife::sim
+
+namespace dresslife::pipeline {
+
+std::string harmless(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  const bool number = !text.empty() && *end == '\0';
+  const bool formula =
+      !number && !text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos;
+  return shown(formula ? "'" + text : text);
+}
+
+std::string csv_cell(const std::string& written) {
+  const std::string text = harmless(written);
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"') quoted += '"';
+    quoted += letter;
+  }
+  return quoted + '"';
+}
+
+}  // namespace dresslife::pipeline

@@ -26,8 +26,9 @@ int calibrate(const RunOptions& options) {
   const Learned learned = learn(tests, options.sets, places,
                                 [&](const Study& study) { return made_rows(study, places, options); });
   const std::string table = learned_table(learned);
-  write_text_if_changed(places.folder / "calibration.yaml", to_yaml(echo_fields(learned.calibration)));
-  write_text_if_changed(places.folder / "calibration.svg", calibration_picture(learned));
+  write_text_if_changed(places.folder / "calibration.yaml",
+                        with_mark(to_yaml(echo_fields(learned.calibration)), Mark::yaml));
+  write_text_if_changed(places.folder / "calibration.svg", with_mark(calibration_picture(learned), Mark::xml));
   print(shown(fmt::format("{}\nCalibration: {}\nPicture: {}\n", table,
                           (places.folder / "calibration.yaml").string(),
                           (places.folder / "calibration.svg").string())));

@@ -35,11 +35,10 @@ std::uintmax_t bytes_in(const fs::path& folder) {
 /// Of a job that the study has no more: our files, and the folder if nothing else is in it.
 void remove_job(const fs::path& folder, Freed& freed) {
   const std::uintmax_t before = bytes_in(folder);
-  std::error_code ignored;
-  for (const char* file : own_files) fs::remove(folder / file, ignored);
-  fs::remove_all(folder / ".stage", ignored);
+  for (const char* file : own_files) remove_ours(folder / file);
+  remove_notes(folder / ".stage");
   const std::uintmax_t left = bytes_in(folder);
-  if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
+  remove_empty(folder);
   freed.bytes += before - left;
   ++freed.folders;
 }
@@ -47,14 +46,13 @@ void remove_job(const fs::path& folder, Freed& freed) {
 bool is_job_folder(const fs::directory_entry& entry) {
   std::error_code ignored;
   return entry.is_directory(ignored) && !entry.is_symlink(ignored) &&
-         fs::is_directory(entry.path() / ".stage", ignored) &&
-         fs::is_regular_file(entry.path() / "job.yaml", ignored);
+         lies_in_notes(entry.path() / ".stage" / "README") && is_ours(entry.path() / "job.yaml");
 }
 
 int clean(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   const fs::path folder = request.out / study_name(request.file);
-  if (!fs::is_directory(folder))
+  if (kind_of(folder) != FileKind::folder)
     throw InputError({folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
   const FolderLock lock(folder);

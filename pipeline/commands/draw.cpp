@@ -16,7 +16,7 @@ struct Options {
 };
 
 int draw(const Options& options) {
-  if (!options.picture.empty()) check_picture(options.picture);
+  if (!options.picture.empty()) check_replaceable(options.picture);
   std::string faults;
   const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"), faults);
   if (!faults.empty()) {  // the picture marks what does not fit

@@ -4,7 +4,6 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/whole_file.h"
-#include "pipeline/commands/pictures.h"
 #include "pipeline/report/figures.h"
 #include "pipeline/report/paraview.h"
 
@@ -22,10 +21,7 @@ int export_job(const Options& options) {
   if (file.extension() != ".xdmf")
     throw InputError({file.string()}, "is no .xdmf", "name the file accordingly: ParaView goes by it");
   check_replaceable(file);
-  std::error_code failure;
-  if (fs::exists(file, failure) && beginning_of(file, 64).find("<Xdmf") == std::string::npos)
-    throw InputError({file.string()}, "is there already and no XDMF", "name another file after --paraview");
-  write_text_if_changed(file, xdmf_text(job_files(options.job), file));
+  write_text_if_changed(file, with_mark(xdmf_text(job_files(options.job), file), Mark::xml));
   return 0;
 }
 

@@ -48,10 +48,10 @@ int improve_study(Options options) {
   write_text_if_changed(places.folder / "improve.csv", improvement_csv(found));
   const MakeRows make_rows = [&](const Study& study) { return made_rows(study, places, options); };
   const Finals finals = finals_of(found, options.request, make_rows);
-  const bool all_written = write_results(finals.study, places, finals.rows);
+  const bool all_written = write_results(finals.study, places, finals.rows).empty();
   const double off = options.off_mm / 1000;
   const ImprovementStory story = story_of(found, finals, options.request, off, places, make_rows);
-  write_text_if_changed(places.folder / "improve.html", improvement_page(story));
+  write_text_if_changed(places.folder / "improve.html", with_mark(improvement_page(story), Mark::page));
   print(shown(improvement_words(found, finals, story, options.request.second, off, places)));
   print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
                           (places.folder / "improve.html").string())));

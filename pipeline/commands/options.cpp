@@ -49,13 +49,12 @@ namespace {
 
 /// shelves: the first that has one counts.
 fs::path file_or_entry(const std::string& name, const std::vector<std::string>& shelves) {
-  std::error_code failure;
   const bool is_name = fs::path(name).parent_path().empty() && fs::path(name).extension() != ".yaml";
-  if (!is_name || fs::is_regular_file(name, failure)) return name;
+  if (!is_name || kind_of(name) == FileKind::file) return name;
   std::string looked_for;
   for (const std::string& shelf : shelves) {
     const fs::path entry = fs::path(shelf) / (name + ".yaml"), shipped = shipped_catalogue() / entry;
-    if (fs::is_regular_file(shipped, failure)) return fs::proximate(shipped);
+    if (kind_of(shipped) == FileKind::file) return fs::proximate(shipped);
     looked_for += (looked_for.empty() ? "" : " or ") + entry.string();
   }
   throw InputError({name},

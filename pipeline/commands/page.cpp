@@ -14,8 +14,7 @@ namespace fs = std::filesystem;
 /// Of any folder that holds a job's results.
 int page(const fs::path& folder) {
   JobFolder files{fs::weakly_canonical(folder).filename().string(), folder};
-  std::error_code failure;
-  if (!fs::is_regular_file(files.life(), failure))
+  if (kind_of(files.life()) != FileKind::file)
     throw InputError({folder.string()}, "holds no life.h5",
                      "name the folder of a job that is done: runs/STUDY/JOB");
   refresh_job_page(files);

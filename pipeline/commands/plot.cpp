@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/ownership.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/report/figures.h"
 #include "pipeline/report/job_page.h"
@@ -22,7 +23,7 @@ int plot(const Options& options) {
   const fs::path file = options.picture;
   if (file.extension() != ".svg" && file.extension() != ".png")
     throw InputError({file.string()}, "is neither an .svg nor a .png", "name the picture accordingly");
-  check_picture(file);
+  check_replaceable(file);
   Figure what{};
   while (word(what) != options.what) what = static_cast<Figure>(static_cast<int>(what) + 1);
   write_picture(file, figure(what, job_files(options.job), options.time));

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// run left them.
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
-  if (const fs::path folder = request.out / study_name(request.file); !fs::is_directory(folder))
+  if (const fs::path folder = request.out / study_name(request.file); kind_of(folder) != FileKind::folder)
     throw InputError({folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
   Standing standing = standing_of(request);
@@ -37,12 +37,15 @@ int report(const StudyOptions& options) {
   });
   bool all_written = true;
   std::string kept;
-  if (open > 0)
+  const auto others = std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); });
+  if (!options.sets.empty() && others > 0)
+    kept = fmt::format("of {} jobs there are no results with these --set", others);
+  else if (open > 0)
     kept = fmt::format("of {} jobs the results are broken off or damaged", open);
   else if (::access(places.folder.c_str(), W_OK) != 0)
     kept = "the folder cannot be written";
   if (kept.empty()) {
-    all_written = write_results(study, places, rows);
+    all_written = write_results(study, places, rows).empty();
     print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
   } else {
     tell(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",

@@ -8,6 +8,7 @@
 
 #include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/other_ways.h"
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/readable.h"
@@ -58,21 +59,16 @@ std::string lines_words(const OtherWay& way) {
 }
 
 std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
-  const auto quoted = [](const std::string& text) {
-    std::string cell = "\"";
-    for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
-    return cell + "\"";
-  };
   std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets\n";
   for (const TriedWay& tried : ways) {
     std::string sets;
     for (const std::string& set : tried.way.sets) sets += (sets.empty() ? "" : "; ") + set;
     const bool ran = tried.outcome.failure.empty();
     text += fmt::format(
-        "{},{},{},{},{},{},{},{}\n", quoted(lines_words(tried.way)), quoted(tried.way.what),
+        "{},{},{},{},{},{},{},{}\n", csv_cell(lines_words(tried.way)), csv_cell(tried.way.what),
         ran ? shortest_text(tried.outcome.hours) : "", ran ? shortest_text(times_as_long(tried, before)) : "",
         ran ? shortest_text(tried.seconds) : "", ran ? shortest_text(before.seconds - tried.seconds) : "",
-        quoted(tried.outcome.words()), quoted(sets));
+        csv_cell(tried.outcome.words()), csv_cell(sets));
   }
   return text;
 }

@@ -19,7 +19,7 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/job_text.h"
@@ -56,22 +56,11 @@ bool better(const Outcome& a, const Outcome& b) {
   return a.hours > b.hours;
 }
 
-constexpr std::string_view mark = "# Proposed by dresslife route";
-
-/// A job that it wrote itself may be replaced.
-void check_job_file(const fs::path& file) {
-  check_replaceable(file);
-  std::error_code failure;
-  if (fs::exists(file, failure) && beginning_of(file, mark.size()) != mark)
-    throw InputError({file.string()}, "is there already and was not proposed by dresslife route",
-                     "name another file after --job");
-}
-
 ScreenedList proposed(const Draft& draft, const Options& options, double factor, const fs::path& folder) {
   Node document = parse_yaml(job_text(draft.job), "draft");
   if (factor != 1) document["dresspack"] = *routed(draft, "{}", "{}", factor).find("dresspack");
   const fs::path job = folder / "draft.yaml";
-  write_text_if_changed(job, to_yaml(document));
+  write_text_if_changed(job, with_mark(to_yaml(document), Mark::yaml));
   const PassingFile told("screening.h5");
   std::vector<std::string> arguments{job.string(),
                                      "--propose",
@@ -168,7 +157,7 @@ int route(const Options& options) {
   const Draft draft = draft_of(options.request);
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
-  check_job_file(job);
+  check_replaceable(job);
   check_replaceable(page);
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
@@ -195,7 +184,9 @@ int route(const Options& options) {
                      "try other links (--from, --to), another --seed, a ring, or a gentler program");
   const std::string& routing = chosen->proposals.candidates[*chosen->best].changes;
   const Node document = routed(draft, routing, chosen->proposals.motion, chosen->factor);
-  write_text_if_changed(job, fmt::format("{} {}\n{}", mark, options.request.of, to_yaml(document)));
+  const std::string text =
+      fmt::format("# Proposed by dresslife route {}\n{}", shown(options.request.of), to_yaml(document));
+  write_text_if_changed(job, with_mark(text, Mark::yaml));
   write_page(job, page);
   print(shown(words_of(*chosen, draft)));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));

@@ -26,6 +26,7 @@ int run_shard(const RunOptions& options) {
   Standing standing = expanded(request);
   const fs::path& folder = standing.places.folder;
   const FolderLock beside(folder, FolderLock::Held::with_shards);
+  make_notes(folder / ".stage");
   keep_shard(standing, shard);
   const FolderLock lock(folder / standing.places.notes());
   look_again(standing);
@@ -40,7 +41,7 @@ int run(const RunOptions& options) {
   const StudyRequest request = request_of(options);
   const fs::path folder = request.out / study_name(request.file);
   Standing standing;
-  const bool begun = fs::is_directory(folder);
+  const bool begun = kind_of(folder) == FileKind::folder;
   if (!begun) standing = expanded(request);  // a study that cannot be expanded leaves no folder
   const FolderLock lock(folder);
   if (begun) standing = standing_of(request);
@@ -57,12 +58,13 @@ int run(const RunOptions& options) {
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, &options, rows);
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
-  const bool all_written = write_results(study, places, rows);
+  const std::set<std::string> not_shown = write_results(study, places, rows);
+  for (const std::string& job : not_shown) forget_damaged(places.job(job));
   print(
       shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
   if (!options.quiet) tell(warning_lines(rows));
   const int failed = count_failed(rows);
-  if (failed == 0) return all_written ? 0 : 1;
+  if (failed == 0) return not_shown.empty() ? 0 : 1;
   tell(shown(problem_words(study)));
   tell(fmt::format(
       "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",

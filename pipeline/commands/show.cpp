@@ -18,7 +18,7 @@ struct Options {
 };
 
 int show(const Options& options) {
-  if (std::error_code failure; std::filesystem::is_directory(options.file, failure)) {
+  if (kind_of(options.file) == FileKind::folder) {
     print(shown(file_summary(job_files(options.file).life)));
     return 0;
   }

@@ -40,7 +40,7 @@ std::string script_of(const SubmitOptions& options, const Cluster& cluster, cons
   const auto memory = static_cast<long>(cluster.memory / megabyte);
   const auto whole = [](const fs::path& file) { return shell_word(fs::absolute(file).string()); };
   const fs::path log = standing.places.folder / "submit.log";
-  std::string text = "#!/bin/sh\n# Written by dresslife submit; submitted again, it goes on where it was.\n";
+  std::string text = "#!/bin/sh\n# Of dresslife submit; submitted again, it goes on where it was.\n";
   text += fmt::format("#SBATCH --job-name={}\n", standing.study.name);
   text += fmt::format("#SBATCH --ntasks={} --cpus-per-task=1 --mem-per-cpu={}\n", tasks, memory);
   text += "#SBATCH --requeue --output=/dev/null\n";
@@ -84,7 +84,7 @@ int submit(const SubmitOptions& options) {
   const int shards = shards_needed(standing, cluster.most_stages);
   const fs::path script = standing.places.folder / "submit.sh";
   fs::create_directories(standing.places.folder);
-  write_text_if_changed(script, script_of(options, cluster, standing));
+  write_text_if_changed(script, with_mark(script_of(options, cluster, standing), Mark::script));
   const std::string array = shards > 1 ? fmt::format(" --array=1-{}", shards) : "";
   if (options.only_write) {
     print(shown(fmt::format("{} is written; submit it: {}{} {}\n", script.string(), cluster.submit, array,

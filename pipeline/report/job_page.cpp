@@ -12,7 +12,7 @@
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/files/checksum.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/damage_tables.h"
@@ -34,8 +34,7 @@ namespace {
 using Reader = std::unique_ptr<const FileReader>;
 
 Reader opened(const std::filesystem::path& file, const Format& format, std::vector<std::string>& notes) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(file, ignored)) return std::make_unique<FileReader>(file, format);
+  if (kind_of(file) == FileKind::file) return std::make_unique<FileReader>(file, format);
   notes.push_back(
       fmt::format("{} is not there (run the job again to see what it tells)", file.filename().string()));
   return nullptr;
@@ -254,15 +253,6 @@ std::string made_from(const JobFolder& files) {
   return xxh3(told);
 }
 
-/// Style, and a mark of what is stale, lie in it.
-std::string head_of(const std::filesystem::path& page) {
-  std::string head(1 << 16, '\0');
-  std::ifstream in(page, std::ios::binary);
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return head;
-}
-
 }  // namespace
 
 std::string job_page(const JobFolder& files) { return Page(files).text(made_from(files)); }
@@ -276,31 +266,24 @@ bool refresh_job_page(const JobFolder& files) {
 void mark_job_page(const JobFolder& files, const std::string& words) {
   constexpr std::string_view body = "<body>\n", open = "<p class=\"failed\" id=\"stale\">", close = "</p>\n";
   const std::string digest = made_from_of(files.page());
-  if (digest.empty()) return;
+  if (digest.empty()) return remove_job_page(files);  // damaged, or of another version
   const std::string mark = fmt::format("{}{}{}{}", body, open, escaped(words), close);
-  if (head_of(files.page()).find(mark) != std::string::npos) return;
-  std::string text = read_text(files.page());
-  const std::size_t at = text.find(body), behind = at + body.size();
-  if (at == std::string::npos) return;
-  const bool marked = std::string_view(text).substr(behind).starts_with(open);
-  text.replace(at, (marked ? text.find(close, behind) + close.size() : behind) - at, mark);
-  text.replace(text.find(digest), digest.size(), xxh3(digest + mark));  // no page of these results any more
-  write_text_if_changed(files.page(), text, Sync::never);
+  const std::string page = read_text(files.page());
+  if (page.find(mark) != std::string::npos) return;
+  const std::string marked = changed_page(page, [&](std::string& text) {
+    const std::size_t at = text.find(body), behind = at + body.size();
+    if (at == std::string::npos) return;
+    const bool has_one = std::string_view(text).substr(behind).starts_with(open);
+    text.replace(at, (has_one ? text.find(close, behind) + close.size() : behind) - at, mark);
+    text.replace(text.find(digest), digest.size(), xxh3(digest + mark));  // no page of these results any more
+  });
+  write_text_if_changed(files.page(), marked, Sync::never);
 }
 
-void remove_job_page(const JobFolder& files) {
-  if (made_from_of(files.page()).empty()) return;
-  std::error_code failure;
-  std::filesystem::remove(files.page(), failure);
-  if (failure)
-    throw InputError({files.page().string()},
-                     fmt::format("tells of an older result and cannot be removed ({})", failure.message()),
-                     "remove it");
-}
+void remove_job_page(const JobFolder& files) { remove_ours(files.page()); }
 
 void remove_old_job_page(const JobFolder& files) {
-  const std::string digest = made_from_of(files.page());
-  if (!digest.empty() && digest != made_from(files)) remove_job_page(files);
+  if (made_from_of(files.page()) != made_from(files)) remove_job_page(files);
 }
 
 }  // namespace dresslife::pipeline

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "pipeline/base/limits.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -27,7 +29,7 @@ std::string list(const Values& values, const Each& each) {
 
 std::string json(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : shown(std::string(text))) {
     const auto code = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\')
       quoted += {'\\', c};

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
@@ -228,9 +229,8 @@ PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
 LifeSummary read_life(const std::filesystem::path& life_file, const std::filesystem::path& strain_file) {
   const FileReader file(life_file, life_format());
   LifeSummary life;
-  std::error_code ignored;
   std::optional<FileReader> strain;
-  if (std::filesystem::is_regular_file(strain_file, ignored)) strain.emplace(strain_file, strain_format());
+  if (kind_of(strain_file) == FileKind::file) strain.emplace(strain_file, strain_format());
   const KnownHistory history = known_history(file, strain ? &*strain : nullptr);
   life.strain = history.strain;
   life.strain_of = history.words();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
 
 namespace dresslife::pipeline {
@@ -107,7 +108,7 @@ double share_of(const Axis& axis, double value) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char letter : text) switch (letter) {
+  for (const char letter : shown(text)) switch (letter) {
       case '&':
         out += "&amp;";
         break;
@@ -124,8 +125,7 @@ std::string escaped(const std::string& text) {
         out += "&#39;";
         break;
       default:
-        // Control characters have no place in HTML, escaped or not.
-        out += static_cast<unsigned char>(letter) < 0x20 && letter != '\n' && letter != '\t' ? ' ' : letter;
+        out += letter;
     }
   return out;
 }

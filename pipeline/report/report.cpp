@@ -91,8 +91,7 @@ bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && 
 
 /// Of a page beside the job's results, as seen from the study's; empty where there is none.
 std::string page_address(const RankingRow& row, const std::string& page) {
-  std::error_code ignored;
-  if (row.life_file.empty() || !std::filesystem::is_regular_file(row.life_file.parent_path() / page, ignored))
+  if (row.life_file.empty() || kind_of(row.life_file.parent_path() / page) != FileKind::file)
     return "";
   std::string address;
   for (const char c : row.job)
@@ -433,8 +432,7 @@ std::string charts(const RankingRow& row) {
 /// The worst moment as a picture; none when the motion file has been cleared away.
 std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  std::error_code ignored;
-  if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
+  if (!damaged(row) || kind_of(motion) != FileKind::file) return "";
   const std::string picture =
       scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
   return picture.empty()
@@ -447,13 +445,13 @@ std::string scene(const RankingRow& row) {
 /// What a cell designer asks; none when the motion file has been cleared away.
 std::string checks(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(motion, ignored)) return "";
+  if (kind_of(motion) != FileKind::file) return "";
   const std::string table = check_table(motion);
   return table.empty() ? "" : "<h3>Checks of the motion</h3>\n" + table;
 }
 
-std::string job_section(const RankingRow& row, std::size_t rank) {
+/// problems: is told why a section has no more than that it cannot be shown.
+std::string job_section(const RankingRow& row, std::size_t rank, std::vector<ReportProblem>& problems) {
   std::string body;
   try {
     body = page_link(row, "page.html", "See it move, and where and when the damage comes about") + facts(row);
@@ -462,6 +460,7 @@ std::string job_section(const RankingRow& row, std::size_t rank) {
     body += charts(row);
   } catch (const InputError& problem) {
     body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
+    problems.push_back({row.job, problem.what()});
   }
   const std::string stale =
       row.stale ? fmt::format("<p class=\"failed\">{}</p>\n", escaped(stale_words(row))) : "";
@@ -501,6 +500,12 @@ std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
 }
 
 std::string report_page(const std::string& study, const std::vector<RankingRow>& rows) {
+  std::vector<ReportProblem> problems;
+  return report_page(study, rows, problems);
+}
+
+std::string report_page(const std::string& study, const std::vector<RankingRow>& rows,
+                        std::vector<ReportProblem>& problems) {
   const std::vector<bool> detailed = detailed_jobs(rows);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -510,7 +515,7 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
       escaped(study), chart_style() + report_style, escaped(study));
   page += summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (detailed[i]) page += job_section(rows[i], i + 1);
+    if (detailed[i]) page += job_section(rows[i], i + 1, problems);
   return page +
          fmt::format(
              "<p class=\"soft\">dresslife {}</p>\n<script>\n\"use strict\";\n(() => {{\n{}}})();\n</script>\n"
@@ -518,9 +523,11 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
              version(), study_script());
 }
 
-void write_report(const std::filesystem::path& file, const std::string& study,
-                  const std::vector<RankingRow>& rows) {
-  write_text_if_changed(file, report_page(study, rows));
+std::vector<ReportProblem> write_report(const std::filesystem::path& file, const std::string& study,
+                                        const std::vector<RankingRow>& rows) {
+  std::vector<ReportProblem> problems;
+  write_text_if_changed(file, with_mark(report_page(study, rows, problems), Mark::page));
+  return problems;
 }
 
 }  // namespace dresslife::pipeline

@@ -71,6 +71,11 @@ Setup setup_from(Node document) { return job_from(std::move(document)); }
 
 std::string job_text(const Job& job) { return to_yaml(echo_fields(job)); }
 
+std::string stored_job_text(const Job& job, const std::filesystem::path& folder) {
+  const PathText seen = [&](const std::filesystem::path& file) { return as_seen_from(folder, file).string(); };
+  return to_yaml(echo_fields(Describe([copy = job](Fields& f) mutable { describe(f, copy); }), seen));
+}
+
 std::string job_text(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   return job_text(read_job(file, sets));
 }

@@ -93,7 +93,7 @@ class Locked {
   Locked& operator=(const Locked&) = delete;
 
   std::string text() const {
-    const std::int64_t size = descriptor_ < 0 ? 0 : state_of(descriptor_).size;
+    const std::int64_t size = descriptor_ < 0 ? 0 : state_of(descriptor_, "memory").size;
     std::string text(static_cast<std::size_t>(std::max<std::int64_t>(0, size)), '\0');
     if (!text.empty() && !read_at(descriptor_, text.data(), text.size(), 0)) text.clear();
     return text;

@@ -70,6 +70,9 @@ struct StageFiles {
 };
 StageFiles files_of_stage(std::size_t stage);
 
+/// Forgets results of a job that are not what their receipts say: the next run makes them anew. Errors: DiskError.
+void forget_damaged(const std::filesystem::path& folder);
+
 /// Brings a state up to date whose recipes are known.
 void look_at(JobState& state, const std::filesystem::path& folder);
 
@@ -83,6 +86,9 @@ bool may_lack(Keep keep, std::size_t stage);
 
 /// Removes what the study does not keep of a job that is done. Returns the bytes that it took.
 std::uintmax_t remove_unkept(const JobState& state, const std::filesystem::path& folder);
+
+/// Before anything is computed. Errors: InputError where a run would replace a file that is not ours.
+void check_places(const Study& study, const StudyPlaces& places);
 
 /// Notes of outputs whose bytes had to be compared that they need no look the next time.
 void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states);

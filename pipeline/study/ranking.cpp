@@ -10,6 +10,7 @@
 #include <map>
 #include <string_view>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
@@ -180,28 +181,6 @@ bool better(const RankingRow& one, const RankingRow& other) {
     return one.headline_hours() > other.headline_hours();
   if (one.has_result() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
   return one.job < other.job;
-}
-
-/// Text that a spreadsheet would take for a formula begins with an apostrophe, and no letter acts on a
-/// terminal.
-std::string harmless(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  const bool number = !text.empty() && *end == '\0';
-  const bool formula =
-      !number && !text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos;
-  return shown(formula ? "'" + text : text);
-}
-
-std::string csv_cell(const std::string& written) {
-  const std::string text = harmless(written);
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"') quoted += '"';
-    quoted += letter;
-  }
-  return quoted + '"';
 }
 
 /// One column of the terminal's table, as wide as its widest cell.

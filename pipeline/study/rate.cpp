@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/cable_alone.h"
@@ -115,12 +116,6 @@ const RankingRow* row_of(const std::vector<RankingRow>& rows, const std::string&
   return found == rows.end() ? nullptr : &*found;
 }
 
-std::string quoted(const std::string& text) {
-  std::string cell = "\"";
-  for (const char letter : text) cell += letter == '"' ? "\"\"" : std::string(1, letter);
-  return cell + '"';
-}
-
 /// "respected" where half of such cables reach what the maker promises.
 std::string verdict(double rated, double predicted) {
   if (rated == 0 || std::isnan(predicted)) return "";
@@ -201,14 +196,14 @@ std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows
   for (const RatedTest& test : rated.tests) {
     const RankingRow* row = row_of(rows, test.job);
     const bool done = row && row->done();
-    std::vector<std::string> cells{quoted(test.cable), quoted(test.job), quoted(test.rig),
-                                   done ? "done" : quoted(row ? row->failure : "to do")};
+    std::vector<std::string> cells{csv_cell(test.cable), csv_cell(test.job), csv_cell(test.rig),
+                                   done ? "done" : csv_cell(row ? row->failure : "to do")};
     const CycleLives lives = done ? cycles_of(*row) : CycleLives{};
     for (const double value : {lives.conductor[0], lives.conductor[1], lives.conductor[2], lives.worst_wire,
                                lives.all_stick, lives.all_free})
       cells.push_back(done && !std::isnan(value) ? shortest_text(value) : "");
     cells.push_back(test.rated_cycles > 0 ? shortest_text(test.rated_cycles) : "");
-    cells.push_back(quoted(test.source));
+    cells.push_back(csv_cell(test.source));
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "pipeline/base/normal_numbers.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 

@@ -20,9 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view command_line = "command line";
 
 bool is_shipped(const char* shelf, const Node& entry) {
-  std::error_code failure;
   return entry.is_scalar() && entry.text.find('/') == std::string::npos &&
-         fs::is_regular_file(shipped_catalogue() / shelf / (entry.text + ".yaml"), failure);
+         kind_of(shipped_catalogue() / shelf / (entry.text + ".yaml")) == FileKind::file;
 }
 
 Node named(const std::string& text) {
@@ -42,9 +41,8 @@ Node job_named(const std::string& of) {
     Node document = read_document(of);
     return document.find("joints") ? Node{} : document;
   }
-  std::error_code failure;
   const fs::path shipped = shipped_catalogue() / "jobs" / (of + ".yaml");
-  return fs::is_regular_file(shipped, failure) ? read_document(fs::proximate(shipped)) : Node{};
+  return kind_of(shipped) == FileKind::file ? read_document(fs::proximate(shipped)) : Node{};
 }
 
 Robot robot_of(const Node& document) {

@@ -11,6 +11,7 @@
 #include "pipeline/advise/improve/obstacle.h"
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
@@ -287,13 +288,6 @@ class Improver {
   Freedom freedom_;
   Improvement done_;
 };
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
-  return quoted + "\"";
-}
 
 }  // namespace
 

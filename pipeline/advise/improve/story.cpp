@@ -49,8 +49,7 @@ ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Ou
                                  const StudyPlaces& places) {
   ImprovementStory::Lives lives{"", outcome.feasible() ? "all kept" : outcome.words()};
   if (const RankingRow* row = finals.worst_row(of)) {
-    std::error_code failure;
-    if (std::filesystem::exists(places.job(row->job) / "page.html", failure))
+    if (kind_of(places.job(row->job) / "page.html") != FileKind::absent)
       lives.page = row->job + "/page.html";
     const std::array<double, 3> hours =
         row->planned() ? row->planned_hours : std::array{row->life_hours, row->life_hours, row->life_hours};

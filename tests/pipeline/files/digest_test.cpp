@@ -1,4 +1,4 @@
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"

@@ -2,7 +2,7 @@
 // else worked out.
 #include "pipeline/files/receipt.h"
 
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "tests/catch.h"
 
 using namespace dresslife::pipeline;

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "pipeline/base/installation.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"

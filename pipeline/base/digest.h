@@ -11,8 +11,10 @@
 
 namespace dresslife::pipeline {
 
+class PlainFile;
+
 std::string sha256(std::string_view bytes);                     ///< 64 hexadecimal digits
-std::string sha256_of_file(const std::filesystem::path& file);  ///< Errors: InputError when it cannot be read
+std::string sha256_of_file(const std::filesystem::path& file);  ///< Errors: those of PlainFile
 
 /// XXH3, 128 bits, as 32 hexadecimal digits.
 class Xxh3 {
@@ -28,8 +30,9 @@ class Xxh3 {
 };
 
 std::string xxh3(std::string_view bytes);
-std::string xxh3_of_file(const std::filesystem::path& file);  ///< Errors: InputError when it cannot be read
-/// Of the bytes [begin, end) of an open file; empty when they cannot be read.
-std::string xxh3_of_range(int descriptor, std::uint64_t begin, std::uint64_t end);
+std::string xxh3_of_file(const std::filesystem::path& file);  ///< Errors: those of PlainFile
+std::string xxh3_of(const PlainFile& file);                   ///< Errors: DiskError
+/// XXH3 of 64 bits, in one call: of pieces of a file whose whole has a digest of 128.
+std::uint64_t xxh3_64(const void* bytes, std::size_t count);
 
 }  // namespace dresslife::pipeline

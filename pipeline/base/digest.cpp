@@ -1,4 +1,4 @@
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 
 // The envelope around it (EVP) makes tables of every cipher first: a third of a millisecond at each start of
 // a stage.
@@ -8,12 +8,11 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <vector>
 
 #include "pipeline/base/errors.h"
-#include "pipeline/base/whole_file.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -48,23 +47,19 @@ constexpr std::size_t block_bytes = 1 << 16;  // larger ones cost short files mo
 
 /// Gives a file's bytes to `digest`, block by block.
 template <class Digest>
-std::string digest_of_file(const std::filesystem::path& file, Digest&& digest) {
-  std::ifstream in(file, std::ios::binary);
-  // A folder opens like a file and fails on the first read.
-  if (!in || (in.peek(), in.bad())) throw InputError({file.string()}, "cannot be read", "check the path");
-  in.clear();
+std::string digest_of(const PlainFile& bytes, Digest&& digest) {
   std::vector<char> block(block_bytes);
-  while (in) {
-    in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    digest.add(block.data(), static_cast<std::size_t>(in.gcount()));
+  for (std::uint64_t at = 0; at < bytes.size(); at += block.size()) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), bytes.size() - at));
+    bytes.read(block.data(), count, at);
+    digest.add(block.data(), count);
   }
-  if (in.bad()) throw InputError({file.string()}, "cannot be read to its end", "check the disk");
   return digest.hex();
 }
 
 }  // namespace
 
-std::string sha256_of_file(const std::filesystem::path& file) { return digest_of_file(file, Sha256()); }
+std::string sha256_of_file(const std::filesystem::path& file) { return digest_of(PlainFile(file), Sha256()); }
 
 struct Xxh3::State {
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> xxh{XXH3_createState(), XXH3_freeState};
@@ -88,18 +83,9 @@ std::string xxh3(std::string_view bytes) {
   return digest.hex();
 }
 
-std::string xxh3_of_file(const std::filesystem::path& file) { return digest_of_file(file, Xxh3()); }
+std::string xxh3_of(const PlainFile& file) { return digest_of(file, Xxh3()); }
+std::string xxh3_of_file(const std::filesystem::path& file) { return xxh3_of(PlainFile(file)); }
 
-std::string xxh3_of_range(int descriptor, std::uint64_t begin, std::uint64_t end) {
-  Xxh3 digest;
-  std::vector<char> block(block_bytes);
-  for (std::uint64_t at = begin; at < end;) {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), end - at));
-    if (!read_at(descriptor, block.data(), count, at)) return "";
-    digest.add(block.data(), count);
-    at += count;
-  }
-  return digest.hex();
-}
+std::uint64_t xxh3_64(const void* bytes, std::size_t count) { return XXH3_64bits(bytes, count); }
 
 }  // namespace dresslife::pipeline
