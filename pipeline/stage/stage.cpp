@@ -35,6 +35,13 @@ const char* part_name(Part part) {
   return "";
 }
 
+/// What only the command line of a stage says.
+struct StageFlags {
+  bool force = false;
+  std::filesystem::path receipt;
+  std::filesystem::path likes;  ///< names the folders of jobs to which this output belongs, too, line by line
+};
+
 void check_output(const StageCall& call, const StageFlags& flags) {
   if (flags.force) let_replace_files_of_others();
   if (!flags.receipt.empty()) check_replaceable(flags.receipt);
@@ -80,13 +87,6 @@ void check_inputs_unchanged(const StageCall& call) {
       throw InputError({input.file.string()}, fmt::format("has changed while {} ran", call.info.program),
                        "run it again");
 }
-
-/// What only the command line of a stage says.
-struct StageFlags {
-  bool force = false;
-  std::filesystem::path receipt;
-  std::filesystem::path likes;  ///< names the folders of jobs to which this output belongs, too, line by line
-};
 
 Command command_of(const StageInfo& info, StageCall& call, StageFlags& flags) {
   std::vector<Option> options{

@@ -5,6 +5,7 @@
 #include "pipeline/files/files.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
+#include "sim/run/checks.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
