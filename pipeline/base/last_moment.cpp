@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <initializer_list>
 #include <new>
@@ -109,15 +108,19 @@ void end_tidily_at_signals() {
 void end_without_memory() noexcept {
   static std::atomic<bool> said{false};
   while (said.exchange(true)) ::pause();  // another thread is at it
-  constexpr char words[] =
-      ": error: out of memory; run fewer jobs at a time, ask for fewer segments or samples, or allow more\n";
+  constexpr std::size_t words = sizeof out_of_memory_words - 1;
   char line[256];
-  const std::size_t name = ::strnlen(program_invocation_short_name, sizeof line - sizeof words);
-  std::memcpy(line, program_invocation_short_name, name);
-  std::memcpy(line + name, words, sizeof words - 1);
+  std::size_t length = ::strnlen(program_invocation_short_name, sizeof line - words - 2);
+  const auto add = [&](const char* text, std::size_t count) {
+    std::memcpy(line + length, text, count);
+    length += count;
+  };
+  std::memcpy(line, program_invocation_short_name, length);
+  add(": ", 2);
+  add(out_of_memory_words, words);
   constexpr int failed = 1;
   tidy_at_the_end();
-  if (::write(STDERR_FILENO, line, name + sizeof words - 1) < 0) ::_exit(failed);
+  if (::write(STDERR_FILENO, line, length) < 0) ::_exit(failed);
   ::_exit(failed);
 }
 

@@ -8,6 +8,8 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/ownership.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 
@@ -62,13 +64,19 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
                    "write the path of a YAML file");
 }
 
+/// What a user names is read, here or by a stage, and not replaced.
+fs::path input(fs::path file) {
+  note_input(file);
+  return file;
+}
+
 }  // namespace
 
 fs::path named_file(const std::string& name, const std::string& shelf) {
-  return file_or_entry(name, {shelf});
+  return input(file_or_entry(name, {shelf}));
 }
 
-fs::path named_study(const std::string& name) { return file_or_entry(name, {"studies", "jobs"}); }
+fs::path named_study(const std::string& name) { return input(file_or_entry(name, {"studies", "jobs"})); }
 
 StudyRequest request_of(const StudyOptions& options) {
   return {named_study(options.study), options.sets, options.out, program_folder()};

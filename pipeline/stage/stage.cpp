@@ -263,7 +263,8 @@ int guarded(const std::string& program, const std::function<int()>& body) {
                      problem.code().message()));
     return 1;
   } catch (const std::bad_alloc&) {
-    end_without_memory();
+    tell(fmt::format("{}: {}", program, out_of_memory_words));
+    return 1;
   } catch (const std::system_error& problem) {
     tell(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits\n",
                      program, problem.what()));

@@ -28,9 +28,10 @@ constexpr std::size_t note_bytes = 21;  // a process number, blanks and a line f
 /// The process that took the lock last; 0: not known. Errors: InputError when it is a file of another kind.
 long owner_of(int descriptor, const fs::path& file) {
   char text[note_bytes + 2] = "";
-  const ssize_t got = read_some(descriptor, text, note_bytes + 1, 0);
+  const bool is_plain = state_of(descriptor, file).exists();
+  const ssize_t got = is_plain ? read_some(descriptor, text, note_bytes + 1, 0) : 0;
   if (got < 0) throw DiskError(file.string(), errno);
-  if (!state_of(descriptor, file).exists() || got > static_cast<ssize_t>(note_bytes) ||
+  if (!is_plain || got > static_cast<ssize_t>(note_bytes) ||
       text[std::strspn(text, "0123456789 \n")] != '\0')
     throw InputError({file.string()}, "is there already and is no lock of dresslife's",
                      "move it away, or choose another folder with -o");

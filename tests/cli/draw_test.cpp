@@ -99,7 +99,7 @@ TEST_CASE("draw replaces pictures and nothing else") {
   scratch.write("mine.yaml", "keep: me\n");
   const Outcome refused = run(scratch, "dresslife", "draw control_cable -o mine.yaml");
   CHECK(refused.status == 1);
-  CHECK(refused.err.find("mine.yaml: error: is there already and no picture; name another file") == 0);
+  CHECK(refused.err.find("mine.yaml: error: is there already and was not written by dresslife") == 0);
   CHECK(content(scratch / "mine.yaml") == "keep: me\n");
   REQUIRE(run(scratch, "dresslife", "draw control_cable -o cable.svg").status == 0);
   CHECK(run(scratch, "dresslife", "draw sensor_cable -o cable.svg").status == 0);

@@ -105,6 +105,6 @@ TEST_CASE("the later stages refuse files that are not theirs, cut off or damaged
   check_refused(scratch, run(scratch, "dresslife-strain", "none.h5 -o strain.h5"),
                 "none.h5: error: is not there", "strain.h5");
   check_refused(scratch, run(scratch, "dresslife-strain", "motion.h5 -o motion.h5"),
-                "motion.h5: error: is the input itself", "strain.h5");
+                "motion.h5: error: is one of the files that are read", "strain.h5");
   CHECK(content(scratch / "motion.h5") == whole);
 }

@@ -30,7 +30,7 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   const Outcome over = run(scratch, "dresslife", "preview job.yaml -o job.yaml");
   CHECK(over.status == 1);
   CHECK(over.err ==
-        "job.yaml: error: is there already and no page of dresslife's; name another file after -o\n");
+        "job.yaml: error: is one of the files that are read; name another place with -o\n");
   const Outcome wrong = run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=-1");
   CHECK(wrong.status == 1);
   CHECK(wrong.err.find("routing.free_length_m is -1") != std::string::npos);

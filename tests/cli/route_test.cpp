@@ -57,8 +57,8 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   const Outcome over = run(scratch, "dresslife", "route abb_irb2600_12_165 --job hose.yaml");
   CHECK(over.status == 1);
   CHECK(over.err ==
-        "hose.yaml: error: is there already and was not proposed by dresslife route; name another file after "
-        "--job\n");
+        "hose.yaml: error: is there already and was not written by dresslife, or was changed since; move it away, "
+        "name another place with -o, or replace it with --force\n");
 }
 
 TEST_CASE("route finds clamps for a shipped hose that keep all limits in the whole chain") {

@@ -161,7 +161,8 @@ TEST_CASE("job page: a life alone makes a page, whatever its names are") {
   const JobFolder files{"</title><b>job & \"co\"", folder};
   const std::string page = job_page(files);
   CHECK(page.size() < most_bytes);
-  CHECK(page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">\n<!-- dresslife page made from "));
+  CHECK(page.starts_with("<!DOCTYPE html>\n<!-- Written by dresslife; "));
+  CHECK(page.find(" -->\n<html lang=\"en\">\n<!-- dresslife page made from ") != std::string::npos);
   for (const char* hostile : {"<img", "onerror=alert(1)>", "<script>alert", "</title><b>", "<!--<script>"}) {
     INFO(hostile);
     CHECK(page.find(hostile) == std::string::npos);
