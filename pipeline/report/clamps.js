@@ -25,10 +25,10 @@ class Solid {
   constructor(shape) {
     this.shape = shape;
     if (shape.kind === 'capsule') {
-      this.from = new THREE.Vector3(...shape.from);
-      this.to = new THREE.Vector3(...shape.to);
-      this.centre = this.from.clone().add(this.to).multiplyScalar(.5);
-      this.reach = this.from.distanceTo(this.to) / 2 + shape.radius;
+      this.begin = new THREE.Vector3(...shape.from);
+      this.end = new THREE.Vector3(...shape.to);
+      this.centre = this.begin.clone().add(this.end).multiplyScalar(.5);
+      this.reach = this.begin.distanceTo(this.end) / 2 + shape.radius;
       return;
     }
     this.frame = new THREE.Matrix4().compose(
@@ -52,9 +52,10 @@ class Solid {
     this.centre = ball.center;
     this.reach = ball.radius;
   }
-  to(point) {
+  // {distance, nearest} of a point in the link's frame.
+  near(point) {
     if (this.shape.kind === 'capsule') {
-      const axis = distanceToLine(point, this.from, this.to), out = point.clone().sub(axis.nearest);
+      const axis = distanceToLine(point, this.begin, this.end), out = point.clone().sub(axis.nearest);
       if (out.lengthSq() === 0) out.set(1, 0, 0);
       return {distance: axis.distance - this.shape.radius, nearest: axis.nearest.addScaledVector(out.normalize(), this.shape.radius)};
     }
@@ -82,7 +83,7 @@ function nearestOf(solids, point, limit = Infinity) {
   let best = {distance: limit, nearest: null};
   for (const solid of solids) {
     if (point.distanceTo(solid.centre) - solid.reach > best.distance) continue;
-    const one = solid.to(point);
+    const one = solid.near(point);
     if (one.distance < best.distance) best = one;
   }
   return best;
