@@ -6,8 +6,9 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <map>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -127,9 +128,11 @@ bool is_old_job(const fs::path& file, std::string_view begin) {
          !fs::is_empty(file.parent_path() / notes_name);
 }
 
+using Inode = std::pair<dev_t, ino_t>;
+
 struct Policy {
   std::mutex mutex;
-  std::set<std::pair<dev_t, ino_t>> inputs;
+  std::multimap<Inode, fs::path> inputs;  ///< with the names under which they were read
   bool replaces_files_of_others = false;
 };
 /// One for the program: what its user allows it holds wherever it writes.
@@ -138,11 +141,20 @@ Policy& policy() {
   return one;
 }
 
-bool is_input(const fs::path& file) {
+/// Nothing where no plain file is.
+std::optional<Inode> inode_of(const fs::path& file) {
   struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) return false;
+  if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return Inode{status.st_dev, status.st_ino};
+}
+
+/// An input's inode may belong to another file once the input is gone: only an input that still has it counts.
+bool is_input(const fs::path& file) {
+  const std::optional<Inode> inode = inode_of(file);
+  if (!inode) return false;
   const std::lock_guard lock(policy().mutex);
-  return policy().inputs.contains({status.st_dev, status.st_ino});
+  const auto [begin, end] = policy().inputs.equal_range(*inode);
+  return std::any_of(begin, end, [&](const auto& input) { return inode_of(input.second) == inode; });
 }
 
 void check_kind(const fs::path& file) {
@@ -218,10 +230,13 @@ void let_replace_files_of_others() { policy().replaces_files_of_others = true; }
 bool replaces_files_of_others() { return policy().replaces_files_of_others; }
 
 void note_input(const fs::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
+  const std::optional<Inode> inode = inode_of(file);
+  if (!inode) return;
   const std::lock_guard lock(policy().mutex);
-  policy().inputs.insert({status.st_dev, status.st_ino});
+  const auto [begin, end] = policy().inputs.equal_range(*inode);
+  fs::path name = fs::absolute(file);
+  if (std::none_of(begin, end, [&](const auto& input) { return input.second == name; }))
+    policy().inputs.emplace(*inode, std::move(name));
 }
 
 bool remove_ours(const fs::path& file) {

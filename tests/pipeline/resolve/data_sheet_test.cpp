@@ -200,7 +200,7 @@ TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the so
     CHECK(wires.radius == Approx(strand.wire / 2e3));
     int count = 0;
     for (const Component& layer : cable.components[0].components) count += layer.count;
-    CHECK(count == Approx(strand.wires).epsilon(0.03));  // one wire in 30: makers round to what their machines strand
+    CHECK(count == Approx(strand.wires).epsilon(0.03).margin(1));  // makers round to what their machines strand
   }
   // From the inside outwards: H05VV5-F 3 x 1.5 has cores of 3.1 mm (1.7 and 2 x 0.7) and is some 8.2 .. 9.3 mm wide.
   const Component control = cable_of("cores: 3, cross_section_mm2: 1.5, conductor_class: 5");
