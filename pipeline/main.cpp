@@ -35,6 +35,7 @@ std::vector<Command> commands(const Command& program, bool& force) {
       improve_command(),
       reprogram_command(),
       show_command(),
+      check_command(),
       plot_command(),
       export_command(),
       rate_command(),
@@ -47,7 +48,7 @@ std::vector<Command> commands(const Command& program, bool& force) {
       {"import",
        "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help"},
       manual_command(program)};
-  constexpr std::array<std::string_view, 5> write_nothing{"status", "show", "clean", "import", "manual"};
+  constexpr std::array<std::string_view, 6> write_nothing{"status", "show", "check", "clean", "import", "manual"};
   for (Command& command : all)
     if (std::find(write_nothing.begin(), write_nothing.end(), command.name) == write_nothing.end())
       command.options.push_back(

@@ -19,6 +19,7 @@ Command validate_command();
 Command calibrate_command();
 // One job, one dresspack
 Command show_command();
+Command check_command();
 Command preview_command();
 Command route_command();
 Command draw_command();

@@ -36,7 +36,28 @@ int run_shard(const RunOptions& options) {
   return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
 }
 
-int run(const RunOptions& options) {
+/// What a run would make, without making it.
+int dry_run(const RunOptions& options) {
+  Standing standing = standing_of(request_of(options));
+  tell_changes(standing.study, standing.places, standing.states);
+  std::size_t to_make = 0;
+  for (std::size_t k = 0; k < standing.states.size(); ++k) {
+    const StudyJob& job = standing.study.jobs[k];
+    if (!job.failure.empty() || standing.states[k].done()) continue;
+    ++to_make;
+    print(shown(fmt::format("{:<40} {}\n", job.name, standing.states[k].words())));
+  }
+  print(shown(problem_words(standing.study)));
+  print(fmt::format("{} of {} jobs to make; nothing was run\n", to_make, standing.study.jobs.size()));
+  return 0;
+}
+
+struct Options : RunOptions {
+  bool dry_run = false;
+};
+
+int run(const Options& options) {
+  if (options.dry_run) return dry_run(options);
   if (!options.shard.empty()) return run_shard(options);
   const StudyRequest request = request_of(options);
   const fs::path folder = request.out / study_name(request.file);
@@ -79,10 +100,11 @@ int run(const RunOptions& options) {
 }  // namespace
 
 Command run_command() {
-  const auto options = std::make_shared<RunOptions>();
+  const auto options = std::make_shared<Options>();
   return {"run", "run what is not up to date in a study, then rank and report",
           joined({{study_or_job(*options)},
                   run_options(*options),
+                  {{"-n,--dry-run", "", "print what would be made and why, and run nothing", &options->dry_run}},
                   {{"--job-time", "SECONDS", "let no stage of a job take longer; 0: no limit",
                     &options->limits.seconds},
                    {"--job-memory", "MB", "let no stage of a job take more memory; 0: no limit",

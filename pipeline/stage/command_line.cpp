@@ -4,11 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <type_traits>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/settings/fields.h"
 #include "pipeline/stage/program_manual.h"
 #include "pipeline/stage/stage.h"
 
@@ -84,6 +87,16 @@ void add_manual(CLI::App& app, const Command& program, const Option& manual) {
       ->trigger_on_parse();
 }
 
+/// The command whose name is nearest to the first word of a command line; empty: the word is a command, an option, or
+/// like none.
+std::string meant_command(const Command& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  std::vector<std::string> names;
+  for (const Command& command : program.commands) names.push_back(command.name);
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return "";
+  return nearest_word(argv[1], names);
+}
+
 }  // namespace
 
 std::vector<Option> joined(std::initializer_list<std::vector<Option>> tables) {
@@ -134,6 +147,8 @@ std::optional<int> read_command_line(const Command& program, int argc, char** ar
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
+    if (const std::string meant = meant_command(program, argc, argv); !meant.empty() && problem.get_exit_code() != 0)
+      fmt::print(stderr, "'{}' is no command of {}; did you mean '{}'?\n", shown(argv[1]), program.name, meant);
     return finish_output(app.exit(problem) == 0 ? 0 : 2);
   }
   for (std::size_t k = 0; k < commands.size(); ++k)

@@ -108,3 +108,13 @@ TEST_CASE("the later stages refuse files that are not theirs, cut off or damaged
                 "motion.h5: error: is one of the files that are read", "strain.h5");
   CHECK(content(scratch / "motion.h5") == whole);
 }
+
+TEST_CASE("a command that does not exist is answered with the nearest one") {
+  const Scratch scratch;
+  const Outcome near = run(scratch, "dresslife", "improv job.yaml");
+  CHECK(near.status == 2);
+  CHECK(near.err.find("'improv' is no command of dresslife; did you mean 'improve'?\n") == 0);
+  const Outcome far = run(scratch, "dresslife", "xylophone");
+  CHECK(far.status == 2);
+  CHECK(far.err.find("did you mean") == std::string::npos);
+}
