@@ -196,7 +196,7 @@ bool is_as_marked(std::string_view text) {
 bool begins_as_ours(std::string_view text) {
   const std::string_view begin = text.substr(0, ownership_bytes);
   return !marked(begin).digest.empty() ||
-         (begin.size() > png_head && begin.substr(png_head + 4).starts_with(png_words)) ||
+         (begin.size() >= png_head + 4 && begin.substr(png_head + 4).starts_with(png_words)) ||
          std::any_of(beginnings.begin(), beginnings.end(), [&](const Beginning& known) {
            return begin.starts_with(known.begins) && begin.find(known.contains) != std::string_view::npos;
          });

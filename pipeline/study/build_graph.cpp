@@ -88,7 +88,10 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     const FileState now = state_of(folder / stage.output);
     const bool removed = !now.exists() && may_lack(state.keep, state.next);
     if (!removed && !is_as_noted(*receipt, folder / stage.output)) {
-      if (now.exists()) state.damaged = stage.output;
+      if (now.exists()) {
+        state.damaged = stage.output;
+        state.foreign = !is_ours(folder / stage.output);
+      }
       return;
     }
     if (!removed && (now != receipt->state || !receipt->state_suffices()))
@@ -315,6 +318,8 @@ class Ninja {
 std::string JobState::words() const {
   if (done()) return "done";
   if (!failure.empty()) return "failed   " + failure;
+  if (!damaged.empty() && foreign)
+    return fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force", damaged);
   if (!damaged.empty())
     return fmt::format("damaged  {} is not what its stage wrote; run makes it anew", damaged);
   if (!has_results) return "to do";

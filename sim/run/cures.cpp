@@ -199,7 +199,8 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
             fmt::format("{}: {:.0f} if the maker allows it; no length and no direction of these two clamps keeps the limit "
                         "at rest (best: {} m, {}), so that a clamp must move: `dresslife improve` or `dresslife route`",
                         key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"),
-                        std::floor(1e3 * broken.value), at_least_metres(best.length), radius_words(best.curvature))};
+                        std::floor(1e3 * broken.value), at_least_metres(best.length), radius_words(best.curvature)) +
+                remark};
   std::string remedy = length;
   for (int end = 0; end < 2; ++end)
     if (best.turned[end]) remedy += " and " + direction_words(motion, broken, trials, end);

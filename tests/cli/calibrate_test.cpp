@@ -64,12 +64,12 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   REQUIRE(outcome.status == 0);
   CHECK(outcome.out.find("friction_inside") != std::string::npos);
   CHECK(outcome.out.find("no test hangs on it") != std::string::npos);
-  const std::string file = content(scratch / "runs/calibrate_o/calibration.yaml");
+  const std::string file = unmarked_content(scratch / "runs/calibrate_o/calibration.yaml");
   CHECK(file.starts_with("format: dresslife-calibration\nformat_version: 1\n"));
   CHECK(learned(file, "strength", "value") > 1.05);
   CHECK(learned(file, "model", "value") > 1.05);
   CHECK(file.find("name: slack") == std::string::npos);
-  CHECK(content(scratch / "runs/calibrate_o/calibration.svg").starts_with("<svg "));
+  CHECK(unmarked_content(scratch / "runs/calibrate_o/calibration.svg").starts_with("<svg "));
   // Most of the tenfold: 0.37 decades of strength and 0.3 of the model's factor against 0.2 of scatter.
   const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
   CHECK(after > 4 * before);

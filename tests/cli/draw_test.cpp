@@ -30,7 +30,7 @@ TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlap
   CHECK(drawn.err.find("the 7 parts 'conductor' are 2.254 mm apart") != std::string::npos);
 
   // Each layer is drawn once and shown as often as it has parts; overlapping ones in the colour of a warning.
-  const std::string picture = content(scratch / "hose.svg");
+  const std::string picture = unmarked_content(scratch / "hose.svg");
   CHECK(picture.rfind("<svg", 0) == 0);
   CHECK(count_of(picture, "<use ") == 10 + 7 + 31 + 25 + 18 + 12 + 6);
   CHECK(count_of(picture, "class=\"over\"") == 1);

@@ -98,7 +98,10 @@ TEST_CASE(
 
   // A page of a last result says so, and what changed; back at its settings it is as before.
   const auto mark = [&](const std::string& length) {
-    run(scratch, "dresslife", "report job.yaml --set routing.free_length_m=" + length);
+    const std::string job = content(scratch / "job.yaml"), key = "free_length_m: ";
+    const std::size_t value = job.find(key) + key.size(), end = job.find('\n', value);
+    scratch.write("job.yaml", job.substr(0, value) + length + job.substr(end));
+    run(scratch, "dresslife", "report job.yaml");
     const std::string text = content(page), open = "<p class=\"failed\" id=\"stale\">";
     const std::size_t at = text.find(open);
     CHECK(text.find(open, at + 1) == std::string::npos);

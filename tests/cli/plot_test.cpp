@@ -19,7 +19,7 @@ TEST_CASE("plot draws each figure of a job into a file that needs no page") {
         run(scratch, "dresslife", "plot " + job + " --what " + what + " -o " + what + ".svg");
     INFO(what << drawn.err);
     CHECK(drawn.status == 0);
-    const std::string picture = content(scratch / (what + ".svg"));
+    const std::string picture = unmarked_content(scratch / (what + ".svg"));
     CHECK(picture.rfind("<svg xmlns=\"http://www.w3.org/2000/svg\" width=", 0) == 0);
     CHECK(picture.find("var(") == std::string::npos);  // programs other than browsers know no variables
     CHECK(picture.find(draws) != std::string::npos);

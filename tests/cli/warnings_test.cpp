@@ -72,7 +72,7 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
   const std::vector<Provoked> all{
       {"robot", "", "program", "spot.mod:6:"},
       {"cable", "--set dresspack.least_bend_radius_mm=2000", "bend_radius", "smallest bend radius: "},
-      {"cable", "--set dresspack.most_twist_deg_per_m=0.01", "twist", "(limit 0.01 deg/m)"},
+      {"cable", "--set dresspack.most_twist_deg_per_m=0.01", "twist", "(limit 0.01 deg/m, "},
       {"cable", "--set dresspack.most_tension_N=0.01 --set dresspack.bending_stiffness_Nm2=0.02", "tension",
        "largest tension: "},
       {"cable", "--set routing.free_length_m=1.3", "slack", "least slack: too long above"},

@@ -265,8 +265,8 @@ TEST_CASE(
       continue;
     }
     REQUIRE(missed > 0.02);
-    CHECK_THAT(told, Catch::Contains(fmt::format("{} to a segment", pieces)) &&
-                         Catch::Contains(fmt::format("they miss {:.3g}", missed)) &&
+    CHECK_THAT(told, Catch::Contains(fmt::format("cut into {} pieces in each segment", pieces)) &&
+                         Catch::Contains(fmt::format("which misses {:.3g} of their curvature", missed)) &&
                          Catch::Contains(fmt::format("cable_elements_per_segment: {} or more", 2 * pieces)));
   }
 }
