@@ -78,7 +78,7 @@ TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's r
   CHECK(outcome.out.find("1,000,000 (") != std::string::npos);
   // The rating's own rig asks for half as much more twist than the shipped one: it must cost life.
   const auto life = [&](const std::string& job) {
-    const std::size_t at = csv.find("\"lead\",\"" + job + "\",");
+    const std::size_t at = csv.find("\nlead," + job + ",") + 1;
     const std::string line = csv.substr(at, csv.find('\n', at) - at);
     const std::size_t done = line.find(",done,");
     REQUIRE(done != std::string::npos);

@@ -93,7 +93,7 @@ const Wrong wrong[] = {
     {"job.yaml", "  base_clamp: {", "\tbase_clamp: {", "job.yaml:11:", "error: ", "; "},
     {"job.yaml", "direction: [1, 0, 0.45]}", "direction: [1, 0, 0.45]", "job.yaml:1", "error: ", "; "},
     // The routing as a whole
-    {"job.yaml", "free_length_m: 2.035", "free_length_m: 1.2", "job.yaml:", "mm too short at ", "; "},
+    {"job.yaml", "free_length_m: 2.035", "free_length_m: 1.2", "job.yaml:", "mm too short at ", "; ", "dresslife-sim job.yaml -o out.h5"},
     {"job.yaml", "  free_length_m", "  mounting_pose_deg: [0, 0]\n  free_length_m", "job.yaml:11:3: error: ", "mounting_pose_deg has 2 angles (the robot has 6 axes)", "give one angle per axis"},
     // The motion
     {"job.yaml", "[20, 0, 0, 0, 60, 90]", "[20, 0, 0, 0, 160, 90]", "job.yaml:7:7: error: ", "joint_5 to 160 deg (must be within -120 .. 120 deg)", "turn it 40 deg less"},
@@ -112,7 +112,6 @@ const Wrong wrong[] = {
     {"hose.yaml", "helix_radius_mm: 14", "helix_radius_mm: 20", "hose.yaml:12:5: error: ", "'lead' reaches 24.1 mm from the axis, 3.1 mm outside the hose's bore (radius 21 mm)", "give helix_radius_mm: 16.9 or less", draw},
     {"hose.yaml", "inner_diameter_mm: 42", "inner_diameter_mm: 42\ncore_diameter_mm: 25", "hose.yaml:13:5: error: ", "2.6 mm inside the core", "helix_radius_mm: 16.6 or more", draw},
     {"hose.yaml", "inner_diameter_mm: 42", "hose_material: hose_polyamide", "hose.yaml:", "the hose's bore is not", "inner_diameter_mm: 42.5 (ESTIMATE)", draw},
-    {"hose.yaml", "count: 4\n", "count: 16\n", "hose.yaml:12:5: error: ", "the 16 parts 'lead' are", "give count: ", draw},
     {"hose.yaml", "material: copper", "material: cooper", "hose.yaml:", "'cooper' is not in the catalogue (config/materials)", "copper", draw},
     {"hose.yaml", "    helix_radius_mm: 14\n", "    helix_radius_mm: 0\n", "hose.yaml:12:5: error: ", "4 parts 'lead' lie on the axis (helix_radius_mm is 0)", "give their distance from the axis", draw},
     {"hose.yaml", "lay_angle_deg: 8", "lay_angle_deg: 80", "hose.yaml:18:", "(must be 0 .. 60", "; ", draw},
@@ -182,7 +181,7 @@ TEST_CASE("45 and more plausible wrong inputs: each answer names file, line, pro
     CHECK_THAT(outcome.err, Catch::StartsWith(one.place));
     CHECK_THAT(outcome.err, Contains(one.problem) && Contains(one.remedy) && Contains(": error: ") && Contains("; "));
     // Nothing is cut off. "add 'KEY: ...'" stands for a value.
-    CHECK((outcome.err.find("...") == std::string::npos || outcome.err.find(": ...'") != std::string::npos));
+    CHECK((outcome.err.find("...") == std::string::npos || outcome.err.find("...'") != std::string::npos));
     CHECK_FALSE(fs::exists(scratch / "out.h5"));
   }
 }

@@ -113,7 +113,8 @@ TEST_CASE("cures: a hose that is drawn taut is cured by its length, one that its
   CHECK_THAT(words, Catch::Contains("it is drawn taut"));
   CHECK(value_of(words, "routing.free_length_m") > 0.96);
   job.dresspacks[0].routing.free_length = 1.2;
-  job.dresspacks[0].dresspack.most_tension = 1e-6;
+  job.dresspacks[0].dresspack.bending_stiffness = 0.02;  // it hangs: a stiffer one stands on its clamps
+  job.dresspacks[0].dresspack.most_tension = 1;
   CHECK_THAT(words_of(job, pipeline::WarningKind::tension), Catch::Contains("its weight and the acceleration"));
 }
 
