@@ -399,11 +399,11 @@ TEST_CASE("every instruction set of this machine gives the same strains") {
 }
 
 TEST_CASE("an instruction set can be asked for by name") {
-  for (const pipeline::InstructionSet set : pipeline::instruction_sets()) {
-    CHECK(pipeline::instruction_set_named(name_of(set)) == set);
+  for (const dresslife::pipeline::InstructionSet set : dresslife::pipeline::instruction_sets()) {
+    CHECK(dresslife::pipeline::instruction_set_named(name_of(set)) == set);
     CHECK(kernels_for(set).machine == std::string(name_of(set)));
   }
-  CHECK_THROWS_WITH(pipeline::instruction_set_named("mmx"),
+  CHECK_THROWS_WITH(dresslife::pipeline::instruction_set_named("mmx"),
                     Catch::StartsWith("DRESSLIFE_KERNELS: error: is 'mmx' (this machine can run "
                                       "portable"));
 }
