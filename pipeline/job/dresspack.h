@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/job/material.h"
 #include "pipeline/job/plain_part.h"
 #include "pipeline/job/rating.h"
@@ -18,53 +19,17 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class Hand { right, left };
-constexpr std::string_view word(Hand value) {
-  switch (value) {
-    case Hand::right:
-      return "right";
-    case Hand::left:
-      return "left";
-  }
-  return {};
-}
+constexpr std::string_view word(Hand value) { return word_at({"right", "left"}, value); }
 /// +1 of a right-handed helix (Z), -1 of a left-handed one (S).
-constexpr int sign_of(Hand value) {
-  switch (value) {
-    case Hand::right:
-      return 1;
-    case Hand::left:
-      return -1;
-  }
-  return 0;
-}
+constexpr int sign_of(Hand value) { return value == Hand::right ? 1 : -1; }
 
 /// Where a part of the first level lies in the cross-section of its dresspack.
 enum class Position { automatic, held, loose };
-constexpr std::string_view word(Position value) {
-  switch (value) {
-    case Position::automatic:
-      return "auto";
-    case Position::held:
-      return "held";
-    case Position::loose:
-      return "loose";
-  }
-  return {};
-}
+constexpr std::string_view word(Position value) { return word_at({"auto", "held", "loose"}, value); }
 
 /// Of what a hose's stiffness is taken from (stiffness.h): whether its parts slip.
 enum class SlipState { sliding, friction, stuck };
-constexpr std::string_view word(SlipState value) {
-  switch (value) {
-    case SlipState::sliding:
-      return "sliding";
-    case SlipState::friction:
-      return "friction";
-    case SlipState::stuck:
-      return "stuck";
-  }
-  return {};
-}
+constexpr std::string_view word(SlipState value) { return word_at({"sliding", "friction", "stuck"}, value); }
 
 /// How a part of the first level is laid into its dresspack and clamped (strain/README.md, W32 to W37).
 struct Laying {

@@ -13,6 +13,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipeline/base/random.h"
+#include "pipeline/base/statistics.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -253,44 +256,30 @@ LifeResponse LifeResponse::from_text(const std::string& text) {
 
 namespace {
 
-/// Where the normal distribution has this share below it (Newton on the tail's logarithm, from a bisection).
-double normal_at(double share) {
-  double low = -9, high = 9;
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = (low + high) / 2;
-    (std::erfc(-middle / std::numbers::sqrt2) / 2 < share ? low : high) = middle;
-  }
-  return (low + high) / 2;
-}
-
 /// In the middles of equal shares of the normal distribution, rising.
 const std::vector<double>& normal_strata(std::size_t draws) {
   thread_local std::vector<double> strata;
   if (strata.size() != draws) {
     strata.clear();
-    for (std::size_t d = 0; d < draws; ++d) strata.push_back(normal_at((double(d) + 0.5) / double(draws)));
+    for (std::size_t d = 0; d < draws; ++d)
+      strata.push_back(normal_quantile((double(d) + 0.5) / double(draws)));
   }
   return strata;
 }
 
-/// FNV-1a, then splitmix64 (Steele et al. 2014): fixed for ever.
+/// FNV-1a: fixed for ever.
 std::uint64_t seed_of(const std::string& name) {
   std::uint64_t seed = 0xcbf29ce484222325;
   for (const char letter : name) seed = (seed ^ static_cast<unsigned char>(letter)) * 0x100000001b3;
   return seed;
-}
-std::uint64_t next_of(std::uint64_t& state) {
-  std::uint64_t x = state += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
 }
 
 /// (draw) standard normal, every stratum once, in an order that the name decides.
 std::vector<double> normals_of(const std::string& name, std::size_t draws) {
   std::vector<double> values = normal_strata(draws);
   std::uint64_t state = seed_of(name);
-  for (std::size_t k = draws; k > 1; --k) std::swap(values[k - 1], values[next_of(state) % k]);
+  for (std::size_t k = draws; k > 1; --k, state += mix_step)
+    std::swap(values[k - 1], values[mixed(state) % k]);
   return values;
 }
 
@@ -409,13 +398,8 @@ DrawnLives drawn_lives(const LifeResponse& response, const std::string& job, std
   std::vector<double> sorted = drawn.log10_life;
   std::sort(sorted.begin(), sorted.end());
   const std::array<double, 3> shares{0.1, 0.5, 0.9};
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const double at = shares[i] * double(count) - 0.5;
-    const auto below = static_cast<std::size_t>(std::max(0.0, at));
-    const double low = sorted[below], high = sorted[std::min(below + 1, count - 1)];
-    drawn.percentiles[i] =
-        std::pow(10.0, std::isinf(high) ? high : low + (at - double(below)) * (high - low));
-  }
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    drawn.percentiles[i] = std::pow(10.0, number_at(sorted, shares[i] * double(count) - 0.5));
   std::vector<double> finite = drawn.log10_life, cause(count);
   for (double& life : finite) life = std::min(life, LifeResponse::endless);
   for (std::size_t p = 0; p < uncertain_count; ++p) {

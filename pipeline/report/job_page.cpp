@@ -197,21 +197,19 @@ class Page {
   }
 
   std::string text(const std::string& made_from) {
-    const std::string data = this->data();
-    return whole_page(files_.name + ": dresspack in motion", made_from, body(), data);
+    const Json data = this->data();
+    return whole_page(files_.name + ": dresspack in motion", made_from, body(), data.text);
   }
 
  private:
-  std::string data() {
-    std::string text =
-        fmt::format("{{\"title\":{},\"life\":{}", json(files_.name), life_data(life_, strain_.get()));
+  Json data() {
+    Json data{{"title", files_.name}, {"life", life_data(life_, strain_.get())}};
     if (setup_) {
-      const std::string scene = scene_data(*setup_, notes_), section = section_data(life_, *setup_);
-      if (!section.empty()) text += ",\"section\":" + section;
-      text +=
-          fmt::format(",\"scene\":{},\"motion\":{}", scene, motion_data(*motion_, strain_.get(), *setup_));
+      const Json scene = scene_data(*setup_, notes_);
+      if (const auto section = section_data(life_, *setup_)) data.add("section", *section);
+      data.add("scene", scene).add("motion", motion_data(*motion_, strain_.get(), *setup_));
     }
-    return text + '}';
+    return data;
   }
 
   /// As it was resolved.

@@ -16,33 +16,18 @@
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/advise/search/search.h"
+#include "pipeline/base/words.h"
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {
 
 enum class SearchMethod { surrogate, random };
-constexpr std::string_view word(SearchMethod value) {
-  switch (value) {
-    case SearchMethod::surrogate:
-      return "surrogate";
-    case SearchMethod::random:
-      return "random";
-  }
-  return {};
-}
+constexpr std::string_view word(SearchMethod value) { return word_at({"surrogate", "random"}, value); }
 
 /// What else is to be small, besides that the life is to be long.
 enum class SecondAim { none, hose_length, cycle_time };
 constexpr std::string_view word(SecondAim value) {
-  switch (value) {
-    case SecondAim::none:
-      return "none";
-    case SecondAim::hose_length:
-      return "hose_length";
-    case SecondAim::cycle_time:
-      return "cycle_time";
-  }
-  return {};
+  return word_at({"none", "hose_length", "cycle_time"}, value);
 }
 
 struct ImproveRequest {
