@@ -336,6 +336,8 @@ Format make_strain_format() {
          "further ways in which the strains of likely worst wires were worked out: the standardised variables of "
          "friction_inside, friction_hose, slack, play and grip (pipeline/job/uncertainty.h); only where "
          "uncertainty is enabled");
+  varied("/variation/inside", Type::i32, {"variation"},
+         "how parts inside the cables slip then: 0 with that friction, 1 not at all (glued), 2 freely");
   varied("/variation/row/variation", Type::u32, {"variation_row"}, "variation of a row: one wire, so varied");
   varied("/variation/row/site", Type::u32, {"variation_row"}, "its site");
   varied("/variation/row/turning", Type::u32, {"variation_row"},
@@ -564,9 +566,26 @@ Format make_life_format() {
        "the same over the scatter of wires alone; only where uncertainty is enabled", false, true},
       {"scatter_life_hours_p50", "the same of half of them", false, true},
       {"scatter_life_hours_p90", "the same of 90 %", false, true},
-      {"life_response", "how the life answers to what is not known, as pipeline/life/life_response.h writes "
-                        "it", true, true},
-      {"life_shares", "which parameters explain how much of the variance of log life, largest first", true, true},
+      {"life_response", "how the life depends on what is uncertain, by failure mode (pipeline/life/first_failure.h)", true,
+       true},
+      {"life_hours_p10_all_glued",
+       "life_hours_p10 if everything inside the cables were glued, over the same samples; likewise p50, p90, and _all_free "
+       "if it slipped without friction",
+       false, true},
+      {"life_hours_p50_all_glued", "likewise", false, true},
+      {"life_hours_p90_all_glued", "likewise", false, true},
+      {"life_hours_p10_all_free", "likewise", false, true},
+      {"life_hours_p50_all_free", "likewise", false, true},
+      {"life_hours_p90_all_free", "likewise", false, true},
+      {"failing_mode", "what fails first in most of the samples", true, true},
+      {"failing_mode_share", "in which share of those with a failure", false, true},
+      {"best_test",
+       "the parameter (pipeline/job/uncertainty.h) whose measurement narrows life_hours_p10 .. _p90 most; empty: none does",
+       true, true},
+      {"best_test_life_hours_p10", "life_hours_p10 after that measurement, if it confirms today's median", false, true},
+      {"best_test_life_hours_p90", "likewise", false, true},
+      {"life_shares",
+       "shares of the variance of log life by cause (Shapley effects), largest first; they add up to 100 %", true, true},
       {"measure_next", "the parameter that explains most; empty: the scatter of wires does", true, true},
       {"measure_next_share", "how much, 0 to 1", false, true},
       {"life_months_p10", "the first of them at the job's operating hours per week", false, true},
@@ -607,6 +626,9 @@ Format make_life_format() {
        false, true},
       {"conductor_life_hours_p50", "the same of half of them", false, true},
       {"conductor_life_hours_p90", "the same of 90 %", false, true},
+      {"estimates",
+       "keys that the dresspacks leave out, with the values that dresslife estimated (config/defaults.md); empty: none",
+       true, true},
       {"warnings", "as in the strain file, this stage's behind them: all of the job's", true, true},
   };
   return format;
