@@ -235,6 +235,8 @@ Format make_strain_format() {
      "further ways in which the strains of likely worst wires were worked out: the standardised variables of "
      "friction_inside, friction_hose, slack, play and grip (pipeline/job/uncertainty.h); only where uncertainty is "
      "enabled"},
+    {"/variation/inside",        i32,  "variation",          "1",    maybe,
+     "how parts inside the cables slip then: 0 with that friction, 1 not at all (glued), 2 freely"},
     {"/variation/row/variation", u32,  "variation_row",      "1",    maybe,
      "variation of a row: one wire, so varied"},
     {"/variation/row/site",      u32,  "variation_row",      "1",    maybe, "its site"},
@@ -382,8 +384,23 @@ Format make_life_format() {
     {"scatter_life_hours_p50", f64, maybe, "the same of half of them"},
     {"scatter_life_hours_p90", f64, maybe, "the same of 90 %"},
     {"life_response", text, maybe,
-     "how the life answers to what is not known, as pipeline/life/life_response.h writes it"},
-    {"life_shares", text, maybe, "which parameters explain how much of the variance of log life, largest first"},
+     "how the life depends on what is uncertain, by failure mode (pipeline/life/first_failure.h)"},
+    {"life_hours_p10_all_glued", f64, maybe,
+     "life_hours_p10 if everything inside the cables were glued, over the same samples; likewise p50, p90, and _all_free "
+     "if it slipped without friction"},
+    {"life_hours_p50_all_glued", f64, maybe, "likewise"},
+    {"life_hours_p90_all_glued", f64, maybe, "likewise"},
+    {"life_hours_p10_all_free", f64, maybe, "likewise"},
+    {"life_hours_p50_all_free", f64, maybe, "likewise"},
+    {"life_hours_p90_all_free", f64, maybe, "likewise"},
+    {"failing_mode", text, maybe, "what fails first in most of the samples"},
+    {"failing_mode_share", f64, maybe, "in which share of those with a failure"},
+    {"best_test", text, maybe,
+     "the parameter (pipeline/job/uncertainty.h) whose measurement narrows life_hours_p10 .. _p90 most; empty: none does"},
+    {"best_test_life_hours_p10", f64, maybe, "life_hours_p10 after that measurement, if it confirms today's median"},
+    {"best_test_life_hours_p90", f64, maybe, "likewise"},
+    {"life_shares", text, maybe,
+     "shares of the variance of log life by cause (Shapley effects), largest first; they add up to 100 %"},
     {"measure_next", text, maybe, "the parameter that explains most; empty: the scatter of wires does"},
     {"measure_next_share", f64, maybe, "how much, 0 to 1"},
     {"life_months_p10", f64, maybe, "the first of them at the job's operating hours per week"},
@@ -418,6 +435,8 @@ Format make_life_format() {
      "by then 10 % of such dresspacks have a conductor with fatigue.failed_wires_percent of its wires broken"},
     {"conductor_life_hours_p50", f64, maybe, "the same of half of them"},
     {"conductor_life_hours_p90", f64, maybe, "the same of 90 %"},
+    {"estimates", text, maybe,
+     "keys that the dresspacks leave out, with the values that dresslife estimated (config/defaults.md); empty: none"},
     {"warnings", text, maybe, "as in the strain file, this stage's behind them: all of the job's"},
   });
   return format;

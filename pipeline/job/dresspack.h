@@ -52,8 +52,8 @@ struct Component {
   double lay_angle = 0;     ///< alpha >= 0 [rad]
   Hand hand = Hand::right;
   double phase = 0;                ///< theta_layer: angle of part 1 at the base clamp [rad]
-  std::optional<double> friction;  ///< Coulomb, on what it lies against; needed where slip is `friction`
-  std::optional<double> radial_line_load;  ///< that presses the part on what it lies against [N/m]; likewise
+  std::optional<double> friction;          ///< Coulomb, on what it lies against; absent: none
+  std::optional<double> radial_line_load;  ///< presses the part on what it lies against [N/m]; absent: 0
   double tension = 0;                      ///< of the part in the dresspack at rest [N]
   double jacket_stiffness = 0;             ///< of a jacket that holds the part along its path [N/m2]
   std::optional<double> radial_stiffness;  ///< of what the helix lies on [N/m2]; absent: rigid
@@ -80,6 +80,7 @@ struct Corrugation {
 
 struct Dresspack {
   std::string name, source;
+  std::string estimates;  ///< keys that the user left out, with their values (estimates.h); empty: none
   bool cable_alone =
       false;            ///< it is one cable by itself (cable.h), whose stiffness and mass may be missing (0)
   double diameter = 0;  ///< outer, of the hose [m]
@@ -147,8 +148,8 @@ bool is_from_construction(const Dresspack& dresspack);
 /// Takes out what no stage reads.
 void drop_ratings(Dresspack& dresspack);
 
-/// Levels of parts in it. slip: of the job, which says where friction must be known. Errors: InputError at
-/// the part that does not fit into its parent, lacks what its slip needs, or has what its level does not.
+/// Levels of parts in it. slip: of the job. Errors: InputError at the part that does not fit into its parent
+/// or has what its level or slip does not allow.
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip);
 
 }  // namespace dresslife::pipeline

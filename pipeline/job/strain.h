@@ -56,7 +56,7 @@ constexpr int most_cable_elements = 16;
 struct Strain {
   DeformationMeasure deformation = DeformationMeasure::rotation_vector;
   Kinematics kinematics = Kinematics::exact;
-  std::vector<Slip> slip{Slip::free};         ///< one for every level, or one per level, outermost first
+  std::vector<Slip> slip{Slip::friction};     ///< one for every level, or one per level, outermost first
   Equivalent equivalent = Equivalent::axial;  ///< which strain of a fibre is counted
   int surface_fibres = 1;                     ///< per wire; 0: the wire's axis
   double gate = 5e-4;                         ///< turning points of a smaller strain range are dropped

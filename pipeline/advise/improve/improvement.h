@@ -84,10 +84,6 @@ Improvement improve(const ImproveRequest& request, const StudyPlaces& places, co
 std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vector<std::string>& sets,
                                    const std::string& prefix);
 
-/// The same without draws over what is not known, which are for the few that are told at length.
-std::vector<StudyJob> trial_jobs(const ImproveRequest& request, std::vector<std::string> sets,
-                                 const std::string& prefix);
-
 /// improve.csv: a row per trial: number, feasible, life of the worst job, what is passed, and the value of
 /// each free key.
 std::string improvement_csv(const Improvement& improvement);
