@@ -96,19 +96,4 @@ double MemoryPath::go_to(double input) {
   return open_.back().response;
 }
 
-// With s the local stress, s (s/E + (s/K')^(1/n')) rises and is convex; the elastic answer K_t S is above the
-// root.
-double neuber_stress(const CyclicCurve& curve, double concentration, double nominal_stress) {
-  const double elastic = concentration * nominal_stress;
-  const double target = elastic * elastic / curve.youngs_modulus();
-  if (target == 0) return 0;
-  double s = elastic;
-  for (;;) {
-    const double e = s / curve.youngs_modulus(), p = curve.strain(s) - e;
-    const double next = s - (s * (e + p) - target) / (2 * e + p * (1 + 1 / curve.hardening_exponent()));
-    if (!(next < s)) return s;
-    s = next;
-  }
-}
-
 }  // namespace dresslife::fatigue

@@ -48,7 +48,7 @@ class CyclicCurve {
 std::optional<pipeline::Warning> compatibility_warning(const pipeline::Material& material);
 
 /// Masing branches with material memory (F3, F4) over a curve given for values >= 0. Starts at rest in the
-/// origin. With stress(strain) as curve it gives stress along a strain path; with a notch rule's curves (F6)
+/// origin. With stress(strain) as curve it gives stress along a strain path; with a notch rule's curves
 /// the local stress or strain along a path of nominal stress.
 class MemoryPath {
  public:
@@ -65,10 +65,5 @@ class MemoryPath {
   double largest_ = 0;               // |input| so far
   std::vector<Point> open_{{0, 0}};  // reversals whose loops are not closed, and where the path is
 };
-
-/// Local stress [Pa] of a notch with elastic concentration factor K_t under nominal stress S >= 0 [Pa] by
-/// Neuber's rule (F6): stress x curve strain = (K_t S)^2 / E. No part of the pipeline has notches; crimps and
-/// kinks of a wire are such.
-double neuber_stress(const CyclicCurve& curve, double concentration, double nominal_stress);
 
 }  // namespace dresslife::fatigue

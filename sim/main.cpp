@@ -61,7 +61,7 @@ void prescribe(const pipeline::StageCall& call, const pipeline::Job& job, pipeli
 
 void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {
   const sim::Simulation simulation(job);
-  pipeline::heed_memory(call, sim::memory_of(simulation), progress);
+  pipeline::require_memory(call, sim::memory_of(simulation), progress);
   std::optional<pipeline::FileWriter> file;
   std::optional<sim::MotionFile> motion;
   const auto begin = [&](int) {  // a repeat that does not count leaves nothing

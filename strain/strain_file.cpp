@@ -210,10 +210,14 @@ class SiteWriter {
 /// Appends what variations make of likely worst wires.
 class VariationWriter {
  public:
-  VariationWriter(FileWriter& file, const std::vector<Variations::Point>& points) : file_(file) {
+  VariationWriter(FileWriter& file, const Variations& variations) : file_(file) {
     std::vector<double> z;
-    for (const Variations::Point& point : points) z.insert(z.end(), point.begin(), point.end());
-    if (!z.empty()) file.append("/variation/z", z);
+    for (const Variations::Point& point : variations.points()) z.insert(z.end(), point.begin(), point.end());
+    if (z.empty()) return;
+    file.append("/variation/z", z);
+    std::vector<std::int32_t> inside;
+    for (const pipeline::Inside one : variations.inside()) inside.push_back(static_cast<std::int32_t>(one));
+    file.append("/variation/inside", inside);
   }
 
   void append(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
@@ -563,7 +567,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     strain.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
     strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
   };
-  VariationWriter varied(strain, variations.points());
+  VariationWriter varied(strain, variations);
   std::size_t span = 0, segment = 0;
   sink.progress = [&](double) {
     const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);

@@ -41,10 +41,11 @@ constexpr std::array beginnings{
     Beginning{"== dresslife-"},                                        // logs
     Beginning{"ninja_required_version = 1.8\nbuilddir = .stage"},      // build.ninja
     Beginning{"job,life_repeats,life_hours,worst_segment_from_tool,"},  // ranking.csv
-    Beginning{"trial,feasible,scatter_life_hours_p10,"},               // improve.csv
+    Beginning{"trial,feasible,life_hours_p10,"},                       // improve.csv
     Beginning{"cable,job,rig,status,cycles_p10,"},                     // rate.csv
     Beginning{"lines,way,life_hours_p10,times_as_long,"},              // of reprogram
     // Older versions:
+    Beginning{"trial,feasible,scatter_life_hours_p10,"},
     Beginning{"# Proposed by dresslife route "},
     Beginning{"#!/bin/sh\n# Written by dresslife submit;"},
     Beginning{"<!DOCTYPE html>\n<html lang=\"en\">\n<!-- dresslife page made from "},

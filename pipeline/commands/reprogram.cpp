@@ -100,7 +100,7 @@ std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job,
   Study study{base.name, {}};
   std::map<std::string, std::size_t> way_of;
   for (std::size_t k = 0; k < ways.size(); ++k) {
-    StudyJob changed = trial_jobs(request, ways[k].sets, "way").at(job);
+    StudyJob changed = changed_jobs(request, ways[k].sets, "way").at(job);
     changed.name = fmt::format("{}_way_{:02}", base.name, k + 1);
     way_of[changed.name] = k;
     study.jobs.push_back(std::move(changed));
@@ -123,7 +123,7 @@ int reprogram(const Options& options) {
   const std::string name = study_name(request.file);
   const StudyPlaces places{fs::path(options.out) / (name + "_reprogram"), program_folder()};
   const FolderLock lock(places.folder);
-  Study study{name, trial_jobs(request, {}, "as_it_is")};
+  Study study{name, changed_jobs(request, {}, "as_it_is")};
   int failed = 0;
   const std::vector<RankingRow> rows = made_rows(study, places, options);
   for (std::size_t k = 0; k < study.jobs.size(); ++k) {

@@ -24,6 +24,7 @@
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/row_words.h"
 #include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
@@ -44,6 +45,7 @@ struct Trial {
   double factor = 1;
   ScreenedList proposals;
   std::vector<Outcome> outcomes;  // (proposal) empty limits: it was not run
+  std::vector<RankingRow> rows;   // (proposal) likewise
   std::optional<std::size_t>
       best;  // that ran: feasible and of the longest life, else least beyond its limits
 
@@ -88,7 +90,7 @@ void run(Trial& trial, std::size_t k, const Draft& draft, const Options& options
   Study study{fmt::format("{} at {:.0f} %", draft.name, 100 * trial.factor), {}};
   study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
                         std::make_shared<const Job>(job_from(document)), ""});
-  const RankingRow row = made_rows(study, places, options).front();
+  const RankingRow& row = trial.rows[k] = made_rows(study, places, options).front();
   trial.outcomes[k] = outcome_of(row, places.job(row.job));
   if (!trial.outcomes[k].failure.empty()) return;
   if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
@@ -96,8 +98,9 @@ void run(Trial& trial, std::size_t k, const Draft& draft, const Options& options
 
 /// Those that kept all limits in their rehearsal, until one does in the whole chain.
 Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places) {
-  Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}};
+  Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
   trial.outcomes.resize(trial.proposals.candidates.size());
+  trial.rows.resize(trial.proposals.candidates.size());
   for (std::size_t k = 0; k < trial.outcomes.size() && !trial.feasible(); ++k)
     if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
       run(trial, k, draft, options, places);
@@ -145,12 +148,13 @@ std::string words_of(const Trial& trial, const Draft& draft) {
         dresspack.name, 100 * trial.factor, 1e3 * dresspack.diameter * trial.factor);
   if (draft.exercise)
     text += "No program was given: the wrist was only moved about. Look again with yours.\n";
-  const std::string life =
-      std::isinf(best.hours) ? "no wire is damaged" : fmt::format("p10 life {:.3g} h", best.hours);
-  return text + (best.feasible()
-                     ? fmt::format("It keeps all limits in a run; {}.\n", life)
-                     : fmt::format("It runs, but no routing was found that keeps all limits: {}; {}.\n",
-                                   best.words(), life));
+  text += best.feasible() ? "It keeps all limits in a run.\n"
+                          : fmt::format("It runs, but no routing was found that keeps all limits: {}.\n", best.words());
+  const RankingRow& row = trial.rows[*trial.best];
+  for (const std::string& words :
+       {action_words(row), uncertainty_words(row), failure_words(row), hose_words(row)})
+    text += words + (words.empty() ? "" : "\n");
+  return text;
 }
 
 int route(const Options& options) {

@@ -17,7 +17,8 @@ void describe(Fields& f, Laying& laying) {
       "part is no wire, has a lay angle of 20 deg at most, may slide, and the dresspack has an inner_diameter_mm or a "
       "hose_corrugation");
   f.number("slack_percent", laying.slack, Need::optional, between(0, 20),
-           "length of the part beyond the path on which it was laid in, when the hose had its rest shape");
+           "length of the part beyond the path on which it was laid in, when the hose had its rest shape; of a "
+           "loose part that names none 1, an ESTIMATE");
   f.maybe_number(
       "play_mm", laying.play, above(0),
       "how far a loose part can leave its place; without it to the wall, what fills the middle and "
@@ -47,10 +48,11 @@ void describe(Fields& f, Component& component) {
   f.number("phase_deg", component.phase, Need::optional, between(-360, 360),
            "angle of part 1 at the base clamp");
   f.maybe_number("friction_coefficient", component.friction, between(0, 1e6),
-                 "Coulomb, of the part on what it lies against; needed where strain.slip is friction");
+                 "Coulomb, of the part on what it lies against; without it 0.3, an ESTIMATE");
   f.maybe_number(
       "radial_line_load_N_per_m", component.radial_line_load, at_least(0),
-      "presses the part on what it lies against, by jacket and tape; needed where strain.slip is friction");
+      "presses the part on what it lies against, by jacket and tape; without it an ESTIMATE: a jacket's 0.04 MPa "
+      "times the width of a core, a fifth of that on each of the core's wires, nothing on a cable in a hose");
   f.number("tension_N", component.tension, Need::optional, at_least(0),
            "of the part in the dresspack at rest");
   describe(f, component.laying);
@@ -88,6 +90,8 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.place(dresspack.where);
   f.text("name", dresspack.name, Need::required, "name of the dresspack");
   f.text("source", dresspack.source, Need::required, "where the numbers come from");
+  f.text("estimates", dresspack.estimates, Need::optional,
+         "keys that were left out and their estimated values; dresslife writes it into resolved jobs");
   f.boolean(
       "cable_alone", dresspack.cable_alone, Need::optional,
       "it is one cable by itself, as `cable:` makes it; stiffness, mass and damping may be left out where a "
@@ -127,7 +131,8 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.text("damping_source", dresspack.damping_source, need,
          "where the damping comes from: life depends on it");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
-           "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts");
+           "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts; of a dresspack with "
+           "components that names none 0.3, an ESTIMATE");
   f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
                  "that the maker allows in motion; tighter is warned of; without it ten diameters");
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
@@ -347,17 +352,6 @@ void check_bore(const Dresspack& dresspack) {
                                1e3 * dresspack.diameter, 1e3 * usual_bore_share * dresspack.diameter));
 }
 
-/// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
-void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
-  if (rubs(slip[std::min(level, slip.size()) - 1]) && !component.plain &&
-      !(component.friction && component.radial_line_load))
-    throw InputError(component.where,
-                     fmt::format("'{}' has no {} (strain.slip of its level is friction)", component.name,
-                                 component.friction ? "radial_line_load_N_per_m" : "friction_coefficient"),
-                     "give both, or slip: free or stick");
-  for (const Component& inner : component.components) check_friction(inner, slip, level + 1);
-}
-
 /// Ratings are of whole cables. A copy of each is checked: what the job says stays as written.
 void check_ratings(const std::vector<Rating>& ratings) {
   for (Rating rating : ratings) {
@@ -411,7 +405,6 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
                    fmt::format("'{}' is loose, and sticks to the hose (strain.slip of its level is {})",
                                component.name, word(slip.front())),
                    "set strain.slip of the first level to free or friction, or position: held");
-    attempt(component.where, [&] { check_friction(component, slip, 1); });
   }
   problems.finish(dresspack.where.file);
   return depth;

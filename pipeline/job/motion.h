@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/base/warnings.h"
+#include "pipeline/base/words.h"
 #include "pipeline/job/rig.h"
 #include "pipeline/job/robot.h"
 #include "pipeline/settings/document.h"
@@ -19,39 +20,11 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class PathKind { joint, linear, circular };
-constexpr std::string_view word(PathKind value) {
-  switch (value) {
-    case PathKind::joint:
-      return "joint";
-    case PathKind::linear:
-      return "linear";
-    case PathKind::circular:
-      return "circular";
-  }
-  return {};
-}
+constexpr std::string_view word(PathKind value) { return word_at({"joint", "linear", "circular"}, value); }
 /// Whether the tool's origin follows a path in space; else the axes move straight to their targets.
-constexpr bool leads_tool(PathKind value) {
-  switch (value) {
-    case PathKind::linear:
-    case PathKind::circular:
-      return true;
-    case PathKind::joint:
-      return false;
-  }
-  return false;
-}
+constexpr bool leads_tool(PathKind value) { return value != PathKind::joint; }
 /// Whether a point on the way belongs to it.
-constexpr bool has_via(PathKind value) {
-  switch (value) {
-    case PathKind::circular:
-      return true;
-    case PathKind::joint:
-    case PathKind::linear:
-      return false;
-  }
-  return false;
-}
+constexpr bool has_via(PathKind value) { return value == PathKind::circular; }
 
 /// One line of a robot program: a move, a dwell, or a block repeated `repeat` times. A move leads to joint
 /// angles or to a pose of the tool in the work object.

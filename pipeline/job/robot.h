@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/job/shapes.h"
 #include "pipeline/settings/document.h"
 
@@ -40,24 +41,8 @@ struct ExternalAxis {
   double speed = 0, acceleration = 0;
   Where where;
 };
-constexpr std::string_view word(ExternalAxis::Kind value) {
-  switch (value) {
-    case ExternalAxis::Kind::linear:
-      return "linear";
-    case ExternalAxis::Kind::rotary:
-      return "rotary";
-  }
-  return {};
-}
-constexpr std::string_view word(ExternalAxis::Carries value) {
-  switch (value) {
-    case ExternalAxis::Carries::robot:
-      return "robot";
-    case ExternalAxis::Carries::nothing:
-      return "nothing";
-  }
-  return {};
-}
+constexpr std::string_view word(ExternalAxis::Kind value) { return word_at({"linear", "rotary"}, value); }
+constexpr std::string_view word(ExternalAxis::Carries value) { return word_at({"robot", "nothing"}, value); }
 
 struct Link {
   std::string name;  ///< link k > 0 is moved by joint k - 1 (counted from 0); link 0 is the base

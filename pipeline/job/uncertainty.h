@@ -44,6 +44,9 @@ struct UncertainParameter {
   std::string_view meaning;  ///< "friction times pressure inside the cables"
   std::string_view source;   ///< of the deviation
   std::string_view measure;  ///< what a user would measure to know it better
+  std::string_view cause;    ///< as the subject of a sentence: "the friction inside the cables"
+  std::string_view test;     ///< that would tell it, and how long that takes: "One bending test of a cable (one hour)"
+  double test_deviation;     ///< error of that test: one deviation of ln(key), or of the key. ESTIMATE
 
   double value(double z) const;  ///< of the key
   double z_of(double value) const;

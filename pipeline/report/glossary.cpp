@@ -23,6 +23,7 @@ constexpr GlossaryEntry entries[] = {
     {"damage", "share of the life that a cycle, or a repeat of the motion, uses up; the life ends at 1 (Miner)"},
     {"dresspack", "the hose on a robot with everything in it: cables, water and air hoses"},
     {"ESTIMATE", "a number that nobody measured on this dresspack; the life depends on it"},
+    {"fails first", "what fails first in most of the samples, and in which share of them"},
     {"force warning", "a cable would need more force than any cable in a dresspack bears: the hours are not believable"},
     {"free length", "length of dresspack between its clamps (routing.free_length_m)"},
     {"friction inside", "between wires, conductors and cables; it decides how much of a bend stretches the wires"},
@@ -36,11 +37,14 @@ constexpr GlossaryEntry entries[] = {
     {"observation", "what is known of a real cable or dresspack: a maker's rating, a stiffness, a test, one that broke or has "
                     "not broken"},
     {"p10, p50, p90", "of 100 equal dresspacks 10, 50, 90 have failed by then, over the scatter of wires and over all that "
-                      "is uncertain; plan by p10"},
+                      "is uncertain; in tables: replace after, half failed, 90 % failed"},
     {"play, room", "how far a loose cable can leave its place, until it meets the wall, the core or a neighbour"},
     {"prior, posterior", "what is known of a parameter before and after observations"},
     {"rating", "cycles that a maker promises of a cable in a standard test rig"},
     {"repeat", "one run of the robot's program"},
+    {"replace after", "the p10: by then 1 of 10 such dresspacks has failed; the number to plan with"},
+    {"replace if glued .. free", "the same number if nothing inside the cables could slip, and if everything slipped "
+                                 "without friction"},
     {"rig", "a standard test for cables: energy chain, rolling flex, torsion and others"},
     {"sample", "one moment of a motion; or one draw of all uncertain parameters"},
     {"scatter", "equal wires under equal strains break at different times"},
@@ -54,7 +58,6 @@ constexpr GlossaryEntry entries[] = {
     {"twist", "turn of the hose about its own axis per length"},
     {"uncertainty", "what is not known of this dresspack: friction, slack, copper and others; each has a distribution"},
     {"warning", "results stand, but a person should look before believing them; it names its cause and a remedy"},
-    {"wire stuck .. free", "life of the worst wire if parts in the cable cannot slide, and if they slide freely"},
 };
 
 }  // namespace

@@ -27,6 +27,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -54,34 +55,34 @@ void check_together(const FileReader& life, const FileReader* other) {
 
 bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
 
+std::string paragraph(const std::string& words) {
+  return words.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(words));
+}
+
+/// What to do, the distribution behind it, and what fails.
 std::string headline(const RankingRow& row) {
   const double hours = row.headline_hours();
-  std::string text = fmt::format("<h1>{}</h1>\n<p><b>{}</b>", escaped(row.job), printed_hours(hours));
+  std::string text = fmt::format("<h1>{}</h1>\n<p><b>{}</b> {}</p>\n", escaped(row.job), escaped(action_words(row)),
+                                 escaped(uncertainty_words(row)));
+  std::string lives;
   if (std::isfinite(hours))
-    text += fmt::format(
-        " of motion until {}: {} repeats of {:.1f} s, {} by the calendar",
-        row.planned()
-            ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
-            : "the worst wire breaks (median)",
-        printed(row.headline_repeats()), row.repeat_seconds, calendar_words(row.headline_months()));
+    lives += fmt::format("{} of motion, {} repeats of {:.1f} s: by then {}. ", printed_hours(hours),
+                         printed(row.headline_repeats()), row.repeat_seconds,
+                         row.planned() ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
+                                       : "the worst wire breaks (median)");
   if (row.planned() && std::isfinite(row.planned_hours[2]))
-    text += fmt::format("; {} until half have, {} until 90 %", printed_hours(row.planned_hours[1]),
-                        printed_hours(row.planned_hours[2]));
+    lives += fmt::format("Half have failed after {}, 90 % after {}. ", printed_hours(row.planned_hours[1]),
+                         printed_hours(row.planned_hours[2]));
+  if (!std::isnan(row.glued_hours[0]))
+    lives += fmt::format("10 % would have failed after {} if everything inside the cables were glued, after {} if it slipped "
+                         "without friction. ",
+                         printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
   if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
-    text += fmt::format(
-        "; by the scatter of wires alone, all else as the job has it, a first one breaks after {} .. {} h in 10 .. 90 %",
-        printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
-  text +=
-      fmt::format("; the worst wire's own median is {}, {} if all inside the cables stuck, {} if all slid",
-                  printed_hours(row.life_hours), printed_hours(row.hours_of(row.life_repeats_all_stick)),
-                  printed_hours(row.hours_of(row.life_repeats_all_free)));
-  text += ".</p>\n";
-  if (damaged(row))
-    text += fmt::format(
-        "<p>{} breaks first, segment {} from the tool ({:.2f} m){}, worst at {:.1f} s{}.</p>\n",
-        escaped(row.worst_component), row.worst_segment_from_tool, row.worst_position_from_tool,
-        row.worst_dresspack.empty() ? "" : " of the " + escaped(row.worst_dresspack), row.worst_time,
-        row.worst_step.empty() ? "" : " during '" + escaped(row.worst_step) + "'");
+    lives += fmt::format("By the scatter of wires alone a first wire breaks after {} .. {} h in 10 .. 90 %. ",
+                         printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
+  lives += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
+  text += fmt::format("<p>{}</p>\n", lives) + paragraph(hose_words(row));
+  if (damaged(row)) text += paragraph(failure_words(row));
   return text;
 }
 
@@ -129,6 +130,7 @@ std::string assumptions(const RankingRow& row, const Node& job, const FileReader
   };
   for (const Warning& warning : warnings_of(row))
     fact(title(warning.kind), "<b>" + escaped(warning.text()) + "</b>");
+  if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.force_ok() && row.largest_force_share.value_or(0) > 0)
     fact("forces",
          fmt::format("cables pull with at most {:.2g} of what tears them", *row.largest_force_share));
@@ -197,21 +199,19 @@ class Page {
   }
 
   std::string text(const std::string& made_from) {
-    const std::string data = this->data();
-    return whole_page(files_.name + ": dresspack in motion", made_from, body(), data);
+    const Json data = this->data();
+    return whole_page(files_.name + ": dresspack in motion", made_from, body(), data.text);
   }
 
  private:
-  std::string data() {
-    std::string text =
-        fmt::format("{{\"title\":{},\"life\":{}", json(files_.name), life_data(life_, strain_.get()));
+  Json data() {
+    Json data{{"title", files_.name}, {"life", life_data(life_, strain_.get())}};
     if (setup_) {
-      const std::string scene = scene_data(*setup_, notes_), section = section_data(life_, *setup_);
-      if (!section.empty()) text += ",\"section\":" + section;
-      text +=
-          fmt::format(",\"scene\":{},\"motion\":{}", scene, motion_data(*motion_, strain_.get(), *setup_));
+      const Json scene = scene_data(*setup_, notes_);
+      if (const auto section = section_data(life_, *setup_)) data.add("section", *section);
+      data.add("scene", scene).add("motion", motion_data(*motion_, strain_.get(), *setup_));
     }
-    return text + '}';
+    return data;
   }
 
   /// As it was resolved.

@@ -74,7 +74,7 @@ std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<Progr
     if (!costliest) continue;
     labels.push_back({panel.across((costliest->begin + costliest->end) / 2),
                       fmt::format("{:.0f} %: line {}, {}", percent * life.step_damage[line] / total, line + 1,
-                                  shortened(life.step_text[line], 40))});
+                                  life.step_text[line])});
   }
   std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.x < b.x; });
   return labels;
@@ -95,7 +95,8 @@ void draw_labels(Picture& picture, const Panel& panel, const std::vector<Label>&
     picture.line(rows[row]->x, y - 8, rows[row]->x, panel.bottom(), "leader");
     const bool left = row < reading_left;
     picture.text(rows[row]->x + (left ? -5 : 5), y, rows[row]->words, "note",
-                 left ? Picture::Anchor::end : Picture::Anchor::start);
+                 left ? Picture::Anchor::end : Picture::Anchor::start,
+                 (left ? rows[row]->x : page_width - rows[row]->x) - 6);
   }
 }
 

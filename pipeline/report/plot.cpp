@@ -200,9 +200,14 @@ void Picture::curve(const std::vector<std::pair<double, double>>& points, const 
   body_ += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, path);
 }
 
-void Picture::text(double x, double y, const std::string& words, const char* style, Anchor anchor) {
-  body_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", style, at(x),
-                       at(y), anchor_word(anchor), escaped(words));
+void Picture::text(double x, double y, const std::string& words, const char* style, Anchor anchor,
+                   double most_width) {
+  const std::string narrower =
+      most_width > 0 && text_width(words) > most_width
+          ? fmt::format(" textLength=\"{}\" lengthAdjust=\"spacingAndGlyphs\"", at(most_width))
+          : "";
+  body_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", style, at(x),
+                       at(y), anchor_word(anchor), narrower, escaped(words));
 }
 
 void Picture::upright_text(double x, double y, const std::string& words, const char* style) {

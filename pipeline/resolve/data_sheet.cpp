@@ -13,6 +13,7 @@
 #include "pipeline/cable/overlap.h"
 #include "pipeline/resolve/cable_rules.h"
 #include "pipeline/job/dresspack.h"
+#include "pipeline/resolve/estimates.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 
@@ -26,7 +27,6 @@ constexpr int closed_ring = 5;         // six parts that touch leave room for a 
 constexpr int filled_ring = 9;         // ten for two
 constexpr double wire_lay_ratio = 16;  // lay length over the conductor's width: stranding has 10 to 20
 constexpr double core_lay_ratio = 12;  // over the width of the cores: flexible cables have 8 to 16
-constexpr double wire_share = 0.2;     // of the line load on a core that presses one of its wires
 constexpr int rounds = 60;             // of the search for the cores' diameter
 
 double first_radius(int count, double diameter) {
@@ -118,7 +118,7 @@ class Expansion {
     for (std::size_t k = rings.size(); k-- > 0;) {  // the outermost is layer 1
       const Hand hand = (rings.size() - 1 - k) % 2 == 0 ? Hand::left : Hand::right;
       Component layer =
-          part_of(grouped() ? group_name() : "core", rings, k, part, hand, sheet_.jacket_pressure * part);
+          part_of(grouped() ? group_name() : "core", rings, k, part, hand, line_load(part));
       layer.components = grouped() ? group(opposite(hand)) : wires(opposite(hand));
       layers.push_back(layer);
     }
@@ -155,11 +155,15 @@ class Expansion {
   }
 
   static Hand opposite(Hand hand) { return hand == Hand::left ? Hand::right : Hand::left; }
+  /// Of a jacket's pressure on this width [N/m]; absent: the sheet gives no pressure (estimates.h).
+  std::optional<double> line_load(double width) const {
+    return sheet_.jacket_pressure ? std::optional(*sheet_.jacket_pressure * width) : std::nullopt;
+  }
   bool grouped() const { return sheet_.cores_per_group > 1; }
   std::string group_name() const { return sheet_.cores_per_group == 2 ? "pair" : "group"; }
 
   Component part_of(const std::string& name, const std::vector<Ring>& rings, std::size_t k, double diameter,
-                    Hand hand, double line_load) const {
+                    Hand hand, std::optional<double> line_load) const {
     Component part;
     part.name = name;
     if (rings.size() > 1) part.layer = fmt::format("layer {}", rings.size() - k);
@@ -176,8 +180,8 @@ class Expansion {
   std::vector<Component> wires(Hand hand) const {
     std::vector<Component> layers;
     for (std::size_t k = wire_rings_.size(); k-- > 0;) {
-      layers.push_back(part_of("wire", wire_rings_, k, wire_, hand,
-                               wire_share * sheet_.jacket_pressure * core_diameter_));
+      layers.push_back(
+          part_of("wire", wire_rings_, k, wire_, hand, line_load(estimated_wire_share * core_diameter_)));
       layers.back().material = sheet_.material;
     }
     return layers;
@@ -188,7 +192,7 @@ class Expansion {
     std::vector<Component> layers;
     for (std::size_t k = rings.size(); k-- > 0;) {
       layers.push_back(
-          part_of("core", rings, k, core_diameter_, hand, sheet_.jacket_pressure * core_diameter_));
+          part_of("core", rings, k, core_diameter_, hand, line_load(core_diameter_)));
       layers.back().components = wires(opposite(hand));
     }
     return layers;
@@ -398,12 +402,11 @@ void describe(Fields& f, DataSheet& sheet) {
   f.maybe_number("wire_lay_length_mm", sheet.wire_lay_length, above(0),
                  "of the wires in a core; without it 16 times the conductor's width");
   f.text("material", sheet.material, Need::optional, "of the wires, a name of config/materials");
-  f.number("friction_coefficient", sheet.friction, Need::optional, between(0, 1e6),
-           "Coulomb, of cores and wires; an ESTIMATE");
-  f.number("jacket_pressure_MPa", sheet.jacket_pressure, Need::optional, at_least(0),
-           "on the cores, a fifth of a core's line load on a wire; an ESTIMATE: "
-           "measured_bending_stiffness_Nm2 beside "
-           "data_sheet sets their level");
+  f.maybe_number("friction_coefficient", sheet.friction, between(0, 1e6),
+                 "Coulomb, of cores and wires; without it 0.3, an ESTIMATE");
+  f.maybe_number("jacket_pressure_MPa", sheet.jacket_pressure, at_least(0),
+                 "on the cores, a fifth of a core's line load on each of its wires; without it 0.04, an ESTIMATE; "
+                 "measured_bending_stiffness_Nm2 beside data_sheet sets their level");
 }
 
 std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where) {

@@ -39,8 +39,8 @@ struct DataSheet {
   std::optional<double> group_lay_length;  ///< of the cores in a group [m]
   std::optional<double> wire_lay_length;   ///< [m]
   std::string material = "copper_halved";  ///< of the wires
-  double friction = 0.3;                   ///< Coulomb, of cores and of wires on each other
-  double jacket_pressure = 0.04e6;         ///< on the cores [Pa]
+  std::optional<double> friction;          ///< Coulomb, of cores and wires; absent: an ESTIMATE (estimates.h)
+  std::optional<double> jacket_pressure;   ///< on the cores [Pa]; absent: an ESTIMATE
   Where where;
 };
 

@@ -107,6 +107,7 @@ void describe_sim(Fields& echo, Job copy) {
   for (MountedDresspack& mounted : copy.dresspacks) {
     drop_ratings(mounted.dresspack);
     Dresspack& dresspack = mounted.dresspack;
+    dresspack.estimates.clear();
     count_as_numbers(dresspack);
     if (copy.motion.is_prescribed()) break;  // its wires say how a pull stretches the cable
     dresspack.components.clear();

@@ -82,7 +82,7 @@ a folder to take as the catalogue instead of the one that came with the programs
 how many threads a stage may use; by default as many as there are cores
 .TP
 \fBDRESSLIFE_KERNELS\fR
-the instruction set of the hot loops: baseline, sse4, avx2 or avx512; by default the widest of the machine
+the instruction set of the hot loops: portable, avx2 or avx512; by default the widest of the machine
 .SH FILES
 .TP
 \fI../share/dresslife/config\fR

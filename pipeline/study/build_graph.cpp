@@ -43,7 +43,6 @@ fs::path receipt_file(const Stage& stage) { return beside(stage, ".receipt"); }
 fs::path log_file(const Stage& stage) { return beside(stage, ".log"); }
 fs::path launcher_log(const Stage& stage) { return beside(stage, ".launcher"); }
 constexpr const char* failure_file = ".stage/failure";
-constexpr const char* memory_file = "memory";  // in a run's notes: who may take how much (pipeline/stage/memory.h)
 std::string program_name(const Stage& stage) { return std::string("dresslife-") + stage.name; }
 
 /// Of all stages, behind links. Errors: InputError when one is missing.
@@ -136,7 +135,7 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
 /// would be first in one file.
 std::string launching(const std::string& launcher, const Stage& stage) {
   if (launcher.empty()) return "";
-  std::string words = "env -u DRESSLIFE_PARENT -u DRESSLIFE_MEMORY ";
+  std::string words = "env -u DRESSLIFE_PARENT ";
   for (const char letter : launcher) words += letter == '$' ? "$$" : std::string(1, letter);
   return words + fmt::format(" sh -c 'exec \"$$0\" \"$$@\" > $job/{} 2>&1' ", log_file(stage).string());
 }
@@ -295,7 +294,6 @@ class Ninja {
     ::setenv("NINJA_STATUS", "@%f/%t ", 1);  // a line "@finished/total description" per stage
     // Through the environment goes whatever a folder may be named.
     ::setenv("DRESSLIFE_PROGRAMS", fs::absolute(places.programs).c_str(), 1);
-    ::setenv("DRESSLIFE_MEMORY", (fs::absolute(places.folder) / places.notes() / memory_file).c_str(), 1);
     ::setenv("DRESSLIFE_DIGESTS", digests.c_str(), 1);
     ::setenv("DRESSLIFE_PARENT", std::to_string(::getpid()).c_str(), 1);
     ::dup2(said, STDOUT_FILENO);
@@ -451,7 +449,6 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
   fs::create_directories(notes);
   for (const char* memory : {".ninja_log", ".ninja_deps"})  // of times, which decide nothing here
     remove_ours(notes / memory);
-  remove_ours(notes / memory_file);  // of stages that have ended
   renew_receipts(study, places, states);
   std::string graph = rules(places, limits, launcher);
   const std::vector<Makers> makers = makers_of(study, states);

@@ -24,12 +24,14 @@ bool is_plain(const Node& node) {
 std::string value_words(const Node* value) {
   constexpr std::size_t longest = 40;
   if (!value || value->kind == Node::Kind::null) return "nothing";
-  if (value->is_scalar()) return shortened(value->text, longest);
+  if (value->is_scalar())
+    return value->text.size() <= longest ? value->text : fmt::format("a text of {} letters", value->text.size());
   if (value->is_map()) return fmt::format("{} keys", value->entries.size());
   if (!is_plain(*value)) return fmt::format("{} entries", value->items.size());
   std::vector<std::string> items;
   for (const Node& item : value->items) items.push_back(item.text);
-  return shortened(fmt::format("[{}]", fmt::join(items, ", ")), longest);
+  const std::string list = fmt::format("[{}]", fmt::join(items, ", "));
+  return list.size() <= longest ? list : fmt::format("a list of {}", items.size());
 }
 
 class Comparison {

@@ -163,22 +163,24 @@ CycleLives cycles_of(const RankingRow& row) {
 
 std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows) {
   std::string text, cable;
+  std::size_t wide = 46;
+  for (const RatedTest& test : rated.tests) wide = std::max(wide, columns_of(test.rig));
   for (const RatedTest& test : rated.tests) {
     if (test.cable != cable) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", test.cable);
     if (test.cable != cable)
-      text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", "rig", "cycles", "10 .. 90 %",
+      text += fmt::format("  {:<{}} {:>12} {:>27} {:>27}  {}\n", "rig", wide, "cycles", "10 .. 90 %",
                           "inside stuck .. free", "maker");
     cable = test.cable;
     const RankingRow* row = row_of(rows, test.job);
     if (!row || !row->done()) {
-      text += fmt::format("  {:<46} {}\n", shortened(test.rig, 46), row ? row->failure : "not computed");
+      text += fmt::format("  {:<{}} {}\n", test.rig, wide, row ? row->failure : "not computed");
       continue;
     }
     const CycleLives lives = cycles_of(*row);
     std::string maker = test.rated_cycles > 0 ? readable(test.rated_cycles) : "";
     if (const std::string words = verdict(test.rated_cycles, lives.conductor[1]); !words.empty())
       maker += " (" + words + ")";
-    text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", shortened(test.rig, 46),
+    text += fmt::format("  {:<{}} {:>12} {:>27} {:>27}  {}\n", test.rig, wide,
                         life_text(lives.conductor[1]),
                         life_text(lives.conductor[0]) + " .. " + life_text(lives.conductor[2]),
                         life_text(lives.all_stick) + " .. " + life_text(lives.all_free), maker);

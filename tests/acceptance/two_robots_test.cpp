@@ -2,6 +2,7 @@
 // of it.
 #include <cmath>
 #include <map>
+#include <regex>
 
 #include "pipeline/files/files.h"
 #include "tests/catch.h"
@@ -31,13 +32,14 @@ std::map<std::string, Row> ranking(const fs::path& file) {
   return rows;
 }
 
-/// Runs a study of config/studies, or one written in the test.
+/// Runs a study of config/studies, or one written in the test. printed: gets its table with single spaces.
 std::map<std::string, Row> run_study(const Scratch& scratch, const std::string& file,
-                                     const std::string& name) {
+                                     const std::string& name, std::string* printed = nullptr) {
   const Outcome outcome = run(scratch, "dresslife", "run '" + file + "'");
   INFO(outcome.err);
   INFO(outcome.out);
   REQUIRE(outcome.status == 0);
+  if (printed) *printed = std::regex_replace(outcome.out, std::regex(" +"), " ");
   return ranking(scratch / ("runs/" + name + "/ranking.csv"));
 }
 
@@ -47,14 +49,33 @@ double hours_of(const fs::path& life, const std::string& attribute) {
       .number_attribute(attribute);
 }
 
+/// Lines of the README's table of this study, with single spaces, first its header.
+std::vector<std::string> table_of_readme() {
+  std::istringstream lines(content(DRESSLIFE_SOURCE_DIR "/README.md"));
+  std::vector<std::string> table;
+  for (std::string line; std::getline(lines, line);) {
+    line = std::regex_replace(std::regex_replace(line, std::regex("^ +"), ""), std::regex(" +"), " ");
+    if (!table.empty() && line.empty()) break;
+    if (!table.empty() || line.starts_with("job replace after")) table.push_back(line);
+  }
+  return table;
+}
+
 constexpr double free_third = 0.68;  // a third of the free length of 2.035 m, from the tool [m]
 
 }  // namespace
 
 TEST_CASE("two robots, shipped study: robot 1 wears its dresspack out before robot 2") {
   Scratch scratch;
-  auto rows = run_study(scratch, config + "studies/two_robots.yaml", "two_robots");
+  std::string printed;
+  auto rows = run_study(scratch, config + "studies/two_robots.yaml", "two_robots", &printed);
   REQUIRE(rows.size() == 4);
+  const std::vector<std::string> table = table_of_readme();
+  REQUIRE(table.size() == 1 + rows.size());
+  for (const std::string& line : table) {
+    INFO(line << "\n" << printed);
+    CHECK(printed.find(" " + line + "\n") != std::string::npos);
+  }
   CHECK(rows["spot_robot_1"].repeats < rows["spot_robot_2"].repeats);
   CHECK(rows["easy"].repeats > rows["spot_robot_1"].repeats);
   CHECK(rows["hard"].repeats < rows["spot_robot_1"].repeats);
@@ -73,7 +94,7 @@ TEST_CASE("two robots, shipped study: robot 1 wears its dresspack out before rob
     const fs::path job = scratch / "runs/two_robots" / name;
     const std::string strain = inside + "_strain.h5", life = inside + "_life.h5";
     REQUIRE(run(scratch, "dresslife-strain",
-                "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[free, " + inside + ", " +
+                "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[friction, " + inside + ", " +
                     inside + "]' -o " + strain)
                 .status == 0);
     REQUIRE(run(scratch, "dresslife-fatigue", strain + " --quiet -o " + life).status == 0);

@@ -18,7 +18,7 @@ std::size_t count_of(const std::string& text, const std::string& words) {
 
 TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlaps") {
   Scratch scratch;
-  const Outcome drawn = run(scratch, "dresslife", "draw spot_welding -o hose.svg");
+  const Outcome drawn = run(scratch, "dresslife", "draw thesis_welding -o hose.svg");
   INFO(drawn.err);
   REQUIRE(drawn.status == 0);
   // 10 cables of 7 conductors of 92 wires of 0.15 mm.
@@ -34,6 +34,11 @@ TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlap
   CHECK(picture.rfind("<svg", 0) == 0);
   CHECK(count_of(picture, "<use ") == 10 + 7 + 31 + 25 + 18 + 12 + 6);
   CHECK(count_of(picture, "class=\"over\"") == 1);
+
+  const Outcome built = run(scratch, "dresslife", "draw spot_welding -o hose.svg");  // the default one can be built
+  CHECK(built.status == 0);
+  CHECK(built.err.empty());
+  CHECK(count_of(content(scratch / "hose.svg"), "class=\"over\"") == 0);
 }
 
 TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has no life here") {

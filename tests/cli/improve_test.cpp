@@ -55,7 +55,7 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   REQUIRE(told.status == 0);
   CHECK(told.out.find("As it is: ") == 0);
   CHECK(told.out.find("    --set 'routing.free_length_m=0.9") != std::string::npos);
-  CHECK(told.out.find(" % of draws\n") != std::string::npos);
+  CHECK(told.out.find(" of 100 samples\n") != std::string::npos);
   const std::string table = content(scratch / "runs/better_improve/improve.csv");
   CHECK(lines_of(table) == 11);  // and its header
   CHECK(table.find("\n0,1,") != std::string::npos);

@@ -17,6 +17,7 @@
 #include "pipeline/life/life_response.h"
 #include "tests/catch.h"
 #include "tests/fatigue/materials.h"
+#include "tests/fatigue/wire_lives.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

@@ -12,6 +12,7 @@
 
 #include "pipeline/base/errors.h"
 #include "tests/catch.h"
+#include "tests/fatigue/four_point.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

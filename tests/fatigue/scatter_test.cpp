@@ -8,6 +8,7 @@
 
 #include "fatigue/conductors.h"
 #include "tests/catch.h"
+#include "tests/fatigue/wire_lives.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

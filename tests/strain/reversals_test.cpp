@@ -1,4 +1,5 @@
 #include "strain/reversals.h"
+#include "tests/strain/all_kernels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include "strain/history.h"
 #include "strain/nesting.h"
 #include "tests/catch.h"
+#include "tests/strain/all_kernels.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

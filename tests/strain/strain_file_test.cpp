@@ -348,11 +348,14 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
   evaluate(scratch / "motion.h5", scratch / "no_room.h5", job({"uncertainty.enabled=true"}), no_room);
   CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "all.h5"));
   CHECK(scratch.entries() == 4);  // the motion and three results: those files have gone
-  REQUIRE(z.size() == 15 * 5);    // friction and slack crossed
-  for (std::size_t v = 0; v < 15; ++v) {
+  constexpr std::size_t variations = 5 + 3 * 6;  // friction, its two bounds and slack crossed
+  REQUIRE(z.size() == variations * 5);
+  const auto inside = all.read<std::int32_t>("/variation/inside");
+  for (std::size_t v = 0; v < variations; ++v) {
     std::array<double, pipeline::uncertain_count> at{};
     std::copy_n(z.begin() + v * 5, 5, at.begin());
     std::vector<std::string> sets = pipeline::sets_at(at);
+    if (inside[v] != 0) sets.push_back(inside[v] == 1 ? "strain.slip=[free, stick]" : "strain.slip=free");
     REQUIRE(!sets.empty());
     INFO(sets.front() << (sets.size() > 1 ? sets.back() : ""));
     sets.push_back("uncertainty.enabled=false");

@@ -8,6 +8,7 @@
 
 #include "strain/strand_contact.h"
 #include "tests/catch.h"
+#include "tests/strain/strand_contact.h"
 
 using namespace dresslife::strain;
 

@@ -49,7 +49,7 @@ Component cable_of(std::vector<Component> layers) {
   return cable;
 }
 
-Dresspack shipped() { return read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml"); }
+Dresspack thesis_pack() { return read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/thesis_welding.yaml"); }
 
 HoseStiffness in_state(const Dresspack& dresspack, SlipState state) {
   return stiffness_of_construction(dresspack, state, 1);
@@ -143,7 +143,7 @@ TEST_CASE("stiffness: a smooth wall is a tube, a folded one a bellows") {
 
 TEST_CASE(
     "stiffness: the shipped hose's lies between sliding and glued, where its cables' measured one puts it") {
-  const Dresspack dresspack = shipped();
+  const Dresspack dresspack = thesis_pack();
   const double wall_and_core = 1.42 + 5;  // W22's wall, and what the file says of its core
   CHECK(in_state(dresspack, SlipState::sliding).bending ==
         Approx(wall_and_core + 10 * (0.0018 + 0.03)).epsilon(0.01));
@@ -241,7 +241,7 @@ TEST_CASE("stiffness: what has none, and words that are none, are refused with a
 }
 
 TEST_CASE("stiffness: a given one that its construction cannot have is warned of with what it has") {
-  Dresspack dresspack = shipped();
+  Dresspack dresspack = thesis_pack();
   const auto told = [&] {
     const std::vector<Warning> warnings = stiffness_warnings(dresspack);
     return warnings.empty() ? std::string("nothing") : warnings.front().words;
@@ -265,7 +265,7 @@ TEST_CASE("stiffness: a given one that its construction cannot have is warned of
 }
 
 TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it has and what to write") {
-  Dresspack dresspack = shipped();
+  Dresspack dresspack = thesis_pack();
   dresspack.bending_stiffness = 12;
   dresspack.axial_from_construction = true;
   take_from_construction(dresspack);

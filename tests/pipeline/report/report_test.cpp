@@ -374,9 +374,9 @@ TEST_CASE("report: the planner's life leads, with its spread, its bounds and the
   CHECK(page.find("<dt>worst wire</dt><dd>" + printed(rows[0].life_hours) + " h of motion") !=
         std::string::npos);
   CHECK(page.find("<b>44.0</b></td>") != std::string::npos);
-  CHECK(page.find("<dt>bounds</dt><dd>worst wire " + printed_hours(rows[0].life_hours / 400) +
-                  " (inside of the cables stuck) .. " + printed_hours(1.5 * rows[0].life_hours) +
-                  " (free)") != std::string::npos);
+  CHECK(page.find("<dt>bounds of the worst wire</dt><dd>" + printed_hours(rows[0].life_hours / 400) +
+                  " if everything inside the cables were glued, " + printed_hours(1.5 * rows[0].life_hours) +
+                  " if it slipped without friction") != std::string::npos);
 }
 
 TEST_CASE("report: cycles of one range share one bar") {

@@ -153,7 +153,7 @@ TEST_CASE("clamp path: a bad cell is named by line and column") {
 
 TEST_CASE("clamp path: a file that is not there is named") {
   CHECK_THROWS_WITH(RecordedPath("no/such.csv"),
-                    "no/such.csv: error: clamp_poses cannot be read; check the file's name and rights");
+                    "no/such.csv: error: cannot be read (No such file or directory); check the path");
 }
 
 TEST_CASE("clamp path: a clamp's frame has z along the hose and x toward the link's z") {

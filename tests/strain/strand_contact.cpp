@@ -1,4 +1,4 @@
-#include "strain/strand_contact.h"
+#include "tests/strain/strand_contact.h"
 
 #include <Eigen/LU>
 #include <cassert>

@@ -1,6 +1,6 @@
-// The loop of lockstep.h for the plain instruction set of the build: any machine of its kind.
-#define DRESSLIFE_MACHINE baseline
-#define DRESSLIFE_LOCKSTEP baseline_lockstep
+// The loop of lockstep.h for every machine that a build is for (simd.h).
+#define DRESSLIFE_MACHINE portable
+#define DRESSLIFE_LOCKSTEP portable_lockstep
 #define DRESSLIFE_TARGET HWY_SCALAR  // two lanes gain less than their look-ups in tables cost
 
 // Everything from outside comes first: it must be compiled for any machine.
