@@ -95,7 +95,7 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Bui
 }
 
 double Variations::Friction::factor() const {
-  constexpr double none = 0, endless = 1e12;  // of the shipped friction: a million is glued to 1e-9 already
+  constexpr double none = 0, endless = 1e6;  // of the shipped friction: glued to 1e-9 of the strain
   if (inside == Inside::free) return none;
   if (inside == Inside::glued) return endless;
   return pipeline::uncertain_parameters()[index_of(Uncertain::friction_inside)].value(z);

@@ -162,13 +162,40 @@ double LifeSurface::log10_life(const ParameterPoint& z, double u, Inside inside)
 }
 
 bool LifeSurface::depends_on(std::size_t parameter) const {
-  if (parameter < strain_parameters) return nodes_[parameter].size() > 1;
-  const auto varies = [](const auto& values) {
-    return std::any_of(values.begin(), values.end(), [&](const auto& value) { return value != values.front(); });
+  if (parameter < strain_parameters) return depends_on_strain(parameter);
+  const std::size_t slopes = response_.slope.size(), of_point = response_.strength.size() * slopes;
+  const std::vector<double>& W = response_.worst_life;
+  if (parameter == index_of(Uncertain::strength)) {
+    for (std::size_t k = 0; k < W.size(); ++k)
+      if (W[k] != W[k - k % of_point + k % slopes]) return true;
+    return false;
+  }
+  if (parameter == index_of(Uncertain::slope)) {
+    for (std::size_t k = 0; k < W.size(); ++k)
+      if (W[k] != W[k - k % slopes]) return true;
+    return false;
+  }
+  return parameter == index_of(Uncertain::model) ||
+         std::any_of(response_.planned.begin(), response_.planned.end(),
+                     [&](const auto& lives) { return lives != response_.planned.front(); });
+}
+
+/// Whether W differs between two points of the job's own slip that differ in this parameter alone.
+bool LifeSurface::depends_on_strain(std::size_t parameter) const {
+  const auto of_point = static_cast<std::ptrdiff_t>(response_.strength.size() * response_.slope.size());
+  const auto begin_of = [&](std::size_t point) {
+    return response_.worst_life.begin() + static_cast<std::ptrdiff_t>(point) * of_point;
   };
-  if (parameter == index_of(Uncertain::strength) || parameter == index_of(Uncertain::slope))
-    return varies(response_.worst_life);
-  return parameter == index_of(Uncertain::model) || varies(response_.planned);
+  for (std::size_t one = 0; one < response_.points.size(); ++one)
+    for (std::size_t other = 0; other < one; ++other) {
+      if (response_.inside[one] != Inside::as_is || response_.inside[other] != Inside::as_is) continue;
+      StrainPoint apart = response_.points[one];
+      for (std::size_t p = 0; p < apart.size(); ++p) apart[p] -= response_.points[other][p];
+      if (is_zero_but(apart, {parameter}) &&
+          !std::equal(begin_of(one), begin_of(one) + of_point, begin_of(other)))
+        return true;
+    }
+  return false;
 }
 
 double LifeResponse::change(const ParameterPoint& z, Inside way) const { return LifeSurface(*this).change(z, way); }

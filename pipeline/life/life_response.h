@@ -84,6 +84,7 @@ class LifeSurface {
   };
   static Place place_among(const std::vector<double>& nodes, double z);
   Core core_of(Inside inside) const;
+  bool depends_on_strain(std::size_t parameter) const;
   double worst(std::size_t point, const Place& strength, const Place& slope) const;
   double core(const Core& of, const ParameterPoint& z, const Place& strength, const Place& slope) const;
 

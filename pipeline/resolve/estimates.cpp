@@ -115,8 +115,7 @@ class Estimates {
   /// core_load: line load of the part that holds this component [N/m].
   void add_friction(Node& component, Inside inside, double core_load) {
     if (component.find("without_wires")) return;
-    Node* const parts = component.find("components");
-    const bool wire = !parts;
+    const bool wire = !component.find("components");
     estimate(component, "friction_coefficient", estimated_friction);
     const double width = 2e-3 * number_at(component, "radius_mm").value_or(0);  // [m]
     const bool on_axis = inside == Inside::jacket && !wire && number_at(component, "helix_radius_mm") == 0.0;
@@ -125,6 +124,7 @@ class Estimates {
              !pressed                         ? 0
              : wire && inside == Inside::core ? estimated_wire_share * core_load
                                               : estimated_jacket_pressure * width);
+    Node* const parts = component.find("components");  // what is added moves the entries
     if (!parts || !parts->is_list()) return;
     const double load = number_at(component, "radial_line_load_N_per_m").value_or(0);
     for (Node& part : parts->items)

@@ -436,6 +436,7 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
 }
 
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width) {
+  constexpr std::size_t told_at_length = 3;  // of a long ranking: nobody reads more on a terminal
   std::array<Column, 7> columns{{{"", true, {}},
                                  {"job", false, {}},
                                  {"replace after [h]", true, {}},
@@ -458,6 +459,12 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
                                                       "", "", "", ""};
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
   }
+  // A name for which the table has no room stands in a line of its own, above the job's numbers.
+  std::size_t numbers = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) numbers += i == 1 ? 0 : columns[i].width() + 2;
+  std::vector<std::string> above(selected.indices.size());
+  for (std::size_t k = 0; k < above.size(); ++k)
+    if (std::string& name = columns[1].cells[k]; numbers + columns_of(name) > width) above[k].swap(name);
   const auto line = [&](auto cell_of) {
     std::string text;
     for (const Column& column : columns) text += column.padded(cell_of(column)) + "  ";
@@ -471,7 +478,9 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   for (std::size_t i = 0; i < selected.indices.size(); ++i) {
     const RankingRow& row = rows[selected.indices[i]];
     if (i > 0 && selected.indices[i] != selected.indices[i - 1] + 1) text += indent + "(more)\n";
+    if (!above[i].empty()) text += indent + above[i] + '\n';
     text += line([i](const Column& column) { return column.cells[i]; });
+    if (row.done() && selected.indices[i] >= told_at_length && !selected.summary.empty()) continue;
     std::string words;
     if (const std::string action = action_words(row); rows.size() > 1 && row.done() && !action.starts_with("Plan"))
       words += below(action);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
 #include "pipeline/study/study.h"
 #include "tests/cli/process.h"
