@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "pipeline/base/limits.h"
+
 namespace dresslife::pipeline {
 
 std::optional<double> number_in(std::string_view text) {
