@@ -15,10 +15,8 @@ using helices::Rod;
 using helices::Series;
 
 constexpr double pi = std::numbers::pi;
-constexpr int phases = 36;    // around a layer: whole harmonics are exact, what yields is to 1e-3
-// Two levels and more below the cable: what is summed has 2 d harmonics at level d, 12 angles are exact for those of five,
-// and what yields is met at as many others by the angles above.
-constexpr int deep_phases = 12;
+// Around a layer: what is summed has 2 d harmonics at level d, so 12 angles are exact for those of five.
+constexpr int phases = 12;
 constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
 constexpr double reach = 1e-3;  // [m]: as much of elongation per twist, a wire's distance from the axis
 
@@ -61,7 +59,7 @@ void descend(const Dresspack& dresspack, const Component& layer, const Deformed&
   const double EA = axial_stiffness(dresspack, layer);
   const double share =
       helices::radial_share(EA, layer.lay_angle, R, layer.radial_stiffness.value_or(HUGE_VAL));
-  const int angles = parent.alike_around ? 1 : parent.depth < 2 ? phases : deep_phases;
+  const int angles = parent.alike_around ? 1 : phases;
   const double weight = parent.per_length * layer.count / angles / cosine;
   const double inside = layer.measured_bending_stiffness ? friction_level(dresspack, layer) : parent.friction_level;
   for (int k = 0; k < angles; ++k) {
@@ -107,6 +105,19 @@ double own_stiffness(const Dresspack& dresspack, const Answer& of) {
                       of.share * of.EA * of.mean * of.mean);
 }
 
+/// Mean of held(phi) sin(phi) around a layer whose deviation is `away` sin(phi) (W29). cap: at phi = pi/2.
+double held_by_friction(double away, double cap) {
+  const double slope = 2 * cap / pi;  // of what friction gathers from the neutral axis, per angle
+  if (away <= slope) return away / 2;
+  double slides = pi / 2;  // up to this angle, where both are equal
+  if (away < cap)
+    for (double low = 0, high = pi / 2; slides = (low + high) / 2, high - low > 1e-14;)
+      (away * std::sin(slides) > slope * slides ? low : high) = slides;
+  return 2 / pi *
+         (slope * (std::sin(slides) - slides * std::cos(slides)) +
+          away * ((pi / 2 - slides) / 2 + std::sin(2 * slides) / 4));
+}
+
 void refuse_straight(const Component& layer) {
   throw InputError(layer.where,
                    fmt::format("'{}' lies straight beside the axis of a cable with measured_bending_stiffness_Nm2 (how far "
@@ -130,6 +141,7 @@ double axial_stiffness(const Dresspack& dresspack, const Component& part) {
 }
 
 CableBending::CableBending(const Dresspack& dresspack, const Component& cable, StraightParts straight) {
+  std::vector<const Component*> layers;
   const auto take = [&](const Answer& of) {
     depth_ = std::max(depth_, of.depth);
     own_stiffness_ += own_stiffness(dresspack, of);
@@ -139,9 +151,16 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
     const double sine = std::sin(layer.lay_angle), press = sine * sine / layer.helix_radius;
     const double gathers = layer.friction.value_or(0) * of.evening / 4;  // (W16) [m]
     const double line_load = of.parent.friction_level * layer.radial_line_load.value_or(0);
-    held_.push_back({of.depth, of.share * of.away, of.weight * of.EA * of.away,
-                     gathers * layer.tension * press / of.EA, gathers * line_load / of.EA,
-                     helices::elastic_share(layer.jacket_stiffness, of.EA, of.evening)});
+    auto known = std::find(layers.begin(), layers.end(), &layer);
+    if (known == layers.end()) layers.push_back(&layer), held_.emplace_back(), known = layers.end() - 1;
+    Held& held = held_[known - layers.begin()];
+    held.depth = of.depth;
+    held.stiffness += of.weight * of.EA;
+    held.glued += of.weight * of.EA * of.away * of.away;
+    held.share = of.share;
+    held.by_tension = gathers * layer.tension * press / of.EA;
+    held.by_line_load = gathers * line_load / of.EA;
+    held.elastic = helices::elastic_share(layer.jacket_stiffness, of.EA, of.evening);
   };
   for (const Component& layer : cable.components) descend(dresspack, layer, straight_cable(cable, 0, small, 0), take);
 }
@@ -149,24 +168,25 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
 double CableBending::moment(double curvature, double friction_level) const {
   double sum = own_stiffness_ * curvature;
   for (const Held& of : held_) {
-    const double away = of.strain_rate * curvature, cap = of.by_tension + friction_level * of.by_line_load;
-    const double held = of.elastic * away + std::clamp((1 - of.elastic) * away, -cap, cap);
-    sum += of.moment_per_strain * held;
+    const double rate = std::sqrt(2 * of.glued / of.stiffness);
+    const double cap = of.by_tension + friction_level * of.by_line_load;
+    const double away = of.share * rate * curvature;
+    sum += of.elastic * of.share * of.glued * curvature +
+           of.stiffness * rate * held_by_friction((1 - of.elastic) * away, cap);
   }
   return sum;
 }
 
 double CableBending::free_stiffness() const {
   double sum = own_stiffness_;
-  for (const Held& of : held_) sum += of.moment_per_strain * of.elastic * of.strain_rate;
+  for (const Held& of : held_) sum += of.elastic * of.share * of.glued;
   return sum;
 }
 
 double CableBending::stuck_stiffness(int levels) const {
   double sum = own_stiffness_;
   for (const Held& of : held_)
-    sum +=
-        of.moment_per_strain * of.strain_rate * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
+    sum += of.share * of.glued * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
   return sum;
 }
 
