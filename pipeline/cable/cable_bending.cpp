@@ -18,6 +18,8 @@ constexpr double pi = std::numbers::pi;
 // Around a layer: what is summed has 2 d harmonics at level d, so 12 angles are exact for those of five.
 constexpr int phases = 12;
 constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
+// ESTIMATE: half a metre of cable at the edge of a table [m]. Wires slide out at the ends of a longer wave.
+constexpr double bent_sample = 0.5;
 constexpr double reach = 1e-3;  // [m]: as much of elongation per twist, a wire's distance from the axis
 
 void scale_friction(std::vector<Component>& parts, double factor) {
@@ -33,7 +35,8 @@ constexpr double no_friction = 0, all_friction = 1e12;  // levels
 struct Deformed {
   Rod<double> rest, now;
   double per_length;      ///< how many of it, times their length, per length of the cable
-  double evening;         ///< path length of the nearest helix' pitch in it or above; 0: none [m]
+  double turning;         ///< about the cable's axis, per its length [rad/m]
+  bool helical;           ///< it or what it lies in
   double friction_level;  ///< of what lies in it
   int depth;
   bool alike_around = false;  ///< whatever lies in it at one radius feels the same at every angle
@@ -43,7 +46,9 @@ struct Deformed {
 struct Answer {
   const Component& layer;
   const Deformed& parent;
-  double EA, weight, evening, share;
+  double EA, weight;
+  double evening;  ///< length over which its strain evens out; 0: straight in straight parts [m]
+  double share;
   double away, mean;                ///< strain's deviation from the mean over its pitch, and that mean
   double bend1 = 0, bend2 = 0, twist = 0;  ///< of wires
   int depth;
@@ -53,9 +58,10 @@ struct Answer {
 template <class Take>
 void descend(const Dresspack& dresspack, const Component& layer, const Deformed& parent, const Take& take) {
   const double signed_angle = sign_of(layer.hand) * layer.lay_angle, R = layer.helix_radius;
-  const double sine = std::sin(layer.lay_angle), cosine = std::cos(layer.lay_angle);
+  const double cosine = std::cos(layer.lay_angle);
   const bool helical = R > 0 && layer.lay_angle != 0;
-  const double evening = helical ? 2 * pi * R / sine : parent.evening / cosine;
+  const double turns = helices::turning(parent.turning, signed_angle, R);
+  const double evening = helical || parent.helical ? helices::evening_length(turns, bent_sample) : 0;
   const double EA = axial_stiffness(dresspack, layer);
   const double share =
       helices::radial_share(EA, layer.lay_angle, R, layer.radial_stiffness.value_or(HUGE_VAL));
@@ -77,7 +83,7 @@ void descend(const Dresspack& dresspack, const Component& layer, const Deformed&
     take(Answer{layer, parent, EA, weight, evening, share, (strain - mean) / small, mean / small,
                 rate(now.bend1, rest.bend1), rate(now.bend2, rest.bend2), rate(now.twist, rest.twist),
                 parent.depth + 1});
-    const Deformed bent{rest, now, weight, evening, inside, parent.depth + 1};
+    const Deformed bent{rest, now, weight, turns, helical || parent.helical, inside, parent.depth + 1};
     for (const Component& inner : layer.components) descend(dresspack, inner, bent, take);
   }
 }
@@ -93,7 +99,7 @@ int levels_in(const Component& part) {
 Deformed straight_cable(const Component& cable, double elongation, double curvature, double twist) {
   const int order = std::clamp(levels_in(cable), 1, Series<double>::capacity - 1);
   return {helices::uniform_rod<double>(0, 0, 0, 0, order),
-          helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, 1, 0, curvature == 0};
+          helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, false, 1, 0, curvature == 0};
 }
 
 /// Of a wire whose deviation is free, per size of the deformation and length of the cable.
