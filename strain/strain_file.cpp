@@ -431,6 +431,23 @@ std::vector<Warning> write_cables(FileWriter& file,
   return warnings;
 }
 
+/// Wires whose strain evens out over too much of a bend for the closed forms of friction (strain/slip.h).
+std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+  std::vector<Warning> all;
+  for (const auto& evaluation : evaluations) {
+    const Evaluation::Evening& of = evaluation->evening();
+    if (of.layer < 0 || of.longest <= believable_evening * of.bend_wave) continue;
+    all.push_back(pipeline::warning_of(
+        WarningKind::material, "",
+        fmt::format("strain of {} evens out over {:.3g} m, the bend changes over {:.3g} m (limit of the first over the "
+                    "second {:g}): friction could hold up to 2.5 times as much strain there",
+                    evaluation->name_of_layer(of.layer), of.longest, of.bend_wave, believable_evening),
+        "its hand differs from that of what it lies in, and their lay lengths are nearly equal",
+        "its hand and lay_angle_deg as they are on the cable; if they are right, count with strain.friction_factor: 2.5"));
+  }
+  return all;
+}
+
 /// What is wrong in the descriptions of dresspacks, whatever the motion: parts that lie in each other, a
 /// stiffness that is not that of the parts.
 std::vector<Warning> construction_warnings(const pipeline::Job& job) {
@@ -550,7 +567,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       });
     });
   const std::vector<Warning> warnings =
-      pipeline::joined(construction_warnings(job), write_cables(strain, evaluations));
+      pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
+                       write_cables(strain, evaluations));
   write_bending(strain, job);
 
   Sink sink;

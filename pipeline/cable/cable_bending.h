@@ -4,12 +4,18 @@
 //
 // The cable is deformed from straight for the first time, uniformly and by little. Every part and wire feels
 // what the strain stage says (W6, W10, W11), to first order in the size x of that: its strain's deviation D x
-// from the mean over its pitch, that mean m' x, its own bending and torsion. Of the deviation h(D x) is held,
-// elastically and by friction (W16, W17, W30), and by virtual work, per length of the cable, the answer is
+// from the mean over its pitch, that mean m' x, its own bending and torsion. Along a part D is a wave, A sin(phi).
+// Of the deviation h is held, elastically and by friction (W30, W16), and by virtual work, per length of the
+// cable, the answer is
 //     sum over wires of [E I (k_n'^2 + k_b'^2) + G J t'^2 + E A m'^2] x
-//         + sum over parts and wires of E A h(D x) D,                                    (W29)
+//         + sum over layers of their parts' E A x mean of h(phi) D(phi),                 (W29)
 // ' per x. Part by part E A is that of all wires in it. What is held in a part shifts the levels inside by
 // second order only, which is left out.
+//
+// Friction gathers from the neutral axis, phi = 0, as in (W20): a part whose force may change by mu p per length
+// and that is bent for the first time has h(phi) = min(A x sin(phi), cap 2 phi/pi), with (W16)'s cap at
+// phi = pi/2. The strain stage follows each wire through any history with that cap, which bounds the worst wire
+// of a layer exactly and its others from above (friction.h). A^2 is twice the mean of D^2.
 #pragma once
 
 #include <vector>
@@ -41,13 +47,14 @@ class CableBending {
   double stuck_stiffness(int levels = 0) const;  ///< everything does, or the innermost `levels` alone [N m2]
 
  private:
-  /// Parts or wires of a layer at one angle.
+  /// Parts or wires of a layer.
   struct Held {
-    int depth;                        ///< levels below the cable, 1 = in it
-    double strain_rate;               ///< D [m]
-    double moment_per_strain;         ///< E A D x how many per length of the cable [N m]
-    double by_tension, by_line_load;  ///< the cap (W16), the latter at friction level 1
-    double elastic;                   ///< share held whatever the cap (W30)
+    int depth = 0;         ///< levels below the cable, 1 = in it
+    double stiffness = 0;  ///< E A x how many per length of the cable [N]
+    double glued = 0;      ///< that x mean of D^2 [N m2]
+    double share = 1;      ///< of the strain that the bed leaves (W31)
+    double by_tension = 0, by_line_load = 0;  ///< the cap (W16), the latter at friction level 1
+    double elastic = 0;                       ///< share held whatever the cap (W30)
   };
   int depth_ = 0;
   double own_stiffness_ = 0;  ///< of wires whose deviation is free [N m2]

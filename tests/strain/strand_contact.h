@@ -31,7 +31,7 @@ class StrandContact {
  public:
   enum class Contacts { elastic, rigid };
 
-  /// Layers lie in alternating hands, all but the core on helices. `cap` and `outer_layers_press` do not
+  /// Layers lie in alternating hands, all but the core on helices. `outer_layers_press` does not
   /// count. Errors: InputError for a jacket's stiffness.
   StrandContact(const Strand& strand, Contacts contacts);
 
