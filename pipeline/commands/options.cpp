@@ -25,6 +25,8 @@ Option sets_option(const std::string& what, std::vector<std::string>& sets) {
   return {"--set", "KEY.PATH=VALUE", what + "; may be repeated", &sets};
 }
 
+Option json_option(bool& json) { return {"--json", "", "print JSON for other programs", &json}; }
+
 std::vector<Option> study_options(StudyOptions& options) {
   return {{"-o,--output", "DIR", "folder of the results", &options.out},
           sets_option("override a key in every job", options.sets)};

@@ -13,6 +13,7 @@ namespace dresslife::pipeline {
 
 struct StudyOptions {
   std::string study, out = "runs";
+  bool json = false;  ///< of commands with json_option()
   std::vector<std::string> sets;
 };
 
@@ -29,6 +30,8 @@ struct RunOptions : StudyOptions {
 Option study_or_job(StudyOptions& options);
 /// --set KEY.PATH=VALUE, as often as wanted. what: "override a key".
 Option sets_option(const std::string& what, std::vector<std::string>& sets);
+/// --json: of commands that print a table.
+Option json_option(bool& json);
 /// --output DIR and --set.
 std::vector<Option> study_options(StudyOptions& options);
 /// --jobs and --quiet: of commands that run stages.

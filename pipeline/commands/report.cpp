@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
@@ -30,7 +31,7 @@ int report(const StudyOptions& options) {
   const auto& [study, places, states, remembered, looks, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
-  print(shown(ranking_table(rows)));
+  print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n" : shown(ranking_table(rows)));
   tell(shown(problem_words(study)) + warning_lines(rows));
   const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
     return !state.done() && !state.has_last && state.has_results && state.failure.empty();
@@ -46,7 +47,7 @@ int report(const StudyOptions& options) {
     kept = "the folder cannot be written";
   if (kept.empty()) {
     all_written = write_results(study, places, rows).empty();
-    print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
+    if (!options.json) print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
   } else {
     tell(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
                      places.folder.string(), kept));
@@ -59,7 +60,8 @@ int report(const StudyOptions& options) {
 Command report_command() {
   const auto options = std::make_shared<StudyOptions>();
   return {"report", "rank and report what has been computed, without running anything",
-          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}}, study_options(*options)}),
+          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}, json_option(options->json)},
+                  study_options(*options)}),
           [options] { return report(*options); }};
 }
 

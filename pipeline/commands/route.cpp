@@ -24,6 +24,7 @@
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/job_folder.h"
 #include "pipeline/study/row_words.h"
 #include "pipeline/study/stage_program.h"
 
@@ -36,7 +37,8 @@ constexpr int trials = 3;  // routings of one search that are run through the wh
 
 struct Options : RunOptions {
   RouteRequest request;
-  std::string ring, job, scale = "auto";
+  std::string ring, job, scale = "1";
+  bool keep = false;
   int tried = 400, rehearsals = 160, seed = 1;
 };
 
@@ -157,6 +159,14 @@ std::string words_of(const Trial& trial, const Draft& draft) {
   return text;
 }
 
+/// Removes the runs of a search but that of its winner.
+void remove_others(const fs::path& folder, const std::string& winner) {
+  std::vector<fs::path> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != winner && is_job_folder(entry.path())) others.push_back(entry.path());
+  for (const fs::path& other : others) remove_job(other);
+}
+
 int route(const Options& options) {
   const Draft draft = draft_of(options.request);
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
@@ -187,11 +197,13 @@ int route(const Options& options) {
                      "no routing was found that runs (the notes above say what stands against it)",
                      "try other links (--from, --to), another --seed, a ring, or a gentler program");
   const std::string& routing = chosen->proposals.candidates[*chosen->best].changes;
-  const Node document = routed(draft, routing, chosen->proposals.motion, chosen->factor);
+  const Node document = routed(draft, routing, chosen->proposals.motion, chosen->factor,
+                               job.has_parent_path() ? job.parent_path() : fs::path("."));
   const std::string text =
       fmt::format("# Proposed by dresslife route {}\n{}", shown(options.request.of), to_yaml(document));
   write_text_if_changed(job, with_mark(text, Mark::yaml));
   write_page(job, page);
+  if (!options.keep) remove_others(places.folder, chosen->rows[*chosen->best].job);
   print(shown(words_of(*chosen, draft)));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
   return 0;
@@ -213,7 +225,7 @@ Command route_command() {
                     &request.base_link},
                    {"--to", "LINK", "link of the tool clamp; else the job's, or the last", &request.tool_link},
                    {"--ring", "LINK", "also a guide ring on this link", &options->ring},
-                   {"--scale", "auto|FACTOR", "of the dresspack's size; auto: as it is, or as big as goes",
+                   {"--scale", "auto|FACTOR", "of the dresspack's size; auto: as it is, then smaller until one fits",
                     &options->scale},
                    {"--tried", "COUNT", "routings that geometry looks at, of each size", &options->tried,
                     {.range = {{1, 1'000'000}}}},
@@ -221,6 +233,7 @@ Command route_command() {
                     "short runs that the best of them are tried in and changed by, of each size",
                     &options->rehearsals, {.range = {{1, 100'000}}}},
                    {"--seed", "NUMBER", "of the search's chances", &options->seed, {.range = {{0, 1'000'000'000}}}},
+                   {"--keep", "", "keep the runs of all routings that were tried, not the best alone", &options->keep},
                    {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
                    {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},
                   run_options(*options),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
@@ -81,8 +82,9 @@ int run(const Options& options) {
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
   const std::set<std::string> not_shown = write_results(study, places, rows);
   for (const std::string& job : not_shown) forget_damaged(places.job(job));
-  print(
-      shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
+  print(options.json
+            ? json_of_csv(ranking_csv(rows)).text + "\n"
+            : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
   if (!options.quiet) tell(warning_lines(rows));
   const int failed = count_failed(rows);
   if (failed == 0) return not_shown.empty() ? 0 : 1;
@@ -104,7 +106,8 @@ Command run_command() {
   return {"run", "run what is not up to date in a study, then rank and report",
           joined({{study_or_job(*options)},
                   run_options(*options),
-                  {{"-n,--dry-run", "", "print what would be made and why, and run nothing", &options->dry_run}},
+                  {{"-n,--dry-run", "", "print what would be made and why, and run nothing", &options->dry_run},
+                   json_option(options->json)},
                   {{"--job-time", "SECONDS", "let no stage of a job take longer; 0: no limit",
                     &options->limits.seconds},
                    {"--job-memory", "MB", "let no stage of a job take more memory; 0: no limit",

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "pipeline/commands/as_json.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
 #include "pipeline/report/figures.h"
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   std::string file;
   std::vector<std::string> sets;
+  bool json = false;
 };
 
 int show(const Options& options) {
@@ -26,7 +28,8 @@ int show(const Options& options) {
     print(shown(file_summary(options.file)));
     return 0;
   }
-  print(job_text(named_file(options.file, "jobs"), options.sets));
+  const std::string text = job_text(named_file(options.file, "jobs"), options.sets);
+  print(options.json ? json_of(parse_yaml(text, options.file)).text + "\n" : text);
   return 0;
 }
 
@@ -38,6 +41,7 @@ Command show_command() {
           "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a "
           "job's folder its life.h5",
           {{"job", "", "JOB.yaml, FILE.h5, or a job's folder", &options->file, {.required = true}},
+           {"--json", "", "print a job as JSON for other programs", &options->json},
            sets_option("override a key", options->sets)},
           [options] { return show(*options); }};
 }

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "pipeline/commands/as_json.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/changes.h"
 #include "pipeline/study/study_problems.h"
@@ -15,12 +16,20 @@ int status(const StudyOptions& options) {
   Standing standing = standing_of(request_of(options));
   tell_changes(standing.study, standing.places, standing.states);
   std::size_t done = 0;
+  std::vector<Json> jobs;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     const std::string word =
         job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
     done += word == "done";
-    print(shown(fmt::format("{:<40} {}\n", job.name, word)));
+    if (options.json)
+      jobs.push_back({{"job", job.name}, {"state", word}});
+    else
+      print(shown(fmt::format("{:<40} {}\n", job.name, word)));
+  }
+  if (options.json) {
+    print(Json(jobs).text + "\n");
+    return 0;
   }
   print(shown(problem_words(standing.study)));
   print(fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));
@@ -32,7 +41,8 @@ int status(const StudyOptions& options) {
 Command status_command() {
   const auto options = std::make_shared<StudyOptions>();
   return {"status", "tell which jobs of a study are done, stale, failed or to do",
-          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}}, study_options(*options)}),
+          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}, json_option(options->json)},
+                  study_options(*options)}),
           [options] { return status(*options); }};
 }
 

@@ -47,6 +47,11 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   CHECK(told.out.find("Job: found.yaml\nPreview: found_preview.html\n") != std::string::npos);
   CHECK(content(scratch / "found_preview.html").find("The simulation takes this job.") != std::string::npos);
   const std::string job = content(scratch / "found.yaml");
+  CHECK(job.find("dresspack: ./hose.yaml\n") != std::string::npos);  // a reference stays one
+  std::size_t runs = 0;
+  for (const auto& entry : fs::directory_iterator(scratch / "runs/abb_irb2600_12_165_route"))
+    runs += fs::exists(entry.path() / "life.h5");
+  CHECK(runs == 1);  // the winner's
   const Outcome ran = run(scratch, "dresslife-sim", "found.yaml -o motion.h5 --quiet");
   INFO(ran.err);
   CHECK(ran.status == 0);
