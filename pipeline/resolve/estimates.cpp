@@ -151,8 +151,18 @@ class Estimates {
     add(dresspack_, "diameter_mm", shortest_text(2 * *radius)).where = where;
   }
 
+  /// Whether anything holds the dresspack's length: cables with slack do not.
+  bool is_held(const std::vector<Node>& components) const {
+    return dresspack_.find("hose_material") || dresspack_.find("core_axial_stiffness_N") || !is_hose(dresspack_) ||
+           std::any_of(components.begin(), components.end(), [](const Node& component) {
+             return number_at(component, "slack_percent").value_or(0) == 0;
+           });
+  }
+
   void add_to_hose(const std::vector<Node>& components) {
-    add_width(components);
+    const bool held = is_held(components);
+    add_width(components);  // what is added moves the components
+    if (!held) estimate(dresspack_, "axial_stiffness_N", estimated_axial_stiffness);
     for (const char* key :
          {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})
       if (!dresspack_.find(key)) add(dresspack_, key, "from_construction");

@@ -28,6 +28,10 @@ inline constexpr double estimated_slack = 1;
 /// swings of eight hanging cables (Tiburzio and others 2024; 10 .. 90 %: 0.04 .. 0.34).
 inline constexpr double estimated_damping_time = 20;
 
+/// Axial stiffness of a hose with cables of which none is known to carry [N]. ESTIMATE: that of spot_welding, whose own
+/// mass stretches it by less than 1e-3; a hose on a robot does not get longer.
+inline constexpr double estimated_axial_stiffness = 1e5;
+
 /// Adds what is missing. dresspack: a catalogue entry as written, its data sheets already expanded. What
 /// cannot be read is left for the reader of the settings, which reports it.
 void add_estimates(Node& dresspack);
