@@ -28,8 +28,7 @@ double damage_of_history(const std::vector<double>& history, const pipeline::Mat
 
 /// Of planes equally spaced over half a turn, the worst by exact lives: the stage counts with tables.
 CriticalPlane critical_plane(const std::vector<double>& strain, const std::vector<double>& shear,
-                             const pipeline::Material& m, const pipeline::Fatigue& settings) {
-  constexpr int planes = 36;
+                             const pipeline::Material& m, const pipeline::Fatigue& settings, int planes = 36) {
   CriticalPlane worst;
   for (int plane = 0; plane < planes; ++plane) {
     const double theta = pi * (double(plane) / planes - 0.5);

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "strain/strand_contact.h"
 #include "tests/catch.h"
 #include "tests/strain/strand_contact.h"
 
