@@ -2,6 +2,7 @@
 // library to the next.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -19,8 +20,11 @@ inline std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Uniform between 0 and 1, neither of them.
-inline double uniform_of(std::uint64_t bits) { return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53; }
+/// Uniform between 0 and 1, neither of them. The largest sum would round to 1.
+inline double uniform_of(std::uint64_t bits) {
+  constexpr double below_one = 1 - 0x1p-53;
+  return std::min((static_cast<double>(bits >> 11) + 0.5) * 0x1p-53, below_one);
+}
 
 /// A standard normal number from two uniform ones (Box and Muller 1958).
 inline double normal_of(double one, double other) {

@@ -6,7 +6,7 @@
 // what the strain stage says (W6, W10, W11), to first order in the size x of that: its strain's deviation D x
 // from the mean over its pitch, that mean m' x, its own bending and torsion. Along a part D is a wave, A sin(phi).
 // Of the deviation h is held, elastically and by friction (W30, W16), and by virtual work, per length of the
-// cable, the answer is
+// cable, the answer is:
 //     sum over wires of [E I (k_n'^2 + k_b'^2) + G J t'^2 + E A m'^2] x
 //         + sum over layers of their parts' E A x mean of h(phi) D(phi),                 (W29)
 // ' per x. Part by part E A is that of all wires in it. What is held in a part shifts the levels inside by

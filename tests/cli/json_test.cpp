@@ -4,7 +4,7 @@
 
 using namespace dresslife::tests;
 
-TEST_CASE("--json: the ranking has ranking.csv's cells, a job its settings, a study the states of its jobs") {
+TEST_CASE("json: the ranking has ranking.csv's cells, a job its settings, a study the states of its jobs") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\nvary:\n  dresspack.bending_stiffness_Nm2: [2, 3]\n");
