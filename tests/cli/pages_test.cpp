@@ -47,7 +47,7 @@ const std::map<std::string, std::string> instead{
      "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40" + quick},
     {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
     {"dresslife improve JOB_OR_STUDY", "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
-    {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram side_panel --lines 1" + quick},
+    {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram irb6640_spot_welding --lines 1" + quick},
     {"dresslife-sim JOB.yaml -o motion.h5",
      "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
@@ -196,14 +196,14 @@ void try_command(const Scratch& scratch, const std::string& command) {
 
 TEST_CASE("every YAML example of every page is read, and every command runs") {
   std::set<std::string> done;
+  Scratch scratch;  // one for all pages: commands use files of those before them
+  write_two_published(scratch);
   for (const fs::path& page : pages()) {
-    Scratch scratch;
-    write_two_published(scratch);
     for (const Piece& piece : pieces_of(page)) {
       INFO(fs::relative(page, source).string() << ":" << piece.line << ": " << piece.text);
       if (piece.yaml) {
         read_example(piece.text, scratch / "example.yaml");
-      } else if (done.insert(piece.text).second || piece.text.find("calibrate") != std::string::npos) {
+      } else if (done.insert(piece.text).second) {
         try_command(scratch, piece.text);
       }
     }
