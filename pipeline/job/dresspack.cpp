@@ -65,7 +65,8 @@ void describe(Fields& f, Component& component) {
            "force per length and displacement by which a jacket that fills the gussets holds the part along "
            "its path; read where strain.slip is friction");
   f.maybe_number("radial_stiffness_N_per_m2", component.radial_stiffness, above(0),
-                 "force per length and displacement of what the helix lies on; without it nothing gives");
+                 "force per length and displacement of what the helix lies on; without it 5e7, that of polymer, under parts in a "
+                 "cable that hold parts, and nothing gives under others or where strain.kinematics is thesis");
   f.maybe_number("measured_bending_stiffness_Nm2", component.measured_bending_stiffness, above(0),
                  "of one part with parts, moment over curvature; sets the level of radial_line_load_N_per_m "
                  "of all that lies in it, read where strain.slip is friction");

@@ -26,7 +26,6 @@ constexpr int closed_ring = 5;         // six parts that touch leave room for a 
 constexpr int filled_ring = 9;         // ten for two
 constexpr double wire_lay_ratio = 16;  // lay length over the conductor's width: stranding has 10 to 20
 constexpr double core_lay_ratio = 12;  // over the width of the cores: flexible cables have 8 to 16
-constexpr double wire_share = 0.2;     // of the line load on a core that presses one of its wires
 constexpr int rounds = 60;             // of the search for the cores' diameter
 
 double first_radius(int count, double diameter) {
@@ -177,7 +176,7 @@ class Expansion {
     std::vector<Component> layers;
     for (std::size_t k = wire_rings_.size(); k-- > 0;) {
       layers.push_back(part_of("wire", wire_rings_, k, wire_, hand,
-                               wire_share * sheet_.jacket_pressure * core_diameter_));
+                               sheet_.jacket_pressure * wire_));
       layers.back().material = sheet_.material;
     }
     return layers;
@@ -401,9 +400,8 @@ void describe(Fields& f, DataSheet& sheet) {
   f.number("friction_coefficient", sheet.friction, Need::optional, between(0, 1e6),
            "Coulomb, of cores and wires; an ESTIMATE");
   f.number("jacket_pressure_MPa", sheet.jacket_pressure, Need::optional, at_least(0),
-           "on the cores, a fifth of a core's line load on a wire; an ESTIMATE: "
-           "measured_bending_stiffness_Nm2 beside "
-           "data_sheet sets their level");
+           "on cores and wires, each by its width; an ESTIMATE by the friction of published cables: "
+           "measured_bending_stiffness_Nm2 beside data_sheet sets its level");
 }
 
 std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where) {

@@ -40,7 +40,7 @@ struct DataSheet {
   std::optional<double> wire_lay_length;   ///< [m]
   std::string material = "copper_halved";  ///< of the wires
   double friction = 0.3;                   ///< Coulomb, of cores and of wires on each other
-  double jacket_pressure = 0.04e6;         ///< on the cores [Pa]
+  double jacket_pressure = 0.17e6;         ///< on cores and wires [Pa]; see config/README.md
   Where where;
 };
 
