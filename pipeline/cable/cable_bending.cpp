@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/cable/plain_properties.h"
+#include "pipeline/cable/polymer.h"
 #include "pipeline/cable/shares.h"
 
 namespace dresslife::pipeline {
@@ -236,13 +237,29 @@ double friction_level(const Dresspack& dresspack, const Component& cable) {
   return std::sqrt(low * high);
 }
 
+double jacket_bending(double radius) { return jacketed_modulus * pi / 4 * std::pow(radius, 4); }
+
+double polymer_bending(const Component& part) {
+  if (part.components.empty()) return 0;
+  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness)
+    return part.polymer_bending_stiffness;
+  return jacket_bending(part.radius);
+}
+
+double cable_stiffness(const Dresspack& dresspack, const Component& cable) {
+  if (cable.measured_bending_stiffness) return *cable.measured_bending_stiffness;
+  const double curvature = cable.measured_at_curvature;
+  return polymer_bending(cable) +
+         CableBending(dresspack, cable, StraightParts::slide).moment(curvature, 1) / curvature;
+}
+
 std::vector<double> bending_moments(const Dresspack& dresspack, Component cable, double friction,
                                     const std::vector<double>& curvature) {
   const double level = cable.measured_bending_stiffness ? friction_level(dresspack, cable) : 1;
   scale_friction(cable.components, friction);
   const CableBending bending(dresspack, cable);
   std::vector<double> moments;
-  for (const double k : curvature) moments.push_back(cable.polymer_bending_stiffness * k + bending.moment(k, level));
+  for (const double k : curvature) moments.push_back(polymer_bending(cable) * k + bending.moment(k, level));
   return moments;
 }
 

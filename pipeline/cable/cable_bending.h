@@ -76,6 +76,14 @@ PullAndTwist pull_and_twist(const Dresspack& dresspack, const Component& cable);
 /// measured_bending_stiffness at measured_at_curvature. Errors: InputError when no friction gives that.
 double friction_level(const Dresspack& dresspack, const Component& cable);
 
+/// Of the jacket and insulation of a cable this wide, where nothing is given [N m2].
+double jacket_bending(double radius);
+/// Of a part's jacket and insulation: given, else by its width. A measured stiffness has it in it.
+double polymer_bending(const Component& part);
+/// Of one cable by itself, moment over curvature at measured_at_curvature [N m2]: measured, else of its polymer
+/// and its wires with their friction.
+double cable_stiffness(const Dresspack& dresspack, const Component& cable);
+
 /// What bends a cable by itself from straight for the first time [N m], its polymer included; friction:
 /// factor of that of all its parts, besides what a measured stiffness says. curvature (bend) [1/m]. Errors:
 /// InputError as above.

@@ -23,19 +23,6 @@ constexpr double gravity = 9.81;             // [m/s2]
 constexpr double believable_stretch = 1e-3;  // by its own weight; hoses of polyamide: 1e-4 and less
 constexpr double believable = 2;  // a life moves by up to a factor of five with twice the E I (README)
 
-/// Of a round of polymer.
-double round_bending(double radius) { return polymer_modulus * pi / 4 * std::pow(radius, 4); }
-
-/// Of a part's jacket and insulation: given, else of a round as wide as it is. A measured stiffness has it in
-/// it. Of a part without wires all of it.
-double polymer_of(const Component& part) {
-  if (part.plain) return properties_of(*part.plain, part.radius).bending;
-  if (part.components.empty()) return 0;
-  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness)
-    return part.polymer_bending_stiffness;
-  return round_bending(part.radius);
-}
-
 bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_value(); }
 
 /// Of all in it. What is no hose is a cable itself, of parts in a jacket, or holds nothing but one.
@@ -43,10 +30,10 @@ double polymer_of(const Dresspack& dresspack) {
   double sum = 0;
   bool on_axis = false;
   for (const Component& part : dresspack.components) {
-    sum += part.count * polymer_of(part);
+    sum += part.count * (part.plain ? properties_of(*part.plain, part.radius).bending : polymer_bending(part));
     on_axis |= part.helix_radius == 0 && !part.components.empty();
   }
-  return is_hose(dresspack) || on_axis ? sum : round_bending(dresspack.diameter / 2);
+  return is_hose(dresspack) || on_axis ? sum : jacket_bending(dresspack.diameter / 2);
 }
 
 bool knows_wall(const Dresspack& dresspack) {

@@ -51,8 +51,8 @@ void describe(Fields& f, Component& component) {
                  "Coulomb, of the part on what it lies against; without it 0.3, an ESTIMATE");
   f.maybe_number(
       "radial_line_load_N_per_m", component.radial_line_load, at_least(0),
-      "presses the part on what it lies against, by jacket and tape; without it an ESTIMATE: a jacket's 0.04 MPa "
-      "times the width of a core, a fifth of that on each of the core's wires, nothing on a cable in a hose");
+      "presses the part on what it lies against, by jacket and tape; without it an ESTIMATE: a jacket's 0.17 MPa "
+      "times its width, or the pressure on the part that holds it; nothing on a cable in a hose");
   f.number("tension_N", component.tension, Need::optional, at_least(0),
            "of the part in the dresspack at rest");
   describe(f, component.laying);
@@ -67,7 +67,8 @@ void describe(Fields& f, Component& component) {
            "force per length and displacement by which a jacket that fills the gussets holds the part along "
            "its path; read where strain.slip is friction");
   f.maybe_number("radial_stiffness_N_per_m2", component.radial_stiffness, above(0),
-                 "force per length and displacement of what the helix lies on; without it nothing gives");
+                 "force per length and displacement of what the helix lies on; without it 5e7, that of polymer, under parts in a "
+                 "cable that hold parts, and nothing gives under others or where strain.kinematics is thesis");
   f.maybe_number("measured_bending_stiffness_Nm2", component.measured_bending_stiffness, above(0),
                  "of one part with parts, moment over curvature; sets the level of radial_line_load_N_per_m "
                  "of all that lies in it, read where strain.slip is friction");

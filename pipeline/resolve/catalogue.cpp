@@ -8,6 +8,7 @@
 #include <set>
 
 #include "pipeline/base/installation.h"
+#include "pipeline/resolve/beds.h"
 #include "pipeline/resolve/cable_alone.h"
 #include "pipeline/resolve/data_sheet.h"
 #include "pipeline/resolve/estimates.h"
@@ -251,6 +252,7 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
   expand_data_sheets(*entry, path, problems);
   expand_places(*entry, path, problems);
   add_estimates(*entry);
+  add_beds(*entry, job);
   add_materials(*entry, job, path, problems);
 }
 

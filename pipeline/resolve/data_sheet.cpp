@@ -180,8 +180,7 @@ class Expansion {
   std::vector<Component> wires(Hand hand) const {
     std::vector<Component> layers;
     for (std::size_t k = wire_rings_.size(); k-- > 0;) {
-      layers.push_back(
-          part_of("wire", wire_rings_, k, wire_, hand, line_load(estimated_wire_share * core_diameter_)));
+      layers.push_back(part_of("wire", wire_rings_, k, wire_, hand, line_load(wire_)));
       layers.back().material = sheet_.material;
     }
     return layers;
@@ -405,8 +404,8 @@ void describe(Fields& f, DataSheet& sheet) {
   f.maybe_number("friction_coefficient", sheet.friction, between(0, 1e6),
                  "Coulomb, of cores and wires; without it 0.3, an ESTIMATE");
   f.maybe_number("jacket_pressure_MPa", sheet.jacket_pressure, at_least(0),
-                 "on the cores, a fifth of a core's line load on each of its wires; without it 0.04, an ESTIMATE; "
-                 "measured_bending_stiffness_Nm2 beside data_sheet sets their level");
+                 "on cores and wires, each by its width; without it 0.17, an ESTIMATE by the friction of published cables; "
+                 "measured_bending_stiffness_Nm2 beside data_sheet sets its level");
 }
 
 std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where) {

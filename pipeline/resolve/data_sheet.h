@@ -40,7 +40,7 @@ struct DataSheet {
   std::optional<double> wire_lay_length;   ///< [m]
   std::string material = "copper_halved";  ///< of the wires
   std::optional<double> friction;          ///< Coulomb, of cores and wires; absent: an ESTIMATE (estimates.h)
-  std::optional<double> jacket_pressure;   ///< on the cores [Pa]; absent: an ESTIMATE
+  std::optional<double> jacket_pressure;   ///< on cores and wires [Pa]; absent: an ESTIMATE
   Where where;
 };
 

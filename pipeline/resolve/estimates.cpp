@@ -97,7 +97,7 @@ class Estimates {
     for (Node& component : components->items) {
       if (!component.is_map()) continue;
       if (hose) add_slack(component);
-      add_friction(component, hose ? Inside::hose : Inside::jacket, 0);
+      add_friction(component, hose ? Inside::hose : Inside::jacket, estimated_jacket_pressure);
     }
     if (!dresspack_.find("cable_alone")) add_to_hose(components->items);
     if (const std::string text = list_.text(); !text.empty()) {
@@ -112,23 +112,21 @@ class Estimates {
     list_.note(key, add(component, key, rounded(value)).text, text_at(component, "name"));
   }
 
-  /// core_load: line load of the part that holds this component [N/m].
-  void add_friction(Node& component, Inside inside, double core_load) {
+  /// pressure: on this component [Pa].
+  void add_friction(Node& component, Inside inside, double pressure) {
     if (component.find("without_wires")) return;
     const bool wire = !component.find("components");
     estimate(component, "friction_coefficient", estimated_friction);
     const double width = 2e-3 * number_at(component, "radius_mm").value_or(0);  // [m]
     const bool on_axis = inside == Inside::jacket && !wire && number_at(component, "helix_radius_mm") == 0.0;
     const bool pressed = inside != Inside::hose && !on_axis;
-    estimate(component, "radial_line_load_N_per_m",
-             !pressed                         ? 0
-             : wire && inside == Inside::core ? estimated_wire_share * core_load
-                                              : estimated_jacket_pressure * width);
+    estimate(component, "radial_line_load_N_per_m", pressed ? pressure * width : 0);
     Node* const parts = component.find("components");  // what is added moves the entries
     if (!parts || !parts->is_list()) return;
     const double load = number_at(component, "radial_line_load_N_per_m").value_or(0);
+    const double inner = pressed && width > 0 ? load / width : pressure;
     for (Node& part : parts->items)
-      if (part.is_map()) add_friction(part, pressed ? Inside::core : Inside::jacket, load);
+      if (part.is_map()) add_friction(part, pressed ? Inside::core : Inside::jacket, inner);
   }
 
   /// Of a part that lies loose (lies_loose()).

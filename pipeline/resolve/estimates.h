@@ -12,13 +12,10 @@ namespace dresslife::pipeline {
 /// ESTIMATE: jackets on conduits 0.35 .. 0.5, lubricated 0.1, polyethylene on steel 0.12 .. 0.22.
 inline constexpr double estimated_friction = 0.3;
 
-/// Pressure of a jacket and its tapes on the parts inside [Pa]. With estimated_friction and
-/// estimated_wire_share the signal cable of spot_welding then has the friction moment of published jacketed
-/// cables: 16 kPa times the cube of the diameter, the median of seven (10 .. 90 %: 7 .. 52 kPa).
-inline constexpr double estimated_jacket_pressure = 0.04e6;
-
-/// Share of the line load on a core that presses each of the core's wires. ESTIMATE.
-inline constexpr double estimated_wire_share = 0.2;
+/// Pressure of a jacket and its tapes on the parts inside, on each by its width [Pa]. ESTIMATE: with estimated_friction
+/// sensor_cable and control_cable then have the friction moment of published jacketed cables, 16 kPa times the cube
+/// of the diameter, the median of seven (10 .. 90 %: 7 .. 52 kPa).
+inline constexpr double estimated_jacket_pressure = 0.17e6;
 
 /// Excess length of a loose cable [%]. ESTIMATE: 2 cm in 2 m, as much as a turn of the hose by 0.5 rad takes
 /// from a cable on its ring. Makers of dresspacks ask for cables that feel no pull.
