@@ -46,7 +46,8 @@ std::vector<Command> commands(const Command& program, bool& force) {
       page_command(),
       route_command(),
       {"import",
-       "write a robot program (RAPID, KRL, Fanuc, columns, ROS) as a motion; see dresslife import --help"},
+       "write a robot program (RAPID, KRL, Fanuc, INFORM, URScript, columns, ROS) as a motion; see dresslife import "
+       "--help"},
       manual_command(program)};
   constexpr std::array<std::string_view, 6> write_nothing{"status", "show", "check", "clean", "import", "manual"};
   for (Command& command : all)

@@ -1,6 +1,7 @@
 // dresslife-import: a robot program in, the same motion as YAML out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "pipeline/base/limits.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/stage/stage.h"
+#include "sim/program/answers.h"
 #include "sim/program/explain.h"
 #include "sim/program/import.h"
 
@@ -17,7 +19,7 @@ using namespace dresslife;
 
 /// What the options of this program ask for.
 struct Request {
-  std::string routine, frames;
+  std::string routine, answers, frames;
   std::vector<std::string> assume, modules, values;
   std::optional<int> passes;
   bool explain = false;
@@ -35,6 +37,8 @@ std::pair<std::string, std::string> halves(const std::string& option, const std:
 pipeline::Motion motion_asked_for(const Request& request, const std::filesystem::path& program) {
   pipeline::Motion motion;
   if (!request.frames.empty()) motion = pipeline::motion_from(pipeline::read_yaml(request.frames));
+  if (!request.answers.empty() && std::filesystem::exists(request.answers))
+    sim::add_answers(request.answers, motion);
   motion.program = program;
   const std::filesystem::path input = std::filesystem::absolute(program).lexically_normal();
   motion.source = "imported from " + (input.has_filename() ? input : input.parent_path()).filename().string();
@@ -52,6 +56,50 @@ pipeline::Motion motion_asked_for(const Request& request, const std::filesystem:
   return motion;
 }
 
+std::string counted(std::size_t questions) {
+  return questions == 1 ? "this question" : fmt::format("these {} questions", questions);
+}
+
+/// Whether the file of answers holds each of the questions, without an answer.
+bool all_are_empty(const std::vector<sim::Problem>& problems, const pipeline::Motion& asked) {
+  for (const sim::Problem& problem : problems)
+    for (const sim::Question& question : problem.questions)
+      if (std::none_of(asked.values.begin(), asked.values.end(),
+                       [&](const auto& v) { return v.value.empty() && v.name == question.name; }) &&
+          std::none_of(asked.assume.begin(), asked.assume.end(),
+                       [&](const auto& a) { return a.take.empty() && a.line == question.name; }))
+        return false;
+  return true;
+}
+
+/// The file itself, else with the first number behind its name that no file has.
+std::filesystem::path free_name(const std::filesystem::path& wanted) {
+  std::filesystem::path name = wanted;
+  for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(name)); ++number)
+    name = wanted.parent_path() /
+           fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
+  return name;
+}
+
+/// Reads the program. Where it asks, the questions go to a file of answers, if there is to be one.
+sim::Program program_of(const pipeline::Motion& asked, const std::filesystem::path& file) {
+  try {
+    return sim::read_program(asked);
+  } catch (const sim::Unread& unread) {
+    const std::size_t count = sim::question_count(unread.problems);
+    if (count == 0) throw;
+    if (file.empty())
+      throw unread.with(fmt::format("--answers FILE writes {} to a file, to be filled in", counted(count)));
+    if (std::filesystem::exists(file) && all_are_empty(unread.problems, asked))
+      throw unread.with(fmt::format("{}: no answer is written there to {}", file.string(), counted(count)));
+    const std::filesystem::path written = free_name(file);
+    pipeline::write_text_if_changed(
+        written, pipeline::with_mark(sim::answers_text(unread.problems, asked), pipeline::Mark::yaml));
+    throw unread.with(fmt::format("{}: holds {}: fill it in, and import with --answers {}", written.string(),
+                                  counted(count), written.string()));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -59,9 +107,8 @@ int main(int argc, char** argv) {
   const pipeline::StageInfo info{
       .program = "dresslife-import",
       .purpose =
-          "Reads a robot program (RAPID, KRL, Fanuc, joint columns, ROS), or the folder of a controller's "
-          "backup, "
-          "and writes its motion as YAML.",
+          "Reads a robot program (RAPID, KRL, Fanuc, INFORM, URScript, joint columns, ROS), or the folder of a "
+          "controller's backup, and writes its motion as YAML.",
       .input = "PROGRAM or FOLDER",
       .output = "motion.yaml",
       .example = "dresslife-import config/programs/side_panel.mod -o motion.yaml",
@@ -71,15 +118,18 @@ int main(int argc, char** argv) {
                    "where to start, with arguments where it takes some: 'name(1, p20)'; without it "
                    "main, or the first routine",
                    &request.routine},
+                  {"--answers", "FILE.yaml",
+                   "what the program asks: written there to be filled in, read where the file exists",
+                   &request.answers},
                   {"--assume", "LINE=then|else|VALUE",
-                   "how a branch goes that hangs on inputs, or the value by which a "
+                   "one answer: how a branch goes that hangs on inputs, or the value by which a "
                    "choice of several goes; LINE may be FILE:LINE",
                    &request.assume},
                   {"--module", "FILE", "a further module, data file or called program", &request.modules},
-                  {"--frames", "FILE.yaml", "tools and work_objects that lie in the controller",
+                  {"--frames", "FILE.yaml", "answers: tools and work_objects that lie in the controller",
                    &request.frames},
                   {"--value", "NAME=VALUE",
-                   "an input, register, variable or position that only the running robot knows",
+                   "one answer: an input, register, variable or position that only the running robot knows",
                    &request.values},
                   {"--passes", "N", "of an endless main loop; without it until the program repeats itself",
                    &request.passes, {.range = {{1, 1'000'000'000}}}},
@@ -92,7 +142,7 @@ int main(int argc, char** argv) {
           throw pipeline::InputError({call.input.string()}, "would be read for nothing",
                                      "name a file with -o, or ask for --explain");
         const pipeline::Motion asked = motion_asked_for(request, call.input);
-        const sim::Program program = sim::read_program(asked);
+        const sim::Program program = program_of(asked, request.answers);
         progress.clear();
         if (request.explain)
           for (const std::string& line : sim::explanation(program)) fmt::print("{}\n", line);

@@ -34,7 +34,8 @@ struct MotionStep {
   std::vector<double> position;       ///< target of the tool: x, y, z [m]; empty: none
   std::vector<double> quaternion;     ///< of the tool: w, x, y, z
   std::vector<double> via_position;   ///< of a circular move: a point on the way [m]
-  std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty: the nearest
+  std::vector<double> circle_joints;  ///< likewise, of one by joints: a point of its circle beyond its way [rad]
+  std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 0 0 0 0 0 0", "near 0 -90 90 0 90 0"; empty: the nearest
   std::vector<double> external_axes;  ///< as programmed: mm or deg, in the order of the robot's
   std::string tool, work_object;      ///< names in Motion; empty: flange, robot base
   std::optional<double> speed_percent;         ///< of each axis' largest speed [%]
@@ -43,6 +44,8 @@ struct MotionStep {
   std::optional<double> turn_speed;            ///< largest of the tool's rotation [rad/s]
   std::optional<double> duration;              ///< of the whole move [s]
   std::optional<double> acceleration_percent;  ///< of each axis' largest acceleration, besides Motion's [%]
+  std::optional<double> acceleration;          ///< largest of the fastest axis [rad/s2]
+  std::optional<double> tool_acceleration;     ///< largest of the tool's origin along its path [m/s2]
   std::optional<double> zone;  ///< blending begins this far from the target, largest axis [rad]; 0 = stop
   std::optional<double> tool_zone;  ///< blending begins this far from the target, tool [m]; 0 = stop
   std::optional<double>

@@ -63,6 +63,7 @@ struct Robot {
   Vector3d base_position = Vector3d::Zero();     ///< of link 0 in the world [m]
   Vector3d base_orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
   Vector3d program_base = Vector3d::Zero();  ///< origin of the frame programs are written in, in link 0 [m]
+  Vector3d program_orientation = Vector3d::Zero();  ///< of that frame there: roll, pitch, yaw [rad]
   Vector3d flange_position = Vector3d::Zero();     ///< of the flange frame in the last link [m]
   Vector3d flange_orientation = Vector3d::Zero();  ///< roll, pitch, yaw; its z axis leaves the flange [rad]
   std::vector<ExternalAxis> external_axes;         ///< those that carry the robot from the world on
