@@ -45,8 +45,7 @@ std::vector<Entry> entries_of(const std::vector<Problem>& problems) {
       if (entry.question.form.empty()) entry.question.form = question.form;
       if (entry.comments.size() >= most_comments) continue;
       const std::string file = std::filesystem::path(problem.where.file).filename().string();
-      entry.comments.push_back(on_one_line(
-          fmt::format("{}:{}: {}", file, problem.where.line, problem.what)));
+      entry.comments.push_back(on_one_line(fmt::format("{}:{}: {}", file, problem.where.line, problem.what)));
     }
   std::stable_partition(entries.begin(), entries.end(), [](const Entry& entry) { return entry.certain; });
   return entries;
@@ -120,7 +119,8 @@ std::string answers_text(const std::vector<Problem>& problems, const pipeline::M
     for (const Entry& entry : entries) {
       if (entry.question.kind != kind) continue;
       if (std::exchange(certain, entry.certain) != entry.certain)
-        lines += "  # ---- Only some ways through the program need these: leave empty what other answers rule out. ----\n";
+        lines +=
+            "  # ---- Only some ways through the program need these: leave empty what other answers rule out. ----\n";
       for (const std::string& comment : entry.comments) lines += "  # " + comment + "\n";
       if (!entry.question.form.empty()) lines += "  # write: " + entry.question.form + "\n";
       lines += "  - " + line_of(entry.question) + "\n";
@@ -140,9 +140,12 @@ void add_answers(const std::filesystem::path& file, pipeline::Motion& motion) {
     std::erase_if(section.value.items, [&](const pipeline::Node& entry) {  // what nobody has filled in
       const pipeline::Node* position = entry.is_map() ? entry.find("position_mm") : nullptr;
       const auto name = text_of(entry, "name"), line = text_of(entry, "line");
-      if (section.key == "tools" || section.key == "work_objects") return position && position->is_list() && position->items.empty();
-      if (section.key == "values" && name && text_of(entry, "value") == "") return motion.values.push_back({*name, ""}), true;
-      if (section.key == "assume" && line && text_of(entry, "take") == "") return motion.assume.push_back({*line, ""}), true;
+      if (section.key == "tools" || section.key == "work_objects")
+        return position && position->is_list() && position->items.empty();
+      if (section.key == "values" && name && text_of(entry, "value") == "")
+        return motion.values.push_back({*name, ""}), true;
+      if (section.key == "assume" && line && text_of(entry, "take") == "")
+        return motion.assume.push_back({*line, ""}), true;
       return false;
     });
   pipeline::Motion read = pipeline::motion_from(document);

@@ -58,17 +58,20 @@ std::optional<Position> position_in(const Value& value) {
 
 const std::set<std::string>& harmless_words() {
   static const std::set<std::string> words{
-      "dout",   "din",    "wait",   "pulse",  "aout",   "aration", "aratiof", "antout", "pause",  "cwait",  "msg",
-      "advinit", "advstop", "arcon", "arcof", "arcset", "arccts",  "arccte",  "aweld",  "vweld",  "hand",   "hsen",
-      "guncl",  "toolon", "toolof", "setualm", "dialog", "almchk", "tsync",   "setreg", "getreg", "setfile", "getfile",
-      "stroke", "strwait", "wvof",  "refp",   "gets",   "gete",    "getpos",  "cnvrt",  "mulmat", "invmat", "pwait",
-      "val",    "len",    "asc",    "mid",    "cat",    "val2str", "sqrt",    "sin",    "cos",    "atan",   "and",
-      "or",     "not",    "xor",    "shckset", "shckrst", "retry", "antstk",  "replay", "skillsnd", "pop",  "push"};
+      "dout",     "din",   "wait",    "pulse",   "aout",    "aration", "aratiof", "antout",  "pause",
+      "cwait",    "msg",   "advinit", "advstop", "arcon",   "arcof",   "arcset",  "arccts",  "arccte",
+      "aweld",    "vweld", "hand",    "hsen",    "guncl",   "toolon",  "toolof",  "setualm", "dialog",
+      "almchk",   "tsync", "setreg",  "getreg",  "setfile", "getfile", "stroke",  "strwait", "wvof",
+      "refp",     "gets",  "gete",    "getpos",  "cnvrt",   "mulmat",  "invmat",  "pwait",   "val",
+      "len",      "asc",   "mid",     "cat",     "val2str", "sqrt",    "sin",     "cos",     "atan",
+      "and",      "or",    "not",     "xor",     "shckset", "shckrst", "retry",   "antstk",  "replay",
+      "skillsnd", "pop",   "push"};
   return words;
 }
 
 /// How a user writes a position: the tree's record of one.
-constexpr const char* position_form = "[[x, y, z, Rx, Ry, Rz], \"base\", 0, TOOL NUMBER, [0, 0, 0, 0, 0, 0]] in mm and deg";
+constexpr const char* position_form =
+    "[[x, y, z, Rx, Ry, Rz], \"base\", 0, TOOL NUMBER, [0, 0, 0, 0, 0, 0]] in mm and deg";
 
 class Inform final : public Dialect {
  public:
@@ -114,19 +117,24 @@ class Inform final : public Dialect {
     if (calculates(name)) return calculate(statement, run), true;
     if (name == "pstart") return start_beside(statement, run), true;
     if (name == "wvon")
-      return run.note(statement.place, "WVON: the torch swings about its path, which is followed without it", true), true;
+      return run.note(statement.place, "WVON: the torch swings about its path, which is followed without it",
+                      true),
+             true;
     if (name.starts_with("job:")) {
       run.forget_numbers(fmt::format("may be written by {}, which no file read holds ({})", statement.text,
                                      run.short_place(statement.place)));
-      run.note(statement.place, statement.text + ": not among the files read; variables may have other values behind it",
+      run.note(statement.place,
+               statement.text + ": not among the files read; variables may have other values behind it",
                true);
       return true;
     }
     if (const auto& given = statement.arguments; !given.empty() && given[0].kind == Expression::Kind::name &&
-                                                 harmless(name) && !run.variable(given[0].text) && !run.given(given[0].text) &&
+                                                 harmless(name) && !run.variable(given[0].text) &&
+                                                 !run.given(given[0].text) &&
                                                  is_variable(given[0].text))  // in no file read
-      run.set(given[0].text, unknown_value(shown(given[0]), fmt::format("may be written by {} ({})", statement.text,
-                                                                         run.short_place(statement.place))));
+      run.set(given[0].text,
+              unknown_value(shown(given[0]), fmt::format("may be written by {} ({})", statement.text,
+                                                         run.short_place(statement.place))));
     return false;
   }
 
@@ -139,14 +147,17 @@ class Inform final : public Dialect {
   bool writes(const std::string&, int position, const Expression&) const override { return position == 0; }
   const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
   std::string form_of(const std::string& type) const override { return type == "number" ? "a number" : ""; }
-  Value initial(const std::string& type) const override { return type == "number" ? number_value(0) : Value{}; }
+  Value initial(const std::string& type) const override {
+    return type == "number" ? number_value(0) : Value{};
+  }
 
   /// Indices of the instructions that MOVC made, and whether FPT stands behind them.
   const std::map<std::size_t, bool>& arc_points() const { return arc_points_; }
 
  private:
   static bool moves(const std::string& name) {
-    static const std::set<std::string> words{"movj", "movl", "movc", "movs", "imov", "smovl", "smovc", "svspotmov"};
+    static const std::set<std::string> words{"movj", "movl",  "movc",  "movs",
+                                             "imov", "smovl", "smovc", "svspotmov"};
     return words.contains(name);
   }
   static bool is_variable(const std::string& name) {
@@ -173,8 +184,8 @@ class Inform final : public Dialect {
   std::optional<double> needed(const Expression& written, const char* what) {
     const Value value = run_->answered(written);
     if (value.is_number()) return value.number;
-    run_->ask_for(value, written.place, fmt::format("has a {} that is known only while the robot runs", what), "",
-                  "a number");
+    run_->ask_for(value, written.place, fmt::format("has a {} that is known only while the robot runs", what),
+                  "", "a number");
     return {};
   }
 
@@ -182,8 +193,9 @@ class Inform final : public Dialect {
     for (const Expression& argument : statement.arguments) {
       if (argument.option != option) continue;
       const auto number = needed(argument, option);
-      return number && argument.kind != Expression::Kind::number ? std::optional(*number * unit_of_variable(option))
-                                                                 : number;
+      return number && argument.kind != Expression::Kind::number
+                 ? std::optional(*number * unit_of_variable(option))
+                 : number;
     }
     return {};
   }
@@ -205,8 +217,9 @@ class Inform final : public Dialect {
     for (const NamedFrame& given : tool ? tools_ : frames_)
       if (same_word(given.name, name)) return given;
     ask(name, place, fmt::format("moves {} {}, which no file read holds", tool ? "with" : "in", name),
-        fmt::format("give {} of the backup (--module), or --frames FILE.yaml (motion.{} in a job) with the name '{}'",
-                    tool ? "TOOL.CND" : "UFRAME.CND", tool ? "tools" : "work_objects", name),
+        fmt::format(
+            "give {} of the backup (--module), or --frames FILE.yaml (motion.{} in a job) with the name '{}'",
+            tool ? "TOOL.CND" : "UFRAME.CND", tool ? "tools" : "work_objects", name),
         "", tool ? Question::Kind::tool : Question::Kind::work_object);
     return {};
   }
@@ -219,7 +232,8 @@ class Inform final : public Dialect {
       if (auto point = position_in(run.evaluate(given[i])); point && point->pose() && point->type != "user")
         points.push_back(*std::move(point));
     const bool tool = statement.name == "settool";
-    if (given.size() < 2 || points.size() + 1 != given.size() || (!tool && points.size() != 1 && points.size() < 3)) {
+    if (given.size() < 2 || points.size() + 1 != given.size() ||
+        (!tool && points.size() != 1 && points.size() < 3)) {
       if (!given.empty())
         run.make_unknown(given[0], {"", fmt::format("is set by {} from positions that are not known ({})",
                                                     statement.text, run.short_place(statement.place))});
@@ -252,7 +266,8 @@ class Inform final : public Dialect {
   }
 
   /// The pose of the tool in the robot's base frame after a shift by numbers of a position in a frame.
-  std::optional<Frame> shifted(const Frame& pose, const Position& by, const std::string& frame_name, const Place& place) {
+  std::optional<Frame> shifted(const Frame& pose, const Position& by, const std::string& frame_name,
+                               const Place& place) {
     const Frame step = frame_of_fanuc(by.numbers);
     if (frame_name == "tf" || (frame_name.empty() && by.type == "tool")) return pose * step;
     Frame system;
@@ -271,11 +286,13 @@ class Inform final : public Dialect {
   /// Counts per degree of the robot's axes; empty: they are asked for.
   std::vector<double> counts(const Place& place) {
     std::vector<double> read;
-    if (const auto given = run_->given("pulses_per_degree"); given && given->kind == Value::Kind::list && given->known())
+    if (const auto given = run_->given("pulses_per_degree");
+        given && given->kind == Value::Kind::list && given->known())
       for (const Value& item : given->items)
         if (item.is_number() && item.number != 0) read.push_back(item.number);
     if (read.size() >= 4) return read;
-    ask("pulses_per_degree", place, "moves to a position in pulses, and no file says how many pulses a degree of each axis has",
+    ask("pulses_per_degree", place,
+        "moves to a position in pulses, and no file says how many pulses a degree of each axis has",
         "give --value 'pulses_per_degree=[S,L,U,R,B,T]' (motion.values), counts with their signs: two positions of "
         "the pendant, shown once in pulses and once in degrees, tell them",
         "[S, L, U, R, B, T], counts of a degree with their signs");
@@ -297,8 +314,9 @@ class Inform final : public Dialect {
                false;
     }
     if (joints.size() < per_degree.size() && position.type == "pulse")
-      return run_->complain(place, fmt::format("moves to a position of {} axes, and pulses_per_degree has {}",
-                                               position.numbers.size(), per_degree.size()),
+      return run_->complain(place,
+                            fmt::format("moves to a position of {} axes, and pulses_per_degree has {}",
+                                        position.numbers.size(), per_degree.size()),
                             "give one count for each axis of the robot"),
              false;
     return true;
@@ -308,17 +326,19 @@ class Inform final : public Dialect {
   /// between controllers (header); which one is meant is a value of the user's, else the newer one with a warning.
   ArmConfiguration configuration(const Position& position, const Place& place) {
     if (position.configuration.size() < 6) return {};
-    ArmConfiguration made{ArmConfiguration::Kind::motoman, {position.configuration.begin(), position.configuration.begin() + 6}};
+    ArmConfiguration made{ArmConfiguration::Kind::motoman,
+                          {position.configuration.begin(), position.configuration.begin() + 6}};
     const auto rule = run_->given("rconf_flip");
     const bool by_b = rule ? rule->text == "B" || rule->text == "b" : position.configuration.size() > 8;
     if (by_b) made.numbers[0] += 2;
     if (!rule && !flip_told_) {
       flip_told_ = true;
-      run_->note(place,
-                 fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ: --value "
-                             "'rconf_flip=\"{}\"' if it is the other",
-                             by_b ? "the sign of axis B" : "axis R within 90 deg of its zero", by_b ? "R" : "B"),
-                 true);
+      run_->note(
+          place,
+          fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ: --value "
+                      "'rconf_flip=\"{}\"' if it is the other",
+                      by_b ? "the sign of axis B" : "axis R within 90 deg of its zero", by_b ? "R" : "B"),
+          true);
     }
     return made;
   }
@@ -332,8 +352,10 @@ class Inform final : public Dialect {
   std::optional<Position> position(const Expression& written) {
     const Value value = run_->answered(written);
     if (auto read = position_in(value)) return read;
-    run_->ask_for(value, written.place, fmt::format("moves to {}, which is known only while the robot runs", shown(written)),
-                  "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)", position_form);
+    run_->ask_for(value, written.place,
+                  fmt::format("moves to {}, which is known only while the robot runs", shown(written)),
+                  "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)",
+                  position_form);
     return {};
   }
 
@@ -370,8 +392,9 @@ class Inform final : public Dialect {
                             "teach it in pulses, BASE, ROBOT or USER"),
              false;
     } else if (shift_) {
-      return run_->complain(written->place, "shifts a position that is given in pulses (SFTON): where it lies is known only "
-                                            "with the robot",
+      return run_->complain(written->place,
+                            "shifts a position that is given in pulses (SFTON): where it lies is known only "
+                            "with the robot",
                             "store the positions as BASE or USER (a relative job)"),
              false;
     } else if (!read_joints(*read, written->place, move.target.joints)) {
@@ -399,16 +422,19 @@ class Inform final : public Dialect {
     const Expression* system = argument_of(statement, "frame");
     if (reached_ && by.joints() && reached_->position.type == by.type && !system) {
       Position target = reached_->position;
-      for (std::size_t i = 0; i < std::min(target.numbers.size(), by.numbers.size()); ++i) target.numbers[i] += by.numbers[i];
+      for (std::size_t i = 0; i < std::min(target.numbers.size(), by.numbers.size()); ++i)
+        target.numbers[i] += by.numbers[i];
       reached_->position = target;
       return read_joints(target, statement.place, move.target.joints);
     }
     if (!reached_ || reached_->position.joints() || by.joints() || by.numbers.size() < 6)
-      return run_->complain(statement.place,
-                            reached_ ? "moves on from joint angles by a way in space (IMOV): where that leads is known only "
-                                       "with the robot"
-                                     : "moves on from where the robot stands at the start (IMOV)",
-                            "store the position before it as BASE or USER"),
+      return run_->complain(
+                 statement.place,
+                 reached_
+                     ? "moves on from joint angles by a way in space (IMOV): where that leads is known only "
+                       "with the robot"
+                     : "moves on from where the robot stands at the start (IMOV)",
+                 "store the position before it as BASE or USER"),
              false;
     const auto moved = shifted(reached_->base, by, system ? system->text : "", statement.place);
     if (!moved) return false;
@@ -421,11 +447,13 @@ class Inform final : public Dialect {
     const bool free = statement.name == "movj" && position.joints() && move.zone.distance == 0;
     const std::string name = fmt::format("TL#({})", position.tool);
     const bool known = run_->variable(lower_case(name)) ||
-                       std::any_of(tools_.begin(), tools_.end(), [&](const NamedFrame& t) { return same_word(t.name, name); });
+                       std::any_of(tools_.begin(), tools_.end(),
+                                   [&](const NamedFrame& t) { return same_word(t.name, name); });
     if (free && !known) return true;  // axes alone
     const auto tool = frame(true, position.tool, statement.place);
     if (!tool) return false;
-    if (tool->stationary || tool->frame.position != Vector3::Zero() || !tool->frame.orientation.vec().isZero(0))
+    if (tool->stationary || tool->frame.position != Vector3::Zero() ||
+        !tool->frame.orientation.vec().isZero(0))
       move.tool = run_->frame_index(run_->program().tools, *tool);
     return true;
   }
@@ -453,8 +481,10 @@ class Inform final : public Dialect {
     if (!number && !turn) {
       if (const auto given = run_->given(option); given && given->is_number()) number = given->number;
       if (!number)
-        return ask(option, statement.place, fmt::format("has no {}=, and no SPEED before it", axes ? "VJ" : "V"),
-                   fmt::format("give --value {}=NUMBER (motion.values), {}", option, axes ? "in %" : "in mm/s"),
+        return ask(option, statement.place,
+                   fmt::format("has no {}=, and no SPEED before it", axes ? "VJ" : "V"),
+                   fmt::format("give --value {}=NUMBER (motion.values), {}", option,
+                               axes ? "in %" : "in mm/s"),
                    axes ? "a number, in %" : "a number, in mm/s"),
                false;
     }
@@ -470,7 +500,9 @@ class Inform final : public Dialect {
   double unit_of_v(const Place& place) {
     const auto given = run_->given("speed_unit");
     if (!given && !unit_told_)
-      run_->note(place, "note: V= counts mm/s; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
+      run_->note(
+          place,
+          "note: V= counts mm/s; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
     unit_told_ = true;
     if (!given || given->text == "mm/s") return millimetre;
     if (given->text == "cm/min") return 10 * millimetre / 60;
@@ -483,7 +515,9 @@ class Inform final : public Dialect {
     if ((!radius && argument_of(statement, "cr")) || (!level && argument_of(statement, "pl"))) return false;
     constexpr double highest = std::size(position_levels) - 1;
     if (level && !(*level >= 0 && *level <= highest))
-      return run_->complain(statement.place, fmt::format("has PL={} (0 .. 8)", *level), "mend the position level"), false;
+      return run_->complain(statement.place, fmt::format("has PL={} (0 .. 8)", *level),
+                            "mend the position level"),
+             false;
     if (radius)
       move.zone.distance = std::max(0.0, *radius) * millimetre;
     else if (level)
@@ -507,7 +541,8 @@ class Inform final : public Dialect {
     if (!argument_of(statement, "") && station)
       return run.note(statement.place, statement.text + ": moves a station alone, not the robot", true);
     std::optional<Position> taught;
-    bool whole = read_zone(statement, move) & read_speed(statement, move) & read_target(statement, move, taught);
+    bool whole =
+        read_zone(statement, move) & read_speed(statement, move) & read_target(statement, move, taught);
     if (taught) whole &= read_tool(statement, *taught, move);
     if (!whole) return;
     externals(statement, run);
@@ -525,13 +560,16 @@ class Inform final : public Dialect {
     const Routine* job = nullptr;
     for (const Routine& routine : code_.routines)
       if (routine.module == run.module()) job = &routine;
-    const bool two = argument_of(statement, "other_robot") || (job && job->robot.find(',') != std::string::npos);
+    const bool two =
+        argument_of(statement, "other_robot") || (job && job->robot.find(',') != std::string::npos);
     if (two) {
-      run.miss("two robots", statement.place, "moves two robots at once", "give a job that moves one of them (///GROUP1 RB1)");
+      run.miss("two robots", statement.place, "moves two robots at once",
+               "give a job that moves one of them (///GROUP1 RB1)");
       return false;
     }
     if (!job || job->robot.empty() || robot_.empty() || job->robot == robot_) return true;
-    run.note(statement.place, fmt::format("{}: moves {}, another robot than {}", statement.text, job->robot, robot_), true);
+    run.note(statement.place,
+             fmt::format("{}: moves {}, another robot than {}", statement.text, job->robot, robot_), true);
     return false;
   }
 
@@ -549,8 +587,9 @@ class Inform final : public Dialect {
         moved = std::abs(at->numbers[i] - before[i]) > (at->type == "pulse" ? same_place : same_place / 1000);
       if (moved && !told_.contains(option))
         run.note(statement.place,
-                 fmt::format("{}: {} axes move with the robot, and are left out: the {} is taken to stand still",
-                             statement.text, option, std::string_view(option) == "base" ? "robot's base" : "station"),
+                 fmt::format(
+                     "{}: {} axes move with the robot, and are left out: the {} is taken to stand still",
+                     statement.text, option, std::string_view(option) == "base" ? "robot's base" : "station"),
                  true);
       if (moved) told_.insert(option);
       if (at && before.empty()) externals_[option] = at->numbers;
@@ -560,12 +599,15 @@ class Inform final : public Dialect {
   void notes(const Statement& statement, Interpreter& run) {
     if (statement.name == "movs") run.note(statement.place, "MOVS: a spline, read as straight lines", true);
     if (statement.name.starts_with("smov"))
-      run.note(statement.place, statement.text + ": the station turns the work meanwhile; it is taken to stand still", true);
+      run.note(statement.place,
+               statement.text + ": the station turns the work meanwhile; it is taken to stand still", true);
     if (argument_of(statement, "until"))
       run.note(statement.place, statement.text + ": an input may end the move; it is taken to its end", true);
     for (const Expression& argument : statement.arguments)
       if (argument.option == "unknown")
-        run.note(statement.place, fmt::format("{}: what {} does to the move is not read", statement.text, argument.text), true);
+        run.note(statement.place,
+                 fmt::format("{}: what {} does to the move is not read", statement.text, argument.text),
+                 true);
   }
 
   void wait(const Statement& statement, Interpreter& run) {
@@ -590,8 +632,8 @@ class Inform final : public Dialect {
   void start_beside(const Statement& statement, Interpreter& run) {
     const std::string job = statement.arguments.empty() ? "" : statement.arguments[0].text;
     run.note(statement.place,
-             fmt::format("{}: runs beside this job, and is left out; --routine {} reads it alone", statement.text,
-                         job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
+             fmt::format("{}: runs beside this job, and is left out; --routine {} reads it alone",
+                         statement.text, job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
              true);
     run.forget_numbers(fmt::format("may be written by {}, which runs beside", statement.text));
   }
@@ -606,11 +648,13 @@ class Inform final : public Dialect {
     const std::size_t digits = std::min(first.find_first_of("0123456789"), first.size());
     if (digits == first.size()) return;
     constexpr int every = 1000;  // numbers of names
-    const auto number = given.size() > 1 && given[1].text != "all" ? run.number(given[1]) : std::optional<double>(every);
+    const auto number =
+        given.size() > 1 && given[1].text != "all" ? run.number(given[1]) : std::optional<double>(every);
     const int from = std::atoi(first.c_str() + digits);
     const int count = static_cast<int>(std::clamp(number.value_or(1), 1.0, static_cast<double>(every)));
     for (int i = from; i < from + count && i < every; ++i)
-      run.assign(name_at(fmt::format("{}{:03}", first.substr(0, digits), i), statement.place), number_value(0));
+      run.assign(name_at(fmt::format("{}{:03}", first.substr(0, digits), i), statement.place),
+                 number_value(0));
   }
 
   /// What no assignment says: arithmetic of positions, one of their numbers (SETE), variables by an index.
@@ -621,7 +665,8 @@ class Inform final : public Dialect {
     if (target.kind == Expression::Kind::call) {
       const auto index = target.items.size() == 1 ? run.number(target.items[0]) : std::nullopt;
       if (!index)
-        return run.complain(statement.place, "writes to a variable whose number is known only while the robot runs",
+        return run.complain(statement.place,
+                            "writes to a variable whose number is known only while the robot runs",
                             "write its number");
       target = name_at(indexed(target.text, *index), statement.place);
     }
@@ -632,29 +677,35 @@ class Inform final : public Dialect {
     if (statement.name == "sete") {
       const auto which = given.size() == 3 ? run.number(given[1]) : std::nullopt;
       const auto read = position_in(value);
-      if (!which || !read || !with.is_number() || *which < 1 || *which > static_cast<double>(read->numbers.size()))
-        return run.make_unknown(target, {"", fmt::format("is set in part by SETE ({})", run.short_place(statement.place))});
+      if (!which || !read || !with.is_number() || *which < 1 ||
+          *which > static_cast<double>(read->numbers.size()))
+        return run.make_unknown(
+            target, {"", fmt::format("is set in part by SETE ({})", run.short_place(statement.place))});
       const double unit = read->type == "pulse" ? 1 : *which <= 3 ? 1e-3 : 1e-4;  // of 0.001 mm, 0.0001 deg
       value.items[0].items[static_cast<std::size_t>(*which) - 1] = number_value(with.number * unit);
       return run.assign(target, std::move(value));
     }
     const auto combined = [&](double a, double b) {
-      return statement.name == "sub" || statement.name == "dec"  ? a - b
-             : statement.name == "mul"                           ? a * b
-             : statement.name == "div"                           ? a / b
-                                                                 : a + b;
+      return statement.name == "sub" || statement.name == "dec" ? a - b
+             : statement.name == "mul"                          ? a * b
+             : statement.name == "div"                          ? a / b
+                                                                : a + b;
     };
-    const Value* by = list && with.kind == Value::Kind::list && with.items.size() == 5 ? &with.items[0] : nullptr;
+    const Value* by =
+        list && with.kind == Value::Kind::list && with.items.size() == 5 ? &with.items[0] : nullptr;
     if (list && (by || with.is_number()) && value.known() && with.known()) {
       auto& numbers = value.items[0].items;
       for (std::size_t i = 0; i < numbers.size(); ++i)
-        numbers[i].number = combined(numbers[i].number, !by ? with.number : i < by->items.size() ? by->items[i].number : 0);
+        numbers[i].number = combined(numbers[i].number, !by                    ? with.number
+                                                        : i < by->items.size() ? by->items[i].number
+                                                                               : 0);
     } else if (value.is_number() && with.is_number()) {
       value.number = combined(value.number, with.number);
     } else {
       value = unknown_value(value.known() ? with : value);
     }
-    const bool finite = value.kind == Value::Kind::unknown || (value.is_number() && std::isfinite(value.number)) ||
+    const bool finite = value.kind == Value::Kind::unknown ||
+                        (value.is_number() && std::isfinite(value.number)) ||
                         (list && std::all_of(value.items[0].items.begin(), value.items[0].items.end(),
                                              [](const Value& v) { return std::isfinite(v.number); }));
     run.assign(target, finite ? std::move(value) : Value{});
@@ -681,22 +732,28 @@ void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Prob
   auto& moves = program.instructions;
   for (auto first = points.begin(); first != points.end();) {
     auto last = first;
-    while (!last->second && std::next(last) != points.end() && std::next(last)->first == last->first + 1) ++last;
+    while (!last->second && std::next(last) != points.end() && std::next(last)->first == last->first + 1)
+      ++last;
     const std::size_t begin = first->first, end = std::min(last->first + 1, moves.size());
-    const bool joined = first != points.begin() && std::prev(first)->second && std::prev(first)->first + 1 == begin;
-    const std::size_t start = joined ? begin - 1 : begin;  // FPT: the circle before ends where this one begins
+    const bool joined =
+        first != points.begin() && std::prev(first)->second && std::prev(first)->first + 1 == begin;
+    const std::size_t start =
+        joined ? begin - 1 : begin;  // FPT: the circle before ends where this one begins
     first = std::next(last);
     if (end <= start) continue;
     if (end - start < 3) {
-      program.skipped.push_back({moves[start].where, "MOVC: fewer than three points of a circle: read as straight lines", true});
+      program.skipped.push_back(
+          {moves[start].where, "MOVC: fewer than three points of a circle: read as straight lines", true});
       continue;
     }
     for (std::size_t k = start + 1; k < end; ++k) {
       const std::size_t third = k == start + 1 ? k + 1 : k - 2;
       Instruction& move = moves[k];
       const Instruction &before = moves[k - 1], &other = moves[third];
-      const bool poses = move.target.joints.empty() && before.target.joints.empty() && other.target.joints.empty();
-      const bool axes = !move.target.joints.empty() && !before.target.joints.empty() && !other.target.joints.empty();
+      const bool poses =
+          move.target.joints.empty() && before.target.joints.empty() && other.target.joints.empty();
+      const bool axes =
+          !move.target.joints.empty() && !before.target.joints.empty() && !other.target.joints.empty();
       const bool together = move.tool == before.tool && move.tool == other.tool &&
                             move.work_object == before.work_object && move.work_object == other.work_object;
       if (!(poses || axes) || !together) {
@@ -744,7 +801,8 @@ void run_inform(const Code& code, const ImportOptions& options, const std::vecto
     for (const Routine& routine : code.routines)
       if (names.size() < 1000) names += (names.empty() ? "" : ", ") + routine.written;
     problems.add({code.files[0].name(), 1, 1},
-                 options.routine.empty() ? std::string("holds no job") : fmt::format("has no job '{}'", options.routine),
+                 options.routine.empty() ? std::string("holds no job")
+                                         : fmt::format("has no job '{}'", options.routine),
                  names.empty() ? "give a job (.JBI)" : fmt::format("name one of: {}", names));
     return;
   }

@@ -108,7 +108,8 @@ class Lines {
         const bool kept = line.now[line.own] == original_[k];
         if (!kept) body += row('-', original_[k], k + 1 == lines_.size());
         for (std::size_t n = 0; n < line.now.size(); ++n)
-          body += row(kept && n == line.own ? ' ' : '+', line.now[n], k + 1 == lines_.size() && n + 1 == line.now.size());
+          body += row(kept && n == line.own ? ' ' : '+', line.now[n],
+                      k + 1 == lines_.size() && n + 1 == line.now.size());
         now += line.now.size();
       }
       made += fmt::format("@@ -{},{} +{},{} @@\n", begin + 1, end - begin, begin + 1 + added, now) + body;
@@ -150,7 +151,8 @@ std::string shortest(double value, int decimals) {
 
 std::string in_degrees(const std::vector<double>& joints) {
   std::string list;
-  for (const double angle : joints) list += fmt::format("{}{}", list.empty() ? "" : ",", shortest(angle / degree, 6));
+  for (const double angle : joints)
+    list += fmt::format("{}{}", list.empty() ? "" : ",", shortest(angle / degree, 6));
   return list;
 }
 
@@ -162,7 +164,9 @@ std::optional<std::string> scaled(std::string_view number, double factor) {
   return shortest(value * factor, 6);
 }
 
-std::string indentation(const std::string& line) { return line.substr(0, std::min(line.find_first_not_of(" \t"), line.size())); }
+std::string indentation(const std::string& line) {
+  return line.substr(0, std::min(line.find_first_not_of(" \t"), line.size()));
+}
 
 /// What all writers share: the file, its words, and the instruction that a change is about.
 struct Writer {
@@ -174,9 +178,12 @@ struct Writer {
   const Instruction& instruction(const LineChange& change) const {
     const Instruction* found = nullptr;
     for (const Instruction& i : program.instructions) {
-      if (i.where.file != change.where.file || i.where.line != change.where.line || i.kind == Instruction::Kind::dwell)
+      if (i.where.file != change.where.file || i.where.line != change.where.line ||
+          i.kind == Instruction::Kind::dwell)
         continue;
-      if (found && (found->target.joints != i.target.joints || found->target.pose.position != i.target.pose.position) &&
+      if (found &&
+          (found->target.joints != i.target.joints ||
+           found->target.pose.position != i.target.pose.position) &&
           (change.configuration || !change.joints.empty() || !change.point.empty()))
         refuse(change, "it is run with several targets");
       found = &i;
@@ -215,9 +222,9 @@ struct Writer {
 // ---- RAPID --------------------------------------------------------------------------------------------------------
 
 struct Argument {
-  std::size_t first, last;       // tokens
-  std::size_t expression_last;   // without the options behind it
-  bool option;                   // it is an option alone
+  std::size_t first, last;      // tokens
+  std::size_t expression_last;  // without the options behind it
+  bool option;                  // it is an option alone
 };
 
 /// The arguments of an instruction, up to its end (the token behind the last).
@@ -255,11 +262,13 @@ std::vector<Argument> arguments_of(const std::vector<Token>& tokens, std::size_t
 
 std::string rapid_speed(const Writer& w, const Argument& speed, double factor, const LineChange& change) {
   if (w.tokens[speed.first].kind == Token::Kind::word && speed.first == speed.expression_last)
-    return fmt::format("[{0}*{1}.v_tcp,{0}*{1}.v_ori,{1}.v_leax,{1}.v_reax]", shortest(factor, 3), w.tokens[speed.first].text);
+    return fmt::format("[{0}*{1}.v_tcp,{0}*{1}.v_ori,{1}.v_leax,{1}.v_reax]", shortest(factor, 3),
+                       w.tokens[speed.first].text);
   std::vector<std::string> parts;
   for (std::size_t i = speed.first + 1; i < speed.expression_last; ++i)
     if (w.tokens[i].text != ",") parts.emplace_back(w.tokens[i].text);
-  if (w.tokens[speed.first].text != "[" || parts.size() != 4) refuse(change, "its speed is neither a name nor four numbers");
+  if (w.tokens[speed.first].text != "[" || parts.size() != 4)
+    refuse(change, "its speed is neither a name nor four numbers");
   for (std::size_t i = 0; i < 2; ++i) {
     const auto number = scaled(parts[i], factor);
     if (!number) refuse(change, "its speed is neither a name nor four numbers");
@@ -285,7 +294,9 @@ void change_rapid(Writer& w, const LineChange& change) {
     if (!argument.option) given.push_back(argument);
   if (w.tokens[end].kind == Token::Kind::end) refuse(change, "it has no end");
   const int count = static_cast<int>(given.size());
-  const auto index = [&](int written) { return written == -2 ? count - 1 : written == -3 ? count - 2 : written; };
+  const auto index = [&](int written) {
+    return written == -2 ? count - 1 : written == -3 ? count - 2 : written;
+  };
   if (std::max(signature->target, signature->speed) >= count || index(signature->tool) >= count)
     refuse(change, "it has other arguments than are read");
   const Argument &target = given[static_cast<std::size_t>(signature->target)],
@@ -293,7 +304,8 @@ void change_rapid(Writer& w, const LineChange& change) {
                  &tool = given[static_cast<std::size_t>(index(signature->tool))];
   const Instruction& read = w.instruction(change);
   const std::string target_text(w.text(target.first, target.expression_last));
-  const bool named = target.first == target.expression_last && w.tokens[target.first].kind == Token::Kind::word;
+  const bool named =
+      target.first == target.expression_last && w.tokens[target.first].kind == Token::Kind::word;
   const std::string old_speed(w.text(speed.first, speed.last)), old_tool(w.text(tool.first, tool.last));
   // From the line's end to its begin, so that places stay what they were.
   w.lines.now(w.tokens[end].line) += " ! " + change.reason;
@@ -307,12 +319,13 @@ void change_rapid(Writer& w, const LineChange& change) {
     const Frame& pose = read.target.pose;
     const Vector3 p = pose.position / millimetre;
     const Quaternion& q = pose.orientation;
-    w.replace(target.first, target.expression_last,
-              named ? fmt::format("[{0}.trans,{0}.rot,[{1}],{0}.extax]", target_text, fmt::join(n, ","))
-                    : fmt::format("[[{},{},{}],[{},{},{},{}],[{}],{}]", shortest(p.x(), 6), shortest(p.y(), 6),
-                                  shortest(p.z(), 6), shortest(q.w(), 9), shortest(q.x(), 9), shortest(q.y(), 9),
-                                  shortest(q.z(), 9), fmt::join(n, ","), rapid_external(read.target)),
-              change);
+    w.replace(
+        target.first, target.expression_last,
+        named ? fmt::format("[{0}.trans,{0}.rot,[{1}],{0}.extax]", target_text, fmt::join(n, ","))
+              : fmt::format("[[{},{},{}],[{},{},{},{}],[{}],{}]", shortest(p.x(), 6), shortest(p.y(), 6),
+                            shortest(p.z(), 6), shortest(q.w(), 9), shortest(q.x(), 9), shortest(q.y(), 9),
+                            shortest(q.z(), 9), fmt::join(n, ","), rapid_external(read.target)),
+        change);
   }
   if (!change.joints.empty())
     w.replace(target.first, target.expression_last,
@@ -323,8 +336,8 @@ void change_rapid(Writer& w, const LineChange& change) {
   if (!read.target.external_axes.empty()) refuse(change, "external axes move with it");
   w.lines.before(w.tokens[name].line,
                  fmt::format("{}MoveAbsJ [[{}],[9E9,9E9,9E9,9E9,9E9,9E9]],{},z50,{}; ! {}",
-                             indentation(w.lines.at(w.tokens[name].line)), in_degrees(change.point), old_speed, old_tool,
-                             change.reason));
+                             indentation(w.lines.at(w.tokens[name].line)), in_degrees(change.point),
+                             old_speed, old_tool, change.reason));
 }
 
 // ---- KRL ----------------------------------------------------------------------------------------------------------
@@ -343,10 +356,12 @@ void change_krl(Writer& w, const LineChange& change) {
   if (!joint_move) refuse(change, "only PTP is changed");
   std::size_t last = name;  // of the target
   int depth = 0;
-  for (std::size_t i = name + 1; w.tokens[i].kind != Token::Kind::line_end && w.tokens[i].kind != Token::Kind::end; ++i) {
+  for (std::size_t i = name + 1;
+       w.tokens[i].kind != Token::Kind::line_end && w.tokens[i].kind != Token::Kind::end; ++i) {
     if (w.tokens[i].text == "{" || w.tokens[i].text == "[") ++depth;
     if (w.tokens[i].text == "}" || w.tokens[i].text == "]") --depth;
-    if (depth == 0 && w.tokens[i].kind == Token::Kind::word && lower_case(w.tokens[i].text).starts_with("c_")) break;
+    if (depth == 0 && w.tokens[i].kind == Token::Kind::word && lower_case(w.tokens[i].text).starts_with("c_"))
+      break;
     last = i;
   }
   if (last == name) refuse(change, "its target is not found");
@@ -360,16 +375,22 @@ void change_krl(Writer& w, const LineChange& change) {
     const auto n = krl::numbers_of(read.target.pose);
     std::string frame;
     constexpr const char* names[] = {"X", "Y", "Z", "A", "B", "C"};
-    for (std::size_t i = 0; i < 6; ++i) frame += fmt::format("{}{} {}", i == 0 ? "" : ",", names[i], shortest(n[i], 6));
-    w.replace(name + 1, last, fmt::format("{{{},S {},T {}{}}}", frame, change.configuration->numbers.at(0),
-                                          change.configuration->numbers.at(1), external),
+    for (std::size_t i = 0; i < 6; ++i)
+      frame += fmt::format("{}{} {}", i == 0 ? "" : ",", names[i], shortest(n[i], 6));
+    w.replace(name + 1, last,
+              fmt::format("{{{},S {},T {}{}}}", frame, change.configuration->numbers.at(0),
+                          change.configuration->numbers.at(1), external),
               change);
   }
-  if (!change.joints.empty()) w.replace(name + 1, last, fmt::format("{{{}{}}}", krl_axes(change.joints), external), change);
-  if (!change.point.empty()) w.lines.before(line, fmt::format("{}PTP {{{}}}{}", margin, krl_axes(change.point), comment));
+  if (!change.joints.empty())
+    w.replace(name + 1, last, fmt::format("{{{}{}}}", krl_axes(change.joints), external), change);
+  if (!change.point.empty())
+    w.lines.before(line, fmt::format("{}PTP {{{}}}{}", margin, krl_axes(change.point), comment));
   if (!change.speed) return;
   if (!read.speed.axis_percent) refuse(change, "its speed is not one percentage of all axes");
-  const auto basics = [&](double percent) { return fmt::format("{}BAS(#VEL_PTP,{})", margin, shortest(percent, 4)); };
+  const auto basics = [&](double percent) {
+    return fmt::format("{}BAS(#VEL_PTP,{})", margin, shortest(percent, 4));
+  };
   w.lines.before(line, basics(*read.speed.axis_percent * *change.speed) + comment);
   w.lines.behind(line, basics(*read.speed.axis_percent) + " ; as before");
 }
@@ -385,7 +406,8 @@ std::size_t behind_number(const std::string& line) {
 /// P[3:name] within a line, from `from` on; npos: none. PR[3] is another.
 std::size_t find_position(const std::string& line, std::size_t from) {
   for (std::size_t at = line.find("P[", from); at != std::string::npos; at = line.find("P[", at + 1))
-    if (at == 0 || !(std::isalnum(static_cast<unsigned char>(line[at - 1])) || line[at - 1] == '_')) return at;
+    if (at == 0 || !(std::isalnum(static_cast<unsigned char>(line[at - 1])) || line[at - 1] == '_'))
+      return at;
   return std::string::npos;
 }
 
@@ -423,12 +445,16 @@ void change_fanuc_position(Writer& w, const LineChange& change, int number) {
     if (change.configuration && quote != std::string::npos) {
       const std::size_t from = quote + 10, to = std::min(text.find('\'', from), text.size());
       const auto& n = change.configuration->numbers;
-      text.replace(from, to - from, fmt::format("{} {} {}, {}, {}, {}", n.at(0) ? 'F' : 'N', n.at(1) ? 'U' : 'D',
-                                                n.at(2) ? 'T' : 'B', n.at(3), n.at(4), n.at(5)));
+      text.replace(from, to - from,
+                   fmt::format("{} {} {}, {}, {}, {}", n.at(0) ? 'F' : 'N', n.at(1) ? 'U' : 'D',
+                               n.at(2) ? 'T' : 'B', n.at(3), n.at(4), n.at(5)));
     }
-    for (std::size_t at = text.find("J", 0); !change.joints.empty() && at != std::string::npos; at = text.find("J", at + 1)) {
+    for (std::size_t at = text.find("J", 0); !change.joints.empty() && at != std::string::npos;
+         at = text.find("J", at + 1)) {
       const std::size_t equals = text.find('=', at);
-      if (equals == std::string::npos || at + 2 >= text.size() || !std::isdigit(static_cast<unsigned char>(text[at + 1]))) continue;
+      if (equals == std::string::npos || at + 2 >= text.size() ||
+          !std::isdigit(static_cast<unsigned char>(text[at + 1])))
+        continue;
       const auto axis = static_cast<std::size_t>(text[at + 1] - '1');
       const std::size_t unit = text.find("deg", equals);
       if (axis >= change.joints.size() || unit == std::string::npos) continue;
@@ -459,7 +485,8 @@ void change_fanuc(Writer& w, const LineChange& change) {
   if (!change.point.empty()) refuse(change, "points on the way are not written in listings");
   if (change.configuration || !change.joints.empty()) {
     const std::size_t at = find_position(old, behind_number(old));
-    if (at == std::string::npos || read.kind == Instruction::Kind::circular) refuse(change, "its target is no P[n] on its line");
+    if (at == std::string::npos || read.kind == Instruction::Kind::circular)
+      refuse(change, "its target is no P[n] on its line");
     change_fanuc_position(w, change, position_number(old, at));
   }
   if (change.speed) {
@@ -470,14 +497,17 @@ void change_fanuc(Writer& w, const LineChange& change) {
     for (const char* word : {"mm/sec", "cm/min", "inch/min", "deg/sec"})
       if (const std::size_t at = now.find(word, behind); at != std::string::npos) end = std::min(end, at);
     std::size_t from = end;
-    while (from > behind + 1 && from != std::string::npos && (std::isdigit(static_cast<unsigned char>(now[from - 1])) || now[from - 1] == '.'))
+    while (from > behind + 1 && from != std::string::npos &&
+           (std::isdigit(static_cast<unsigned char>(now[from - 1])) || now[from - 1] == '.'))
       --from;
-    if (end == std::string::npos || from == end) refuse(change, "its speed is no number with %, mm/sec, cm/min, inch/min or deg/sec");
+    if (end == std::string::npos || from == end)
+      refuse(change, "its speed is no number with %, mm/sec, cm/min, inch/min or deg/sec");
     const double value = std::atof(now.substr(from, end - from).c_str());
     now.replace(from, end - from, fmt::format("{:.0f}", std::max(1.0, std::round(value * *change.speed))));
   }
   constexpr std::size_t longest = 32;  // characters of a remark
-  w.lines.before(line, fmt::format("{}  !{} ;", old.substr(0, behind_number(old)), change.reason.substr(0, longest)));
+  w.lines.before(
+      line, fmt::format("{}  !{} ;", old.substr(0, behind_number(old)), change.reason.substr(0, longest)));
 }
 
 // ---- INFORM and URScript --------------------------------------------------------------------------------------------
@@ -498,7 +528,8 @@ void change_inform(Writer& w, const LineChange& change) {
     now.replace(from, to - from, fmt::format("{:.2f}", std::atof(number->c_str())));
   } else if (axes && read.speed.axis_percent) {  // of SPEED
     const std::size_t behind = now.find_first_of(" \t", now.find_first_not_of(" \t", now.find("MOVJ") + 4));
-    now.insert(std::min(behind, now.size()), fmt::format(" VJ={:.2f}", *read.speed.axis_percent * *change.speed));
+    now.insert(std::min(behind, now.size()),
+               fmt::format(" VJ={:.2f}", *read.speed.axis_percent * *change.speed));
   } else {
     refuse(change, "its speed stands elsewhere");
   }
@@ -522,10 +553,12 @@ void change_script(Writer& w, const LineChange& change) {
     if (depth == 1 && (text == "," || i == name + 1)) {
       position += text == ",";
       const bool option = w.tokens[i + 2].text == "=";
-      const bool is_v = option ? w.tokens[i + 1].text == "v" : position == (read.kind == Instruction::Kind::circular ? 3 : 2);
+      const bool is_v = option ? w.tokens[i + 1].text == "v"
+                               : position == (read.kind == Instruction::Kind::circular ? 3 : 2);
       if (is_v) first = i + (option ? 3 : 1);
     }
-    if (first > 0 && last == 0 && i >= first && (depth == 0 || (depth == 1 && i + 1 < w.tokens.size() && w.tokens[i + 1].text == ",")))
+    if (first > 0 && last == 0 && i >= first &&
+        (depth == 0 || (depth == 1 && i + 1 < w.tokens.size() && w.tokens[i + 1].text == ",")))
       last = depth == 0 ? i - 1 : i;
     if (depth == 0) {
       end = i;
@@ -541,8 +574,9 @@ void change_script(Writer& w, const LineChange& change) {
 
 }  // namespace
 
-Rewritten rewritten(Language language, const std::string& file, const std::string& bytes, const Program& program,
-                    const std::vector<LineChange>& changes, const std::string& shown) {
+Rewritten rewritten(Language language, const std::string& file, const std::string& bytes,
+                    const Program& program, const std::vector<LineChange>& changes,
+                    const std::string& shown) {
   if (decoded_text(bytes) != bytes)
     throw pipeline::InputError({file}, "is written in another encoding than UTF-8", "save it as UTF-8 first");
   Lines lines(shown, bytes);

@@ -209,8 +209,11 @@ class Columns {
     const std::vector<double> factor = factors();
     if (factor.empty()) {
       number_ = header_;
-      return refuse("gives angles without a unit (none is too large for radians)",
-                    "end the names in deg or rad (joint_1_rad), or give --value unit=deg or unit=rad");
+      return problems_.add_use({.where = {file_.name(), number_, 1},
+                                .what = "gives angles without a unit (none is too large for radians)",
+                                .remedy = "end the names in deg or rad (joint_1_rad), or give --value unit=deg or unit=rad",
+                                .about = "unit",
+                                .questions = {{Question::Kind::value, "unit", "deg or rad"}}});
     }
     Rows rows(program_, problems_);
     for (Row& row : rows_) {

@@ -38,12 +38,14 @@ const Signature* move_of(const std::string& name) {
       {"movec", Kind::circular, {"pose_via", "pose_to", "a", "v", "r", "mode"}, 1.2, 0.25},
       {"servoj", Kind::joint, {"q", "a", "v", "t", "lookahead_time", "gain"}, 0, 0},
       {"servoc", Kind::linear, {"pose", "a", "v", "r"}, 1.2, 0.25}};
-  const auto found = std::find_if(moves.begin(), moves.end(), [&](const Signature& m) { return name == m.name; });
+  const auto found =
+      std::find_if(moves.begin(), moves.end(), [&](const Signature& m) { return name == m.name; });
   return found == moves.end() ? nullptr : &*found;
 }
 
 bool begins_with_any(const std::string& name, std::initializer_list<std::string_view> list) {
-  return std::any_of(list.begin(), list.end(), [&](std::string_view begin) { return name.starts_with(begin); });
+  return std::any_of(list.begin(), list.end(),
+                     [&](std::string_view begin) { return name.starts_with(begin); });
 }
 
 class Script final : public Dialect {
@@ -65,12 +67,15 @@ class Script final : public Dialect {
     std::vector<Value> values;
     for (const Expression& argument : call.items)
       if (argument.option.empty()) values.push_back(run.evaluate(argument));
-    if (call.text == "p") return values.size() == 6 ? std::optional(list_value(values, record("pose"))) : Value{};
+    if (call.text == "p")
+      return values.size() == 6 ? std::optional(list_value(values, record("pose"))) : Value{};
     if (call.text == "get_inverse_kin") return inverse_kinematics(call, values, run);
     if (call.text == "get_forward_kin") return forward_kinematics(values);
     if (std::optional<Value> known = arithmetic(call.text, values)) return known;
-    if (begins_with_any(call.text, {"get_actual_tcp_pose", "get_target_tcp_pose"}) && standing_) return *standing_;
-    if (begins_with_any(call.text, {"get_actual_joint_positions", "get_target_joint_positions"}) && axes_) return *axes_;
+    if (begins_with_any(call.text, {"get_actual_tcp_pose", "get_target_tcp_pose"}) && standing_)
+      return *standing_;
+    if (begins_with_any(call.text, {"get_actual_joint_positions", "get_target_joint_positions"}) && axes_)
+      return *axes_;
     if (begins_with_any(call.text, {"get_actual_", "get_target_"}))
       return given_or_unknown(call, run, "asks where the robot stands");
     return given_or_unknown(call, run, "is known only while the robot runs");
@@ -85,29 +90,50 @@ class Script final : public Dialect {
       const Routine* thread = code_.find(statement.text.substr(std::string_view("run ").size()), -1);
       return run_thread(thread, statement, run), true;
     }
-    if (begins_with_any(name, {"speedj", "speedl", "force_mode", "freedrive_mode", "teach_mode", "path_offset",
-                               "conveyor_", "track_conveyor"}) &&
+    if (begins_with_any(name, {"speedj", "speedl", "force_mode", "freedrive_mode", "teach_mode",
+                               "path_offset", "conveyor_", "track_conveyor"}) &&
         !name.ends_with("_stop") && !name.starts_with("end_")) {
       standing_.reset(), axes_.reset();
-      return run.note(statement.place, statement.text + ": leads the robot in a way that is not followed", true), true;
+      return run.note(statement.place, statement.text + ": leads the robot in a way that is not followed",
+                      true),
+             true;
     }
     return false;
   }
 
   bool matters(const std::string& name) const override {
-    return move_of(name) || name == "set_tcp" || name == "speedj" || name == "speedl" || name.starts_with("force_mode") ||
-           name.starts_with("optimove");
+    return move_of(name) || name == "set_tcp" || name == "speedj" || name == "speedl" ||
+           name.starts_with("force_mode") || name.starts_with("optimove");
   }
   bool only_waits(const std::string& name) const override { return name == "sleep"; }
   bool harmless(const std::string& name) const override {
-    static const std::set<std::string> words{"textmsg", "popup",     "sync",     "stopj",  "stopl",     "kill", "join",
-                                             "halt",    "end_force_mode", "zero_ftsensor", "enter_critical", "exit_critical",
-                                             "powerdown", "servo_stop", "end_freedrive_mode", "end_teach_mode", "write_output",
-                                             "protective_stop", "varmsg", "request_boolean_from_primary_client", "tool_contact"};
-    return words.contains(name) ||
-           begins_with_any(name, {"set_", "get_", "socket_", "modbus_", "write_", "read_", "rtde_", "reset_", "blocking_"});
+    static const std::set<std::string> words{"textmsg",
+                                             "popup",
+                                             "sync",
+                                             "stopj",
+                                             "stopl",
+                                             "kill",
+                                             "join",
+                                             "halt",
+                                             "end_force_mode",
+                                             "zero_ftsensor",
+                                             "enter_critical",
+                                             "exit_critical",
+                                             "powerdown",
+                                             "servo_stop",
+                                             "end_freedrive_mode",
+                                             "end_teach_mode",
+                                             "write_output",
+                                             "protective_stop",
+                                             "varmsg",
+                                             "request_boolean_from_primary_client",
+                                             "tool_contact"};
+    return words.contains(name) || begins_with_any(name, {"set_", "get_", "socket_", "modbus_", "write_",
+                                                          "read_", "rtde_", "reset_", "blocking_"});
   }
-  bool writes(const std::string&, int, const Expression&) const override { return false; }  // arguments are copies
+  bool writes(const std::string&, int, const Expression&) const override {
+    return false;
+  }  // arguments are copies
   const RecordType* type_of(const std::string&) const override { return nullptr; }
   std::string form_of(const std::string&) const override { return ""; }  // variables have no declared types
   Value initial(const std::string&) const override { return {}; }
@@ -149,7 +175,8 @@ class Script final : public Dialect {
     std::erase(name, ' ');
     if (std::optional<Value> value = run.given(value_key(name))) return *value;
     for (const Expression& argument : call.items)
-      if (const Value value = run.evaluate(argument); !value.known() && value.first_cause()) return unknown_value(value);
+      if (const Value value = run.evaluate(argument); !value.known() && value.first_cause())
+        return unknown_value(value);
     return unknown_value(name, why);
   }
 
@@ -180,7 +207,8 @@ class Script final : public Dialect {
         {"sqrt", [](double x) { return std::sqrt(x); }}, {"floor", [](double x) { return std::floor(x); }},
         {"ceil", [](double x) { return std::ceil(x); }}, {"d2r", [](double x) { return x * degree; }},
         {"r2d", [](double x) { return x / degree; }},    {"log10", [](double x) { return std::log10(x); }}};
-    const auto unknown = std::find_if(values.begin(), values.end(), [](const Value& v) { return !v.known(); });
+    const auto unknown =
+        std::find_if(values.begin(), values.end(), [](const Value& v) { return !v.known(); });
     const bool pose_function = begins_with_any(name, {"pose_", "interpolate_pose"});
     const auto function = plain.find(name);
     const bool two = name == "atan2" || name == "pow";
@@ -206,8 +234,10 @@ class Script final : public Dialect {
   /// Roll, pitch, yaw about the axes of the base, and a rotation vector.
   static Value turn_arithmetic(const std::string& name, const Value& value) {
     const auto n = [&](std::size_t i) { return value.items[i].number; };
-    if (value.kind != Value::Kind::list || value.items.size() != 3) return unknown_value("", "is no list of three angles");
-    Vector3 result = rotation_vector(rotation({0, 0, n(2)}) * rotation({0, n(1), 0}) * rotation({n(0), 0, 0}));
+    if (value.kind != Value::Kind::list || value.items.size() != 3)
+      return unknown_value("", "is no list of three angles");
+    Vector3 result =
+        rotation_vector(rotation({0, 0, n(2)}) * rotation({0, n(1), 0}) * rotation({n(0), 0, 0}));
     if (name == "rotvec2rpy") {
       const Eigen::Matrix3d r = rotation({n(0), n(1), n(2)}).toRotationMatrix();
       result = {std::atan2(r(2, 1), r(2, 2)), std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))),
@@ -235,18 +265,21 @@ class Script final : public Dialect {
 
   // ---- moves ------------------------------------------------------------------------------------------------------
 
-  const Expression* argument(const Signature& signature, const Statement& statement, std::string_view name) const {
+  const Expression* argument(const Signature& signature, const Statement& statement,
+                             std::string_view name) const {
     std::size_t position = 0;
     for (const Expression& given : statement.arguments) {
       if (given.option == name) return &given;
-      if (given.option.empty() && position < signature.arguments.size() && signature.arguments[position++] == name)
+      if (given.option.empty() && position < signature.arguments.size() &&
+          signature.arguments[position++] == name)
         return &given;
     }
     return nullptr;
   }
 
   /// A number of a move; absent: it is asked for. `otherwise`: where it is left out.
-  std::optional<double> number(const Signature& signature, const Statement& statement, const char* name, double otherwise) {
+  std::optional<double> number(const Signature& signature, const Statement& statement, const char* name,
+                               double otherwise) {
     const Expression* written = argument(signature, statement, name);
     if (!written) return otherwise;
     const Value value = run_->answered(*written);
@@ -254,7 +287,8 @@ class Script final : public Dialect {
     if (value.known())
       run_->complain(written->place, fmt::format("has no number from 0 on as {}", name), "mend it");
     else
-      run_->ask_for(value, written->place, fmt::format("has a value of {} that is known only while the robot runs", name), "",
+      run_->ask_for(value, written->place,
+                    fmt::format("has a value of {} that is known only while the robot runs", name), "",
                     "a number");
     return {};
   }
@@ -263,7 +297,8 @@ class Script final : public Dialect {
   bool read_target(const Expression& written, Instruction& move, Value& value) {
     value = run_->answered(written);
     move.origins.push_back({"target", run_->written(written), {}});
-    if (const Place from = run_->origin(written); from.line > 0) move.origins.back().where = run_->where(from);
+    if (const Place from = run_->origin(written); from.line > 0)
+      move.origins.back().where = run_->where(from);
     const Value& pose = is(value, "inverse") ? value.items[0] : value;
     const Value& joints = is(value, "forward") ? value.items[0] : value;
     if (const auto angles = joints_in(joints)) {
@@ -279,7 +314,8 @@ class Script final : public Dialect {
         }
     } else {
       if (value.known())
-        run_->complain(written.place, "moves to what is neither a pose nor a list of joint angles", "mend the target");
+        run_->complain(written.place, "moves to what is neither a pose nor a list of joint angles",
+                       "mend the target");
       else
         run_->ask_for(value, written.place, "moves to a place that is known only while the robot runs", "",
                       "p[x, y, z, rx, ry, rz] in m and rad, or joint angles [a, b, c, d, e, f] in rad");
@@ -290,8 +326,8 @@ class Script final : public Dialect {
 
   bool read_speed(const Signature& signature, const Statement& statement, Instruction& move) {
     const auto a = number(signature, statement, "a", signature.acceleration),
-               v = number(signature, statement, "v", signature.speed), t = number(signature, statement, "t", 0),
-               r = number(signature, statement, "r", 0);
+               v = number(signature, statement, "v", signature.speed),
+               t = number(signature, statement, "t", 0), r = number(signature, statement, "r", 0);
     if (!a || !v || !t || !r) return false;
     const bool joints = signature.kind == Instruction::Kind::joint;
     if (*t > 0) {
@@ -309,12 +345,14 @@ class Script final : public Dialect {
   }
 
   bool read_tool(const Statement& statement, Instruction& move) {
-    const bool free = move.kind == Instruction::Kind::joint && !move.target.joints.empty() && move.zone.distance == 0;
+    const bool free =
+        move.kind == Instruction::Kind::joint && !move.target.joints.empty() && move.zone.distance == 0;
     if (!tcp_ && free) return true;  // axes alone
     if (!tcp_) {
-      run_->miss("tcp", statement.place, "moves the tool, and no set_tcp before it says where that is",
-                 "write set_tcp(p[...]) before it, or give --frames FILE.yaml (motion.tools in a job) with the name 'tcp'",
-                 {{Question::Kind::tool, "tcp", ""}});
+      run_->miss(
+          "tcp", statement.place, "moves the tool, and no set_tcp before it says where that is",
+          "write set_tcp(p[...]) before it, or give --frames FILE.yaml (motion.tools in a job) with the name 'tcp'",
+          {{Question::Kind::tool, "tcp", ""}});
       return false;
     }
     const Frame& f = tcp_->frame;
@@ -326,10 +364,12 @@ class Script final : public Dialect {
   void move(const Signature& signature, const Statement& statement, Interpreter& run) {
     Instruction move;
     move.kind = signature.kind;
-    const Expression* target = argument(signature, statement, signature.kind == Instruction::Kind::circular ? "pose_to"
-                                                              : signature.kind == Instruction::Kind::joint  ? "q"
-                                                                                                            : "pose");
-    if (!target) return run.complain(statement.place, fmt::format("gives {} no target", statement.text), "write it");
+    const Expression* target = argument(signature, statement,
+                                        signature.kind == Instruction::Kind::circular ? "pose_to"
+                                        : signature.kind == Instruction::Kind::joint  ? "q"
+                                                                                      : "pose");
+    if (!target)
+      return run.complain(statement.place, fmt::format("gives {} no target", statement.text), "write it");
     Value value;
     bool whole = read_target(*target, move, value);
     if (signature.kind == Instruction::Kind::circular) whole &= read_via(signature, statement, move);
@@ -352,27 +392,29 @@ class Script final : public Dialect {
     const Value value = written ? run_->answered(*written) : Value{};
     const auto via = pose_in(value);
     if (written && !value.known()) {
-      run_->ask_for(value, written->place, "has a circle through a place that is known only while the robot runs", "",
+      run_->ask_for(value, written->place,
+                    "has a circle through a place that is known only while the robot runs", "",
                     "p[x, y, z, rx, ry, rz] in m and rad");
       return false;
     }
     if (!via || !move.target.joints.empty()) {
-      run_->complain(written ? written->place : statement.place, "has a circle that is not given by two poses",
-                     "write p[...] for both");
+      run_->complain(written ? written->place : statement.place,
+                     "has a circle that is not given by two poses", "write p[...] for both");
       return false;
     }
     move.via = *via;
     const auto mode = number(signature, statement, "mode", 0);
     if (mode && *mode == 1)
-      run_->note(statement.place, "movec with mode=1: the tool turns with the circle; it is turned evenly", true);
+      run_->note(statement.place, "movec with mode=1: the tool turns with the circle; it is turned evenly",
+                 true);
     return mode.has_value();
   }
 
   void sleep(const Statement& statement, Interpreter& run) {
     const Value time = statement.arguments.empty() ? Value{} : run.answered(statement.arguments[0]);
     if (!time.known())
-      return run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs", "",
-                         "a number, in s");
+      return run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
+                         "", "a number, in s");
     if (!time.is_number() || !(time.number >= 0))
       return run.complain(statement.place, "waits for what is no time", "write seconds from 0 on");
     Instruction wait;
@@ -396,7 +438,8 @@ class Script final : public Dialect {
   void run_thread(const Routine* thread, const Statement& statement, Interpreter& run) {
     const std::string name = thread ? thread->written : statement.text;
     run.note(statement.place,
-             fmt::format("thread {}: runs beside the program, and is left out; --routine {} reads it alone", name, name),
+             fmt::format("thread {}: runs beside the program, and is left out; --routine {} reads it alone",
+                         name, name),
              !thread || steers(thread->body, 0));
   }
 
@@ -405,7 +448,8 @@ class Script final : public Dialect {
     constexpr int deepest = 8;  // calls in threads
     return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& s) {
              if (s.kind == Statement::Kind::instruction && matters(s.name)) return true;
-             const Routine* called = s.kind == Statement::Kind::instruction ? code_.find(s.name, -1) : nullptr;
+             const Routine* called =
+                 s.kind == Statement::Kind::instruction ? code_.find(s.name, -1) : nullptr;
              if (called && steers(called->body, depth + 1)) return true;
              return std::any_of(s.branches.begin(), s.branches.end(),
                                 [&](const Branch& branch) { return steers(branch.body, depth); });
@@ -429,8 +473,8 @@ const Problem* first_problem(const Code& code) {
 /// PolyScope writes one function around all others.
 bool is_within_another(const Routine& routine, const Code& code) {
   return std::any_of(code.routines.begin(), code.routines.end(), [&](const Routine& other) {
-    return other.place.file == routine.place.file && !other.name.starts_with("script:") && other.place.line < routine.place.line &&
-           other.last_line >= routine.last_line;
+    return other.place.file == routine.place.file && !other.name.starts_with("script:") &&
+           other.place.line < routine.place.line && other.last_line >= routine.last_line;
   });
 }
 
@@ -469,8 +513,8 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
     if (script && routine.place.file == 0) start.script = &routine;
     if (script) continue;
     if (names.size() < 1000) names += (names.empty() ? "" : ", ") + routine.written;
-    if (code.start.empty() ? routine.robot != "thread" && routine.place.file == 0 && !called.contains(routine.name) &&
-                                 !is_within_another(routine, code)
+    if (code.start.empty() ? routine.robot != "thread" && routine.place.file == 0 &&
+                                 !called.contains(routine.name) && !is_within_another(routine, code)
                            : routine.name == code.start) {
       start.function = &routine;
       ++uncalled;
@@ -483,10 +527,12 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
   if (!runs_itself && uncalled == 0 && code.start.empty())
     if (const Problem* why = first_problem(code)) return problems.add(why->where, why->what, why->remedy);
   if (!runs_itself && (uncalled == 0 || (uncalled > 1 && code.start.empty()))) {
-    const char* what = uncalled > 1 ? "holds several functions, and none that calls them" : "holds no program";
-    problems.add({code.files[0].name(), 1, 1},
-                 options.routine.empty() ? std::string(what) : fmt::format("has no function '{}'", options.routine),
-                 names.empty() ? "give a script with moves" : fmt::format("name one with --routine: {}", names));
+    const char* what =
+        uncalled > 1 ? "holds several functions, and none that calls them" : "holds no program";
+    problems.add(
+        {code.files[0].name(), 1, 1},
+        options.routine.empty() ? std::string(what) : fmt::format("has no function '{}'", options.routine),
+        names.empty() ? "give a script with moves" : fmt::format("name one with --routine: {}", names));
     return;
   }
   const Routine* routine = start.function ? start.function : start.script;

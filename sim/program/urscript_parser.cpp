@@ -17,7 +17,8 @@ std::vector<Token> without_inner_line_ends(std::vector<Token> tokens) {
   std::vector<Token> kept;
   for (const Token& token : tokens) {
     if (token.kind == Token::Kind::sign && (token.text == "(" || token.text == "[")) ++depth;
-    if (token.kind == Token::Kind::sign && (token.text == ")" || token.text == "]")) depth = std::max(0, depth - 1);
+    if (token.kind == Token::Kind::sign && (token.text == ")" || token.text == "]"))
+      depth = std::max(0, depth - 1);
     if (token.kind != Token::Kind::line_end || depth == 0) kept.push_back(token);
   }
   return kept;
@@ -85,7 +86,8 @@ class ScriptParser : StatementParser {
   }
 
   void statement(std::vector<Statement>& into) {
-    if (at_.at_sign("$") || at_.peek().text.starts_with("$")) return skip_line();  // $ 3 "Waypoint_1" of PolyScope
+    if (at_.at_sign("$") || at_.peek().text.starts_with("$"))
+      return skip_line();  // $ 3 "Waypoint_1" of PolyScope
     Statement s;
     s.place = at_.place();
     s.text = std::string(at_.peek().text);
@@ -126,7 +128,8 @@ class ScriptParser : StatementParser {
       return false;
     }
     const Expression* base = &target;
-    while (base->kind == Expression::Kind::field || base->kind == Expression::Kind::element) base = &base->items[0];
+    while (base->kind == Expression::Kind::field || base->kind == Expression::Kind::element)
+      base = &base->items[0];
     if (base->kind != Expression::Kind::name) at_.fail("assigns to what is no variable", "mend the line");
     if (global || routines_here_.empty())
       globals_.insert(base->text);
@@ -191,7 +194,8 @@ class ScriptParser : StatementParser {
         if (line_done()) at_.fail("ends in a list of parameters", "close it");
         const Place place = at_.place();
         read.parameters.push_back({at_.word("a parameter"), false, false});
-        if (at_.take_sign("=")) usual.push_back(declaration(read.parameters.back().name, place, at_.expression()));
+        if (at_.take_sign("="))
+          usual.push_back(declaration(read.parameters.back().name, place, at_.expression()));
       }
     at_.take_sign(":");
     routines_[index].written = read.written;
@@ -291,9 +295,10 @@ void tell_case(const Code& code, int file, const std::vector<Token>& tokens, Pro
     if (token.kind != Token::Kind::word || argument) continue;
     const auto [known, added] = seen.try_emplace(lower_case(token.text), token.text);
     if (added || known->second == token.text) continue;
-    problems.add({code.files[file].name(), token.line, token.column},
-                 fmt::format("has the names '{}' and '{}', which differ in case alone", known->second, token.text),
-                 "rename one of them");
+    problems.add(
+        {code.files[file].name(), token.line, token.column},
+        fmt::format("has the names '{}' and '{}', which differ in case alone", known->second, token.text),
+        "rename one of them");
   }
 }
 

@@ -207,7 +207,7 @@ TEST_CASE("reprogram takes a program with places of the tool, leaves it alone, a
   CONST robtarget above:=[[1893.17,-78.66,35.30],[0.2648630,0.2827270,0.9214859,-0.0278697],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   CONST robtarget at:=[[1804.91,69.53,-241.87],[0.1706843,0.2897467,0.9400796,0.0562504],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
   PROC main()
-    MoveAbsJ [[0,-10,10,0,40,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v2000,fine,gun;
+    MoveAbsJ [[0,-10,10,0,40,290],[9E9,9E9,9E9,9E9,9E9,9E9]],v2000,fine,gun;
     MoveJ above,v1500,z50,gun\WObj:=panel;
     MoveL at,v500,fine,gun\WObj:=panel;
     MoveL above,v500,z50,gun\WObj:=panel;

@@ -25,9 +25,11 @@ double largest(const std::vector<double>& a, const std::vector<double>& b) {
   return off;
 }
 
-bool same_speed(const std::optional<double>& before, const std::optional<double>& after, double factor, double unit) {
+bool same_speed(const std::optional<double>& before, const std::optional<double>& after, double factor,
+                double unit) {
   if (before.has_value() != after.has_value()) return false;
-  return !before || std::abs(*before * factor - *after) <= (factor == 1 ? 1e-9 * *before : rounded_speed * unit + 1e-6 * *before);
+  return !before || std::abs(*before * factor - *after) <=
+                        (factor == 1 ? 1e-9 * *before : rounded_speed * unit + 1e-6 * *before);
 }
 
 const MotionFrame* frame_of(const std::vector<MotionFrame>& list, const std::string& name) {
@@ -51,25 +53,30 @@ std::string difference(const Motion& before, const MotionStep& a, const Motion& 
   if (a.path != b.path || a.is_move() != b.is_move()) return "path";
   if (a.dwell != b.dwell) return "dwell";
   if (!a.is_move()) return "";
-  const std::vector<double>& joints = change && !change->joints.empty() && !a.joints.empty() ? change->joints : a.joints;
+  const std::vector<double>& joints =
+      change && !change->joints.empty() && !a.joints.empty() ? change->joints : a.joints;
   if (largest(joints, b.joints) > (&joints == &a.joints ? 0 : written_by_fanuc)) return "joint angles";
   if (largest(a.position, b.position) > written || largest(a.via_position, b.via_position) > written ||
       largest(a.circle_joints, b.circle_joints) > 0)
     return "position";
   double aligned = a.quaternion.empty() ? 1 : 0;
-  for (std::size_t i = 0; i < std::min(a.quaternion.size(), b.quaternion.size()); ++i) aligned += a.quaternion[i] * b.quaternion[i];
-  if (a.quaternion.size() != b.quaternion.size() || std::abs(std::abs(aligned) - 1) > written) return "orientation";
+  for (std::size_t i = 0; i < std::min(a.quaternion.size(), b.quaternion.size()); ++i)
+    aligned += a.quaternion[i] * b.quaternion[i];
+  if (a.quaternion.size() != b.quaternion.size() || std::abs(std::abs(aligned) - 1) > written)
+    return "orientation";
   const std::string configuration =
       change && change->configuration && a.joints.empty() ? change->configuration->text() : a.configuration;
   if (configuration != b.configuration) return "configuration";
   if (a.external_axes != b.external_axes) return "external axes";
   if (!same_frame(before.tools, a.tool, after.tools, b.tool)) return "tool";
-  if (!same_frame(before.work_objects, a.work_object, after.work_objects, b.work_object)) return "work object";
+  if (!same_frame(before.work_objects, a.work_object, after.work_objects, b.work_object))
+    return "work object";
   if (!same_speed(a.speed_percent, b.speed_percent, factor, 1) || !same_speed(a.speed, b.speed, factor, 0) ||
-      !same_speed(a.tool_speed, b.tool_speed, factor, mm_per_s) || !same_speed(a.turn_speed, b.turn_speed, factor, deg_per_s))
+      !same_speed(a.tool_speed, b.tool_speed, factor, mm_per_s) ||
+      !same_speed(a.turn_speed, b.turn_speed, factor, deg_per_s))
     return "speed";
-  if (a.duration != b.duration || a.acceleration_percent != b.acceleration_percent || a.acceleration != b.acceleration ||
-      a.tool_acceleration != b.tool_acceleration)
+  if (a.duration != b.duration || a.acceleration_percent != b.acceleration_percent ||
+      a.acceleration != b.acceleration || a.tool_acceleration != b.tool_acceleration)
     return "time or acceleration";
   if (a.zone != b.zone || a.tool_zone != b.tool_zone || a.stop_zone != b.stop_zone) return "zone";
   return "";
@@ -77,11 +84,13 @@ std::string difference(const Motion& before, const MotionStep& a, const Motion& 
 
 }  // namespace
 
-std::string other_difference(const Motion& before, const Motion& after, const std::vector<sim::LineChange>& changes) {
+std::string other_difference(const Motion& before, const Motion& after,
+                             const std::vector<sim::LineChange>& changes) {
   std::size_t next = 0;
   for (const MotionStep& step : before.steps) {
     const auto change = std::find_if(changes.begin(), changes.end(), [&](const sim::LineChange& c) {
-      return c.where.file == step.where.file && c.where.line == step.where.line && c.where.column == step.where.column;
+      return c.where.file == step.where.file && c.where.line == step.where.line &&
+             c.where.column == step.where.column;
     });
     const sim::LineChange* own = change == changes.end() ? nullptr : &*change;
     if (own && !own->point.empty() && step.is_move()) {
@@ -104,18 +113,21 @@ PatchedProgram patched(const Job& job, const ReadProgram& read, const ProgramWay
   std::map<std::string, std::string> instead;
   PatchedProgram made;
   std::error_code failure;
-  const fs::path folder = fs::is_directory(job.motion.program, failure) ? job.motion.program : job.motion.program.parent_path();
+  const fs::path folder =
+      fs::is_directory(job.motion.program, failure) ? job.motion.program : job.motion.program.parent_path();
   for (const std::string& file : files) {
     const fs::path below = fs::proximate(file, folder.empty() ? "." : folder, failure);
-    const sim::Rewritten changed = sim::rewritten(read.language, file, read_text(file), read.program, way.changes,
-                                                  failure || below.empty() ? file : below.generic_string());
+    const sim::Rewritten changed =
+        sim::rewritten(read.language, file, read_text(file), read.program, way.changes,
+                       failure || below.empty() ? file : below.generic_string());
     instead[file] = changed.text;
     made.patch += changed.patch;
   }
   made.motion = sim::motion_of(sim::read_program(job.motion, instead), job.motion);
   const std::string other = other_difference(read.motion, made.motion, way.changes);
   if (!other.empty())
-    throw InputError(way.changes.front().where, fmt::format("cannot be changed by itself: another difference comes with it ({})", other),
+    throw InputError(way.changes.front().where,
+                     fmt::format("cannot be changed by itself: another difference comes with it ({})", other),
                      "change it by hand");
   return made;
 }

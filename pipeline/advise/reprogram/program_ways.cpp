@@ -44,7 +44,8 @@ class Lines {
       }
       if (step.is_move()) lines_[place->second].moves.push_back(k);
       of_step_.push_back(place->second);
-      if (step.is_move()) before = place->second;  // what happens while the robot stands was set going by a move
+      if (step.is_move())
+        before = place->second;  // what happens while the robot stands was set going by a move
       const std::size_t number = numbered.size();
       if (numbered.insert(key + ":" + step.text).second && number < line_damage.size())
         lines_[before].cost += line_damage[number];
@@ -57,7 +58,8 @@ class Lines {
   std::vector<std::size_t> costly(std::size_t most) const {
     std::vector<std::size_t> order(lines_.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return lines_[a].cost > lines_[b].cost; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return lines_[a].cost > lines_[b].cost; });
     std::erase_if(order, [&](std::size_t k) { return lines_[k].moves.empty() || !(lines_[k].cost > 0); });
     if (order.size() > most) order.resize(most);
     return order;
@@ -71,7 +73,11 @@ class Lines {
 class Ways {
  public:
   Ways(const Job& job, const ReadProgram& read, const std::vector<double>& line_damage)
-      : robot_(job.robot), read_(read), lines_(read, line_damage), arm_(job.robot), turns_(other_turns(robot_)) {
+      : robot_(job.robot),
+        read_(read),
+        lines_(read, line_damage),
+        arm_(job.robot),
+        turns_(other_turns(robot_)) {
     Eigen::VectorXd accelerations = Eigen::VectorXd::Ones(static_cast<long>(sim::axes_of(robot_).size()));
     const std::vector<Eigen::VectorXd> targets = sim::legs_of(read.motion, robot_, accelerations).targets;
     std::size_t next = 0;
@@ -84,7 +90,9 @@ class Ways {
     std::vector<ProgramWay> ways;
     const auto add = [&](std::optional<ProgramWay> way) {
       if (!way) return;
-      const auto same = [&](const ProgramWay& other) { return other.what == way->what && other.lines == way->lines; };
+      const auto same = [&](const ProgramWay& other) {
+        return other.what == way->what && other.lines == way->lines;
+      };
       if (std::none_of(ways.begin(), ways.end(), same)) ways.push_back(*std::move(way));
     };
     std::set<std::size_t> every;
@@ -149,11 +157,13 @@ class Ways {
       std::optional<sim::LineChange> change;
       for (const std::size_t step : lines_.all()[line].moves) {
         std::optional<sim::LineChange> here = turned(turn, step);
-        if (!here || (change && (change->configuration != here->configuration || change->joints != here->joints)))
+        if (!here ||
+            (change && (change->configuration != here->configuration || change->joints != here->joints)))
           return {};
         change = std::move(here);
       }
-      if (!change || (!change->configuration && change->joints.empty())) continue;  // a path whose end says nothing
+      if (!change || (!change->configuration && change->joints.empty()))
+        continue;  // a path whose end says nothing
       any = true;
       way.changes.push_back(*std::move(change));
     }
@@ -177,7 +187,8 @@ class Ways {
     const bool watched = programmed->kind == Kind::abb || programmed->kind == Kind::fanuc;
     if (leads_tool(step.path) && !watched) return change;  // the arm goes on as it came
     if (!watched && programmed->kind != Kind::kuka) return {};
-    change.configuration = arm_.configuration(Eigen::Map<const Eigen::VectorXd>(other->data(), 6), programmed->kind);
+    change.configuration =
+        arm_.configuration(Eigen::Map<const Eigen::VectorXd>(other->data(), 6), programmed->kind);
     return change;
   }
 
@@ -192,13 +203,15 @@ class Ways {
       std::vector<double> here(6);
       for (int i = 0; i < 6; ++i) here[static_cast<std::size_t>(i)] = (i < 3) == arm_first ? b[i] : a[i];
       const Eigen::Map<const Eigen::VectorXd> on_the_way(here.data(), 6);
-      if ((on_the_way - a).cwiseAbs().maxCoeff() <= none || (on_the_way - b).cwiseAbs().maxCoeff() <= none) return {};
+      if ((on_the_way - a).cwiseAbs().maxCoeff() <= none || (on_the_way - b).cwiseAbs().maxCoeff() <= none)
+        return {};
       if (point && *point != here) return {};
       point = std::move(here);
     }
     if (!point) return {};
     ProgramWay way{fmt::format("by a point: {} first", arm_first ? "axes 1 to 3" : "axes 4 to 6"),
-                   {lines_.all()[line].name}, {}};
+                   {lines_.all()[line].name},
+                   {}};
     way.changes.push_back({.where = lines_.all()[line].where, .point = *point, .reason = way.what});
     return way;
   }
@@ -219,7 +232,8 @@ class Ways {
   std::optional<ProgramWay> slower(std::size_t line, double factor) const {
     for (const std::size_t k : lines_.all()[line].moves) {
       const MotionStep& step = read_.motion.steps[k];
-      if (step.duration || is_process(step.text) || !(step.speed || step.speed_percent || step.tool_speed)) return {};
+      if (step.duration || is_process(step.text) || !(step.speed || step.speed_percent || step.tool_speed))
+        return {};
       if (read_.language == sim::Language::krl && (leads_tool(step.path) || !step.speed_percent)) return {};
     }
     ProgramWay way{fmt::format("at {:.0f} % of its speed", 100 * factor), {lines_.all()[line].name}, {}};
@@ -246,8 +260,8 @@ ReadProgram read_job_program(const Job& job) {
   return read;
 }
 
-std::vector<ProgramWay> program_ways(const Job& job, const ReadProgram& read, const std::vector<double>& line_damage,
-                                     std::size_t most_lines) {
+std::vector<ProgramWay> program_ways(const Job& job, const ReadProgram& read,
+                                     const std::vector<double>& line_damage, std::size_t most_lines) {
   return Ways(job, read, line_damage).run(most_lines);
 }
 

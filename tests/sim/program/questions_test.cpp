@@ -43,17 +43,17 @@ void answer(const Reading& reading, unsigned pick, Reader& reader) {
       else if (question.kind == Question::Kind::work_object)
         reader.work_objects.push_back({question.name, {{1, 0, 0}, Quaternion::Identity()}, false});
       else
-        reader.options.values[question.name] = has("TRUE or FALSE") ? first ? "TRUE" : "FALSE"
-                                               : has("ON or OFF")   ? first ? "ON" : "OFF"
-                                               : has("[cf1")
-                                                   ? "[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
-                                               : has("[[a1")      ? "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
-                                               : has("{X ..")     ? "{X 900,Y 0,Z 900,A 0,B 90,C 0}"
-                                               : has("{A1 ..")    ? "{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}"
-                                               : has("X .. Y ..") ? "X 600 Y 0 Z 500 W 180 P 0 R 0"
-                                               : has("nothing")   ? "nothing"
-                                               : first            ? "1"
-                                                                  : "2";
+        reader.options.values[question.name] =
+            has("TRUE or FALSE") ? first ? "TRUE" : "FALSE"
+            : has("ON or OFF")   ? first ? "ON" : "OFF"
+            : has("[cf1")        ? "[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+            : has("[[a1")        ? "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+            : has("{X ..")       ? "{X 900,Y 0,Z 900,A 0,B 90,C 0}"
+            : has("{A1 ..")      ? "{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}"
+            : has("X .. Y ..")   ? "X 600 Y 0 Z 500 W 180 P 0 R 0"
+            : has("nothing")     ? "nothing"
+            : first              ? "1"
+                                 : "2";
     }
 }
 
@@ -100,9 +100,10 @@ TEST_CASE("questions: one round of answers is enough for RAPID, whatever the ans
       "park,v100,fine,tool0;\nENDTEST\nENDPROC\nPROC sub()\nWHILE di5=0 DO\nMoveJ away,v100,z10,tool0;\nENDWHILE\nWaitTime "
       "pause;\nENDPROC\nENDMODULE\n";
   const Reading asked = Reader{Language::rapid}({{"m.mod", text}});
-  CHECK(questions(asked) == std::set<std::string>{"value di1", "value gi1", "value di2", "branch m.mod:12", "value home",
-                                                  "frame gun", "value style", "frame table", "value park",
-                                                  "branch m.mod:29", "value away", "value pause"});
+  CHECK(questions(asked) == std::set<std::string>{"value di1", "value gi1", "value di2", "branch m.mod:12",
+                                                  "value home", "frame gun", "value style", "frame table",
+                                                  "value park", "branch m.mod:29", "value away",
+                                                  "value pause"});
   CHECK(second_round(Language::rapid, {{"m.mod", text}}) == "");
 }
 
@@ -128,11 +129,12 @@ TEST_CASE("questions: one round of answers is enough for KRL, whatever the answe
 
 TEST_CASE("questions: one round of answers is enough for Fanuc, whatever the answers are") {
   const std::string text =
-      listing("M", {"LBL[1]", "IF DI[1]=ON,JMP LBL[2]", "J P[1] 50% FINE", "IF DI[2]=ON THEN", "R[1]=GI[1]", "ENDIF",
-                    "FOR R[2]=1 TO R[1]", "L P[2] 100mm/sec FINE", "ENDFOR", "LBL[2]", "SELECT R[5]=1,CALL PART",
-                    "=2,JMP LBL[3]", "ELSE,JMP LBL[1]", "LBL[3]", "PR[1,3]=GI[2]", "L P[3] R[7]mm/sec FINE Offset,PR[1]",
-                    "J PR[3] 20% FINE"});
-  const std::string part = listing("PART", {"CALL GRIP", "IF R[9]=1,JMP LBL[1]", "J P[1] 50% FINE", "LBL[1]", "J P[4] 20% FINE"});
+      listing("M", {"LBL[1]", "IF DI[1]=ON,JMP LBL[2]", "J P[1] 50% FINE", "IF DI[2]=ON THEN", "R[1]=GI[1]",
+                    "ENDIF", "FOR R[2]=1 TO R[1]", "L P[2] 100mm/sec FINE", "ENDFOR", "LBL[2]",
+                    "SELECT R[5]=1,CALL PART", "=2,JMP LBL[3]", "ELSE,JMP LBL[1]", "LBL[3]", "PR[1,3]=GI[2]",
+                    "L P[3] R[7]mm/sec FINE Offset,PR[1]", "J PR[3] 20% FINE"});
+  const std::string part =
+      listing("PART", {"CALL GRIP", "IF R[9]=1,JMP LBL[1]", "J P[1] 50% FINE", "LBL[1]", "J P[4] 20% FINE"});
   CHECK(second_round(Language::fanuc, {{"m.ls", text}, {"part.ls", part}}) == "");
 }
 
@@ -146,11 +148,13 @@ TEST_CASE("questions: a mistake behind a guess counts only where the program get
   no.options.values["di1"] = "0";
   yes.options.values["di1"] = "1";
   CHECK(no({{"m.mod", text}}).problems.empty());
-  CHECK_THAT(yes({{"m.mod", text}}).problem(), Catch::Contains("m.mod:7") && Catch::Contains("index 0 of a list of 5"));
+  CHECK_THAT(yes({{"m.mod", text}}).problem(),
+             Catch::Contains("m.mod:7") && Catch::Contains("index 0 of a list of 5"));
   // In a branch that moves nothing it is not met at all.
-  const std::string still = "MODULE m\nCONST jointtarget j:=" + axes +
-                            ";\nVAR num a{5};\nVAR num k:=0;\nPROC main()\nIF di1=1 THEN\na{k}:=1;\nENDIF\nMoveAbsJ "
-                            "j,v200,fine,tool0;\nENDPROC\nENDMODULE\n";
+  const std::string still =
+      "MODULE m\nCONST jointtarget j:=" + axes +
+      ";\nVAR num a{5};\nVAR num k:=0;\nPROC main()\nIF di1=1 THEN\na{k}:=1;\nENDIF\nMoveAbsJ "
+      "j,v200,fine,tool0;\nENDPROC\nENDMODULE\n";
   CHECK(Reader{Language::rapid}({{"m.mod", still}}).problems.empty());
 }
 
@@ -162,11 +166,28 @@ TEST_CASE("questions: all that one value hangs on is asked for together") {
         std::set<std::string>{"value gi1", "value gi2", "value gi3"});
 }
 
+TEST_CASE("questions: an answer's form is that of what is asked for, not of what is computed from it") {
+  const auto form = [](const std::string& target) {
+    const Reading asked = Reader{Language::rapid}(
+        {{"m.mod",
+          "MODULE m\nCONST robtarget p:=[[10,20,30],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\nMoveL " +
+              target + ",v100,fine,tool0;\nENDPROC\nENDMODULE\n"}});
+    return asked.problems.empty() || asked.problems[0].questions.empty()
+               ? "nothing is asked"
+               : asked.problems[0].questions[0].form;
+  };
+  CHECK(form("Offs(p,0,0,10*GInput(gi1))") == "");
+  CHECK(form("home").starts_with("[[x, y, z], [q1"));
+}
+
 TEST_CASE("questions: names are unique by module and by routine") {
-  const Files krl = {{"m.src", "DEF m()\na()\nb()\nEND\n"}, {"a.src", "DEF a()\nPTP xp1\nEND\n"}, {"b.src", "DEF b()\nPTP xp1\nEND\n"}};
+  const Files krl = {{"m.src", "DEF m()\na()\nb()\nEND\n"},
+                     {"a.src", "DEF a()\nPTP xp1\nEND\n"},
+                     {"b.src", "DEF b()\nPTP xp1\nEND\n"}};
   CHECK(questions(Reader{Language::krl}(krl)) == std::set<std::string>{"value a:xp1", "value b:xp1"});
   Reader own{Language::krl};
-  own.options.values = {{"a:xp1", "{A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}"}, {"b:xp1", "{A1 2,A2 0,A3 0,A4 0,A5 0,A6 0}"}};
+  own.options.values = {{"a:xp1", "{A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}"},
+                        {"b:xp1", "{A1 2,A2 0,A3 0,A4 0,A5 0,A6 0}"}};
   const Reading read = own(krl);
   REQUIRE(read.problem() == "no such problem");
   CHECK(read.move(0).target.joints[0] * 2 == Approx(read.move(1).target.joints[0]));
@@ -175,9 +196,11 @@ TEST_CASE("questions: names are unique by module and by routine") {
   CHECK(questions(shared(krl)) == std::set<std::string>{"value a:xp1", "value b:xp1"});
   // Two routines' own variables of one name, and LOCAL data of two modules.
   const Files rapid = {
-      {"a.mod", "MODULE a\nLOCAL VAR num t;\nPROC main()\nVAR num n;\nTPReadNum n,\"\";\nTPReadNum t,\"\";\nWaitTime n+t;\nMoveAbsJ " + axes +
-                    ",v100,fine,tool0;\nother;\nENDPROC\nENDMODULE\n"},
-      {"b.mod", "MODULE b\nLOCAL VAR num t;\nPROC other()\nVAR num n;\nTPReadNum n,\"\";\nTPReadNum t,\"\";\nWaitTime n+t;\nENDPROC\nENDMODULE\n"}};
+      {"a.mod",
+       "MODULE a\nLOCAL VAR num t;\nPROC main()\nVAR num n;\nTPReadNum n,\"\";\nTPReadNum t,\"\";\nWaitTime n+t;\nMoveAbsJ " +
+           axes + ",v100,fine,tool0;\nother;\nENDPROC\nENDMODULE\n"},
+      {"b.mod",
+       "MODULE b\nLOCAL VAR num t;\nPROC other()\nVAR num n;\nTPReadNum n,\"\";\nTPReadNum t,\"\";\nWaitTime n+t;\nENDPROC\nENDMODULE\n"}};
   CHECK(questions(Reader{Language::rapid}(rapid)) ==
         std::set<std::string>{"value main:n", "value other:n", "value a:t", "value b:t"});
   Reader times{Language::rapid};
@@ -204,8 +227,8 @@ TEST_CASE("questions: where the robot stands is asked for line by line") {
 }
 
 TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its name") {
-  const Files files = {{"m.ls", listing("M", {"R[30]=0", "LBL[1]", "J P[1] 50% FINE", "J P[2] 50% FINE", "CALL NAILER",
-                                              "R[30]=R[30]+1", "IF R[30]<4,JMP LBL[1]"})}};
+  const Files files = {{"m.ls", listing("M", {"R[30]=0", "LBL[1]", "J P[1] 50% FINE", "J P[2] 50% FINE",
+                                              "CALL NAILER", "R[30]=R[30]+1", "IF R[30]<4,JMP LBL[1]"})}};
   CHECK(questions(Reader{Language::fanuc}(files)) == std::set<std::string>{"value CALL NAILER"});
   // What the program itself has set is not what the user gives for the register.
   Reader by_register{Language::fanuc};
@@ -219,7 +242,8 @@ TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its n
     CHECK(reader(files).program.instructions.size() == moves);
   }
   // A register that the program did not set is what the called program may have left there: the user may give it.
-  const Files answer = {{"m.ls", listing("M", {"CALL ASK", "FOR R[1]=1 TO R[5]", "J P[1] 50% FINE", "ENDFOR"})}};
+  const Files answer = {
+      {"m.ls", listing("M", {"CALL ASK", "FOR R[1]=1 TO R[5]", "J P[1] 50% FINE", "ENDFOR"})}};
   Reader reader{Language::fanuc};
   reader.options.values["R[5]"] = "3";
   CHECK(reader(answer).program.instructions.size() == 3);
@@ -227,8 +251,11 @@ TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its n
 
 TEST_CASE("questions: Fanuc SkipJump goes to its label when the condition comes, Skip when it does not") {
   for (const bool jumps : {true, false}) {
-    const Files files = {{"m.ls", listing("M", {"SKIP CONDITION RI[1]=ON", std::string("L P[1] 100mm/sec FINE ") + (jumps ? "SkipJump" : "Skip") + ",LBL[1]",
-                                                "J P[2] 50% FINE", "ABORT", "LBL[1]", "L P[3] 100mm/sec FINE"})}};
+    const Files files = {
+        {"m.ls",
+         listing("M", {"SKIP CONDITION RI[1]=ON",
+                       std::string("L P[1] 100mm/sec FINE ") + (jumps ? "SkipJump" : "Skip") + ",LBL[1]",
+                       "J P[2] 50% FINE", "ABORT", "LBL[1]", "L P[3] 100mm/sec FINE"})}};
     const auto second_target = [&](const char* comes) {
       Reader reader{Language::fanuc};
       reader.options.values["RI[1]"] = comes;
@@ -254,7 +281,8 @@ TEST_CASE("questions: a component of a Fanuc position register is asked for by w
   CHECK(read.move(0).target.pose.position.isApprox(Vector3(0.611, 0.002, 0.55), 1e-12));
 }
 
-TEST_CASE("questions: what a program writes to a given tool or work object counts as if a file had declared it") {
+TEST_CASE(
+    "questions: what a program writes to a given tool or work object counts as if a file had declared it") {
   const std::string body =
       "CONST robtarget p:=[[10,20,30],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\nMoveL "
       "p,v100,fine,t\\WObj:=w;\nw.oframe.trans.x:=500;\nMoveL p,v100,fine,t\\WObj:=w;\nt.tframe.trans.z:=333;\nMoveL "
@@ -262,11 +290,13 @@ TEST_CASE("questions: what a program writes to a given tool or work object count
   const Reading declared = Reader{Language::rapid}(
       {{"m.mod",
         "MODULE m\nPERS tooldata t:=[TRUE,[[0,0,111],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nPERS wobjdata "
-        "w:=[FALSE,TRUE,\"\",[[1000,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n" + body}});
-  const Reading given = Reader{Language::rapid,
-                               {},
-                               {{"t", {{0, 0, 0.111}, Quaternion::Identity()}, false}},
-                               {{"w", {{1, 0, 0}, Quaternion::Identity()}, false}}}({{"m.mod", "MODULE m\n" + body}});
+        "w:=[FALSE,TRUE,\"\",[[1000,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n" +
+            body}});
+  const Reading given =
+      Reader{Language::rapid,
+             {},
+             {{"t", {{0, 0, 0.111}, Quaternion::Identity()}, false}},
+             {{"w", {{1, 0, 0}, Quaternion::Identity()}, false}}}({{"m.mod", "MODULE m\n" + body}});
   REQUIRE(declared.problem() == "no such problem");
   REQUIRE(given.problem() == "no such problem");
   for (std::size_t i = 0; i < 4; ++i) {
@@ -282,11 +312,13 @@ TEST_CASE("questions: what a program writes to a given tool or work object count
   Reader krl{Language::krl};
   krl.tools = {{"TOOL_DATA[1]", {{0, 0, 0.1}, Quaternion::Identity()}, false}};
   krl.work_objects = {{"BASE_DATA[1]", {{1, 2, 3}, Quaternion::Identity()}, false}};
-  const Reading kuka = krl({{"k.src",
-                             "DEF k()\n$VEL.CP=1\nBASE_DATA[1].X=5000\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[1]\nLIN {X 1,Y 2,Z 3,A "
-                             "0,B 0,C 0}\nTOOL_DATA[1].Z=777\n$TOOL=TOOL_DATA[1]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n"}});
+  const Reading kuka = krl(
+      {{"k.src",
+        "DEF k()\n$VEL.CP=1\nBASE_DATA[1].X=5000\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[1]\nLIN {X 1,Y 2,Z 3,A "
+        "0,B 0,C 0}\nTOOL_DATA[1].Z=777\n$TOOL=TOOL_DATA[1]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n"}});
   REQUIRE(kuka.problem() == "no such problem");
-  CHECK(kuka.program.work_objects.at(kuka.move(0).work_object).frame.position.isApprox(Vector3(5, 2, 3), 1e-12));
+  CHECK(kuka.program.work_objects.at(kuka.move(0).work_object)
+            .frame.position.isApprox(Vector3(5, 2, 3), 1e-12));
   CHECK(kuka.program.tools.at(kuka.move(0).tool).frame.position.isApprox(Vector3(0, 0, 0.1), 1e-12));
   CHECK(kuka.program.tools.at(kuka.move(1).tool).frame.position.isApprox(Vector3(0, 0, 0.777), 1e-12));
 }
@@ -300,7 +332,8 @@ TEST_CASE("questions: a constant that an unknown instruction takes stays what it
   CHECK(read.move(0).target.pose.position.x() == Approx(0.01));
 }
 
-TEST_CASE("questions: KUKA's speed along paths and its approximation are given by the names of the messages") {
+TEST_CASE(
+    "questions: KUKA's speed along paths and its approximation are given by the names of the messages") {
   const std::string text =
       "DEF m()\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\nLIN {X 1500,Y 0,Z 1500,A 0,B 90,C 0} C_DIS\nLIN {X "
       "1500,Y 300,Z 1500,A 0,B 90,C 0}\nEND\n";
@@ -318,9 +351,10 @@ TEST_CASE("questions: KUKA's speed along paths and its approximation are given b
 }
 
 TEST_CASE("questions: the file of answers can be filled in and is read back as it was filled") {
-  const std::string text = "MODULE m\nCONST jointtarget j:=" + axes +
-                           ";\nPROC main()\nIF di1=1 THEN\t!  - {name: 'x', value: '1'}\nMoveAbsJ j,v100,fine,gun;\nENDIF\nWHILE "
-                           "ui1 DO\nMoveJ home,v100,fine,tool0;\nENDWHILE\nENDPROC\nENDMODULE\n";
+  const std::string text =
+      "MODULE m\nCONST jointtarget j:=" + axes +
+      ";\nPROC main()\nIF di1=1 THEN\t!  - {name: 'x', value: '1'}\nMoveAbsJ j,v100,fine,gun;\nENDIF\nWHILE "
+      "ui1 DO\nMoveJ home,v100,fine,tool0;\nENDWHILE\nENDPROC\nENDMODULE\n";
   const Reading asked = Reader{Language::rapid}({{"m.mod", text}});
   pipeline::Motion before;
   before.values.push_back({"o'clock", "'12'"});

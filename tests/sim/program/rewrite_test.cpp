@@ -53,8 +53,8 @@ struct Changed {
 };
 
 /// Moves are counted without dwells.
-Changed changed(Language language, const std::string& name, const std::string& text, std::size_t move, LineChange change,
-                const ImportOptions& options = {}) {
+Changed changed(Language language, const std::string& name, const std::string& text, std::size_t move,
+                LineChange change, const ImportOptions& options = {}) {
   Changed c{Reader{language, options}({{name, text}}), {}, {}};
   REQUIRE(c.before.problem() == "no such problem");
   change.where = c.before.move(move).where;
@@ -105,25 +105,30 @@ TEST_CASE("rewrite: RAPID, each change read back; all else stays byte by byte") 
   CHECK(slow.after.move(1).speed.tool.value() == Approx(0.35));
   CHECK(slow.after.move(1).speed.orientation.value() == Approx(350 * degree));
   CHECK(slow.after.move(1).zone.distance == slow.before.move(1).zone.distance);
-  CHECK(slow.written.text.find("MoveJ p10,[0.7*v500.v_tcp,0.7*v500.v_ori,v500.v_leax,v500.v_reax],z50,tool0\\WObj:=wobj0; ! as "
-                               "taught ! spares the cable\n") != std::string::npos);
+  CHECK(slow.written.text.find(
+            "MoveJ p10,[0.7*v500.v_tcp,0.7*v500.v_ori,v500.v_leax,v500.v_reax],z50,tool0\\WObj:=wobj0; ! as "
+            "taught ! spares the cable\n") != std::string::npos);
   const Changed literal = changed(Language::rapid, "m.mod", rapid, 2, {.speed = 0.5});
   CHECK(literal.after.move(2).speed.tool.value() == Approx(0.4));
-  const Changed turned = changed(Language::rapid, "m.mod", rapid, 1,
-                                 {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 2, -2, 1}}});
+  const Changed turned =
+      changed(Language::rapid, "m.mod", rapid, 1,
+              {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 2, -2, 1}}});
   CHECK(turned.after.move(1).target.configuration.text() == "abb 0 2 -2 1");
   CHECK(turned.after.move(1).target.pose.position == turned.before.move(1).target.pose.position);
   CHECK(turned.after.move(3).target.configuration.text() == "abb 0 0 0 0");
-  const Changed offset = changed(Language::rapid, "m.mod", rapid, 2,
-                                 {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 2, -2, 1}}});
+  const Changed offset =
+      changed(Language::rapid, "m.mod", rapid, 2,
+              {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 2, -2, 1}}});
   CHECK((offset.after.move(2).target.pose.position - Vector3(0.5, 0, 0.7)).norm() < 1e-9);
   CHECK(offset.after.move(2).target.configuration.text() == "abb 0 2 -2 1");
   const std::vector<double> joints{0.1, -0.2, 0.3, 1, 0.5, -2};
   const Changed home = changed(Language::rapid, "m.mod", rapid, 0, {.joints = joints});
-  for (std::size_t i = 0; i < 6; ++i) CHECK(home.after.move(0).target.joints[i] == Approx(joints[i]).margin(1e-8));
+  for (std::size_t i = 0; i < 6; ++i)
+    CHECK(home.after.move(0).target.joints[i] == Approx(joints[i]).margin(1e-8));
   const Changed by = changed(Language::rapid, "m.mod", rapid, 1, {.point = joints});
   REQUIRE(by.after.program.instructions.size() == 5);
-  for (std::size_t i = 0; i < 6; ++i) CHECK(by.after.move(1).target.joints[i] == Approx(joints[i]).margin(1e-8));
+  for (std::size_t i = 0; i < 6; ++i)
+    CHECK(by.after.move(1).target.joints[i] == Approx(joints[i]).margin(1e-8));
   CHECK(by.after.move(1).speed.tool == by.before.move(1).speed.tool);
   CHECK(by.after.move(2).target.pose.position == by.before.move(1).target.pose.position);
 }
@@ -136,41 +141,51 @@ TEST_CASE("rewrite: KRL, Fanuc, INFORM and URScript") {
   const Changed turned = changed(Language::krl, "m.src", krl, 1,
                                  {.configuration = ArmConfiguration{ArmConfiguration::Kind::kuka, {6, 58}}});
   CHECK(turned.after.move(1).target.configuration.text() == "kuka 6 58");
-  CHECK((turned.after.move(1).target.pose.position - turned.before.move(1).target.pose.position).norm() < 1e-9);
+  CHECK((turned.after.move(1).target.pose.position - turned.before.move(1).target.pose.position).norm() <
+        1e-9);
   CHECK(turned.after.move(1).zone.percent == turned.before.move(1).zone.percent);
   const std::vector<double> joints{0.1, -1.2, 1.3, 1, 0.5, -2};
   const Changed by = changed(Language::krl, "m.src", krl, 1, {.point = joints});
   REQUIRE(by.after.program.instructions.size() == 4);
-  for (std::size_t i = 0; i < 6; ++i) CHECK(by.after.move(1).target.joints[i] == Approx(joints[i]).margin(1e-8));
+  for (std::size_t i = 0; i < 6; ++i)
+    CHECK(by.after.move(1).target.joints[i] == Approx(joints[i]).margin(1e-8));
 
   const Changed fast = changed(Language::fanuc, "m.ls", fanuc, 0, {.speed = 0.7});
   CHECK(fast.after.move(0).speed.axis_percent.value() == 42);
-  CHECK(fast.written.text.find("   1:  !spares the cable ;\n   2:J P[1] 42% FINE    ;\n   3:J P[2] 50% CNT50    ;\n") !=
+  CHECK(fast.written.text.find(
+            "   1:  !spares the cable ;\n   2:J P[1] 42% FINE    ;\n   3:J P[2] 50% CNT50    ;\n") !=
         std::string::npos);
   // P[2] is used twice: the changed line has a new one.
-  const Changed other = changed(Language::fanuc, "m.ls", fanuc, 1,
-                                {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});
+  const Changed other =
+      changed(Language::fanuc, "m.ls", fanuc, 1,
+              {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});
   CHECK(other.after.move(1).target.configuration.text() == "fanuc FUT 0 1 0");
   CHECK(other.after.move(3).target.configuration.text() == "fanuc NUT 0 0 0");
   CHECK(other.written.text.find("J P[4] 50% CNT50") != std::string::npos);
-  const Changed own = changed(Language::fanuc, "m.ls", fanuc, 2,
-                              {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});
+  const Changed own =
+      changed(Language::fanuc, "m.ls", fanuc, 2,
+              {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});
   CHECK(own.after.move(2).target.configuration.text() == "fanuc FUT 0 1 0");
   const std::vector<double> angles{0.1, 0.2, 0.3, 1, 0.5, -2};
   const Changed axes = changed(Language::fanuc, "m.ls", fanuc, 0, {.joints = angles});
-  for (std::size_t i = 0; i < 6; ++i) CHECK(axes.after.move(0).target.joints[i] == Approx(angles[i]).margin(1e-5));
+  for (std::size_t i = 0; i < 6; ++i)
+    CHECK(axes.after.move(0).target.joints[i] == Approx(angles[i]).margin(1e-5));
 
   ImportOptions counts;
   counts.values["pulses_per_degree"] = "[1,1,1,1,1,1]";
-  const std::string job = "/JOB\n//NAME A\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE PULSE\n///PULSE\nC00000=1,2,3,4,5,6\n"
-                          "//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nSPEED VJ=40.00\nMOVJ C00000 VJ=50.00 PL=0\nMOVJ C00000 //next\nEND\n";
+  const std::string job =
+      "/JOB\n//NAME A\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE PULSE\n///PULSE\nC00000=1,2,3,4,5,6\n"
+      "//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nSPEED VJ=40.00\nMOVJ C00000 VJ=50.00 PL=0\nMOVJ C00000 //next\nEND\n";
   const Changed tag = changed(Language::inform, "a.jbi", job, 0, {.speed = 0.7}, counts);
   CHECK(tag.after.move(0).speed.axis_percent.value() == 35);
   CHECK(tag.written.text.find("MOVJ C00000 VJ=35.00 PL=0  //spares the cable\n") != std::string::npos);
-  CHECK(changed(Language::inform, "a.jbi", job, 1, {.speed = 0.5}, counts).after.move(1).speed.axis_percent.value() == 20);
+  CHECK(changed(Language::inform, "a.jbi", job, 1, {.speed = 0.5}, counts)
+            .after.move(1)
+            .speed.axis_percent.value() == 20);
 
-  const std::string script = "def m():\n  movej([0,0,0,0,0,1], a=1.4, v=1.05, r=0)\n  movej([0,0,0,0,0,2], 1.4, 0.5)\n  movej([0,0,0,0,0,3])\n"
-                             "end\n";
+  const std::string script =
+      "def m():\n  movej([0,0,0,0,0,1], a=1.4, v=1.05, r=0)\n  movej([0,0,0,0,0,2], 1.4, 0.5)\n  movej([0,0,0,0,0,3])\n"
+      "end\n";
   const double speeds[] = {1.05, 0.5, 1.05};
   for (std::size_t k = 0; k < 3; ++k) {
     const Changed c = changed(Language::urscript, "m.script", script, k, {.speed = 0.7});
@@ -190,10 +205,12 @@ TEST_CASE("rewrite: what cannot be written is told at its line") {
     }
     return std::string("none");
   };
-  const std::string timed = "MODULE m\nPROC main()\nMoveAbsJ [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10\\T:=3,fine,tool0;\n"
-                            "FOR i FROM 1 TO 2 DO\nMoveJ [[500+i,0,600],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z50,tool0;\n"
-                            "ENDFOR\nENDPROC\nENDMODULE\n";
-  CHECK(refusal(timed, 0, {.speed = 0.7}).find("m.mod:3:1: error: cannot be changed by itself: its speed has an option") == 0);
+  const std::string timed =
+      "MODULE m\nPROC main()\nMoveAbsJ [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10\\T:=3,fine,tool0;\n"
+      "FOR i FROM 1 TO 2 DO\nMoveJ [[500+i,0,600],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,z50,tool0;\n"
+      "ENDFOR\nENDPROC\nENDMODULE\n";
+  CHECK(refusal(timed, 0, {.speed = 0.7})
+            .find("m.mod:3:1: error: cannot be changed by itself: its speed has an option") == 0);
   CHECK(refusal(timed, 1, {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 0, 0, 0}}})
             .find("it is run with several targets") != std::string::npos);
   CHECK(refusal(timed, 1, {.speed = 0.7}) == "none");

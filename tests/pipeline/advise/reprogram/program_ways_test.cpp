@@ -33,7 +33,8 @@ TEST_CASE("program ways: those of the shipped program read back as the program b
     CHECK(other_difference(read.motion, made.motion, way.changes) == "");
     CHECK(other_difference(read.motion, made.motion, {}) != "");
     CHECK(made.patch.find("--- a/side_panel.mod\n") == 0);
-    for (const sim::LineChange& change : way.changes) CHECK(made.patch.find("! " + change.reason) != std::string::npos);
+    for (const sim::LineChange& change : way.changes)
+      CHECK(made.patch.find("! " + change.reason) != std::string::npos);
   }
   CHECK(kinds.contains("wrist"));
   CHECK(kinds.contains("by"));
