@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "pipeline/job/job.h"
-#include "pipeline/life/life_response.h"
+#include "pipeline/job/uncertainty.h"
 #include "strain/evaluation.h"
 
 namespace dresslife::strain {

@@ -28,7 +28,7 @@ Json json_of_csv(const std::string& csv) {
     Json object{std::initializer_list<std::pair<std::string_view, Json>>{}};
     for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k) {
       const bool text = std::find(always_text.begin(), always_text.end(), titles[k].text) != always_text.end();
-      object.add(titles[k].text, text ? Json(row[k].text) : row[k].text.empty() ? null() : json_of_cell(row[k].text));
+      object.add(titles[k].text, row[k].text.empty() ? null() : text ? Json(row[k].text) : json_of_cell(row[k].text));
     }
     rows.push_back(object);
   }

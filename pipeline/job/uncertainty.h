@@ -87,4 +87,8 @@ ParameterKnowledge prior_of(const Uncertainty& uncertainty);
 Material changed(Material material, const Fatigue& fatigue);
 constexpr double reversals_of_slope = 2e5;  ///< in the middle of what wires are tested at
 
+/// How parts inside the cables slip: as in the job, not at all, or without friction.
+enum class Inside { as_is, glued, free };
+constexpr std::size_t inside_count = 3;
+
 }  // namespace dresslife::pipeline

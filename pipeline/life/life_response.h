@@ -27,10 +27,6 @@ constexpr std::size_t strain_parameters = 5;
 
 using ParameterPoint = std::array<double, uncertain_count>;  ///< (parameter) z
 
-/// How parts inside the cables slip: as in the job, not at all, or without friction.
-enum class Inside { as_is, glued, free };
-constexpr std::size_t inside_count = 3;
-
 struct LifeResponse {
   static constexpr double endless = 12;  ///< log10 repeats: 1e12 of a minute are two million years
 
