@@ -185,22 +185,26 @@ void Evaluation::add(std::span<Evaluation* const> all, const SpanBlock& block) {
 }
 
 void Evaluation::add_bends(const DeformationHistory& block) {
+  bends_.resize(2 * lengths_.size());
   for (std::size_t i = 0; i < lengths_.size(); ++i) {
     const DeformationColumns here = block.columns(i);
-    for (std::size_t t = 0; t < block.samples(); ++t)
-      bends_ += lengths_[i] * (here.curvature1[t] * here.curvature1[t] + here.curvature2[t] * here.curvature2[t]);
-    if (i + 1 == lengths_.size()) break;
-    const DeformationColumns next = block.columns(i + 1);
-    const double apart = arcs_[i + 1] - arcs_[i];
-    for (std::size_t t = 0; t < block.samples(); ++t)
-      bend_slopes_ += (std::pow(next.curvature1[t] - here.curvature1[t], 2) + std::pow(next.curvature2[t] - here.curvature2[t], 2)) / apart;
+    const DeformationColumns next = block.columns(std::min(i + 1, lengths_.size() - 1));
+    for (std::size_t t = 0; t < block.samples(); ++t) {
+      bends_[2 * i].add({here.curvature1[t], here.curvature2[t]});
+      bends_[2 * i + 1].add({next.curvature1[t] - here.curvature1[t], next.curvature2[t] - here.curvature2[t]});
+    }
   }
 }
 
 void Evaluation::end_first_pass() {
   cables_.finish();
   if (std::exchange(first_pass_ended_, true)) return;
-  evening_.bend_wave = bend_slopes_ > 0 ? 2 * std::numbers::pi * std::sqrt(bends_ / bend_slopes_) : HUGE_VAL;
+  double bends = 0, slopes = 0;  // mean squares, summed over the length
+  for (std::size_t i = 0; 2 * i < bends_.size(); ++i) {
+    bends += lengths_[i] * bends_[2 * i].variance();
+    if (i + 1 < lengths_.size()) slopes += bends_[2 * i + 1].variance() / (arcs_[i + 1] - arcs_[i]);
+  }
+  evening_.bend_wave = slopes > 0 ? 2 * std::numbers::pi * std::sqrt(bends / slopes) : HUGE_VAL;
   const Shortened of = means_.shorten(evening_.bend_wave);
   evening_.layer = of.longest;
   evening_.longest = of.evening;

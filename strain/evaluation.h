@@ -121,8 +121,8 @@ class Evaluation {
   /// What the cables do. Precondition: end_first_pass(), or evaluate(), which does the same.
   const CablePaths& cables() const { return cables_; }
   void end_first_pass();
-  /// Wave length over which the span's curvature changes, 2 pi rms(curvature)/rms(its slope) [m]; infinite: it does
-  /// not. The layer that rubs and whose strain evens out over most, with that length (LayerSlip::evening); -1: none.
+  /// Wave length over which what varies of the span's curvature changes, 2 pi rms/rms of its slope [m]; infinite: it
+  /// does not. The layer that rubs and whose strain evens out over most, with that length (LayerSlip::evening); -1: none.
   struct Evening {
     double bend_wave = 0, longest = 0;
     int layer = -1;
@@ -282,7 +282,17 @@ class Evaluation {
   std::vector<Site> likely_;
   CablePaths cables_;
   CablePaths::Keeper keeper_;
-  double bends_ = 0, bend_slopes_ = 0;  ///< sums of squares over segments and samples
+  /// Of a vector over the samples.
+  struct Varying {
+    std::array<double, 2> sum{};
+    double squares = 0, count = 0;
+    void add(const std::array<double, 2>& value) {
+      for (const int k : {0, 1}) sum[k] += value[k], squares += value[k] * value[k];
+      ++count;
+    }
+    double variance() const { return (squares - (sum[0] * sum[0] + sum[1] * sum[1]) / count) / count; }
+  };
+  std::vector<Varying> bends_;  ///< (segment, 2) curvature, and by how much the next segment has more
   bool first_pass_ended_ = false;
   Evening evening_;
   std::size_t meant_ = 0;                ///< samples that the means have had

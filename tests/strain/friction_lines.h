@@ -16,7 +16,12 @@ class SlidingWire {
  public:
   /// limit: of the force's change per length over E A [1/m].
   SlidingWire(std::size_t cells, double cell, double limit)
-      : cell_(cell), limit_(limit * cell), u_(cells + 1, 0.0), sliding_(cells + 1, 0), strain_(cells, 0.0), glued_(strain_) {}
+      : cell_(cell),
+        limit_(limit * cell),
+        u_(cells + 1, 0.0),
+        sliding_(cells + 1, 0),
+        strain_(cells, 0.0),
+        glued_(strain_) {}
 
   /// glued: strain of each cell. A step after which it is not found which nodes slide is taken in two.
   void move(const std::vector<double>& glued, int halvings = 0) {

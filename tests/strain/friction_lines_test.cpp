@@ -26,16 +26,19 @@ constexpr double pi = std::numbers::pi;
 /// Wires of one layer of a part that lies straight or on a helix in a straight cable. All of them feel the same
 /// wave along themselves, so one that is long enough is all.
 struct WiresInSpace {
-  double radius, lay_angle;                         // of the wires; lay angles signed [m], [rad]
-  double part_radius = 0, part_lay = 0;             // of the part
+  double radius, lay_angle;                           // of the wires; lay angles signed [m], [rad]
+  double part_radius = 0, part_lay = 0;               // of the part
   double EA = 117e9 * pi * 75e-6 * 75e-6, limit = 0;  // limit: mu p/(E A) [1/m]
-  double cell, per_cable_length;                    // [m] of wire; wire per length of the cable
-  std::vector<double> by_bend1, by_bend2;           // glued strain per curvature, (cell) [m]
-  std::size_t first = 0, last = 0;                  // cells of whole waves, far from the ends
+  double cell, per_cable_length;                      // [m] of wire; wire per length of the cable
+  std::vector<double> by_bend1, by_bend2;             // glued strain per curvature, (cell) [m]
+  std::size_t first = 0, last = 0;                    // cells of whole waves, far from the ends
 
   WiresInSpace(double at_radius, double lay_deg, double of_part, double part_lay_deg, double wave,
                std::size_t cells_in_wave, int waves)
-      : radius(at_radius), lay_angle(lay_deg * degree), part_radius(of_part), part_lay(part_lay_deg * degree) {
+      : radius(at_radius),
+        lay_angle(lay_deg * degree),
+        part_radius(of_part),
+        part_lay(part_lay_deg * degree) {
     per_cable_length = 1 / (std::cos(lay_angle) * std::cos(part_lay));
     cell = wave / static_cast<double>(cells_in_wave);
     const std::size_t cells = cells_in_wave * waves;
@@ -55,8 +58,7 @@ struct WiresInSpace {
       levels.push_back({part_radius, part_lay, in_cable * std::tan(part_lay) / part_radius});
     const auto strain = [&] {
       constexpr long double little = 1e-4L;
-      const space_curve::Curves rest{1, space_curve::Vector(0, 0, 0), levels},
-          bent{1, bend * little, levels};
+      const space_curve::Curves rest{1, space_curve::Vector(0, 0, 0), levels}, bent{1, bend * little, levels};
       return levels.empty() ? 0.0L : (bent.stretch_of_last() / rest.stretch_of_last() - 1) / little;
     };
     const long double of_part = strain();
@@ -100,7 +102,8 @@ Dresspack strand() {
 }
 /// waves: so many that the ends, which do not slide, are out of reach of the one in the middle.
 WiresInSpace wires_of_strand(int waves) {
-  WiresInSpace wires(wire_radius, wire_lay, 0, 0, 2 * pi * wire_radius / std::sin(wire_lay * degree), 96, waves);
+  WiresInSpace wires(wire_radius, wire_lay, 0, 0, 2 * pi * wire_radius / std::sin(wire_lay * degree), 96,
+                     waves);
   wires.limit = friction * line_load / wires.EA;
   return wires;
 }
@@ -153,7 +156,8 @@ TEST_CASE("a strand of known friction, measured by bending its lines, has that f
     }
 }
 
-TEST_CASE("nested lays: wires of a conductor even out over the sum of both turns, of the same hand and of opposite ones") {
+TEST_CASE(
+    "nested lays: wires of a conductor even out over the sum of both turns, of the same hand and of opposite ones") {
   struct Case {
     double part_lay, lay, radius;  // [deg] of the conductor, of its wires; [m]
     double evening;                // [mm]
@@ -173,7 +177,8 @@ TEST_CASE("nested lays: wires of a conductor even out over the sum of both turns
     CHECK(1e3 * evening_length(sum, 9) == Approx(of.evening).epsilon(5e-3));
     CHECK(evening_length(sum, 0.01) == 0.01);
     const double longest = 2 * pi / std::min(sum, other), shortest = 2 * pi / std::max(sum, other);
-    WiresInSpace wires(of.radius, of.lay, part_radius, of.part_lay, longest, static_cast<std::size_t>(32 * longest / shortest), 5);
+    WiresInSpace wires(of.radius, of.lay, part_radius, of.part_lay, longest,
+                       static_cast<std::size_t>(32 * longest / shortest), 5);
     Dresspack dresspack = thesis_dresspack();
     dresspack.materials = {elastic_copper()};
     Component& cable = dresspack.components[0];
@@ -213,7 +218,8 @@ TEST_CASE("a bend that changes along the cable: the closed form where a wave is 
       const double reach = t <= 6 ? t / 6.0 : t <= 18 ? 1 - (t - 6) / 6.0 : -1 + (t - 18) / 6.0;
       for (std::size_t i = 0; i < cells; ++i) {
         const double at = (static_cast<double>(i) + 0.5) * cell;
-        glued[i] = size * cap * reach * std::cos(2 * pi * at / bend + 0.2) * std::cos(2 * pi * at / wave + 0.3);
+        glued[i] =
+            size * cap * reach * std::cos(2 * pi * at / bend + 0.2) * std::cos(2 * pi * at / wave + 0.3);
       }
       wire.move(glued);
       for (std::size_t i = cells / 4; t >= 6 && i < 3 * cells / 4; ++i)
@@ -236,7 +242,8 @@ TEST_CASE("a bend that changes along the cable: the closed form where a wave is 
   }
 }
 
-TEST_CASE("any history of bending: sliders follow the worst wire of a layer, and no wire sees more than they say") {
+TEST_CASE(
+    "any history of bending: sliders follow the worst wire of a layer, and no wire sees more than they say") {
   const WiresInSpace wires = wires_of_strand(5);
   const double amplitude = std::hypot(wires.by_bend1[0], wires.by_bend2[0]);
   const double cap = wires.limit * wires.cell * 96 / 4;  // (W16)
@@ -250,7 +257,8 @@ TEST_CASE("any history of bending: sliders follow the worst wire of a layer, and
       {"in one plane", [](double x) { return std::pair(std::sin(2 * pi * x), 0.0); }},
       {"round", [](double x) { return std::pair(std::cos(2 * pi * x), std::sin(2 * pi * x)); }},
       {"ellipse", [](double x) { return std::pair(std::cos(2 * pi * x), 0.3 * std::sin(2 * pi * x)); }},
-      {"round, off centre", [](double x) { return std::pair(2 + std::cos(2 * pi * x), std::sin(2 * pi * x)); }}};
+      {"round, off centre",
+       [](double x) { return std::pair(2 + std::cos(2 * pi * x), std::sin(2 * pi * x)); }}};
   for (int k = 0; k < 4; ++k) {
     std::array<double, 12> c;
     for (double& value : c) value = part(random);
@@ -279,7 +287,8 @@ TEST_CASE("any history of bending: sliders follow the worst wire of a layer, and
         const std::vector<double> glued = wires.glued(bend1 * scale, bend2 * scale);
         wire.move(glued);
         for (std::size_t i = 0; i < around; ++i) {
-          const double held = sliders[i].next(glued[wires.first + i], cap), line = wire.strain()[wires.first + i];
+          const double held = sliders[i].next(glued[wires.first + i], cap),
+                       line = wire.strain()[wires.first + i];
           if (t < samples) continue;  // friction settles in the first repeat
           low[i] = std::min(low[i], line), high[i] = std::max(high[i], line);
           slider_low[i] = std::min(slider_low[i], held), slider_high[i] = std::max(slider_high[i], held);

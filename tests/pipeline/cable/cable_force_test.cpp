@@ -2,9 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/cable/cable_force.h"
-
 #include "pipeline/cable/cable_bending.h"
+#include "pipeline/cable/cable_force.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
