@@ -103,6 +103,8 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
                             1e3 * pipeline::usual_bore_share * facts.dresspack->diameter)};
 }
 
+constexpr double most_slack = 0.05;  // 10 cm in 2 m: what a user can lay into a hose
+
 /// Slack that makes no force beyond the limit: by the gains of its path, and by what a helix in its room keeps.
 Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed) {
   const double limit = pipeline::believable_share * cable.strength(), slack = facts.component->laying.slack / 100;
@@ -118,9 +120,13 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   const std::string cause =
       compressed ? fmt::format("{}, where its path and its room take {} % at most", room, pipeline::percent_below(most))
                  : fmt::format("{}, where its path asks for {} % or more", room, pipeline::percent_above(least));
-  if (least <= most)
+  if (least <= slack && slack <= most)
+    return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
+            fmt::format("motion.acceleration_percent: less than now, or friction_coefficient of '{}' as measured",
+                        facts.component->name)};
+  if (least <= std::min(most, most_slack))
     return {cause, fmt::format("{}: {} .. {} (now {:.3g})", slack_key(facts), pipeline::percent_above(least),
-                               pipeline::percent_below(most), 100 * slack)};
+                               pipeline::percent_below(std::min(most, most_slack)), 100 * slack)};
   const double needed = pipeline::room_of_excess(cable, least - facts.least_gain, limit);
   return {cause, fmt::format("no slack fits this room: place it where it has {:.2g} mm of room (helix_radius_mm, "
                              "inner_diameter_mm; play_mm: {:.2g} where it has that already), or nearer to the axis",

@@ -18,6 +18,9 @@ namespace dresslife::pipeline {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/// Two digits, rounded up: what is needed.
+static std::string millimetres_above(double metres) { return percent_above(10 * metres); }
+
 double excess_at_force(const CableForce& cable, double force, double room) {
   return cable.strain_at(force) + (room > 0 ? force * room * room / (4 * cable.bending_stiffness()) : 0);
 }
@@ -80,9 +83,9 @@ std::vector<Warning> slack_warnings(const Dresspack& dresspack) {
                     100 * believable_share),
         fmt::format("it has {:.2g} mm of room to wind in and {:.3g} % ({:.3g} mm in a metre) of excess length",
                     1e3 * loose.room, 100 * slack, 1e3 * slack),
-        fmt::format("slack_percent: {} or less; or {:.2g} mm of room around it",
+        fmt::format("slack_percent: {} or less; or {} mm of room around it",
                     percent_below(excess_at_force(cable, limit, loose.room)),
-                    1e3 * room_of_excess(cable, slack, limit))));
+                    millimetres_above(room_of_excess(cable, slack, limit)))));
   }
   return warnings;
 }

@@ -12,6 +12,9 @@
 namespace dresslife::pipeline {
 namespace {
 
+/// Robots are replaced or overhauled after 20,000 to 40,000 h.
+constexpr double longest_robot_life_hours = 40000;
+
 const UncertainParameter* parameter_of(const std::string& name) {
   for (const UncertainParameter& parameter : uncertain_parameters())
     if (parameter.name == name) return &parameter;
@@ -69,6 +72,10 @@ std::string action_words(const RankingRow& row) {
   if (std::isinf(hours))
     return row.planned() ? "No replacement is foreseen: in more than 90 % of the samples no mode fails."
                          : "No replacement is foreseen: no wire is damaged.";
+  if (hours > longest_robot_life_hours)
+    return fmt::format("The evaluated parts outlive the robot ({} h at most): {} ({}). What is not evaluated, such as wear, kinks "
+                       "and connectors, ends the dresspack earlier.",
+                       readable(longest_robot_life_hours), hours_text(hours), calendar_text(row.headline_months()));
   return fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months()));
 }
 

@@ -176,6 +176,9 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
                         key_of(motion.setup, broken.dresspack, ringed ? "routing.rings" : "routing.free_length_m"), remark)};
   const RestTrials trials(motion, broken);
   const double limit = broken.limit, k_rest = trials.curvature(trials.length()), k = 1 / broken.value;
+  if (std::isinf(k_rest))
+    return {"its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are",
+            "the clamps or the length that `dresslife improve` finds" + remark};
   if (k_rest * limit < 1) {
     const Check* touch = find(checks, check_name::contact_force, broken.dresspack);
     const bool pressed = touch && touch->value > 0 && std::abs(touch->time - broken.time) < 0.2;
@@ -205,7 +208,9 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   for (int end = 0; end < 2; ++end)
     if (best.turned[end]) remedy += " and " + direction_words(motion, broken, trials, end);
   return {fmt::format("{} ({})", turned ? "directions of the clamps" : "the free length", now),
-          fmt::format("{} (at rest {})", remedy, radius_words(best.curvature)) + remark};
+          fmt::format("{} (at rest {}; `dresslife preview` shows whether it clears the robot)", remedy,
+                      radius_words(best.curvature)) +
+              remark};
 }
 
 /// Net twist lies about `centre`; a pre-twist takes that away, and a longer hose spreads the rest.
@@ -221,10 +226,11 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   if (half_range < broken.limit * length && std::abs(centre) > 0.02 * most)
     return {cause, fmt::format("{}: {:.0f}", key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
                                (routing.pre_twist - centre) / degree)};
+  const double needed = std::max(half_range / broken.limit, length * std::abs(broken.value) / broken.limit);
+  constexpr double most_longer = 1.5;  // a hose that is half as long again hangs into the robot
+  if (needed > most_longer * length) return {cause, "the tool clamp on a link that turns less"};
   return {cause, fmt::format("{}: {} or more (now {:.3f}), or the tool clamp on a link that turns less",
-                             key_of(motion.setup, broken.dresspack, "routing.free_length_m"),
-                             at_least_metres(std::max(half_range / broken.limit, length * std::abs(broken.value) / broken.limit)),
-                             length)};
+                             key_of(motion.setup, broken.dresspack, "routing.free_length_m"), at_least_metres(needed), length)};
 }
 
 /// L of a span with least slack.
