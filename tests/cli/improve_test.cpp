@@ -216,15 +216,15 @@ ENDMODULE
 )");
   scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
 motion: {program: short.mod}
-dresspack: sensor_cable
+dresspack: thesis_welding
 routing:
   base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
   tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
-  free_length_m: 2.035
+  free_length_m: 2.5
 simulation: {segments: 20, sample_rate_Hz: 25}
 )");
   const std::string program = content(scratch / "short.mod");
-  const Outcome ways = run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 2");
+  const Outcome ways = run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 2 --set dresspack.least_bend_radius_mm=100");
   INFO(ways.out << ways.err);
   REQUIRE(ways.status == 0);
   CHECK(content(scratch / "short.mod") == program);

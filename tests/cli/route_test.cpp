@@ -69,7 +69,7 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
 TEST_CASE("route finds clamps for a shipped hose that keep all limits in the whole chain") {
   Scratch scratch;
   const Outcome told = run(scratch, "dresslife",
-                           "route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40 --quiet "
+                           "route abb_irb4600_60_205 --dresspack thesis_welding --scale 0.5 --tried 100 --rehearsals 40 --quiet "
                            "--set simulation.segments=20 --set strain.surface_fibres=0");
   INFO(told.err + told.out);
   CHECK(told.status == 0);
