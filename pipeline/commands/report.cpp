@@ -52,7 +52,11 @@ int report(const StudyOptions& options) {
     tell(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
                      places.folder.string(), kept));
   }
-  return count_failed(rows) || !all_written ? 1 : 0;
+  const int failed = count_failed(rows);
+  if (failed > 0)
+    tell(fmt::format("{}: error: {} of {} jobs have no result (their reasons are in the table); make them with dresslife run\n",
+                     options.study, failed, study.jobs.size()));
+  return failed > 0 || !all_written ? 1 : 0;
 }
 
 }  // namespace

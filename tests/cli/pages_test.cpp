@@ -51,7 +51,7 @@ const std::map<std::string, std::string> instead{
     {"dresslife-sim JOB.yaml -o motion.h5",
      "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
-    {"dresslife-fatigue strain.h5 -o life.h5", "dresslife-fatigue strain.h5 -o life.h5"},
+    {"dresslife-fatigue strain.h5 -o life.h5", "not run"},  // its page comes before the one that makes strain.h5
     {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
     {"dresslife calibrate your_cable", "dresslife calibrate your_cable"},
     {"dresslife calibrate published", "dresslife calibrate two_published.yaml"},
