@@ -7,8 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/base/readable.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_pulls.h"
+#include "pipeline/cable/excess.h"
+#include "pipeline/job/parts_room.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -69,19 +73,106 @@ Cables cables_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
   return cables;
 }
 
-std::vector<pipeline::Warning> force_warnings(double force_share, double moment_share) {
-  std::vector<pipeline::Warning> warnings;
-  const auto warn = [&](double share, const char* what) {
-    if (share > pipeline::believable_share)
-      warnings.push_back(
-          {pipeline::WarningKind::force, "",
-           fmt::format("{:.2g} times {} (more than {:g}: strains rest on forces that nobody sees in a "
-                       "dresspack); check slack, play, grips and position of its cables",
-                       share, what, pipeline::believable_share)});
-  };
-  warn(force_share, "what tears a cable pulls at one");
-  warn(moment_share, "the hose's own moment is what all cables put on a clamp");
-  return warnings;
+struct Cure {
+  std::string cause, remedy;
+};
+
+/// What is known of a cable beside its force.
+struct CableFacts {
+  std::string name;
+  const pipeline::Component* component = nullptr;
+  const pipeline::Dresspack* dresspack = nullptr;
+  double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain
+  bool has_room = false;                           ///< the file has these
+};
+
+/// "signal cable 3": the second of `count` signal cables has the key of all of them.
+std::string slack_key(const CableFacts& facts) { return fmt::format("slack_percent of '{}'", facts.component->name); }
+
+/// Why a cable that keeps its place at both clamps is pulled, and what would let it move.
+Cure held_cure(const CableFacts& facts, bool known_bore, double least, double most) {
+  const std::string path = fmt::format("its place in the dresspack and both clamps hold it, while its path changes by {:.2g} "
+                                       ".. {:.2g} %",
+                                       100 * facts.least_gain, 100 * facts.most_gain);
+  if (known_bore)
+    return {path, least <= most ? fmt::format("position: loose, or {}: {} .. {}", slack_key(facts),
+                                              pipeline::percent_above(least), pipeline::percent_below(most))
+                                : "position: loose, or base_grip_N and tool_grip_N of the cable"};
+  return {path, fmt::format("inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else base_grip_N and tool_grip_N of the "
+                            "cable",
+                            1e3 * pipeline::usual_bore_share * facts.dresspack->diameter)};
+}
+
+constexpr double most_slack = 0.05;  // 10 cm in 2 m: what a user can lay into a hose
+
+/// Slack that makes no force beyond the limit: by the gains of its path, and by what a helix in its room keeps.
+Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed) {
+  const double limit = pipeline::believable_share * cable.strength(), slack = facts.component->laying.slack / 100;
+  if (sticks)
+    return {"it sticks to the hose (strain.slip of its level is stick)", "strain.slip: friction"};
+  if (!facts.has_room)
+    return {"slack, play, grips or position of the cable", slack_key(facts) + " (run dresslife-strain again for its value)"};
+  const double least = std::max(0.0, facts.most_gain - cable.strain_at(limit));
+  const double most = facts.least_gain + pipeline::excess_at_force(cable, limit, facts.room);
+  if (!pipeline::lies_loose(*facts.dresspack, *facts.component))
+    return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, most);
+  const std::string room = fmt::format("it has {:.2g} mm of room and {:.3g} % of slack", 1e3 * facts.room, 100 * slack);
+  const std::string cause =
+      compressed ? fmt::format("{}, where its path and its room take {} % at most", room, pipeline::percent_below(most))
+                 : fmt::format("{}, where its path asks for {} % or more", room, pipeline::percent_above(least));
+  if (least <= slack && slack <= most)
+    return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
+            fmt::format("motion.acceleration_percent: less than now, or friction_coefficient of '{}' as measured",
+                        facts.component->name)};
+  if (least <= std::min(most, most_slack))
+    return {cause, fmt::format("{}: {} .. {} (now {:.3g})", slack_key(facts), pipeline::percent_above(least),
+                               pipeline::percent_below(std::min(most, most_slack)), 100 * slack)};
+  const double needed = pipeline::room_of_excess(cable, least - facts.least_gain, limit);
+  return {cause, fmt::format("no slack fits this room: place it where it has {:.2g} mm of room (helix_radius_mm, "
+                             "inner_diameter_mm; play_mm: {:.2g} where it has that already), or nearer to the axis",
+                             1e3 * needed, 1e3 * needed)};
+}
+
+/// pulls: of the span in which a cable takes most of its strength. moment: "at 1.2 s, program step 3 'text'".
+pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableForce& cable, double tension,
+                                const std::string& moment, bool sticks) {
+  const Cure cure = cure_of(facts, cable, sticks, tension < 0);
+  return pipeline::warning_of(
+      pipeline::WarningKind::force, "",
+      fmt::format("'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; no cable in a dresspack "
+                  "bears that, so that the hours are not believable",
+                  facts.name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / cable.strength(),
+                  pipeline::readable(std::abs(tension)), pipeline::readable(cable.strength()),
+                  100 * pipeline::believable_share, moment),
+      cure.cause, cure.remedy);
+}
+
+std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
+  const auto names = strain.read<std::string>("/cable/name");
+  const auto dresspack = strain.read<std::int32_t>("/cable/dresspack");
+  const auto component = strain.read<std::int32_t>("/cable/component");
+  std::vector<double> room, gain;
+  const bool has_room = strain.has("/cable/room");
+  if (has_room) room = strain.read<double>("/cable/room"), gain = strain.read<double>("/cable/path_gain");
+  std::vector<CableFacts> all;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto in = static_cast<std::size_t>(dresspack[k]);
+    CableFacts facts{names[k], &component_of(strain, job, in, static_cast<std::size_t>(component[k])),
+                     &job.dresspacks[in].dresspack};
+    facts.has_room = has_room;
+    if (has_room) facts.room = room[k], facts.least_gain = gain[2 * k], facts.most_gain = gain[2 * k + 1];
+    all.push_back(facts);
+  }
+  return all;
+}
+
+/// "at 1.2 s, program step 3 'text'"
+std::string moment_of(const pipeline::FileReader& strain, std::size_t sample) {
+  const auto time = strain.read<double>("/time");
+  const auto step = strain.read<std::int32_t>("/program/step");
+  const auto text = strain.read<std::string>("/program/text");
+  const auto line = static_cast<std::size_t>(step[sample]);
+  return fmt::format("at {:.3f} s, program step {} '{}'", time[sample], line + 1, line < text.size() ? text[line] : "");
 }
 
 void write_tensions(pipeline::FileWriter& life, const std::vector<std::string>& names,
@@ -106,22 +197,33 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
     return {};
   }
   Cables cables = cables_of(strain, job);
+  const std::vector<CableFacts> facts = facts_of(strain, job);
   const auto carried = strain.read<double>("/cable_span/hose_moment");
   std::vector<std::vector<double>> tension(cables.all.size());
   std::vector<double> cable_moment, hose_moment;  // of the span whose cables ask most of their hose
+  std::vector<pipeline::CableForce> force;
+  for (const PulledCable& cable : cables.all) force.push_back(cable.force);
   double force_share = 0, moment_share = 0;
+  std::size_t strained = 0, at_sample = 0;   // the cable that takes most of its strength, and when
+  std::size_t bender = 0, bent_sample = 0;  // the cable that pulls most at the most bent clamp, and when
   for (std::size_t span = 0; span < cables.spans; ++span) {
     std::vector<std::size_t> in_span;
     for (std::size_t k = 0; k < cables.all.size(); ++k)
       if (cables.span[k] == static_cast<std::int32_t>(span)) in_span.push_back(k);
+    if (in_span.empty()) continue;
     pipeline::CablePulls pulls = pipeline::pulls_of(taken(cables, in_span), cables.samples);
     for (std::size_t i = 0; i < in_span.size(); ++i) tension[in_span[i]] = std::move(pulls.tension[i]);
-    force_share = std::max(force_share, pulls.force_share);
+    if (pulls.force_share > force_share)
+      force_share = pulls.force_share, strained = in_span[pulls.of_cable], at_sample = pulls.at_sample;
     std::vector<double> of_hose(cables.samples);
     for (std::size_t t = 0; t < cables.samples; ++t) of_hose[t] = carried[t * cables.spans + span];
     const double share = pipeline::moment_share(pulls, of_hose);
     if (!cable_moment.empty() && share <= moment_share) continue;
     moment_share = share;
+    bent_sample = static_cast<std::size_t>(std::max_element(pulls.moment.begin(), pulls.moment.end()) - pulls.moment.begin());
+    bender = *std::max_element(in_span.begin(), in_span.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(tension[a][bent_sample]) < std::abs(tension[b][bent_sample]);
+    });
     cable_moment = pulls.moment;
     hose_moment = of_hose;
   }
@@ -130,7 +232,25 @@ std::vector<pipeline::Warning> write_cable_forces(const pipeline::FileReader& st
   life.append("/clamp/hose_moment", hose_moment);
   life.attribute("largest_force_share", force_share);
   life.attribute("clamp_moment_share", moment_share);
-  return force_warnings(force_share, moment_share);
+  const bool sticks = !slides(job.strain.slip.front());
+  std::vector<pipeline::Warning> warnings;
+  if (force_share > pipeline::believable_share)
+    warnings.push_back(force_warning(facts[strained], force[strained], tension[strained][at_sample],
+                                     moment_of(strain, at_sample), sticks));
+  if (moment_share > pipeline::believable_share) {
+    const Cure cure = cure_of(facts[bender], force[bender], sticks, tension[bender][bent_sample] < 0);
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::force, "",
+        fmt::format("the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}; "
+                    "'{}' {} most, with {} N",
+                    moment_share, pipeline::readable(cable_moment[bent_sample]),
+                    pipeline::readable(*std::max_element(hose_moment.begin(), hose_moment.end())),
+                    pipeline::believable_share, moment_of(strain, bent_sample), facts[bender].name,
+                    tension[bender][bent_sample] < 0 ? "presses" : "pulls",
+                    pipeline::readable(std::abs(tension[bender][bent_sample]))),
+        cure.cause, cure.remedy));
+  }
+  return warnings;
 }
 
 }  // namespace dresslife::fatigue

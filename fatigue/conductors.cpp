@@ -6,9 +6,6 @@
 namespace dresslife::fatigue {
 namespace {
 
-constexpr int sharing_draws =
-    1000;  // a percentile's place in the distribution is then known to 1.6 % or better
-
 std::string parent_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "" : path.substr(0, slash);

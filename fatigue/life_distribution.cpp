@@ -5,18 +5,19 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/base/statistics.h"
+
 namespace dresslife::fatigue {
 namespace {
+
+using pipeline::normal_density;
+using pipeline::normal_share;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double log_accuracy = 1e-10;  // of ln life
 
-double standard_normal(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
-
-/// Integral of standard_normal from minus infinity to y.
-double integral_of_normal(double y) {
-  return y * standard_normal(y) + std::exp(-y * y / 2) / std::sqrt(2 * std::numbers::pi);
-}
+/// Integral of Phi from minus infinity to y.
+double integral_of_normal(double y) { return y * normal_share(y) + normal_density(y); }
 
 /// Where a probability that grows with ln t passes `share`, between two logarithms.
 template <class Probability>
@@ -38,8 +39,8 @@ class NormalTable {
   NormalTable() {
     constexpr double width = 1.0 / cells_of_one;
     for (int i = 0; i < int(2 * reach) * cells_of_one; ++i) {
-      const double z = i * width - reach, y0 = standard_normal(z), y1 = standard_normal(z + width);
-      const double s0 = width * density(z), s1 = width * density(z + width);
+      const double z = i * width - reach, y0 = normal_share(z), y1 = normal_share(z + width);
+      const double s0 = width * normal_density(z), s1 = width * normal_density(z + width);
       cell_.push_back({y0, s0, 3 * (y1 - y0) - 2 * s0 - s1, 2 * (y0 - y1) + s0 + s1});
     }
   }
@@ -54,7 +55,6 @@ class NormalTable {
   }
 
  private:
-  static double density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
   std::vector<std::array<double, 4>> cell_;
 };
 
@@ -93,7 +93,7 @@ LifeDistribution::LifeDistribution(Probability own, double low, double high, dou
 double LifeDistribution::operator()(double log_life) const {
   if (low_ == high_) {
     if (common_ == 0) return log_life >= low_ ? 1 : 0;
-    return standard_normal((log_life - low_) / common_);
+    return normal_share((log_life - low_) / common_);
   }
   if (common_ == 0) return own_(log_life);
   double sum = 0, right = integral_of_normal((log_life - table_low_) / common_);

@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 
 #include "fatigue/attribution.h"
 #include "fatigue/cable_forces.h"
 #include "fatigue/conductors.h"
+#include "fatigue/failure_modes.h"
 #include "fatigue/planes.h"
-#include "fatigue/response.h"
 #include "fatigue/stress_path.h"
 #include "fatigue/verdict.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
 
@@ -290,9 +291,9 @@ Conductors loaded_conductors(const Context& c) {
   return conductors;
 }
 
-/// drawn: over what is not known, too; null: only the scatter of wires is told.
+/// uncertain: over everything that is uncertain, too; null: only the scatter of wires is.
 void write_scatter(const Context& c, const Conductors& conductors, const LifeScatter& scatter,
-                   const pipeline::DrawnLives* drawn) {
+                   const pipeline::FirstFailures* uncertain) {
   std::vector<std::uint32_t> wires;
   std::vector<double> lives;
   for (const Bundle& bundle : conductors.bundle)
@@ -309,8 +310,8 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const double by_scatter = hours(scatter.first_place.lives[i], c.repeat_seconds());
     c.life.attribute(fmt::format("life_hours_{}", ends[i]),
-                     drawn ? hours(drawn->percentiles[i], c.repeat_seconds()) : by_scatter);
-    if (drawn) c.life.attribute(fmt::format("scatter_life_hours_{}", ends[i]), by_scatter);
+                     uncertain ? hours(uncertain->percentiles[i], c.repeat_seconds()) : by_scatter);
+    if (uncertain) c.life.attribute(fmt::format("scatter_life_hours_{}", ends[i]), by_scatter);
     c.life.attribute(fmt::format("first_wire_life_hours_{}", ends[i]),
                      hours(scatter.first_wire[i], c.repeat_seconds()));
     c.life.attribute(fmt::format("conductor_life_hours_{}", ends[i]),
@@ -457,6 +458,17 @@ void copy_mesh_error(const Context& c) {
   if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
 }
 
+/// What the dresspacks leave out, for everybody who plans with these hours.
+void write_estimates(const Context& c) {
+  std::string words;
+  for (std::size_t d = 0; d < c.job.dresspacks.size(); ++d) {
+    const std::string& of_one = c.job.dresspacks[d].dresspack.estimates;
+    const std::string name = pipeline::name_among(c.job, d);
+    if (!of_one.empty()) words += (words.empty() ? "" : "; ") + (name.empty() ? "" : name + ": ") + of_one;
+  }
+  c.life.attribute("estimates", words);
+}
+
 /// What mean stress makes of the worst wire's life: the same history with all of it for ever, and with none.
 void write_mean_stress(const Context& c) {
   if (c.worst == no_site) return;
@@ -489,6 +501,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
   c.life.attribute("worst_step", worst.step);
   write_mean_stress(c);
   copy_mesh_error(c);
+  write_estimates(c);
   if (c.worst == no_site) return "no wire was evaluated";
   if (worst.damage == 0) return "no wire is damaged";
   const double p10 = hours(p10_repeats, c.repeat_seconds());
@@ -554,8 +567,9 @@ SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextCol
   return damage;
 }
 
-void write_bound(const Context& c, const std::string& name, pipeline::Slip slip,
-                 const std::function<void(double)>& progress) {
+/// Returns the worst wire's life of each mode [repeats].
+std::vector<double> write_bound(const Context& c, const ModeList& modes, const std::string& name,
+                                pipeline::Slip slip, const std::function<void(double)>& progress) {
   const SiteSet sites(c.strain, "/bound_" + name);
   if (sites.size() == 0 && c.sites.size() > 0) {
     throw pipeline::InputError(c.strain.where(), fmt::format("/bound_{} holds no sites", name),
@@ -568,6 +582,14 @@ void write_bound(const Context& c, const std::string& name, pipeline::Slip slip,
   const double repeats = life_in_repeats(worst == no_site ? 0 : damage.damage[worst]);
   c.life.attribute("life_repeats_all_" + name, repeats);
   c.life.attribute("life_hours_all_" + name, hours(repeats, c.repeat_seconds()));
+  const TextColumn& of_sites = is_own_slip(c.job, slip) ? c.component : component;
+  const std::vector<std::size_t> mode = modes.of(of_sites);
+  std::vector<double> lives;
+  for (const std::size_t site : worst_by_group(damage, modes.size(), [&](std::size_t of) {
+         return damage.is_wire(of) ? mode[of_sites.index[of]] : no_site;
+       }))
+    lives.push_back(life_in_repeats(site == no_site ? 0 : damage.damage[site]));
+  return lives;
 }
 
 /// The shear of the worst wire, and what planes were judged.
@@ -594,65 +616,57 @@ void write_shear(const Context& c) {
   c.life.attribute("worst_shear_range", *high - *low);
 }
 
-/// Those of the job's own wires that may be the worst once something is known better.
-VariedStrains likely_worst(const Context& c) {
-  constexpr std::size_t anywhere = 32;
-  std::vector<std::size_t> sites = worst_by_segment(c, true);
-  const std::vector<std::size_t> worst = worst_wires(c.damage, anywhere);
-  sites.insert(sites.end(), worst.begin(), worst.end());
-  std::sort(sites.begin(), sites.end());
-  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
-  if (!sites.empty() && sites.back() == no_site) sites.pop_back();
-  VariedStrains own;
-  for (const std::size_t site : sites) own.site.push_back(site), own.strains.push_back(c.strains_of(site));
-  return own;
-}
-
-/// log10 of the planner's lives, with this factor on the scatter of wires.
-std::array<double, percentiles.size()> log_planned(const Percentiles& lives) {
-  std::array<double, percentiles.size()> logs;
-  for (std::size_t i = 0; i < logs.size(); ++i)
-    logs[i] = std::isfinite(lives[i]) ? std::log10(lives[i]) : pipeline::LifeResponse::endless;
-  return logs;
-}
-
-/// (F27) What the life hangs on, and lives over all of it.
-pipeline::DrawnLives write_response(const Context& c, const Conductors& conductors,
-                                    const std::vector<PlacesOfConductor>& places, const FirstPlace& planned) {
-  pipeline::LifeResponse response;
-  response.knowledge = pipeline::knowledge_of(c.job);
-  if (c.job.calibration)  // z counts from the job as it stands, in whose keys are the calibration's medians
-    for (const pipeline::LearnedParameter& learned : c.job.calibration->parameters)
-      for (std::size_t p = 0; p < pipeline::uncertain_count; ++p)
-        if (pipeline::uncertain_parameters()[p].name == learned.name)
-          response.knowledge.mean(static_cast<Eigen::Index>(p)) -= learned.median;
-  response.construction = c.job.dresspacks[c.dresspack_of(c.worst)].dresspack.name;
-  if (c.worst != no_site) response.material = pipeline::material_of(c.job, c.sites.material()[c.worst]).name;
-  fill_response(response, likely_worst(c), read_variations(c.strain, c.sites.size()), c.sites, c.component,
-                c.job, c.threads);
-  response.planned = {log_planned(planned.lives)};
-  if (!c.job.fatigue.load_sharing && std::isfinite(planned.lives[0])) {
-    response.scatter = {-1.5, 0, 1.5};
-    const auto with = [&](double z) {
-      const double factor = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::scatter)].value(z);
-      const Scatter scatter{c.job.fatigue.scatter_log10 * c.job.fatigue.scatter_factor * factor,
-                            c.job.fatigue.scatter_shared};
-      return log_planned(first_place_lives(places, conductors.bundle, c.segment_length.size(),
-                                           c.job.fatigue.failed_wires_percent, scatter, 0)
-                             .lives);
-    };
-    response.planned = {with(response.scatter.front()), response.planned.front(),
-                        with(response.scatter.back())};
+/// Lives over everything that is uncertain (F27), with bounds, causes, and what to measure.
+pipeline::FirstFailures write_first_failures(const Context& c, const pipeline::FailureModes& modes) {
+  pipeline::FirstFailures lives = pipeline::summary_of(modes, "");
+  const std::array<const char*, percentiles.size()> ends{"p10", "p50", "p90"};
+  const auto put_hours = [&](const std::string& name, double repeats) {
+    c.life.attribute(name, hours(repeats, c.repeat_seconds()));
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    put_hours(fmt::format("life_hours_{}_all_glued", ends[i]), lives.glued[i]);
+    put_hours(fmt::format("life_hours_{}_all_free", ends[i]), lives.free[i]);
   }
-  const pipeline::DrawnLives drawn = pipeline::drawn_lives(response, "");
-  const std::size_t most = pipeline::largest_share(drawn.share);
-  c.life.attribute("life_response", response.text());
-  c.life.attribute("life_shares", pipeline::share_words(drawn.share));
-  c.life.attribute("measure_next", most < pipeline::uncertain_count
-                                       ? std::string(pipeline::uncertain_parameters()[most].name)
+  const auto most = std::max_element(lives.first.begin(), lives.first.end());
+  c.life.attribute("failing_mode",
+                   *most > 0 ? modes[static_cast<std::size_t>(most - lives.first.begin())].mode : std::string());
+  c.life.attribute("failing_mode_share", *most);
+  if (!c.job.uncertainty.enabled) return lives;
+  const std::size_t cause = pipeline::largest_share(lives.share);
+  c.life.attribute("life_response", pipeline::modes_text(modes));
+  c.life.attribute("life_shares", pipeline::share_words(lives.share));
+  c.life.attribute("measure_next", cause < pipeline::uncertain_count
+                                       ? std::string(pipeline::uncertain_parameters()[cause].name)
                                        : "");
-  c.life.attribute("measure_next_share", drawn.share[most]);
-  return drawn;
+  c.life.attribute("measure_next_share", lives.share[cause]);
+  c.life.attribute("best_test", lives.best_test
+                                    ? std::string(pipeline::uncertain_parameters()[*lives.best_test].name)
+                                    : "");
+  put_hours("best_test_life_hours_p10", lives.best_test ? lives.after_test[0] : lives.percentiles[0]);
+  put_hours("best_test_life_hours_p90", lives.best_test ? lives.after_test[2] : lives.percentiles[2]);
+  return lives;
+}
+
+pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& modes, const Conductors& conductors,
+                                          const std::vector<PlacesOfConductor>& places,
+                                          const LifeScatter& scatter, const std::vector<double>& glued,
+                                          const std::vector<double>& free) {
+  std::vector<VariedStrains> varied;
+  if (c.job.uncertainty.enabled) varied = read_variations(c.strain, c.sites.size());
+  const ModeInputs inputs{c.job,
+                          c.sites,
+                          c.component,
+                          c.damage,
+                          conductors,
+                          places,
+                          c.segment_length.size(),
+                          c.threads,
+                          [&](std::size_t site) { return c.strains_of(site); },
+                          std::move(varied),
+                          glued,
+                          free,
+                          scatter.first_place.lives};
+  return write_first_failures(c, failure_modes(modes, inputs));
 }
 
 /// Judges the planes, where the strain file asks for it, in the place of the equivalent strain; then lets
@@ -679,13 +693,15 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
   experience.materials = {pipeline::material_of(c.job, c.sites.material()[c.worst]).name};
   std::vector<pipeline::Warning> warnings;
   for (const std::string& words : pipeline::beyond(c.job.calibration->within, experience))
-    warnings.push_back(
-        {pipeline::WarningKind::calibration, "", "beyond what its calibration was learned from: " + words});
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::calibration, "", "the job goes beyond the tests of its calibration: " + words,
+        "no observation of the calibration strains a cable like this job",
+        "add an observation that does to the list for dresslife calibrate, or leave out the key calibration"));
   return warnings;
 }
 
 std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
-  std::set<std::string> contradictions;  // sorted and once each
+  std::map<std::string, pipeline::Warning> contradictions;  // sorted and once each
   for (const std::string& name : c.sites.material().values) {
     const auto& packs = c.job.dresspacks;
     if (std::any_of(packs.begin(), packs.end(), [&](const pipeline::MountedDresspack& mounted) {
@@ -694,21 +710,26 @@ std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<D
       continue;
     const pipeline::Material& material = pipeline::material_of(c.job, name);
     if (!yields(c.job.fatigue.stress) || !material.strain_life_table.empty()) continue;
-    const std::string warning = compatibility_warning(material);
-    if (!warning.empty()) contradictions.insert(warning);
+    if (const auto warning = compatibility_warning(material)) contradictions.emplace(warning->words, *warning);
   }
   const auto torn = std::count_if(worst_cycles.begin(), worst_cycles.end(), [](const DamagingCycle& d) {
     return d.damage >= d.cycle.count * 2 / fewest_reversals;
   });
   std::vector<pipeline::Warning> warnings;
-  for (const std::string& words : contradictions)
-    warnings.push_back({pipeline::WarningKind::material, "", words});
-  if (torn > 0)
-    warnings.push_back(
-        {pipeline::WarningKind::strain, "",
-         fmt::format("{} of the worst wire's cycles tear it on their first reversal (strain up to "
-                     "{:.3g}); check slip, lay angles and bend radii, no wire is meant for this",
-                     torn, c.damage.range[c.worst])});
+  for (const auto& [words, warning] : contradictions) warnings.push_back(warning);
+  if (torn > 0) {
+    const bool sticks = std::any_of(c.job.strain.slip.begin(), c.job.strain.slip.end(),
+                                    [](pipeline::Slip slip) { return !slides(slip); });
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::strain, "",
+        fmt::format("{} of the cycles of {} tear it on their first reversal (strain range up to {:.3g}), in segment {} from the tool", torn,
+                    c.component[c.worst], c.damage.range[c.worst],
+                    static_cast<int>(c.segment_length.size()) - c.sites.segment(c.worst)),
+        sticks ? "its parts stick to each other (strain.slip is stick)"
+               : "the dresspack bends too tightly, or a lay is too long or missing",
+        sticks ? "strain.slip: friction"
+               : "a larger bend radius (see its warnings, or dresslife improve), or lay_angle_deg of its layers as measured"));
+  }
   return pipeline::joined(warnings, beyond_calibration(c));
 }
 
@@ -731,8 +752,11 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
                 [&](std::size_t site) { return static_cast<std::size_t>(c.sites.segment(site)); });
   std::future<LifeScatter> scatter = pipeline::beside<LifeScatter>(
       [&] { return life_scatter(conductors, places, segments, c.job.fatigue); });
-  write_bound(c, "stick", pipeline::Slip::stick, [&](double share) { progress((1 + share) / 3); });
-  write_bound(c, "free", pipeline::Slip::free, [&](double share) { progress((2 + share) / 3); });
+  const ModeList modes(job, c.component);
+  const auto glued = write_bound(c, modes, "stick", pipeline::Slip::stick,
+                                 [&](double share) { progress((1 + share) / 3); });
+  const auto free = write_bound(c, modes, "free", pipeline::Slip::free,
+                                [&](double share) { progress((2 + share) / 3); });
   const auto cycles = c.cycles_of(c.worst);
   write_sites(c);
   write_listed_cycles(c);
@@ -740,10 +764,9 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_dresspacks(c);
   write_layers(c);
   const LifeScatter lives = scatter.get();
-  std::optional<pipeline::DrawnLives> drawn;
-  if (job.uncertainty.enabled) drawn = write_response(c, conductors, places, lives.first_place);
-  const double p10_repeats = drawn ? drawn->percentiles[0] : lives.first_place.lives[0];
-  write_scatter(c, conductors, lives, drawn ? &*drawn : nullptr);
+  const pipeline::FirstFailures first = first_failures_of(c, modes, conductors, places, lives, glued, free);
+  const double p10_repeats = job.uncertainty.enabled ? first.percentiles[0] : lives.first_place.lives[0];
+  write_scatter(c, conductors, lives, job.uncertainty.enabled ? &first : nullptr);
   write_first_place(c, conductors, lives.first_place, p10_repeats);
   write_shear(c);
   write_program(c, cycles);

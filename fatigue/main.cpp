@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
         const pipeline::FileReader strain(call.input, pipeline::strain_format());
         const pipeline::Job job =
             pipeline::job_of(call, strain, {pipeline::Part::sim, pipeline::Part::strain});
-        pipeline::heed_memory(call, fatigue::memory_of(strain, pipeline::thread_count()), progress);
+        pipeline::require_memory(call, fatigue::memory_of(strain, pipeline::thread_count()), progress);
         pipeline::FileWriter life(call.output, pipeline::life_format());
         const fatigue::Notes notes = fatigue::write_life(strain, job, life, pipeline::thread_count(),
                                                          [&](double share) { progress.show(share); });

@@ -11,14 +11,6 @@ double lean_of(int plane, int planes) { return std::numbers::pi * (double(plane)
 
 }  // namespace
 
-std::vector<double> equivalent_strain(std::span<const double> strain, std::span<const double> shear) {
-  assert(strain.size() == shear.size());
-  std::vector<double> result;
-  for (std::size_t t = 0; t < strain.size(); ++t)
-    result.push_back(std::copysign(std::hypot(strain[t], shear[t] / std::numbers::sqrt3), strain[t]));
-  return result;
-}
-
 std::vector<double> plane_strain(std::span<const double> strain, std::span<const double> shear,
                                  double poisson_ratio, double theta) {
   assert(strain.size() == shear.size());
@@ -27,19 +19,6 @@ std::vector<double> plane_strain(std::span<const double> strain, std::span<const
   for (std::size_t t = 0; t < strain.size(); ++t)
     result.push_back(strain[t] * (c * c - poisson_ratio * s * s) + shear[t] * s * c);
   return result;
-}
-
-CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,
-                             const pipeline::Material& material, const pipeline::Fatigue& settings,
-                             int planes) {
-  CriticalPlane worst;
-  for (int plane = 0; plane < planes; ++plane) {
-    const double theta = lean_of(plane, planes);
-    const auto history = plane_strain(strain, shear, material.poisson_ratio, theta);
-    const double damage = sum_of_damage(evaluate_cycles(find_reversals(history), material, settings));
-    if (damage > worst.damage) worst = {theta, damage};
-  }
-  return worst;
 }
 
 CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,

@@ -21,9 +21,6 @@
 
 namespace dresslife::fatigue {
 
-/// (F17) of each sample. Precondition: equal lengths.
-std::vector<double> equivalent_strain(std::span<const double> strain, std::span<const double> shear);
-
 /// eps_n of (F18), (sample).
 std::vector<double> plane_strain(std::span<const double> strain, std::span<const double> shear,
                                  double poisson_ratio, double theta);
@@ -34,12 +31,7 @@ struct CriticalPlane {
 };
 
 /// The worst of `planes` planes, equally spaced over half a turn from theta = -pi/2 on; the plane across the
-/// axis is among them when `planes` is even. Exact lives. nu is the material's Poisson's ratio.
-CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,
-                             const pipeline::Material& material, const pipeline::Fatigue& settings,
-                             int planes = 36);
-
-/// The same by a counter's tables, as the stage counts.
+/// axis is among them when `planes` is even. nu is the material's Poisson's ratio.
 CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,
                              double poisson_ratio, const DamageCounter& counter,
                              DamageCounter::Workspace& workspace, int planes = 36);

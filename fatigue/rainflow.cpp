@@ -58,28 +58,6 @@ std::vector<Reversal> find_reversals(std::span<const double> history) {
   return reversals;
 }
 
-void FourPointCounter::push(const Reversal& reversal, std::vector<Cycle>& closed) {
-  auto& r = residue_;
-  append_alternating(r, reversal);
-  while (r.size() >= 4) {
-    const std::size_t n = r.size();
-    const auto [outer_low, outer_high] = std::minmax(r[n - 4].strain, r[n - 1].strain);
-    const auto [inner_low, inner_high] = std::minmax(r[n - 3].strain, r[n - 2].strain);
-    if (inner_low < outer_low || inner_high > outer_high) return;
-    closed.push_back({r[n - 3], r[n - 2], 1});
-    r.erase(r.end() - 3, r.end() - 1);
-  }
-}
-
-std::vector<Cycle> repeat_residue(std::span<const Reversal> residue) {
-  FourPointCounter counter;
-  std::vector<Cycle> closed;
-  for (const Reversal& reversal : residue) counter.push(reversal, closed);
-  closed.clear();
-  for (const Reversal& reversal : residue) counter.push(reversal, closed);
-  return closed;
-}
-
 std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals) {
   if (const std::size_t bad = first_going_on(reversals, [](const Reversal& r) { return r.strain; });
       bad < reversals.size())

@@ -59,23 +59,6 @@ class ReversalFinder {
 /// All reversals of a history, (sample).
 std::vector<Reversal> find_reversals(std::span<const double> history);
 
-/// Four-point counting of reversals that arrive one by one: of four in a row the middle pair closes when it
-/// lies within the outer pair. Gives the full cycles of half-cycle counting and leaves the residue; state
-/// does not depend on how the history is cut into pieces.
-class FourPointCounter {
- public:
-  /// Appends the cycles that this reversal closes. One that continues in the direction of the last replaces
-  /// it.
-  void push(const Reversal& reversal, std::vector<Cycle>& closed);
-  const std::vector<Reversal>& residue() const { return residue_; }
-
- private:
-  std::vector<Reversal> residue_;
-};
-
-/// The cycles that a residue closes when it happens once more, in the order in which they close.
-std::vector<Cycle> repeat_residue(std::span<const Reversal> residue);
-
 /// The first of a list that goes on in the direction of the one before it; its size where rises and falls
 /// alternate. A plateau is one level. strain_of: of an element.
 template <class List, class StrainOf>

@@ -1,5 +1,7 @@
 #include "fatigue/response.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -71,6 +73,15 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
   for (std::size_t v = 0; v < all.size(); ++v)
     std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(v * pipeline::strain_parameters),
                 pipeline::strain_parameters, all[v].z.begin());
+  if (strain.has("/variation/inside")) {
+    const auto inside = strain.read<std::int32_t>("/variation/inside");
+    for (std::size_t v = 0; v < all.size(); ++v) {
+      if (inside[v] < 0 || inside[v] >= std::int32_t(pipeline::inside_count))
+        throw pipeline::InputError(strain.where(), fmt::format("/variation/inside is {} (must be 0, 1 or 2)", inside[v]),
+                                   "make the file anew with dresslife-strain");
+      all[v].inside = static_cast<pipeline::Inside>(inside[v]);
+    }
+  }
   std::size_t next = 0;
   for (std::size_t row = 0; row < of_row.size(); ++row) {
     if (of_row[row] >= all.size() || site[row] >= sites || turning[row] > strains.size() - next)
@@ -85,13 +96,27 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
   return all;
 }
 
+std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const std::vector<bool>& counts) {
+  std::vector<VariedStrains> some;
+  for (const VariedStrains& all : varied) {
+    VariedStrains& kept = some.emplace_back();
+    kept.z = all.z, kept.inside = all.inside;
+    for (std::size_t k = 0; k < all.site.size(); ++k)
+      if (counts[all.site[k]]) kept.site.push_back(all.site[k]), kept.strains.push_back(all.strains[k]);
+  }
+  return some;
+}
+
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
                    std::span<const VariedStrains> varied, const SiteSet& sites, const TextColumn& component,
                    const pipeline::Job& job, std::size_t threads) {
   response.strength = strength_nodes, response.slope = slope_nodes;
   std::vector<const VariedStrains*> points{&own};
-  response.points = {{}};
-  for (const VariedStrains& at : varied) points.push_back(&at), response.points.push_back(at.z);
+  response.points = {{}}, response.inside = {pipeline::Inside::as_is};
+  for (const VariedStrains& at : varied) {
+    points.push_back(&at);
+    response.points.push_back(at.z), response.inside.push_back(at.inside);
+  }
   const std::size_t slopes = slope_nodes.size(), nodes = strength_nodes.size() * slopes;
   response.worst_life.assign(points.size() * nodes, pipeline::LifeResponse::endless);
   std::vector<std::vector<std::size_t>> likely;  // (point)

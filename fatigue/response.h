@@ -16,6 +16,7 @@ namespace dresslife::fatigue {
 /// Histories of the wires that may be the worst, at one point of the strain side.
 struct VariedStrains {
   std::array<double, pipeline::strain_parameters> z{};
+  pipeline::Inside inside = pipeline::Inside::as_is;
   std::vector<std::vector<float>> strains;  ///< (wire) of its reversals
   std::vector<std::size_t> site;            ///< (wire) of the job's own set: says of which material it is
 };
@@ -23,9 +24,11 @@ struct VariedStrains {
 /// strain.h5's /variation; nothing where the strain stage tried none.
 std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, std::size_t sites);
 
+/// Of those, the wires of sites that `counts` (site).
+std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const std::vector<bool>& counts);
+
 /// log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength,
-/// slope); the first point is as the job stands, `own` its wires. damaged_by(material settings): counters of
-/// all sites.
+/// slope); the first point is as the job stands, `own` its wires.
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
                    std::span<const VariedStrains> varied, const SiteSet& sites, const TextColumn& component,
                    const pipeline::Job& job, std::size_t threads);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "fatigue/life_distribution.h"
+#include "pipeline/base/random.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -32,16 +33,6 @@ Percentiles quantiles(std::vector<double>& lives) {
 std::array<std::size_t, failures> counts_of(const Bundle& bundle, double failed_percent) {
   return {1, wires_of_share(failed_percent, bundle.damage.size()), bundle.damage.size()};
 }
-
-std::uint64_t mixed(std::uint64_t x) {  // splitmix64 (Steele, Lea and Flood 2014)
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// Uniform in (0, 1).
-double uniform_of(std::uint64_t bits) { return (double(bits >> 11) + 0.5) * 0x1p-53; }
 
 /// log10 of the factor that all wires of a dresspack have in common in a draw; their streams count from 0 up.
 double common_of(std::size_t dresspack, std::uint64_t draw, Scatter scatter) {
@@ -80,22 +71,9 @@ void order_breaks(std::span<const double> damage, std::span<const double> factor
 
 }  // namespace
 
-double broken_share(double time, double median_life, double scatter_log10) {
-  if (scatter_log10 == 0) return time >= median_life ? 1 : 0;
-  return std::erfc(-std::log10(time / median_life) / (scatter_log10 * std::numbers::sqrt2)) / 2;
-}
-
 std::size_t wires_of_share(double percent, std::size_t wires) {
   const double count = std::ceil(percent / 100 * double(wires) * (1 - 1e-12));  // 10 % of 70 are 7, not 8
   return std::clamp<std::size_t>(static_cast<std::size_t>(count), 1, std::max<std::size_t>(wires, 1));
-}
-
-double life_until(std::span<const double> damage, std::size_t count, Scatter scatter, double share) {
-  assert(count >= 1);
-  const auto wires = std::make_shared<const Wires>(damage);
-  if (wires->damaged() < count) return infinity;
-  if (scatter.log10 == 0) return wires->life(count - 1);
-  return life_of_share({distribution_of(wires, count, scatter)}, share);
 }
 
 Percentiles first_wire_lives(std::span<const std::vector<double>> damage, Scatter scatter) {
@@ -210,10 +188,9 @@ Percentiles shared_place_lives(std::span<const Bundle> bundles, std::span<const 
   return quantiles(first);
 }
 
-double normal_of(std::uint64_t stream, std::uint64_t draw) {  // Box and Muller 1958
-  const std::uint64_t seed = mixed(mixed(stream) ^ (draw + 1));
-  return std::sqrt(-2 * std::log(uniform_of(seed))) *
-         std::cos(2 * std::numbers::pi * uniform_of(mixed(seed)));
+double normal_of(std::uint64_t stream, std::uint64_t draw) {
+  const std::uint64_t seed = pipeline::mixed(pipeline::mixed(stream) ^ (draw + 1));
+  return pipeline::normal_of(pipeline::uniform_of(seed), pipeline::uniform_of(pipeline::mixed(seed)));
 }
 
 }  // namespace dresslife::fatigue

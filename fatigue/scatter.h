@@ -32,15 +32,8 @@ namespace dresslife::fatigue {
 constexpr std::size_t failures = 3;
 using FailureLives = std::array<Percentiles, failures>;
 
-/// Share of wires of this median life that have broken by `time`. s = 0: 0 before, 1 from the median on.
-double broken_share(double time, double median_life, double scatter_log10);
-
 /// Wires that must break before a share of `wires` has: at least one.
 std::size_t wires_of_share(double percent, std::size_t wires);
-
-/// Life by which at least `count` of the wires have broken in `share` of all cases. damage (wire): per
-/// repeat, by the median curves. Infinite when fewer wires are damaged at all. Precondition: count >= 1.
-double life_until(std::span<const double> damage, std::size_t count, Scatter scatter, double share);
 
 /// Lives by which at least one wire has broken, of wires that lie in several dresspacks: (dresspack) (wire)
 /// damage.

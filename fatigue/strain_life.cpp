@@ -88,22 +88,9 @@ StrainLife::MorrowScale StrainLife::morrow_scale(double stress_mean) const {
   return {std::exp(c / (c - b) * log_u), std::exp(log_u / (c - b))};
 }
 
-double StrainLife::modified_morrow_reversals(double strain_amplitude, double stress_mean) const {
-  if (stress_mean >= material_.fatigue_strength) return fewest_reversals;
-  const double u = 1 - stress_mean / material_.fatigue_strength;
-  const double stretch = std::pow(u, -1 / material_.fatigue_strength_exponent);
-  return bounded(stretch * coffin_manson_.inverse(strain_amplitude));
-}
-
 double StrainLife::walker_stretch(double stress_max, double stress_mean) const {
   assert(stress_max > 0);
   return std::pow((stress_max - stress_mean) / stress_max, walker_power_);
-}
-
-double StrainLife::transition_reversals() const {
-  const pipeline::Material& m = material_;
-  return std::pow(m.fatigue_ductility * m.youngs_modulus / m.fatigue_strength,
-                  1 / (m.fatigue_strength_exponent - m.fatigue_ductility_exponent));
 }
 
 StrainLifeTable::StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points) {

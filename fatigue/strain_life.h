@@ -67,12 +67,8 @@ class StrainLife {
   };
   MorrowScale morrow_scale(double stress_mean) const;  ///< precondition: s_m < sf
 
-  /// Modified Morrow (Manson and Halford 1981), u^(c/b) on the plastic term too: 2N = u^(-1/b) times (8)'s.
-  double modified_morrow_reversals(double strain_amplitude, double stress_mean) const;
   /// 2N / 2N* of (F12): below 1 for tension. Precondition: s_max > 0.
   double walker_stretch(double stress_max, double stress_mean) const;
-  /// 2N at which elastic and plastic amplitude are equal.
-  double transition_reversals() const;
   double fatigue_strength() const { return material_.fatigue_strength; }
 
  private:

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "pipeline/base/warning_words.h"
+
 namespace dresslife::fatigue {
 namespace {
 
@@ -53,16 +55,20 @@ double CyclicCurve::stress(double strain) const {
   return std::copysign(s, strain);
 }
 
-std::string compatibility_warning(const pipeline::Material& m) {
+std::optional<pipeline::Warning> compatibility_warning(const pipeline::Material& m) {
   if (!m.cyclic_strength && !m.cyclic_hardening_exponent) return {};
   const CyclicCurve curve(m);
   const double exponent = compatible_exponent(m), strength = compatible_strength(m, exponent);
   const auto differs = [](double a, double b) { return std::fabs(a - b) > agreement * b; };
   if (!differs(curve.hardening_exponent(), exponent) && !differs(curve.strength(), strength)) return {};
-  return fmt::format(
-      "material {}: K' {:.4g} MPa and n' {:.3g} disagree with the life curve (K' {:.4g} MPa, n' {:.3g} by "
-      "sigma_f', epsilon_f', b, c); leave them out or take all six from one test series",
-      m.name, curve.strength() / 1e6, curve.hardening_exponent(), strength / 1e6, exponent);
+  return pipeline::warning_of(
+      pipeline::WarningKind::material, "",
+      fmt::format("material {}: K' {:.4g} MPa and n' {:.3g} disagree with its strain-life curve, which gives {:.4g} MPa and "
+                  "{:.3g} (limit {:.0f} %)",
+                  m.name, curve.strength() / 1e6, curve.hardening_exponent(), strength / 1e6, exponent, 100 * agreement),
+      "the six constants come from different test series",
+      fmt::format("cyclic_strength_MPa: {:.4g} and cyclic_hardening_exponent: {:.3g}, or leave both out", strength / 1e6,
+                  exponent));
 }
 
 double MemoryPath::on_curve(double input) const { return std::copysign(curve_(std::fabs(input)), input); }
@@ -88,21 +94,6 @@ double MemoryPath::go_to(double input) {
   const double branch = 2 * curve_(std::fabs(input - from.input) / 2);
   open_.push_back({input, from.response + std::copysign(branch, input - from.input)});
   return open_.back().response;
-}
-
-// With s the local stress, s (s/E + (s/K')^(1/n')) rises and is convex; the elastic answer K_t S is above the
-// root.
-double neuber_stress(const CyclicCurve& curve, double concentration, double nominal_stress) {
-  const double elastic = concentration * nominal_stress;
-  const double target = elastic * elastic / curve.youngs_modulus();
-  if (target == 0) return 0;
-  double s = elastic;
-  for (;;) {
-    const double e = s / curve.youngs_modulus(), p = curve.strain(s) - e;
-    const double next = s - (s * (e + p) - target) / (2 * e + p * (1 + 1 / curve.hardening_exponent()));
-    if (!(next < s)) return s;
-    s = next;
-  }
 }
 
 }  // namespace dresslife::fatigue

@@ -10,9 +10,10 @@
 #pragma once
 
 #include <functional>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/fatigue.h"
 #include "pipeline/job/material.h"
 
@@ -44,10 +45,10 @@ class CyclicCurve {
 /// What to tell the user when the material's own K' or n' differs by more than a tenth from (F5): then
 /// elastic and plastic strain of the cyclic curve are not those of the life curve, and cyclic stress and life
 /// contradict each other. Empty when they agree or are not given.
-std::string compatibility_warning(const pipeline::Material& material);
+std::optional<pipeline::Warning> compatibility_warning(const pipeline::Material& material);
 
 /// Masing branches with material memory (F3, F4) over a curve given for values >= 0. Starts at rest in the
-/// origin. With stress(strain) as curve it gives stress along a strain path; with a notch rule's curves (F6)
+/// origin. With stress(strain) as curve it gives stress along a strain path; with a notch rule's curves
 /// the local stress or strain along a path of nominal stress.
 class MemoryPath {
  public:
@@ -64,10 +65,5 @@ class MemoryPath {
   double largest_ = 0;               // |input| so far
   std::vector<Point> open_{{0, 0}};  // reversals whose loops are not closed, and where the path is
 };
-
-/// Local stress [Pa] of a notch with elastic concentration factor K_t under nominal stress S >= 0 [Pa] by
-/// Neuber's rule (F6): stress x curve strain = (K_t S)^2 / E. No part of the pipeline has notches; crimps and
-/// kinks of a wire are such.
-double neuber_stress(const CyclicCurve& curve, double concentration, double nominal_stress);
 
 }  // namespace dresslife::fatigue

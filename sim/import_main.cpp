@@ -1,13 +1,15 @@
 // dresslife-import: a robot program in, the same motion as YAML out.
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "pipeline/base/limits.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/stage/stage.h"
+#include "sim/program/answers.h"
 #include "sim/program/explain.h"
 #include "sim/program/import.h"
 
@@ -15,7 +17,13 @@ namespace {
 
 using namespace dresslife;
 
-enum Option { routine, assume, module, frames, value, passes, explain };
+/// What the options of this program ask for.
+struct Request {
+  std::string routine, answers, frames;
+  std::vector<std::string> assume, modules, values;
+  std::optional<int> passes;
+  bool explain = false;
+};
 
 /// "NAME=VALUE" cut at its first or last '='.
 std::pair<std::string, std::string> halves(const std::string& option, const std::string& written,
@@ -26,43 +34,81 @@ std::pair<std::string, std::string> halves(const std::string& option, const std:
   return {written.substr(0, equals), written.substr(equals + 1)};
 }
 
-pipeline::Motion request(const pipeline::StageCall& call) {
-  const auto& given = call.options;
+pipeline::Motion motion_asked_for(const Request& request, const std::filesystem::path& program) {
   pipeline::Motion motion;
-  if (!given[frames].empty()) motion = pipeline::motion_from(pipeline::read_yaml(given[frames].back()));
-  motion.program = call.input;
-  const std::filesystem::path input = std::filesystem::absolute(call.input).lexically_normal();
+  if (!request.frames.empty()) motion = pipeline::motion_from(pipeline::read_yaml(request.frames));
+  if (!request.answers.empty() && std::filesystem::exists(request.answers))
+    sim::add_answers(request.answers, motion);
+  motion.program = program;
+  const std::filesystem::path input = std::filesystem::absolute(program).lexically_normal();
   motion.source = "imported from " + (input.has_filename() ? input : input.parent_path()).filename().string();
-  if (!given[routine].empty()) motion.routine = given[routine].back();
-  for (const std::string& written : given[assume]) {
+  if (!request.routine.empty()) motion.routine = request.routine;
+  for (const std::string& written : request.assume) {
     const auto [line, take] = halves("--assume", written, written.rfind('='), "main.mod:12=then");
     motion.assume.push_back({line, take});
   }
-  for (const std::string& file : given[module]) motion.modules.push_back({file});
-  for (const std::string& written : given[value]) {
+  for (const std::string& file : request.modules) motion.modules.push_back({file});
+  for (const std::string& written : request.values) {
     const auto [name, text] = halves("--value", written, written.find('='), "di5=1");
     motion.values.push_back({name, text});
   }
-  if (!given[passes].empty()) {
-    const std::string& written = given[passes].back();
-    const char* end = written.data() + written.size();
-    const auto read = std::from_chars(written.data(), end, motion.passes);
-    if (read.ec != std::errc() || read.ptr != end || motion.passes < 1)
-      throw pipeline::InputError({"--passes " + written}, "is no number of passes",
-                                 "write a whole number from 1 on");
-  }
+  if (request.passes) motion.passes = *request.passes;
   return motion;
+}
+
+std::string counted(std::size_t questions) {
+  return questions == 1 ? "this question" : fmt::format("these {} questions", questions);
+}
+
+/// Whether the file of answers holds each of the questions, without an answer.
+bool all_are_empty(const std::vector<sim::Problem>& problems, const pipeline::Motion& asked) {
+  for (const sim::Problem& problem : problems)
+    for (const sim::Question& question : problem.questions)
+      if (std::none_of(asked.values.begin(), asked.values.end(),
+                       [&](const auto& v) { return v.value.empty() && v.name == question.name; }) &&
+          std::none_of(asked.assume.begin(), asked.assume.end(),
+                       [&](const auto& a) { return a.take.empty() && a.line == question.name; }))
+        return false;
+  return true;
+}
+
+/// The file itself, else with the first number behind its name that no file has.
+std::filesystem::path free_name(const std::filesystem::path& wanted) {
+  std::filesystem::path name = wanted;
+  for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(name)); ++number)
+    name = wanted.parent_path() /
+           fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
+  return name;
+}
+
+/// Reads the program. Where it asks, the questions go to a file of answers, if there is to be one.
+sim::Program program_of(const pipeline::Motion& asked, const std::filesystem::path& file) {
+  try {
+    return sim::read_program(asked);
+  } catch (const sim::Unread& unread) {
+    const std::size_t count = sim::question_count(unread.problems);
+    if (count == 0) throw;
+    if (file.empty())
+      throw unread.with(fmt::format("--answers FILE writes {} to a file, to be filled in", counted(count)));
+    if (std::filesystem::exists(file) && all_are_empty(unread.problems, asked))
+      throw unread.with(fmt::format("{}: no answer is written there to {}", file.string(), counted(count)));
+    const std::filesystem::path written = free_name(file);
+    pipeline::write_text_if_changed(
+        written, pipeline::with_mark(sim::answers_text(unread.problems, asked), pipeline::Mark::yaml));
+    throw unread.with(fmt::format("{}: holds {}: fill it in, and import with --answers {}", written.string(),
+                                  counted(count), written.string()));
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  Request request;
   const pipeline::StageInfo info{
       .program = "dresslife-import",
       .purpose =
-          "Reads a robot program (RAPID, KRL, Fanuc, joint columns, ROS), or the folder of a controller's "
-          "backup, "
-          "and writes its motion as YAML.",
+          "Reads a robot program (RAPID, KRL, Fanuc, INFORM, URScript, joint columns, ROS), or the folder of a "
+          "controller's backup, and writes its motion as YAML.",
       .input = "PROGRAM or FOLDER",
       .output = "motion.yaml",
       .example = "dresslife-import config/programs/side_panel.mod -o motion.yaml",
@@ -70,31 +116,42 @@ int main(int argc, char** argv) {
       .may_lack_output = true,
       .options = {{"--routine", "NAME",
                    "where to start, with arguments where it takes some: 'name(1, p20)'; without it "
-                   "main, or the first routine"},
+                   "main, or the first routine",
+                   &request.routine},
+                  {"--answers", "FILE.yaml",
+                   "what the program asks: written there to be filled in, read where the file exists",
+                   &request.answers},
                   {"--assume", "LINE=then|else|VALUE",
-                   "how a branch goes that hangs on inputs, or the value by which a "
-                   "choice of several goes; LINE may be FILE:LINE"},
-                  {"--module", "FILE", "a further module, data file or called program"},
-                  {"--frames", "FILE.yaml", "tools and work_objects that lie in the controller"},
+                   "one answer: how a branch goes that hangs on inputs, or the value by which a "
+                   "choice of several goes; LINE may be FILE:LINE",
+                   &request.assume},
+                  {"--module", "FILE", "a further module, data file or called program", &request.modules},
+                  {"--frames", "FILE.yaml", "answers: tools and work_objects that lie in the controller",
+                   &request.frames},
                   {"--value", "NAME=VALUE",
-                   "an input, register, variable or position that only the running robot knows"},
-                  {"--passes", "N", "of an endless main loop; without it until the program repeats itself"},
+                   "one answer: an input, register, variable or position that only the running robot knows",
+                   &request.values},
+                  {"--passes", "N", "of an endless main loop; without it until the program repeats itself",
+                   &request.passes, {.range = {{1, 1'000'000'000}}}},
                   {"--explain", "",
-                   "print each move with tool, work object, speed and zone, and where each comes from"}}};
+                   "print each move with tool, work object, speed and zone, and where each comes from",
+                   &request.explain}}};
   return pipeline::run_stage(
-      info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
-        if (call.output.empty() && call.options[explain].empty())
+      info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
+        if (call.output.empty() && !request.explain)
           throw pipeline::InputError({call.input.string()}, "would be read for nothing",
                                      "name a file with -o, or ask for --explain");
-        const pipeline::Motion asked = request(call);
-        const sim::Program program = sim::read_program(asked);
+        const pipeline::Motion asked = motion_asked_for(request, call.input);
+        const sim::Program program = program_of(asked, request.answers);
         progress.clear();
-        if (!call.options[explain].empty())
+        if (request.explain)
           for (const std::string& line : sim::explanation(program)) fmt::print("{}\n", line);
         if (!call.quiet)
           for (const std::string& line : sim::skipped_lines(program)) pipeline::tell(line + "\n");
         if (call.output.empty()) return;
-        pipeline::write_text_if_changed(call.output, pipeline::motion_text(sim::motion_of(program, asked)));
+        pipeline::write_text_if_changed(
+            call.output,
+            pipeline::with_mark(pipeline::motion_text(sim::motion_of(program, asked)), pipeline::Mark::yaml));
         progress.note(
             fmt::format("{}: {} moves and dwells", call.output.string(), program.instructions.size()));
       });

@@ -1,5 +1,4 @@
 // dresslife-sim: a job in, motion.h5 out.
-#include <charconv>
 #include <optional>
 #include <string>
 
@@ -20,50 +19,33 @@ using namespace dresslife;
 
 namespace {
 
-enum Option { preview, screen, rehearse, propose, ring, tried, rehearsals, seed, exercise };
-
-/// A count on the command line. Errors: InputError at the option.
-std::uint64_t whole(const std::string& option, const std::string& text, std::uint64_t least,
-                    std::uint64_t most) {
-  std::uint64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || value < least || value > most)
-    throw pipeline::InputError(
-        {option}, fmt::format("'{}' is no whole number from {} to {}", text, least, most), "write one");
-  return value;
-}
-
-void write_proposals(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::FileWriter& file) {
-  const auto last = [&](Option option) {
-    return call.options[option].empty() ? "" : call.options[option].back();
-  };
-  sim::ProposalSettings settings;
-  settings.count = static_cast<int>(whole("--propose", last(propose), 1, 24));
-  if (!last(tried).empty()) settings.tried = static_cast<int>(whole("--tried", last(tried), 1, 1'000'000));
-  if (!last(rehearsals).empty())
-    settings.rehearsals = static_cast<int>(whole("--rehearsals", last(rehearsals), 0, 100'000));
-  if (!last(seed).empty()) settings.seed = whole("--seed", last(seed), 0, 1'000'000'000);
-  settings.ring_link = last(ring);
-  sim::write_proposals(job, settings, file);
-}
+/// What the options of this stage ask for.
+struct Request {
+  bool preview = false, rehearse = false, exercise = false;
+  std::string screen;  ///< a list of changes; empty: not asked
+  std::optional<int> propose;
+  sim::ProposalSettings proposals;
+};
 
 /// What is asked for without a run. Returns false when it is the run that is asked for.
-bool told_at_rest(const pipeline::StageCall& call, pipeline::Job& job) {
-  const auto asked = [&](Option option) { return !call.options[option].empty(); };
-  if (!asked(preview) && !asked(screen) && !asked(propose)) return false;
+bool told_at_rest(const Request& request, const pipeline::StageCall& call, pipeline::Job& job) {
+  if (!request.preview && request.screen.empty() && !request.propose) return false;
   if (job.motion.is_prescribed())
     throw pipeline::InputError(job.motion.where,
                                "a prescribed deformation has no cell to preview (nothing moves)",
                                "run it, and look at its page");
-  if (asked(exercise)) job.motion = sim::exercise(job.robot);
+  if (request.exercise) job.motion = sim::exercise(job.robot);
   pipeline::FileWriter file(call.output,
-                            asked(preview) ? pipeline::preview_format() : pipeline::screening_format());
-  if (asked(preview))
+                            request.preview ? pipeline::preview_format() : pipeline::screening_format());
+  if (request.preview) {
     sim::write_preview(job, file);
-  else if (asked(screen))
-    sim::write_screening(job, call.options[screen].back(), asked(rehearse), file);
-  else
-    write_proposals(call, job, file);
+  } else if (!request.screen.empty()) {
+    sim::write_screening(job, request.screen, request.rehearse, file);
+  } else {
+    sim::ProposalSettings settings = request.proposals;
+    settings.count = *request.propose;
+    sim::write_proposals(job, settings, file);
+  }
   pipeline::stamp(file, call, job, "");
   file.commit();
   return true;
@@ -79,7 +61,7 @@ void prescribe(const pipeline::StageCall& call, const pipeline::Job& job, pipeli
 
 void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {
   const sim::Simulation simulation(job);
-  pipeline::heed_memory(call, sim::memory_of(simulation), progress);
+  pipeline::require_memory(call, sim::memory_of(simulation), progress);
   std::optional<pipeline::FileWriter> file;
   std::optional<sim::MotionFile> motion;
   const auto begin = [&](int) {  // a repeat that does not count leaves nothing
@@ -101,6 +83,7 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
 }  // namespace
 
 int main(int argc, char** argv) {
+  Request request;
   const pipeline::StageInfo info{
       .program = "dresslife-sim",
       .purpose = "Simulates how a robot's dresspack moves while the robot runs its program.",
@@ -110,24 +93,33 @@ int main(int argc, char** argv) {
       .input_is_job = true,
       .options =
           {{"--preview", "",
-            "simulate nothing; write what stands where, and which lengths suit (preview.h5)"},
+            "simulate nothing; write what stands where, and which lengths suit (preview.h5)", &request.preview},
            {"--screen", "LIST.yaml",
-            "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)"},
-           {"--rehearse", "", "with --screen: run each with few segments, and write what was seen"},
-           {"--propose", "COUNT",
+            "simulate nothing; write what geometry says of the job with each of these changes (screening.h5)",
+            &request.screen},
+           {"--rehearse", "", "with --screen: run each with few segments, and write what was seen",
+            &request.rehearse},
+           {"--propose",
+            "COUNT",
             "simulate nothing; write routings with clamps on the job's links that geometry finds nothing "
-            "against (screening.h5)"},
-           {"--ring", "LINK", "with --propose: also a guide ring on this link"},
-           {"--tried", "COUNT", "with --propose: routings that are looked at; 1200"},
-           {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by; 0"},
-           {"--seed", "NUMBER", "with --propose: of the search's chances; 1"},
-           {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about"}},
+            "against (screening.h5)",
+            &request.propose,
+            {.range = {{1, 24}}}},
+           {"--ring", "LINK", "with --propose: also a guide ring on this link", &request.proposals.ring_link},
+           {"--tried", "COUNT", "with --propose: routings that are looked at", &request.proposals.tried,
+            {.range = {{1, 1'000'000}}}},
+           {"--rehearsals", "COUNT", "with --propose: short runs that they are tried in and bettered by",
+            &request.proposals.rehearsals, {.range = {{0, 100'000}}}},
+           {"--seed", "NUMBER", "with --propose: of the search's chances", &request.proposals.seed,
+            {.range = {{0, 1'000'000'000}}}},
+           {"--exercise", "", "with these: instead of the job's motion one that moves the wrist about",
+            &request.exercise}},
       .part = pipeline::Part::sim,
       .told = pipeline::told_checks};
   return pipeline::run_stage(
-      info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
+      info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
         pipeline::Job job = pipeline::read_job(call.input, call.sets);
-        if (told_at_rest(call, job)) return;
+        if (told_at_rest(request, call, job)) return;
         return job.motion.is_prescribed() ? prescribe(call, job, progress) : simulate(call, job, progress);
       });
 }

@@ -108,6 +108,7 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     loose_.emplace(loose, LooseSettings{length, node_segments() * per_segment, construction.rest_curvature(),
                                         std::ranges::any_of(cables_, &Cable::rubs)});
     nodes_.resize(loose_->nodes());
+    for (std::size_t k = 0; k < loosened_.size(); ++k) cables_[loosened_[k]].room = winding_radius(loose_->cable(k));
     curvature_.emplace(segments, 2 * loosened_.size(), samples, scratch);
   }
   if (!any()) return;
@@ -228,6 +229,7 @@ void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& bl
   for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
     first.find_nodes(block, t);
     for (CablePaths* const of : all) of->shorten_loose(t);
+    for (CablePaths* const of : all) of->see_gains(first.nodes_, t);
     LooseCables::advance(cables, first.nodes_, block.step);
     for (CablePaths* const of : all) of->put_loose(t);
   }
@@ -255,6 +257,64 @@ void CablePaths::find_nodes(const SpanBlock& block, std::size_t t) {
     const double* pull_a = block.pull.data() + (t * segments + low) * 2;
     const double* pull_b = block.pull.data() + (t * segments + high) * 2;
     for (int d = 0; d < 2; ++d) node.pull[d] = pull_a[d] + share * (pull_b[d] - pull_a[d]);
+  }
+}
+
+void CablePaths::see_gain(Cable& cable, std::size_t sample, double gain, double relief) {
+  gain += pulled_by_twist(cable, hose_twist_[sample]);
+  cable.path_gain[0] = std::min(cable.path_gain[0], gain + relief);
+  cable.path_gain[1] = std::max(cable.path_gain[1], gain - relief);
+}
+
+/// Of loose cables at sample t of the block, by (W32) with b = 0. nodes: of the hose there.
+void CablePaths::see_gains(const std::vector<HoseNode>& nodes, std::size_t t) {
+  const double count = static_cast<double>(nodes.size());
+  HoseNode mean;
+  double bent = 0, twisted = 0;  // means of |k| and of the twist's square
+  for (const HoseNode& node : nodes) {
+    mean.curvature1 += node.curvature1 / count;
+    mean.curvature2 += node.curvature2 / count;
+    mean.twist += node.twist / count;
+    mean.elongation += node.elongation / count;
+    bent += std::hypot(node.curvature1, node.curvature2) / count;
+    twisted += node.twist * node.twist / count;
+  }
+  for (std::size_t k = 0; k < loosened_.size(); ++k) {
+    const LooseCable& lies = loose_->cable(k);
+    const auto [a1, a2] = lies.place;
+    const double square = a1 * a1 + a2 * a2, lay = lies.lay_rate;
+    double across = mean.curvature1 * a2 - mean.curvature2 * a1;
+    if (lay != 0) {  // its place turns along the hose
+      across = 0;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const double turn = lay * loose_->length() * static_cast<double>(i) / (count - 1);
+        const double c = std::cos(turn), s = std::sin(turn);
+        across += (nodes[i].curvature1 * (s * a1 + c * a2) - nodes[i].curvature2 * (c * a1 - s * a2)) / count;
+      }
+    }
+    const double gain =
+        mean.elongation + across + square * (lay * lay + 2 * lay * mean.twist + twisted) / 2;
+    // Alone around the axis it goes to either side of it; then its own place does not matter.
+    const bool around = lies.ring == no_ring && lies.play == without_limit;
+    const double relief = around ? lies.farthest : std::min(lies.play, lies.ring == no_ring ? without_limit : lies.gap);
+    see_gain(cables_[loosened_[k]], next_ + t, (1 + gain - (around ? across : 0)) / (1 + loose_->laid_in(k)) - 1,
+             relief * bent);
+  }
+}
+
+/// Before they slide along their paths.
+void CablePaths::see_held_gains() {
+  const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
+  for (const std::size_t k : held_) {
+    Cable& cable = cables_[k];
+    for (std::size_t t = 0; t < next_; ++t) {
+      double strain = cable.strain[t];
+      if (cable.rubs) {
+        strain = 0;
+        for (std::size_t i = 0; i < lengths_.size(); ++i) strain += cable.along[i * all_ + t] * lengths_[i] / length;
+      }
+      see_gain(cable, t, (1 + strain / cable.radial_share) * (1 + cable.slack) - 1, 0);
+    }
   }
 }
 
@@ -317,6 +377,7 @@ bool CablePaths::remembers() const {
 void CablePaths::finish() {
   if (finished_) return;
   finished_ = true;
+  see_held_gains();
   for (Cable& cable : cables_)
     if (cable.remembers) slide(cable);
   if (any() && next_ > 0) ask_for_forces();

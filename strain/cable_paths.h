@@ -81,6 +81,13 @@ class CablePaths {
   int component(std::size_t cable) const;
   /// Both ways along, in a repeat of the motion, at base and tool clamp [m].
   std::array<double, 2> grip_slip(std::size_t cable) const { return cables_[cable].grip_slip; }
+  /// Radius of the helix into which it can wind [m]; 0: it is held.
+  double room(std::size_t cable) const { return cables_[cable].room; }
+  /// What its path gains over the motion, over its length as it was laid in, without its slack: the least, where it
+  /// goes as far outward in each bend as its room allows, and the most, where it goes inward. Cables of a ring move by
+  /// the gap to their neighbours only. Twist counts by what it would take from the cable's length. A slack between
+  /// the two is neither too long nor too short at any time.
+  const std::array<double, 2>& path_gain(std::size_t cable) const { return cables_[cable].path_gain; }
   /// That the hose carries as it was simulated: the larger of both clamps (sample) [N m].
   const std::vector<double>& hose_moment() const { return hose_moment_; }
   /// Where loose cables lie at some samples: offset from their places (cable, segment, 2) [m].
@@ -102,6 +109,8 @@ class CablePaths {
     double elastic;                  ///< share of the deviation from the mean that a jacket holds (W30)
     pipeline::PulledCable pulled{};  ///< at the clamps' ends
     std::array<double, 2> grip_slip{};
+    double room = 0;                                              ///< see room()
+    std::array<double, 2> path_gain{without_limit, -without_limit};  ///< see path_gain()
     std::vector<double> strain{};   ///< (sample) of all segments; before finish(): unslid
     std::vector<double> along{};    ///< (segment, sample) the same, each segment its own: with friction
     std::vector<float> pressing{};  ///< (segment, sample) curvature [1/m], or press of a loose one [N/m]
@@ -114,6 +123,9 @@ class CablePaths {
   static void add_loose(std::span<CablePaths* const> all, const SpanBlock& block);
   void find_nodes(const SpanBlock& block, std::size_t sample);
   void shorten_loose(std::size_t of_block);
+  void see_gain(Cable& cable, std::size_t sample, double gain, double relief);
+  void see_gains(const std::vector<HoseNode>& nodes, std::size_t of_block);
+  void see_held_gains();
   void put_loose(std::size_t of_block);
   void put_loose(std::size_t cable, std::size_t state, std::size_t sample, std::size_t of_block);
   void put_offsets(std::size_t sample);

@@ -110,6 +110,12 @@ void ClampMeans::attach(BundleNesting& nesting, int part, const SegmentMotion& m
           k == 0 ? motion.strain[construction_.cable_of(line[k])] : of_part(line[k]) + first;
 }
 
+Shortened ClampMeans::shorten(double bend_wave) {
+  const Shortened result = shortened(construction_, plan_, bend_wave);
+  plan_ = result.plan;
+  return result;
+}
+
 ClampMeans ClampMeans::rubbing(double factor) const {
   ClampMeans means = *this;
   for (LayerSlip& slip : means.plan_) slip.cap.constant *= factor, slip.cap.per_mean *= factor;

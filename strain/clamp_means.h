@@ -23,6 +23,8 @@ class ClampMeans {
   void next_block();
 
   const std::vector<LayerSlip>& plan() const { return plan_; }
+  /// Friction gathers over no more than this length (shortened()); returns what of the plan was longest.
+  Shortened shorten(double bend_wave);
   /// The same with so many times the friction. Precondition: all samples have been added.
   ClampMeans rubbing(double factor) const;
   bool needed() const { return !groups_.empty(); }

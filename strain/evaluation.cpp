@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <numeric>
 #include <set>
 
@@ -152,6 +153,15 @@ std::size_t Evaluation::longest_material() const {
   return longest;
 }
 
+std::string Evaluation::name_of_layer(int layer) const {
+  std::string name;
+  for (; layer != dresspack_itself; layer = construction_.layers()[layer].parent) {
+    const Layer& of = construction_.layers()[layer];
+    name = (of.label.empty() ? "" : of.label + "/") + of.name + (name.empty() ? "" : "/" + name);
+  }
+  return (place_.name.empty() ? "" : place_.name + "/") + name;
+}
+
 std::string Evaluation::summary(std::size_t sites) const {
   if (worst_range_ < 0) return "no wire was evaluated";
   return fmt::format("{} sites; largest strain range {:.3f} %, segment {} from the tool, {}", sites,
@@ -168,8 +178,36 @@ void Evaluation::add(std::span<Evaluation* const> all, const SpanBlock& block) {
   std::vector<CablePaths*> cables;
   for (Evaluation* const of : all) cables.push_back(&of->cables_);
   CablePaths::add(cables, block);
-  for (Evaluation* const of : all)
+  for (Evaluation* const of : all) {
+    of->add_bends(block.deformation);
     if (!of->cables_.remembers()) of->add_means(block.deformation);
+  }
+}
+
+void Evaluation::add_bends(const DeformationHistory& block) {
+  bends_.resize(2 * lengths_.size());
+  for (std::size_t i = 0; i < lengths_.size(); ++i) {
+    const DeformationColumns here = block.columns(i);
+    const DeformationColumns next = block.columns(std::min(i + 1, lengths_.size() - 1));
+    for (std::size_t t = 0; t < block.samples(); ++t) {
+      bends_[2 * i].add({here.curvature1[t], here.curvature2[t]});
+      bends_[2 * i + 1].add({next.curvature1[t] - here.curvature1[t], next.curvature2[t] - here.curvature2[t]});
+    }
+  }
+}
+
+void Evaluation::end_first_pass() {
+  cables_.finish();
+  if (std::exchange(first_pass_ended_, true)) return;
+  double bends = 0, slopes = 0;  // mean squares, summed over the length
+  for (std::size_t i = 0; 2 * i < bends_.size(); ++i) {
+    bends += lengths_[i] * bends_[2 * i].variance();
+    if (i + 1 < lengths_.size()) slopes += bends_[2 * i + 1].variance() / (arcs_[i + 1] - arcs_[i]);
+  }
+  evening_.bend_wave = slopes > 0 ? 2 * std::numbers::pi * std::sqrt(bends / slopes) : HUGE_VAL;
+  const Shortened of = means_.shorten(evening_.bend_wave);
+  evening_.layer = of.longest;
+  evening_.longest = of.evening;
 }
 
 void Evaluation::add_again(const DeformationHistory& block) {
@@ -583,7 +621,7 @@ std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const
 
 void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
                           const Sink& sink) {
-  cables_.finish();
+  end_first_pass();
   const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
   for (Worker& worker : workers_) worker.held[0]->begin(arcs_[segment], motion);
   const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
@@ -688,7 +726,7 @@ std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<S
 std::vector<SiteRows> Evaluation::varied(const std::vector<Site>& sites, const std::vector<double>& factors,
                                          std::size_t segment, const DeformationHistory& history,
                                          std::size_t row) {
-  cables_.finish();
+  end_first_pass();
   const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
   std::vector<const ClampMeans*> ways;
   for (const double factor : factors) ways.push_back(&means_rubbing(factor));

@@ -115,10 +115,19 @@ class Evaluation {
   std::string name_of_cable(std::size_t cable) const {
     return (place_.name.empty() ? "" : place_.name + "/") + cables_.name(cable);
   }
+  /// Likewise, without numbers: "signal cable/conductor/layer 1/wire".
+  std::string name_of_layer(int layer) const;
   std::size_t dresspack() const { return place_.dresspack; }
   /// What the cables do. Precondition: end_first_pass(), or evaluate(), which does the same.
   const CablePaths& cables() const { return cables_; }
-  void end_first_pass() { cables_.finish(); }
+  void end_first_pass();
+  /// Wave length over which what varies of the span's curvature changes, 2 pi rms/rms of its slope [m]; infinite: it
+  /// does not. The layer that rubs and whose strain evens out over most, with that length (LayerSlip::evening); -1: none.
+  struct Evening {
+    double bend_wave = 0, longest = 0;
+    int layer = -1;
+  };
+  const Evening& evening() const { return evening_; }
 
   /// Second pass: segment `segment` of the span, whose history is `row` of `history`. Call for segments in
   /// order.
@@ -190,6 +199,7 @@ class Evaluation {
 
   /// Wires whose strain is put together one by one: of layers with friction, and all when shear counts.
   bool mixed(const ClampMeans& means) const;
+  void add_bends(const DeformationHistory& block);
   void add_means(const DeformationHistory& block);
   /// What friction holds under these means; null: nothing.
   HeldStrains* held_of(const ClampMeans& means, Worker& worker) const;
@@ -272,6 +282,19 @@ class Evaluation {
   std::vector<Site> likely_;
   CablePaths cables_;
   CablePaths::Keeper keeper_;
+  /// Of a vector over the samples.
+  struct Varying {
+    std::array<double, 2> sum{};
+    double squares = 0, count = 0;
+    void add(const std::array<double, 2>& value) {
+      for (const int k : {0, 1}) sum[k] += value[k], squares += value[k] * value[k];
+      ++count;
+    }
+    double variance() const { return (squares - (sum[0] * sum[0] + sum[1] * sum[1]) / count) / count; }
+  };
+  std::vector<Varying> bends_;  ///< (segment, 2) curvature, and by how much the next segment has more
+  bool first_pass_ended_ = false;
+  Evening evening_;
   std::size_t meant_ = 0;                ///< samples that the means have had
   std::vector<Worker> workers_;          ///< one a thread
   std::vector<BundleSites> found_;       ///< being scanned, or waiting to be used

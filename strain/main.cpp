@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
       info, argc, argv, [](const pipeline::StageCall& call, pipeline::Progress& progress) {
         const pipeline::FileReader motion(call.input, pipeline::motion_format());
         const pipeline::Job job = pipeline::job_of(call, motion, {pipeline::Part::sim});
-        pipeline::heed_memory(call, strain::memory_of(motion, job, pipeline::thread_count()), progress);
+        pipeline::require_memory(call, strain::memory_of(motion, job, pipeline::thread_count()), progress);
         pipeline::FileWriter file(call.output, pipeline::strain_format());
         const strain::Notes notes = strain::write_strain(motion, job, file, pipeline::thread_count(),
                                                          [&](double share) { progress.show(share); });

@@ -116,9 +116,9 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb()))
     return need;  // too many to be listed
 
-  // Every other way in which cables lie is kept beside the job's own, each with four frictions.
+  // Every other way in which cables lie is kept beside the job's own, each with four frictions and two bounds.
   const double laid = 1 + static_cast<double>(placements_at_most(job)),
-               frictions = job.uncertainty.enabled ? 4 : 1;
+               frictions = job.uncertainty.enabled ? 6 : 1;
   double cable_rows = 0, bent_rows = 0, part_rows = 0, found = 0;
   for (const pipeline::MotionSpan& span : spans) {
     if (span.dresspack >= job.dresspacks.size()) continue;

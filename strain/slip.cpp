@@ -34,7 +34,7 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
   std::vector<LayerSlip> plan(layers.size());
   std::vector<int> helical_level(layers.size(),
                                  0);           // of the layer itself or its nearest helical ancestor; 0: none
-  std::vector<double> evening(layers.size());  // [m], see below
+  std::vector<double> turning(layers.size());  // about the dresspack or a loose cable [rad/m]
   std::vector<double> length(layers.size());   // ideal length between the clamps [m]
   for (std::size_t k = 0; k < layers.size(); ++k) {  // parents come first
     const Layer& layer = layers[k];
@@ -47,10 +47,11 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     plan[k].radial_share =
         radial_share(layer.axial_stiffness, layer.lay_angle, layer.helix_radius, layer.radial_stiffness);
     const auto level = std::min<std::size_t>(layer.level, slip.size());
-    // path length over which the strain evens out: of a pitch, of its own or its ancestor's, or all
-    evening[k] = helical          ? layer.pitch() / std::cos(layer.lay_angle)
-                 : inherited == 0 ? length[k]
-                                  : evening[layer.parent] / std::cos(layer.lay_angle);
+    // A loose cable does not turn about itself; the thesis counts phases from the bend's direction (19).
+    const bool turns = !(layer.is_cable() && layer.loose && slides(slip[level - 1]));
+    const double before = outermost || is_thesis(construction.kinematics()) ? 0 : turning[layer.parent];
+    turning[k] = turns ? helices::turning(before, layer.lay_angle, layer.helix_radius) : 0;
+    const double evening = helical || inherited > 0 ? evening_length(turning[k], length[k]) : length[k];
     if (!slides(slip[level - 1]) || layer.is_hose) continue;
     if (layer.is_cable()) {
       plan[k].loose = layer.loose;
@@ -67,10 +68,27 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     }
     if (!rubs(slip[level - 1])) continue;
     plan[k].friction = true;
-    plan[k].cap = friction_cap(layer, evening[k]);
-    plan[k].elastic = elastic_share(layer.jacket_stiffness, layer.axial_stiffness, evening[k]);
+    plan[k].evening = evening;
+    plan[k].cap = friction_cap(layer, evening);
+    plan[k].elastic = elastic_share(layer.jacket_stiffness, layer.axial_stiffness, evening);
   }
   return plan;
+}
+
+Shortened shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave) {
+  Shortened result{std::move(plan)};
+  for (std::size_t k = 0; k < result.plan.size(); ++k) {
+    LayerSlip& slip = result.plan[k];
+    if (!slip.friction) continue;
+    if (slip.evening > result.evening) result.longest = static_cast<int>(k), result.evening = slip.evening;
+    if (slip.evening <= bend_wave) continue;
+    const Layer& layer = construction.layers()[k];
+    slip.cap.constant *= bend_wave / slip.evening;
+    slip.cap.per_mean *= bend_wave / slip.evening;
+    slip.evening = bend_wave;
+    slip.elastic = elastic_share(layer.jacket_stiffness, layer.axial_stiffness, bend_wave);
+  }
+  return result;
 }
 
 }  // namespace dresslife::strain

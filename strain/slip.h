@@ -12,6 +12,13 @@
 //
 // `friction` keeps the mean of `free` and lets the deviation from it build up to a cap (strain/friction.h).
 // A component's bending and torsion per path length stay as they are.
+//
+// The cap follows from the length over which the deviation evens out (evening_length): one wave about the bent
+// cable, of which nested lays of opposite hands make a long one. The wave is taken as if the bend were as long.
+// Against wires that slide as lines through a bend that changes over the wave length L (friction_lines_test.cpp)
+// friction then holds, of a quarter of L, 1.0 to 1.2 times as much as the cap says, where the glued strain is up to
+// four times the cap. Near L itself it is up to 2.5 times as much: what evens out is no longer the mean of this
+// place. The cap never counts with more than L.
 #pragma once
 
 #include <vector>
@@ -28,6 +35,7 @@ struct LayerSlip {
   bool friction = false;  ///< slides only when its deviation from the mean reaches the cap
   bool loose = false;     ///< a cable that lies where it rests (strain/cable_paths.h); else at its place
   FrictionCap cap;
+  double evening = 0;       ///< with friction: length over which the strain evens out [m]
   double elastic = 0;       ///< with friction: share of the deviation that a jacket holds elastically (W30)
   double radial_share = 1;  ///< of its strain that the bed of the layer leaves (W31)
   bool operator==(const LayerSlip&) const = default;
@@ -37,5 +45,17 @@ struct LayerSlip {
 /// last holds for all deeper ones. free_length: of the dresspack between the clamps [m].
 std::vector<LayerSlip> plan_slip(const Construction& construction, const std::vector<pipeline::Slip>& slip,
                                  double free_length);
+
+/// Of the wave length of a bend: strains that even out over more are not told well.
+constexpr double believable_evening = 0.25;
+
+/// The same with friction that gathers over no more than a wave of the bend [m], and the layer whose strain evens
+/// out over most of that; -1: none rubs.
+struct Shortened {
+  std::vector<LayerSlip> plan;
+  int longest = -1;
+  double evening = 0;  ///< of that layer, before [m]
+};
+Shortened shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave);
 
 }  // namespace dresslife::strain

@@ -9,8 +9,10 @@
 #include <span>
 
 #include "pipeline/base/threads.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_bending.h"
+#include "pipeline/cable/excess.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/files/motion_layout.h"
@@ -208,10 +210,14 @@ class SiteWriter {
 /// Appends what variations make of likely worst wires.
 class VariationWriter {
  public:
-  VariationWriter(FileWriter& file, const std::vector<Variations::Point>& points) : file_(file) {
+  VariationWriter(FileWriter& file, const Variations& variations) : file_(file) {
     std::vector<double> z;
-    for (const Variations::Point& point : points) z.insert(z.end(), point.begin(), point.end());
-    if (!z.empty()) file.append("/variation/z", z);
+    for (const Variations::Point& point : variations.points()) z.insert(z.end(), point.begin(), point.end());
+    if (z.empty()) return;
+    file.append("/variation/z", z);
+    std::vector<std::int32_t> inside;
+    for (const pipeline::Inside one : variations.inside()) inside.push_back(static_cast<std::int32_t>(one));
+    file.append("/variation/inside", inside);
   }
 
   void append(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
@@ -338,12 +344,12 @@ struct Evaluations {
 /// pieces: of a loose cable in a segment.
 std::vector<Warning> mesh_warnings(double error, std::size_t pieces) {
   if (error <= believable_mesh_error) return {};
-  return {
-      {WarningKind::mesh, "",
-       fmt::format(
-           "{} to a segment, pieces are too long for how loose cables bend: they miss {:.3g} of it (more than "
-           "{:g}); give strain.cable_elements_per_segment: {} or more, or more simulation.segments",
-           pieces, error, believable_mesh_error, 2 * pieces)}};
+  return {pipeline::warning_of(
+      WarningKind::mesh, "",
+      fmt::format("loose cables are cut into {} pieces in each segment, which misses {:.3g} of their curvature (limit {:g})",
+                  pieces, error, believable_mesh_error),
+      "the cables lie in waves shorter than these pieces resolve",
+      fmt::format("strain.cable_elements_per_segment: {} or more, or more simulation.segments", 2 * pieces))};
 }
 
 /// What of all spans' cables makes forces: whose metal they are of, their strains, and where they meet the
@@ -359,6 +365,8 @@ class CableRows {
       component_.push_back(cables.component(k));
       pulled_.push_back(&cables.pulled(k));
       for (const double slipped : cables.grip_slip(k)) slip_.push_back(slipped);
+      for (const double gain : cables.path_gain(k)) gain_.push_back(gain);
+      room_.push_back(cables.room(k));
       for (const auto& at_clamp : pulled_.back()->place)
         place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
     }
@@ -373,6 +381,8 @@ class CableRows {
     file.append("/cable/component", component_);
     file.append("/cable/grip_slip", slip_);
     file.append("/cable/clamp_place", place_);
+    file.append("/cable/path_gain", gain_);
+    file.append("/cable/room", room_);
     std::vector<double> rows;
     for (std::size_t t = 0; t < samples; ++t)
       for (const pipeline::PulledCable* of : pulled_)
@@ -383,7 +393,7 @@ class CableRows {
  private:
   std::vector<std::string> names_;
   std::vector<std::int32_t> span_, dresspack_, component_;
-  std::vector<double> slip_, place_;
+  std::vector<double> slip_, place_, gain_, room_;
   std::vector<const pipeline::PulledCable*> pulled_;
 };
 
@@ -421,13 +431,29 @@ std::vector<Warning> write_cables(FileWriter& file,
   return warnings;
 }
 
+/// Wires whose strain evens out over too much of a bend for the closed forms of friction (strain/slip.h).
+std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+  std::vector<Warning> all;
+  for (const auto& evaluation : evaluations) {
+    const Evaluation::Evening& of = evaluation->evening();
+    if (of.layer < 0 || of.longest <= believable_evening * of.bend_wave) continue;
+    all.push_back(pipeline::warning_of(
+        WarningKind::material, "",
+        fmt::format("strain of {} evens out over {:.3g} m, the bend changes over {:.3g} m (limit of the first over the "
+                    "second {:g}): friction could hold up to 2.5 times as much strain there",
+                    evaluation->name_of_layer(of.layer), of.longest, of.bend_wave, believable_evening),
+        "its hand differs from that of what it lies in, and their lay lengths are nearly equal",
+        "its hand and lay_angle_deg as they are on the cable; if they are right, count with strain.friction_factor: 2.5"));
+  }
+  return all;
+}
+
 /// What is wrong in the descriptions of dresspacks, whatever the motion: parts that lie in each other, a
 /// stiffness that is not that of the parts.
 std::vector<Warning> construction_warnings(const pipeline::Job& job) {
   std::vector<Warning> all;
   for (const pipeline::MountedDresspack& mounted : job.dresspacks)
-    for (Warning warning : pipeline::joined(pipeline::overlap_warnings(mounted.dresspack),
-                                            pipeline::stiffness_warnings(mounted.dresspack))) {
+    for (Warning warning : pipeline::construction_warnings(mounted.dresspack, slides(job.strain.slip.front()))) {
       warning.where = mounted.name;  // its line in the resolved job helps nobody
       all.push_back(warning);
     }
@@ -541,7 +567,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       });
     });
   const std::vector<Warning> warnings =
-      pipeline::joined(construction_warnings(job), write_cables(strain, evaluations));
+      pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
+                       write_cables(strain, evaluations));
   write_bending(strain, job);
 
   Sink sink;
@@ -558,7 +585,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     strain.append("/plane/strain", std::vector<float>(fibre.strain.begin(), fibre.strain.end()));
     strain.append("/plane/shear", std::vector<float>(fibre.shear.begin(), fibre.shear.end()));
   };
-  VariationWriter varied(strain, variations.points());
+  VariationWriter varied(strain, variations);
   std::size_t span = 0, segment = 0;
   sink.progress = [&](double) {
     const double share = static_cast<double>(segment + 1) / static_cast<double>(segments);

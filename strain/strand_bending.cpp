@@ -37,7 +37,7 @@ StrandBending::StrandBending(const Strand& strand) {
       const double share = (k + 0.5) / angles_per_quarter, lever = R * std::sin(pi / 2 * share);
       fibres_.push_back({cosine * cosine * lever,
                          layer->count * EA * cosine * lever / angles_per_quarter,
-                         strand.cap == Strand::Cap::even ? largest : largest * share,
+                         largest * share,
                          elastic,
                          {}});
     }

@@ -3,10 +3,9 @@
 //
 // Every wire feels R cos^2(alpha) kappa sin(theta) when glued; a slider at each angle holds of it what
 // friction can. M = EI of the wires alone x kappa + sum over layers of K E A cos(alpha) R x mean(held
-// sin(theta)). `even`: the cap of W16 all around, as the strain stage has it. `gathering`: the cap grows from
-// the neutral axis, where slip begins, in proportion to the angle from it, up to that of W16: the field of
-// Papailiou's model. A wire is pressed by its own tension, T sin^2(alpha)/R, and, when `outer_layers_press`,
-// by what the layers outside it press, with which it rubs on both of its sides. Jacket and tape press a layer
+// sin(theta)). The cap grows from the neutral axis, where slip begins, in proportion to the angle from it, up
+// to that of W16: the field of Papailiou's model. A wire is pressed by its own tension, T sin^2(alpha)/R, and,
+// when `outer_layers_press`, by what the layers outside it press, with which it rubs on both of its sides. Jacket and tape press a layer
 // and, through it, those inside; a jacket that fills the gussets holds a share elastically (W30).
 //
 // Source: K. Papailiou, IEEE Trans. Power Delivery 12 (1997); F. Foti and L. Martinelli, J. Sound Vib. 370
@@ -33,7 +32,6 @@ struct Strand {
   std::vector<StrandLayer> layers;  ///< innermost first
   double tension = 0;               ///< of the whole, shared by stiffness [N]
   double friction = 0;              ///< Coulomb, between wires
-  enum class Cap { even, gathering } cap = Cap::gathering;
   bool outer_layers_press = true;
 };
 

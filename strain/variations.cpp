@@ -5,6 +5,7 @@
 namespace dresslife::strain {
 namespace {
 
+using pipeline::Inside;
 using pipeline::Uncertain;
 
 // Where there is little slack cables come to pull, and lives fall by decades from one tenth of a per cent to
@@ -75,11 +76,12 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Bui
   if (!job.uncertainty.enabled) return;
   const bool rubs_inside = std::any_of(as_told.begin(), as_told.end(),
                                        [](const auto& evaluation) { return evaluation->rubs_inside(); });
-  std::vector<double> around, all{0};  // z of friction inside
+  std::vector<Friction> around, all{{}};
   // Where rubbing is little, lives bend away toward those without damage.
-  if (rubs_inside) around = {-reach, -reach / 2, reach}, all = {0, -reach, -reach / 2, reach};
+  if (rubs_inside) around = {{-reach}, {-reach / 2}, {reach}, {0, Inside::glued}, {0, Inside::free}};
+  all.insert(all.end(), around.begin(), around.end());
   if (!around.empty()) add(as_told, {}, around);
-  const auto lay = [&](Uncertain parameter, const auto& nodes, const std::vector<double>& friction) {
+  const auto lay = [&](Uncertain parameter, const auto& nodes, const std::vector<Friction>& friction) {
     if (!matters(job, as_told, parameter)) return;
     for (const double z : nodes) {
       Point point{};
@@ -88,18 +90,25 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_told, const Bui
     }
   };
   lay(Uncertain::slack, std::array<double, slack_nodes>{low_slack, -1.25, reach}, all);
-  lay(Uncertain::friction_hose, std::array<double, other_nodes>{-reach, reach}, {0});
-  lay(Uncertain::grip, std::array<double, other_nodes>{-reach, reach}, {0});
+  lay(Uncertain::friction_hose, std::array<double, other_nodes>{-reach, reach}, {{}});
+  lay(Uncertain::grip, std::array<double, other_nodes>{-reach, reach}, {{}});
 }
 
-void Variations::add(const Spans& spans, Point z, const std::vector<double>& friction) {
+double Variations::Friction::factor() const {
+  constexpr double none = 0, endless = 1e6;  // of the shipped friction: glued to 1e-9 of the strain
+  if (inside == Inside::free) return none;
+  if (inside == Inside::glued) return endless;
+  return pipeline::uncertain_parameters()[index_of(Uncertain::friction_inside)].value(z);
+}
+
+void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& friction) {
   Placement placement{&spans, {}, {}};
-  const std::size_t inside = index_of(Uncertain::friction_inside);
-  for (const double of_friction : friction) {
-    placement.factors.push_back(pipeline::uncertain_parameters()[inside].value(of_friction));
+  for (const Friction& of : friction) {
+    placement.factors.push_back(of.factor());
     placement.variation.push_back(points_.size());
-    z[inside] = of_friction;
+    z[index_of(Uncertain::friction_inside)] = of.z;
     points_.push_back(z);
+    inside_.push_back(of.inside);
   }
   placements_.push_back(std::move(placement));
 }

@@ -1,7 +1,8 @@
 // Strains of the likely worst wires with other friction, slack, play and grips: what dresslife-fatigue needs
 // to tell how a life hangs on what is not known (pipeline/job/uncertainty.h).
 //
-// Friction inside is crossed with slack, friction along the hose and grips are moved one by one. Play is left
+// Friction inside is crossed with slack, friction along the hose and grips are moved one by one. Friction
+// inside is also taken away, and made endless: the bounds of a cable whose inside slips freely, or is glued. Play is left
 // out: in the shipped programs it moves lives by a tenth of a decade, and would cost as much as a slack.
 // Where cables lie and pull is worked out anew for each but friction inside; the wires are those that see
 // most in each segment and layer of the job as it is.
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "pipeline/job/job.h"
+#include "pipeline/job/uncertainty.h"
 #include "strain/evaluation.h"
 
 namespace dresslife::strain {
@@ -34,6 +36,7 @@ class Variations {
 
   bool empty() const { return points_.empty(); }
   const std::vector<Point>& points() const { return points_; }  ///< (variation)
+  const std::vector<pipeline::Inside>& inside() const { return inside_; }  ///< (variation)
   /// Evaluations of a span that want the motion like the job's own.
   std::vector<Evaluation*> placed(std::size_t span) const;
 
@@ -51,10 +54,17 @@ class Variations {
     std::vector<double> factors;
     std::vector<std::size_t> variation;
   };
-  void add(const Spans& spans, Point z, const std::vector<double>& friction);
+  /// Friction inside: at z, or as a bound has it.
+  struct Friction {
+    double z = 0;
+    pipeline::Inside inside = pipeline::Inside::as_is;
+    double factor() const;
+  };
+  void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
 
   const Spans& as_told_;
   std::vector<Point> points_;
+  std::vector<pipeline::Inside> inside_;
   std::vector<Placement> placements_;
 };
 

@@ -1,5 +1,6 @@
 // The loop of lockstep.h for AVX-512.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#include "pipeline/base/instruction_set.h"
+#ifdef DRESSLIFE_WIDE_KERNELS
 #define DRESSLIFE_MACHINE avx512
 #define DRESSLIFE_LOCKSTEP avx512_lockstep
 #define DRESSLIFE_TARGET HWY_AVX3_DL

@@ -1,4 +1,4 @@
-// The loop of lockstep.h for one instruction set. Included once by baseline.cpp, avx2.cpp, .. , which names
+// The loop of lockstep.h for one instruction set. Included once by portable.cpp, avx2.cpp, .. , which names
 // it (pipeline/base/simd.h).
 #pragma once
 

@@ -6,10 +6,10 @@ namespace dresslife::fatigue {
 
 using pipeline::InstructionSet;
 
-namespace baseline_lockstep {
+namespace portable_lockstep {
 extern const Lockstep set;
 }
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#ifdef DRESSLIFE_WIDE_KERNELS
 namespace avx2_lockstep {
 extern const Lockstep set;
 }
@@ -19,12 +19,12 @@ extern const Lockstep set;
 #endif
 
 const Lockstep& lockstep_for(InstructionSet instructions) {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#ifdef DRESSLIFE_WIDE_KERNELS
   if (instructions == InstructionSet::avx512) return avx512_lockstep::set;
   if (instructions == InstructionSet::avx2) return avx2_lockstep::set;
 #endif
-  assert(instructions == InstructionSet::baseline || instructions == InstructionSet::sse4);
-  return baseline_lockstep::set;
+  assert(instructions == InstructionSet::portable);
+  return portable_lockstep::set;
 }
 
 }  // namespace dresslife::fatigue

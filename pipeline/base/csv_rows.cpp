@@ -4,22 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
+#include <cstdlib>
 
-namespace dresslife::sim {
+#include "pipeline/base/limits.h"
 
-std::vector<CsvCell> cells_of(std::string_view line) {
-  std::vector<CsvCell> cells;
-  for (size_t begin = 0; begin <= line.size();) {
-    const size_t comma = std::min(line.find(',', begin), line.size());
-    size_t first = begin, last = comma;
-    while (first < last && line[first] == ' ') ++first;
-    while (last > first && line[last - 1] == ' ') --last;
-    cells.push_back({line.substr(first, last - first), static_cast<int>(first) + 1});
-    begin = comma + 1;
-  }
-  return cells;
-}
+namespace dresslife::pipeline {
 
 std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -29,22 +18,96 @@ std::optional<double> number_in(std::string_view text) {
   return value;
 }
 
-int read_csv(const std::filesystem::path& file, const char* key,
-             const std::function<void(const std::vector<CsvCell>&, int)>& take) {
-  std::ifstream input(file);
-  if (!input || std::filesystem::is_directory(file))
-    throw pipeline::InputError({file.string()}, fmt::format("{} cannot be read", key),
-                               "check the file's name and rights");
-  int number = 0;
-  for (std::string line; std::getline(input, line);) {
-    ++number;
-    if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // byte order mark
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == '\r' || c == '\t'; }, ' ');
-    if (line.find_first_not_of(' ') == std::string::npos || line.starts_with('#')) continue;
-    take(cells_of(line), number);
-  }
-  return number;
+CsvReader::CsvReader(std::string text, std::string file, std::string_view separators)
+    : text_(std::move(text)), file_(std::move(file)), separators_(separators) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
 }
 
-}  // namespace dresslife::sim
+CsvRow CsvReader::next() {
+  while (at_ < text_.size()) {
+    ++line_;
+    line_begin_ = at_;
+    while (at_blank()) ++at_;
+    CsvRow row;
+    if (text_.compare(at_, 1, "#") != 0) at_ = line_begin_, row = cells();
+    skip_line();
+    if (std::any_of(row.begin(), row.end(), [](const CsvCell& cell) { return !cell.text.empty(); }))
+      return row;
+  }
+  return {};
+}
+
+void CsvReader::skip_line() { at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1; }
+
+bool CsvReader::at_blank() const {
+  if (at_end_of_line() || text_[at_] == separator_) return false;
+  return static_cast<unsigned char>(text_[at_]) <= ' ';
+}
+
+CsvRow CsvReader::cells() {
+  if (separator_ == '\0') {
+    const std::string_view line(&text_[at_], std::min(text_.find('\n', at_), text_.size()) - at_);
+    if (line.find_first_not_of(" \t\r") == line.npos) return {};
+    const auto found = std::find_if(separators_.begin(), separators_.end(),
+                                    [&](char separator) { return line.find(separator) != line.npos; });
+    separator_ = found == separators_.end() ? separators_.front() : *found;
+  }
+  CsvRow row{cell()};
+  while (!at_end_of_line()) {
+    ++at_;  // the separator
+    row.push_back(cell());
+  }
+  return row;
+}
+
+CsvCell CsvReader::cell() {
+  while (at_blank()) ++at_;
+  CsvCell cell{"", line_, static_cast<int>(at_ - line_begin_) + 1};
+  if (!at_end_of_line() && text_[at_] == '"') {
+    read_quoted(cell);
+    return cell;
+  }
+  while (!at_end_of_line() && text_[at_] != separator_) cell.text += text_[at_++];
+  while (!cell.text.empty() && static_cast<unsigned char>(cell.text.back()) <= ' ') cell.text.pop_back();
+  return cell;
+}
+
+void CsvReader::read_quoted(CsvCell& cell) {
+  for (++at_;; ++at_) {
+    if (at_end_of_line())
+      throw InputError(where(cell), "a quote that opens here is never closed in its line", "close it");
+    if (text_[at_] == '"') {
+      if (text_.compare(at_ + 1, 1, "\"") != 0) break;
+      ++at_;
+    }
+    cell.text += text_[at_];
+  }
+  ++at_;
+  while (at_blank()) ++at_;
+  if (!at_end_of_line() && text_[at_] != separator_)
+    throw InputError({file_, line_, static_cast<int>(at_ - line_begin_) + 1}, "text follows a closing quote",
+                     "write a quote within quotes twice");
+}
+
+std::string harmless(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  const bool number = !text.empty() && *end == '\0';
+  const bool formula =
+      !number && !text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos;
+  return shown(formula ? "'" + text : text);
+}
+
+std::string csv_cell(const std::string& written) {
+  const std::string text = harmless(written);
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"') quoted += '"';
+    quoted += letter;
+  }
+  return quoted + '"';
+}
+
+}  // namespace dresslife::pipeline

@@ -1,30 +1,56 @@
-// Lines of a CSV file as cells that know their column, for files in which every number has a meaning.
+// Files of comma separated values, as rows of cells that know their place, and cells to write. Quotes after RFC 4180. Blank lines,
+// rows of empty cells and lines that begin with # do not count.
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "pipeline/base/errors.h"
 
-namespace dresslife::sim {
+namespace dresslife::pipeline {
 
 struct CsvCell {
-  std::string_view text;  ///< without blanks around it
-  int column = 0;         ///< of its first character, from 1
+  std::string text;          ///< without blanks around it and quotes
+  int line = 0, column = 0;  ///< of its first character, from 1
 };
+using CsvRow = std::vector<CsvCell>;
 
-std::vector<CsvCell> cells_of(std::string_view line);
-
-/// A whole decimal number; nothing else is one.
+/// A whole decimal number, with a sign or not; nothing else is one.
 std::optional<double> number_in(std::string_view text);
 
-/// Calls `take` for every line but blank ones and those that begin with #, with its cells and its number from
-/// 1, and returns the number of the last line. key: of the job that names the file. Errors: InputError when
-/// it cannot be read.
-int read_csv(const std::filesystem::path& file, const char* key,
-             const std::function<void(const std::vector<CsvCell>&, int)>& take);
+class CsvReader {
+ public:
+  /// file: for messages. separators: of them the first that occurs in the first line that counts.
+  CsvReader(std::string text, std::string file, std::string_view separators = ",\t;");
 
-}  // namespace dresslife::sim
+  /// The next row that counts; empty: there is none. Errors: InputError for a quote that is not closed in its
+  /// line, or with text behind it.
+  CsvRow next();
+  int line() const { return line_; }  ///< of the row that next() gave; at the end the last line
+  Where where(const CsvCell& cell) const { return {file_, cell.line, cell.column}; }
+
+ private:
+  void skip_line();
+  bool at_end_of_line() const { return at_ >= text_.size() || text_[at_] == '\n'; }
+  bool at_blank() const;
+  CsvRow cells();
+  CsvCell cell();
+  void read_quoted(CsvCell& cell);
+
+  std::string text_, file_;
+  std::string_view separators_;
+  char separator_ = '\0';  // not known yet
+  std::size_t at_ = 0, line_begin_ = 0;
+  int line_ = 0;
+};
+
+/// Text for a spreadsheet or a terminal: what would be a formula there begins with an apostrophe, and no letter acts
+/// or hides (shown()).
+std::string harmless(const std::string& text);
+
+/// The same as a cell, in quotes where it needs them.
+std::string csv_cell(const std::string& text);
+
+}  // namespace dresslife::pipeline

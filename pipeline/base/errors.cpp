@@ -1,5 +1,7 @@
 #include "pipeline/base/errors.h"
 
+#include <cstring>
+
 namespace dresslife::pipeline {
 
 std::string Where::text() const {
@@ -11,5 +13,9 @@ std::string Where::text() const {
 InputError::InputError(const Where& where, const std::string& what, const std::string& remedy)
     : std::runtime_error(
           fmt::format("{}: error: {}{}{}", where.text(), what, remedy.empty() ? "" : "; ", remedy)) {}
+
+DiskError::DiskError(const std::string& file, int error)
+    : std::runtime_error(fmt::format("{}: error: cannot be read ({}); check the disk and its permissions", file,
+                                     std::strerror(error))) {}
 
 }  // namespace dresslife::pipeline

@@ -12,11 +12,15 @@ namespace dresslife::pipeline {
 // library that measures the clock whenever a program starts: 3 ms, half as much again as a stage's whole
 // start.
 std::vector<InstructionSet> instruction_sets() {
-  std::vector<InstructionSet> sets{InstructionSet::baseline};
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  std::vector<InstructionSet> sets{InstructionSet::portable};
+#ifdef DRESSLIFE_WIDE_KERNELS
   const bool sse4 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("ssse3") &&
                     __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
-  if (sse4) sets.push_back(InstructionSet::sse4);
+#ifdef DRESSLIFE_PORTABLE_SSE4
+  if (!sse4)
+    throw InputError(Where{"this machine"}, "has no SSE4.2 and AES (processors made since 2010 have both)",
+                     "use a newer machine; in a virtual one, let it see the processor's features");
+#endif
   const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                     __builtin_cpu_supports("f16c") && __builtin_cpu_supports("bmi") &&
                     __builtin_cpu_supports("bmi2");
@@ -33,17 +37,7 @@ std::vector<InstructionSet> instruction_sets() {
 }
 
 const char* name_of(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::sse4:
-      return "sse4";
-    case InstructionSet::avx2:
-      return "avx2";
-    case InstructionSet::avx512:
-      return "avx512";
-    case InstructionSet::baseline:
-      break;
-  }
-  return "baseline";
+  return set == InstructionSet::avx512 ? "avx512" : set == InstructionSet::avx2 ? "avx2" : "portable";
 }
 
 InstructionSet instruction_set_named(const std::string& name) {

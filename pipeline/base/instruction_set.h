@@ -6,13 +6,22 @@
 #include <string>
 #include <vector>
 
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define DRESSLIFE_WIDE_KERNELS  // AVX2 and AVX-512 are compiled, too: GCC alone takes them from a file's text
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define DRESSLIFE_PORTABLE_SSE4  // the portable kernels need SSE4.2; sanitizers look at plain numbers instead
+#endif
+#endif
+
 namespace dresslife::pipeline {
 
-/// baseline: whatever the build is for, number by number where that is plain x86-64; avx512: with its byte
-/// permutations and GFNI (Ice Lake, Zen 4 and later).
-enum class InstructionSet { baseline, sse4, avx2, avx512 };
+/// portable: for x86-64 with SSE4.2 and AES (since 2010), ARM, and whatever else a build is for. avx512: with
+/// its byte permutations and GFNI (Ice Lake, Zen 4 and later).
+enum class InstructionSet { portable, avx2, avx512 };
 
-std::vector<InstructionSet> instruction_sets();  ///< all that this machine can run, plain one first
+/// All that this machine can run, the portable one first.
+/// @throws InputError for an x86-64 machine that lacks what the portable one needs.
+std::vector<InstructionSet> instruction_sets();
 const char* name_of(InstructionSet set);
 
 /// Of those that this machine can run.

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -14,9 +13,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <new>
+#include <string_view>
 
-#include "pipeline/base/whole_file.h"
+#include "pipeline/base/last_moment.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -30,7 +29,7 @@ LastWords last_words;
 
 extern "C" void time_is_over(int) {
   constexpr int input_is_wrong = 1;
-  remove_parts_of_this_process();
+  tidy_at_the_end();
   if (::write(STDERR_FILENO, last_words.text, last_words.length) < 0) ::_exit(input_is_wrong);
   ::_exit(input_is_wrong);
 }
@@ -42,13 +41,14 @@ void settle_streams() {
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
       if (::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY) < 0) ::_exit(3);
   std::signal(SIGXFSZ, SIG_IGN);
+  end_tidily_at_signals();
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
 }
 
 void end_with_parent() {
   const char* const parent = std::getenv("DRESSLIFE_PARENT");
   if (!parent) return;
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // which lets it remove what is not whole
   if (::getppid() != std::strtol(parent, nullptr, 10)) ::_exit(1);  // it died before that was said
 }
 
@@ -88,17 +88,8 @@ void set_memory_limit(std::uint64_t megabytes) {
 }  // namespace
 
 void limit_memory(std::uint64_t megabytes) {
-  constexpr std::uint64_t least = 24;  // [MB] the smallest stage takes more: better not begun
   grow_stack();
   set_memory_limit(megabytes);
-  check_memory(least);
-}
-
-void check_memory(std::uint64_t megabytes) {
-  const std::size_t bytes = megabytes << 20;
-  void* const tried = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (tried == MAP_FAILED) throw std::bad_alloc();
-  ::munmap(tried, bytes);
 }
 
 std::uint64_t installed_memory_mb() {
@@ -107,20 +98,42 @@ std::uint64_t installed_memory_mb() {
          20;
 }
 
+namespace {
+
+/// Letters that nobody sees and that turn or hide the text around them: how many bytes of UTF-8 one takes here, and
+/// its number; 0 bytes: none of them.
+struct Unseen {
+  std::size_t bytes;
+  unsigned code;
+};
+Unseen unseen_at(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t k) { return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0u; };
+  const unsigned two = (byte(0) & 0x1f) << 6 | (byte(1) & 0x3f);
+  const unsigned three = (byte(0) & 0x0f) << 12 | (byte(1) & 0x3f) << 6 | (byte(2) & 0x3f);
+  // U+0080 .. U+009F act on some terminals; U+061C, U+200E .. U+200F, U+202A .. U+202E, U+2066 .. U+2069 turn the
+  // direction of writing (UAX #9).
+  if (byte(0) == 0xc2 && byte(1) < 0xa0 && byte(1) >= 0x80) return {2, two};
+  if (byte(0) == 0xd8 && byte(1) == 0x9c) return {2, two};
+  const bool turns = three == 0x200e || three == 0x200f || (three >= 0x202a && three <= 0x202e) ||
+                     (three >= 0x2066 && three <= 0x2069);
+  return byte(0) == 0xe2 && turns ? Unseen{3, three} : Unseen{0, 0};
+}
+
+}  // namespace
+
 std::string shown(const std::string& text) {
   std::string made;
   made.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
-    // U+0080 .. U+009F, in UTF-8 after 0xC2, act on some terminals, too.
-    const bool second_control =
-        byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-    if (second_control)
-      made += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[++i]));
-    else if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f)
+    if (const Unseen unseen = unseen_at(text, i); unseen.bytes > 0) {
+      made += unseen.code < 0x100 ? fmt::format("\\x{:02x}", unseen.code) : fmt::format("\\u{:04x}", unseen.code);
+      i += unseen.bytes - 1;
+    } else if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f) {
       made += fmt::format("\\x{:02x}", byte);
-    else
+    } else {
       made += text[i];
+    }
   }
   return made;
 }

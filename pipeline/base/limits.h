@@ -15,7 +15,7 @@ struct StageLimits {
 /// Opens what of standard input, output and error is closed: a file opened later would take its number, and
 /// what is said would go into it. Lines of standard output leave whole, so that none of standard error lands
 /// within one where both go into one file. A file that may not grow any more fails its write instead of
-/// ending the program.
+/// ending the program. Signals that end the program let it tidy up first (last_moment.h).
 void settle_streams();
 
 /// A program ends with the process that the environment variable DRESSLIFE_PARENT names as its parent,
@@ -24,14 +24,12 @@ void end_with_parent();
 
 /// Says on standard error that this program's job took too long, and ends it with exit status 1. 0: no limit.
 void limit_time(const std::string& program, std::uint64_t seconds);
-/// Memory beyond what the program began with; more is std::bad_alloc. 0: no limit.
+/// Memory beyond what the program began with; more ends it (out_of_memory.cpp). 0: no limit.
 void limit_memory(std::uint64_t megabytes);
-/// Before a library that does not survive it when its own memory cannot be had. Errors: std::bad_alloc when
-/// this program may not take so much more.
-void check_memory(std::uint64_t megabytes);
 std::uint64_t installed_memory_mb();
 
-/// Text as it is shown: control characters but line feeds and tabs as \x1b, so that none acts on a terminal.
+/// Text as it is shown: control characters but line feeds and tabs as \x1b, so that none acts on a terminal, and
+/// those that turn the direction of writing as \u202e, so that text reads as it is.
 std::string shown(const std::string& text);
 
 /// Writes to standard error; nothing is thrown where it is full or gone.

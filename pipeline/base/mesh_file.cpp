@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 using Vector3 = Eigen::Vector3d;
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError({file.string()}, "cannot be read", "check the name of the mesh");
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 [[noreturn]] void fail(const std::filesystem::path& file, int line, const std::string& what) {
   throw InputError({file.string(), line, 1}, what, "export the mesh again, as binary STL");
@@ -112,7 +105,7 @@ std::vector<Triangle> read_triangles(const std::filesystem::path& file) {
   if (ending != ".stl" && ending != ".obj")
     throw InputError({file.string()}, fmt::format("is a '{}' (a mesh must be .stl or .obj)", ending),
                      "export the mesh as STL");
-  const std::string bytes = contents(file);
+  const std::string bytes = read_text(file);
   const std::vector<Triangle> triangles = ending == ".obj"       ? obj(bytes, file)
                                           : is_binary_stl(bytes) ? binary_stl(bytes)
                                                                  : ascii_stl(bytes, file);

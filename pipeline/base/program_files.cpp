@@ -25,7 +25,7 @@ std::string lower_extension(const fs::path& file) { return lower(file.extension(
 
 bool ends_like_a_program(const fs::path& file) {
   static const std::set<std::string> ends{".mod", ".modx", ".prg", ".sys", ".sysx", ".pgf",
-                                          ".src", ".dat",  ".sub", ".ls",  ".va"};
+                                          ".src", ".dat",  ".sub", ".ls",  ".va",   ".jbi", ".cnd"};
   return ends.contains(lower_extension(file)) || lower(file.filename()) == "backinfo.txt";  // ABB's contents
 }
 
@@ -80,6 +80,15 @@ std::vector<fs::path> program_files(const fs::path& program) {
   } else if (is_krl(program)) {
     files = krl_files_beside(program);
   }
+  if (lower_extension(program) == ".jbi")  // the controller's other jobs, its frames and variables
+    for (const fs::directory_entry& beside :
+         fs::directory_iterator(program.has_parent_path() ? program.parent_path() : ".", failure)) {
+      const fs::path file = program.has_parent_path() ? beside.path() : beside.path().filename();
+      const std::string end = lower_extension(file);
+      if ((end == ".jbi" || end == ".cnd" || lower(file.filename()) == "var.dat") && file != program &&
+          files.size() < most_files)
+        files.push_back(file);
+    }
   if (lower_extension(program) == ".ls" &&
       !fs::is_directory(program, failure))  // what it calls, and its registers
     for (const fs::path folder = program.has_parent_path() ? program.parent_path() : ".";

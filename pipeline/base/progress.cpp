@@ -4,28 +4,57 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "pipeline/base/limits.h"
 
 namespace dresslife::pipeline {
+namespace {
+
+constexpr std::chrono::minutes between_lines{1};  // of a log
+
+}  // namespace
+
+std::string remaining_words(double seconds, double begun, double share) {
+  const double done = share - begun;
+  if (seconds < 2 || done < 0.01 || share >= 1) return "";
+  const double left = seconds / done * (1 - share);
+  if (left < 90) return fmt::format("{:.0f} s left", std::max(1.0, left));
+  if (left < 5400) return fmt::format("{:.0f} min left", left / 60);
+  return fmt::format("{:.1f} h left", left / 3600);
+}
 
 Progress::Progress(std::string label, bool quiet)
-    : label_(std::move(label)), quiet_(quiet), terminal_(::isatty(STDERR_FILENO)) {}
+    : label_(std::move(label)),
+      quiet_(quiet),
+      terminal_(::isatty(STDERR_FILENO)),
+      next_line_(Clock::now() + between_lines) {}
 
 Progress::~Progress() { clear(); }
 
-void Progress::show(double share) {
+void Progress::show(double share, const std::string& words) {
   const int permille = std::clamp(static_cast<int>(share * 1000), 0, 1000);
-  if (permille == last_permille_) return;
+  if (permille == last_permille_ && words == last_words_) return;
   last_permille_ = permille;
-  draw(fmt::format("{:5.1f} %", permille / 10.0));
+  last_words_ = words;
+  const Clock::time_point now = Clock::now();
+  if (!first_) first_ = Mark{share, now};
+  const std::string left =
+      remaining_words(std::chrono::duration<double>(now - first_->time).count(), first_->share, share);
+  draw(fmt::format("{:5.1f} %{}{}{}{}", permille / 10.0, left.empty() ? "" : ", ", left, words.empty() ? "" : "  ", words));
 }
 
 void Progress::show(const std::string& words) { draw(words); }
 
 void Progress::draw(const std::string& words) {
-  if (quiet_ || !terminal_) return;
+  if (quiet_) return;
+  if (!terminal_) {
+    if (Clock::now() < next_line_) return;
+    next_line_ = Clock::now() + between_lines;
+    tell(fmt::format("{}: {}\n", label_, words));
+    return;
+  }
   std::fputs(fmt::format("\r\033[K{}  {}", shown(label_), shown(words)).c_str(), stderr);
   std::fflush(stderr);
   drawn_ = true;

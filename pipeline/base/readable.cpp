@@ -61,6 +61,21 @@ std::size_t columns_of(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char byte) { return !continues(byte); }));
 }
 
+std::string wrapped(const std::string& text, std::size_t columns, const std::string& indent) {
+  std::string lines, line;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (!line.empty() && columns_of(indent) + columns_of(line) + 1 + columns_of(word) > columns) {
+      lines += indent + line + '\n';
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return line.empty() ? lines : lines + indent + line + '\n';
+}
+
 std::string shortened(const std::string& text, std::size_t columns) {
   if (columns_of(text) <= columns) return text;
   const std::size_t kept = columns > 3 ? columns - 3 : 0;

@@ -26,6 +26,10 @@ std::string grouped(std::string digits);
 /// Columns that UTF-8 text takes in a terminal where every character is one wide.
 std::size_t columns_of(const std::string& text);
 
+/// Text in lines of at most `columns`, broken at spaces, each begun with `indent`; ends with a line feed. A
+/// word that is longer stays whole. Empty: empty.
+std::string wrapped(const std::string& text, std::size_t columns, const std::string& indent);
+
 /// Text cut at a character to at most `columns`, "..." at its end when something was cut.
 std::string shortened(const std::string& text, std::size_t columns);
 

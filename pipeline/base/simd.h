@@ -3,7 +3,8 @@
 // operations these are.
 //
 // Included by files of hot loops that are compiled once per instruction set. Such a file defines
-// DRESSLIFE_MACHINE (a name) and DRESSLIFE_TARGET (Highway's target; by default the build's own), includes
+// DRESSLIFE_MACHINE (a name) and DRESSLIFE_TARGET (Highway's target; by default the portable one: SSE4 on
+// x86-64, and there number by number where clang or a sanitizer compiles it; else the build's own), includes
 // this one, and puts its loops between DRESSLIFE_BEGIN_MACHINE and DRESSLIFE_END_MACHINE. What comes from
 // outside must be compiled for any machine, so it is included before: standard headers of all loops here.
 // pipeline/base/instruction_set.h tells which of them run on the machine at hand.
@@ -23,6 +24,13 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/instruction_set.h"
+
+#if !defined(DRESSLIFE_TARGET) && defined(DRESSLIFE_PORTABLE_SSE4)
+#define DRESSLIFE_TARGET HWY_SSE4
+#elif !defined(DRESSLIFE_TARGET) && defined(__x86_64__)
+#define DRESSLIFE_TARGET HWY_EMU128
+#endif
 #ifdef DRESSLIFE_TARGET
 #undef HWY_TARGET
 #define HWY_TARGET DRESSLIFE_TARGET

@@ -6,10 +6,12 @@
 #include <optional>
 #include <sstream>
 
+#include "pipeline/base/warning_words.h"
+
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_listed = 100, longest = 400;  // HDF5 holds 64 kB in an attribute
+constexpr std::size_t most_bytes = 60'000;  // HDF5 holds 64 kB in an attribute
 
 std::optional<WarningKind> kind_of(std::string_view name) {
   for (int k = 0; k < warning_kinds_count; ++k)
@@ -19,12 +21,6 @@ std::optional<WarningKind> kind_of(std::string_view name) {
 
 /// Tabs and line feeds separate.
 std::string plain(std::string text) {
-  if (text.size() > longest) {
-    text.resize(longest);
-    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
-    if (!text.empty() && static_cast<unsigned char>(text.back()) >= 0xC0) text.pop_back();
-    text += "...";
-  }
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   return text;
@@ -93,15 +89,21 @@ std::string Warning::line() const {
 }
 std::string Warning::text() const { return where.empty() ? words : where + ": " + words; }
 
+Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
+                   const std::string& remedy) {
+  return {kind, std::move(where), fmt::format("{}. Likely cause: {}. Remedy: {}", what, cause, remedy)};
+}
+
 std::string warnings_text(const std::vector<Warning>& warnings) {
   std::string text;
-  const std::size_t listed = std::min(warnings.size(), most_listed);
-  for (std::size_t k = 0; k < listed; ++k)
-    text += fmt::format("{}{}\t{}\t{}", k ? "\n" : "", word(warnings[k].kind), plain(warnings[k].where),
-                        plain(warnings[k].words));
-  if (listed < warnings.size())
-    text +=
-        fmt::format("\n{}\t\tand {} more warnings", word(warnings[listed].kind), warnings.size() - listed);
+  for (std::size_t k = 0; k < warnings.size(); ++k) {
+    const std::string line = fmt::format("{}{}\t{}\t{}", k ? "\n" : "", word(warnings[k].kind),
+                                         plain(warnings[k].where), plain(warnings[k].words));
+    if (text.size() + line.size() > most_bytes)
+      return text + fmt::format("{}{}\t\tand {} more warnings", k ? "\n" : "", word(warnings[k].kind),
+                                warnings.size() - k);
+    text += line;
+  }
   return text;
 }
 

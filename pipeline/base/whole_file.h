@@ -1,17 +1,20 @@
-// A file that is whole or absent, however its writing ends.
+// A file that is whole or absent, however its writing ends, and that replaces only what is ours (ownership.h).
 //
-// It is written under a name of its own, NAME.PROCESS-NUMBER.part in the folder of NAME, made exclusively and
-// never through a link, and locked while its writer lives. commit() syncs it, lets the file system tell what
-// it has kept back, gives it its final name in one step and syncs the folder. Of two writers of one name the
-// later wins whole. What writers left that were killed is not locked: the next writer of that name removes
-// it.
+// It is written under a name of its own, dresslife-PROCESS-NUMBER.part in the folder of its final name, made
+// exclusively and never through a link, and locked while its writer lives. commit() syncs it, lets the file system
+// report what it has kept back, gives it its final name in one step and syncs the folder. Of two writers of one name
+// the later wins whole. A signal removes the part (last_moment.h). What killed writers left is not locked: the next
+// writer in that folder removes it. On a file system without locks it stays.
 #pragma once
-
-#include <sys/types.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "pipeline/base/last_moment.h"
+#include "pipeline/base/ownership.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 
@@ -21,7 +24,7 @@ enum class Sync { now, never };
 
 class WholeFile {
  public:
-  /// Errors: InputError when it cannot be made there.
+  /// Errors: InputError when it cannot be made there, or would replace what is not ours.
   explicit WholeFile(std::filesystem::path final_name);
   /// Without commit() nothing stays behind.
   ~WholeFile();
@@ -32,13 +35,15 @@ class WholeFile {
   /// commit() and check() throw it.
   void write_at(const void* bytes, std::size_t count, std::uint64_t offset) noexcept;
   void set_length(std::uint64_t bytes) noexcept;
+  /// What was written there; false where it cannot be read back, which is a failure like that of a write.
+  bool read_back(void* bytes, std::size_t count, std::uint64_t offset) noexcept;
   /// Later writes do nothing: the file is not wanted any more.
   void give_up() noexcept;
   /// Errors: InputError when a write has failed.
   void check() const;
 
   /// Makes it the final file; a final file of the same bytes stays untouched, with its time.
-  /// Errors: InputError; nothing has been made then.
+  /// Errors: InputError; nothing has been made then. std::logic_error: it has no mark that it is ours.
   void commit(Sync when = Sync::now);
 
   int descriptor() const { return descriptor_; }
@@ -46,7 +51,9 @@ class WholeFile {
 
  private:
   [[noreturn]] void fail(int error) const;
+  void check_mark() const;
   std::filesystem::path final_name_, part_;
+  std::optional<RemovedAtTheEnd> removed_at_the_end_;
   int descriptor_ = -1;
   int error_ = 0;  ///< errno of the first failure
   bool given_up_ = false, committed_ = false;
@@ -56,30 +63,19 @@ class WholeFile {
 /// Errors: InputError when the folder or the file cannot be written.
 void write_text_if_changed(const std::filesystem::path& file, const std::string& text, Sync when = Sync::now);
 
-/// Removes what killed writers of NAME left beside it.
-void remove_leftovers(const std::filesystem::path& final_name);
+/// Copies a plain file, whole or not at all. Nothing where there is none. Errors: InputError, DiskError.
+void copy_if_there(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Removes what this process has begun and not committed, for its last moment: a signal's handler may call
-/// it.
-void remove_parts_of_this_process() noexcept;
+/// Gives a file that is whole a second name, which replaces what is ours there; where the file system has no second
+/// names, a copy. Errors: InputError, DiskError.
+void give_second_name(const std::filesystem::path& file, const std::filesystem::path& name);
 
-/// Refuses to replace what a result may not replace: a folder, a device, a pipe, a link.
-/// Errors: InputError.
-void check_replaceable(const std::filesystem::path& file);
+/// Removes what killed writers left in a folder.
+void remove_leftovers(const std::filesystem::path& folder);
 
-/// When a file's bytes or its name were last changed, as the file system tells it. Equal states of one path
-/// are the same bytes, provided that the first was taken when a tick of the file system's clock (1 .. 10 ms)
-/// had passed since the change.
-struct FileState {
-  std::int64_t size = -1, modified_ns = 0, changed_ns = 0;
-  std::uint64_t inode = 0;
-  bool exists() const { return size >= 0; }
-  bool operator==(const FileState&) const = default;
-};
-FileState state_of(const std::filesystem::path& file);
-FileState state_of(int descriptor);
-
-/// Fills `count` bytes from `offset`; zeros beyond the end. False: errno tells why.
-bool read_at(int descriptor, void* bytes, std::size_t count, std::uint64_t offset);
+enum class LockState { taken, held_by_another, not_known_here };
+/// Takes a lock of a file without waiting for it (operation: of flock). Errors: none; a file system without locks is
+/// not_known_here.
+LockState take_lock(int descriptor, int operation);
 
 }  // namespace dresslife::pipeline

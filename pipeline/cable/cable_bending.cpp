@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/cable/plain_properties.h"
+#include "pipeline/cable/polymer.h"
 #include "pipeline/cable/shares.h"
 
 namespace dresslife::pipeline {
@@ -15,11 +16,11 @@ using helices::Rod;
 using helices::Series;
 
 constexpr double pi = std::numbers::pi;
-constexpr int phases = 36;    // around a layer: whole harmonics are exact, what yields is to 1e-3
-// Two levels and more below the cable: what is summed has 2 d harmonics at level d, 12 angles are exact for those of five,
-// and what yields is met at as many others by the angles above.
-constexpr int deep_phases = 12;
+// Around a layer: what is summed has 2 d harmonics at level d, so 12 angles are exact for those of five.
+constexpr int phases = 12;
 constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: first order to 1e-6, rounding 1e-10
+// ESTIMATE: half a metre of cable at the edge of a table [m]. Wires slide out at the ends of a longer wave.
+constexpr double bent_sample = 0.5;
 constexpr double reach = 1e-3;  // [m]: as much of elongation per twist, a wire's distance from the axis
 
 void scale_friction(std::vector<Component>& parts, double factor) {
@@ -35,7 +36,8 @@ constexpr double no_friction = 0, all_friction = 1e12;  // levels
 struct Deformed {
   Rod<double> rest, now;
   double per_length;      ///< how many of it, times their length, per length of the cable
-  double evening;         ///< path length of the nearest helix' pitch in it or above; 0: none [m]
+  double turning;         ///< about the cable's axis, per its length [rad/m]
+  bool helical;           ///< it or what it lies in
   double friction_level;  ///< of what lies in it
   int depth;
   bool alike_around = false;  ///< whatever lies in it at one radius feels the same at every angle
@@ -45,7 +47,9 @@ struct Deformed {
 struct Answer {
   const Component& layer;
   const Deformed& parent;
-  double EA, weight, evening, share;
+  double EA, weight;
+  double evening;  ///< length over which its strain evens out; 0: straight in straight parts [m]
+  double share;
   double away, mean;                ///< strain's deviation from the mean over its pitch, and that mean
   double bend1 = 0, bend2 = 0, twist = 0;  ///< of wires
   int depth;
@@ -55,13 +59,14 @@ struct Answer {
 template <class Take>
 void descend(const Dresspack& dresspack, const Component& layer, const Deformed& parent, const Take& take) {
   const double signed_angle = sign_of(layer.hand) * layer.lay_angle, R = layer.helix_radius;
-  const double sine = std::sin(layer.lay_angle), cosine = std::cos(layer.lay_angle);
+  const double cosine = std::cos(layer.lay_angle);
   const bool helical = R > 0 && layer.lay_angle != 0;
-  const double evening = helical ? 2 * pi * R / sine : parent.evening / cosine;
+  const double turns = helices::turning(parent.turning, signed_angle, R);
+  const double evening = helical || parent.helical ? helices::evening_length(turns, bent_sample) : 0;
   const double EA = axial_stiffness(dresspack, layer);
   const double share =
       helices::radial_share(EA, layer.lay_angle, R, layer.radial_stiffness.value_or(HUGE_VAL));
-  const int angles = parent.alike_around ? 1 : parent.depth < 2 ? phases : deep_phases;
+  const int angles = parent.alike_around ? 1 : phases;
   const double weight = parent.per_length * layer.count / angles / cosine;
   const double inside = layer.measured_bending_stiffness ? friction_level(dresspack, layer) : parent.friction_level;
   for (int k = 0; k < angles; ++k) {
@@ -79,7 +84,7 @@ void descend(const Dresspack& dresspack, const Component& layer, const Deformed&
     take(Answer{layer, parent, EA, weight, evening, share, (strain - mean) / small, mean / small,
                 rate(now.bend1, rest.bend1), rate(now.bend2, rest.bend2), rate(now.twist, rest.twist),
                 parent.depth + 1});
-    const Deformed bent{rest, now, weight, evening, inside, parent.depth + 1};
+    const Deformed bent{rest, now, weight, turns, helical || parent.helical, inside, parent.depth + 1};
     for (const Component& inner : layer.components) descend(dresspack, inner, bent, take);
   }
 }
@@ -95,7 +100,7 @@ int levels_in(const Component& part) {
 Deformed straight_cable(const Component& cable, double elongation, double curvature, double twist) {
   const int order = std::clamp(levels_in(cable), 1, Series<double>::capacity - 1);
   return {helices::uniform_rod<double>(0, 0, 0, 0, order),
-          helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, 1, 0, curvature == 0};
+          helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, false, 1, 0, curvature == 0};
 }
 
 /// Of a wire whose deviation is free, per size of the deformation and length of the cable.
@@ -105,6 +110,19 @@ double own_stiffness(const Dresspack& dresspack, const Answer& of) {
   const double EI = of.EA * of.layer.radius * of.layer.radius / 4, GJ = EI / (1 + material->poisson_ratio);
   return of.weight * (EI * (of.bend1 * of.bend1 + of.bend2 * of.bend2) + GJ * of.twist * of.twist +
                       of.share * of.EA * of.mean * of.mean);
+}
+
+/// Mean of held(phi) sin(phi) around a layer whose deviation is `away` sin(phi) (W29). cap: at phi = pi/2.
+double held_by_friction(double away, double cap) {
+  const double slope = 2 * cap / pi;  // of what friction gathers from the neutral axis, per angle
+  if (away <= slope) return away / 2;
+  double slides = pi / 2;  // up to this angle, where both are equal
+  if (away < cap)
+    for (double low = 0, high = pi / 2; slides = (low + high) / 2, high - low > 1e-14;)
+      (away * std::sin(slides) > slope * slides ? low : high) = slides;
+  return 2 / pi *
+         (slope * (std::sin(slides) - slides * std::cos(slides)) +
+          away * ((pi / 2 - slides) / 2 + std::sin(2 * slides) / 4));
 }
 
 void refuse_straight(const Component& layer) {
@@ -130,6 +148,7 @@ double axial_stiffness(const Dresspack& dresspack, const Component& part) {
 }
 
 CableBending::CableBending(const Dresspack& dresspack, const Component& cable, StraightParts straight) {
+  std::vector<const Component*> layers;
   const auto take = [&](const Answer& of) {
     depth_ = std::max(depth_, of.depth);
     own_stiffness_ += own_stiffness(dresspack, of);
@@ -139,9 +158,16 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
     const double sine = std::sin(layer.lay_angle), press = sine * sine / layer.helix_radius;
     const double gathers = layer.friction.value_or(0) * of.evening / 4;  // (W16) [m]
     const double line_load = of.parent.friction_level * layer.radial_line_load.value_or(0);
-    held_.push_back({of.depth, of.share * of.away, of.weight * of.EA * of.away,
-                     gathers * layer.tension * press / of.EA, gathers * line_load / of.EA,
-                     helices::elastic_share(layer.jacket_stiffness, of.EA, of.evening)});
+    auto known = std::find(layers.begin(), layers.end(), &layer);
+    if (known == layers.end()) layers.push_back(&layer), held_.emplace_back(), known = layers.end() - 1;
+    Held& held = held_[known - layers.begin()];
+    held.depth = of.depth;
+    held.stiffness += of.weight * of.EA;
+    held.glued += of.weight * of.EA * of.away * of.away;
+    held.share = of.share;
+    held.by_tension = gathers * layer.tension * press / of.EA;
+    held.by_line_load = gathers * line_load / of.EA;
+    held.elastic = helices::elastic_share(layer.jacket_stiffness, of.EA, of.evening);
   };
   for (const Component& layer : cable.components) descend(dresspack, layer, straight_cable(cable, 0, small, 0), take);
 }
@@ -149,24 +175,25 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
 double CableBending::moment(double curvature, double friction_level) const {
   double sum = own_stiffness_ * curvature;
   for (const Held& of : held_) {
-    const double away = of.strain_rate * curvature, cap = of.by_tension + friction_level * of.by_line_load;
-    const double held = of.elastic * away + std::clamp((1 - of.elastic) * away, -cap, cap);
-    sum += of.moment_per_strain * held;
+    const double rate = std::sqrt(2 * of.glued / of.stiffness);
+    const double cap = of.by_tension + friction_level * of.by_line_load;
+    const double away = of.share * rate * curvature;
+    sum += of.elastic * of.share * of.glued * curvature +
+           of.stiffness * rate * held_by_friction((1 - of.elastic) * away, cap);
   }
   return sum;
 }
 
 double CableBending::free_stiffness() const {
   double sum = own_stiffness_;
-  for (const Held& of : held_) sum += of.moment_per_strain * of.elastic * of.strain_rate;
+  for (const Held& of : held_) sum += of.elastic * of.share * of.glued;
   return sum;
 }
 
 double CableBending::stuck_stiffness(int levels) const {
   double sum = own_stiffness_;
   for (const Held& of : held_)
-    sum +=
-        of.moment_per_strain * of.strain_rate * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
+    sum += of.share * of.glued * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
   return sum;
 }
 
@@ -210,13 +237,29 @@ double friction_level(const Dresspack& dresspack, const Component& cable) {
   return std::sqrt(low * high);
 }
 
+double jacket_bending(double radius) { return jacketed_modulus * pi / 4 * std::pow(radius, 4); }
+
+double polymer_bending(const Component& part) {
+  if (part.components.empty()) return 0;
+  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness)
+    return part.polymer_bending_stiffness;
+  return jacket_bending(part.radius);
+}
+
+double cable_stiffness(const Dresspack& dresspack, const Component& cable) {
+  if (cable.measured_bending_stiffness) return *cable.measured_bending_stiffness;
+  const double curvature = cable.measured_at_curvature;
+  return polymer_bending(cable) +
+         CableBending(dresspack, cable, StraightParts::slide).moment(curvature, 1) / curvature;
+}
+
 std::vector<double> bending_moments(const Dresspack& dresspack, Component cable, double friction,
                                     const std::vector<double>& curvature) {
   const double level = cable.measured_bending_stiffness ? friction_level(dresspack, cable) : 1;
   scale_friction(cable.components, friction);
   const CableBending bending(dresspack, cable);
   std::vector<double> moments;
-  for (const double k : curvature) moments.push_back(cable.polymer_bending_stiffness * k + bending.moment(k, level));
+  for (const double k : curvature) moments.push_back(polymer_bending(cable) * k + bending.moment(k, level));
   return moments;
 }
 

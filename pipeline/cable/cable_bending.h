@@ -4,12 +4,18 @@
 //
 // The cable is deformed from straight for the first time, uniformly and by little. Every part and wire feels
 // what the strain stage says (W6, W10, W11), to first order in the size x of that: its strain's deviation D x
-// from the mean over its pitch, that mean m' x, its own bending and torsion. Of the deviation h(D x) is held,
-// elastically and by friction (W16, W17, W30), and by virtual work, per length of the cable, the answer is
+// from the mean over its pitch, that mean m' x, its own bending and torsion. Along a part D is a wave, A sin(phi).
+// Of the deviation h is held, elastically and by friction (W30, W16), and by virtual work, per length of the
+// cable, the answer is:
 //     sum over wires of [E I (k_n'^2 + k_b'^2) + G J t'^2 + E A m'^2] x
-//         + sum over parts and wires of E A h(D x) D,                                    (W29)
+//         + sum over layers of their parts' E A x mean of h(phi) D(phi),                 (W29)
 // ' per x. Part by part E A is that of all wires in it. What is held in a part shifts the levels inside by
 // second order only, which is left out.
+//
+// Friction gathers from the neutral axis, phi = 0, as in (W20): a part whose force may change by mu p per length
+// and that is bent for the first time has h(phi) = min(A x sin(phi), cap 2 phi/pi), with (W16)'s cap at
+// phi = pi/2. The strain stage follows each wire through any history with that cap, which bounds the worst wire
+// of a layer exactly and its others from above (friction.h). A^2 is twice the mean of D^2.
 #pragma once
 
 #include <vector>
@@ -41,13 +47,14 @@ class CableBending {
   double stuck_stiffness(int levels = 0) const;  ///< everything does, or the innermost `levels` alone [N m2]
 
  private:
-  /// Parts or wires of a layer at one angle.
+  /// Parts or wires of a layer.
   struct Held {
-    int depth;                        ///< levels below the cable, 1 = in it
-    double strain_rate;               ///< D [m]
-    double moment_per_strain;         ///< E A D x how many per length of the cable [N m]
-    double by_tension, by_line_load;  ///< the cap (W16), the latter at friction level 1
-    double elastic;                   ///< share held whatever the cap (W30)
+    int depth = 0;         ///< levels below the cable, 1 = in it
+    double stiffness = 0;  ///< E A x how many per length of the cable [N]
+    double glued = 0;      ///< that x mean of D^2 [N m2]
+    double share = 1;      ///< of the strain that the bed leaves (W31)
+    double by_tension = 0, by_line_load = 0;  ///< the cap (W16), the latter at friction level 1
+    double elastic = 0;                       ///< share held whatever the cap (W30)
   };
   int depth_ = 0;
   double own_stiffness_ = 0;  ///< of wires whose deviation is free [N m2]
@@ -68,6 +75,14 @@ PullAndTwist pull_and_twist(const Dresspack& dresspack, const Component& cable);
 /// The common factor on the radial line loads in `cable` at which its wires and polymer together have its
 /// measured_bending_stiffness at measured_at_curvature. Errors: InputError when no friction gives that.
 double friction_level(const Dresspack& dresspack, const Component& cable);
+
+/// Of the jacket and insulation of a cable this wide, where nothing is given [N m2].
+double jacket_bending(double radius);
+/// Of a part's jacket and insulation: given, else by its width. A measured stiffness has it in it.
+double polymer_bending(const Component& part);
+/// Of one cable by itself, moment over curvature at measured_at_curvature [N m2]: measured, else of its polymer
+/// and its wires with their friction.
+double cable_stiffness(const Dresspack& dresspack, const Component& cable);
 
 /// What bends a cable by itself from straight for the first time [N m], its polymer included; friction:
 /// factor of that of all its parts, besides what a measured stiffness says. curvature (bend) [1/m]. Errors:

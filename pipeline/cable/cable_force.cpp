@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cyclic_curve.h"
 #include "pipeline/cable/plain_properties.h"
-#include "pipeline/cable/polymer.h"
 #include "pipeline/cable/stiffness.h"
 
 namespace dresslife::pipeline {
@@ -25,11 +25,9 @@ CableForce::CableForce(const Dresspack& dresspack, const Component& cable) {
     wires_.push_back({area, 1, plain.axial / area, 0, 1});  // elastic
     return;
   }
-  bending_ = cable.polymer_bending_stiffness > 0 ? cable.polymer_bending_stiffness
-                                                 : polymer_modulus * area * cable.radius * cable.radius / 4;
+  bending_ = cable_stiffness(dresspack, cable);
   for (const Component& inner : cable.components) add(dresspack, inner, 1, 1);
   if (!all_strengths_known_) strength_ = 0;
-  bending_ = cable.measured_bending_stiffness.value_or(bending_);
 }
 
 void CableForce::add(const Dresspack& dresspack, const Component& part, double count, double cosines) {
@@ -41,7 +39,6 @@ void CableForce::add(const Dresspack& dresspack, const Component& part, double c
   const Material* material = find_material(dresspack, part.material);
   all_strengths_known_ &= material && material->tensile_strength;
   if (!material) return;
-  bending_ += material->youngs_modulus * area * part.radius * part.radius / 4 * cosines;
   strength_ += area * cosines * material->tensile_strength.value_or(0);
   Wires wires{area * cosines, cosines * cosines, material->youngs_modulus, 0, 1};
   if (material->fatigue_strength > 0) {  // else a polymer's table: elastic

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/plain_properties.h"
 
 namespace dresslife::pipeline {
@@ -48,9 +49,7 @@ double bending_of(const std::vector<Component>& components, const Dresspack& dre
         (material ? material->youngs_modulus : 0) * std::numbers::pi / 4 * std::pow(part.radius, 4);
     const double own = part.plain                ? properties_of(*part.plain, part.radius).bending
                        : part.components.empty() ? wire
-                       : part.measured_bending_stiffness
-                           ? *part.measured_bending_stiffness
-                           : part.polymer_bending_stiffness + bending_of(part.components, dresspack);
+                                                 : cable_stiffness(dresspack, part);
     sum += part.count * own;
   }
   return sum;

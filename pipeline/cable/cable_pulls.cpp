@@ -13,8 +13,12 @@ CablePulls pulls_of(std::span<const PulledCable> cables, std::size_t samples) {
     std::vector<double>& tension = pulls.tension.emplace_back(samples);
     for (std::size_t t = 0; t < samples; ++t) {
       tension[t] = cable.force.force(cable.strain[0][t]);
-      if (cable.force.strength() > 0)
-        pulls.force_share = std::max(pulls.force_share, std::abs(tension[t]) / cable.force.strength());
+      if (const double strength = cable.force.strength();
+          strength > 0 && std::abs(tension[t]) > pulls.force_share * strength) {
+        pulls.force_share = std::abs(tension[t]) / strength;
+        pulls.of_cable = pulls.tension.size() - 1;
+        pulls.at_sample = t;
+      }
       for (std::size_t clamp = 0; clamp < 2; ++clamp) {
         const double strain = cable.strain[clamp + 1][t];
         const double pull = strain == cable.strain[0][t] ? tension[t] : cable.force.force(strain);

@@ -25,6 +25,7 @@ struct CablePulls {
   std::vector<std::vector<double>> tension;
   std::vector<double> moment;  ///< of all cables on the hose, the larger of both clamps (sample) [N m]
   double force_share = 0;      ///< over the force at which a cable tears, the largest of all; 0: not known
+  std::size_t of_cable = 0, at_sample = 0;  ///< where and when that is
 };
 
 /// Precondition: strains of as many samples.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/warning_words.h"
+#include "pipeline/job/parts_room.h"
 #include "pipeline/settings/problems.h"
 
 namespace dresslife::pipeline {
@@ -16,6 +18,7 @@ constexpr double allowed = 0.02;   // of the diameter, without a warning
 constexpr double rounding = 1e-9;  // of the diameter: six straight ones around one of their size touch
 constexpr double hopeless = 0.5;   // of the diameter, between the axes
 constexpr int steps = 64;          // of phi, to find the valley
+constexpr const char* rough = "radii and lay angles that were measured or estimated roughly";
 
 bool fits(const Component& of, double lay_angle, int count, double give = rounding) {
   return count < 2 || neighbour_distance(of.helix_radius, lay_angle, count) >= 2 * of.radius * (1 - give);
@@ -37,11 +40,22 @@ double largest_lay_angle(const Component& of) {
   return low;
 }
 
+/// Of the circle on which they lie beside each other at this lay angle [m].
+double least_helix_radius(const Component& of) {
+  double low = of.helix_radius, high = of.count * of.radius / std::cos(of.lay_angle);  // a circle of 2 pi R > K 2 r / cos
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = (low + high) / 2;
+    (neighbour_distance(middle, of.lay_angle, of.count) < 2 * of.radius ? low : high) = middle;
+  }
+  return high;
+}
+
+/// Keys with values, each of which cures it alone.
 std::string what_fits(const Component& of) {
-  const std::string fewer = fmt::format("{} of them fit", largest_count(of));
-  if (of.lay_angle == 0 || !fits(of, 0, of.count)) return fewer;
-  return fmt::format("at a lay angle of {:.1f} deg all fit, at {:.4g} deg {}",
-                     std::floor(10 * largest_lay_angle(of) * 180 / pi) / 10, of.lay_angle * 180 / pi, fewer);
+  std::string keys = fmt::format("count: {} or less", largest_count(of));
+  if (of.lay_angle > 0 && fits(of, 0, of.count))
+    keys = fmt::format("lay_angle_deg: {:.1f} or less, or ", std::floor(10 * largest_lay_angle(of) * 180 / pi) / 10) + keys;
+  return keys + fmt::format(", or helix_radius_mm: {:.4g} or more", std::ceil(1e6 * least_helix_radius(of)) / 1e3);
 }
 
 /// Turn about the parent's axis along it [rad/m].
@@ -64,6 +78,8 @@ void add_overlaps_between(const std::vector<Component>& components, Problems& pr
       const Component &one = components[b], &other = components[a];
       if (!overlap_each_other(one, other)) continue;
       const double apart = nearest_distance(one, other), needed = one.radius + other.radius;
+      const bool other_is_outer = other.helix_radius >= one.helix_radius;
+      const Component &outer = other_is_outer ? other : one, &inner = other_is_outer ? one : other;
       const auto name = [](const Component& of) {
         return of.layer.empty() ? of.name : of.layer + "/" + of.name;
       };
@@ -71,11 +87,14 @@ void add_overlaps_between(const std::vector<Component>& components, Problems& pr
           "'{}' and '{}' come as near as {:.4g} mm between their axes, {:.3f} mm less than their "
           "radii together",
           name(one), name(other), 1e3 * apart, 1e3 * (needed - apart));
-      const std::string remedy = "check helix_radius_mm, radius_mm, phase_deg and lay_angle_deg of both";
+      const std::string remedy =
+          go_on_alike(one, other)
+              ? fmt::format("check phase_deg, helix_radius_mm and radius_mm of both, or write place: auto for both")
+              : fmt::format("give '{}' helix_radius_mm: {:.4g} or more", name(outer), 1e3 * (inner.helix_radius + needed));
       if (apart < hopeless * needed && go_on_alike(one, other))
         problems.add(other.where, what + " (nearer than half of these)", remedy);
       else if (warnings)
-        warnings->push_back({WarningKind::overlap, other.where.text(), what + "; " + remedy});
+        warnings->push_back(warning_of(WarningKind::overlap, other.where.text(), what, rough, remedy));
     }
 }
 
@@ -90,10 +109,24 @@ void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>*
       "the {} parts '{}' are {:.4g} mm apart between their axes, {:.3f} mm less than their diameter",
       of.count, name, 1e3 * apart, 1e3 * (needed - apart));
   if (apart < hopeless * needed)
-    problems.add(of.where, fmt::format("{} (nearer than half of it)", what),
-                 fmt::format("check count, radius_mm, helix_radius_mm and lay_angle_deg; {}", what_fits(of)));
+    problems.add(of.where, fmt::format("{} (nearer than half of it)", what), "give " + what_fits(of));
   else if (warnings)
-    warnings->push_back({WarningKind::overlap, of.where.text(), fmt::format("{}; {}", what, what_fits(of))});
+    warnings->push_back(warning_of(WarningKind::overlap, of.where.text(), what, rough, what_fits(of)));
+}
+
+/// Of a bore that is not given.
+void add_outside(const Dresspack& dresspack, std::vector<Warning>& warnings) {
+  const PartsRoom room = room_of_parts(dresspack);
+  for (const Component& of : dresspack.components)
+    if (const double by = outside_bore(room, of); by > 0 && room.estimated)
+      warnings.push_back(warning_of(
+          WarningKind::overlap, of.where.text(),
+          fmt::format("'{}' reaches {:.4g} mm from the axis, {:.3g} mm outside a bore of {:.4g} mm radius, which is an "
+                      "ESTIMATE",
+                      of.name, 1e3 * (of.helix_radius + of.radius), 1e3 * by, 1e3 * room.bore),
+          fmt::format("the bore is not given and counts as {:g} of diameter_mm, as of corrugated hoses", usual_bore_share),
+          fmt::format("give inner_diameter_mm as measured; or of parts that fit, helix_radius_mm: {:.4g} or less",
+                      1e3 * std::max(0.0, room.bore - of.radius))));
 }
 
 }  // namespace
@@ -146,6 +179,7 @@ std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
   std::vector<Warning> warnings;
   for (const Component& component : dresspack.components) add_overlaps(component, problems, &warnings);
   add_overlaps_between(dresspack.components, problems, &warnings);
+  add_outside(dresspack, warnings);
   problems.finish();
   return warnings;
 }

@@ -28,12 +28,12 @@ bool overlap_each_other(const Component& one, const Component& other);
 
 /// A warning for each component whose parts overlap by more than 2 % of their diameter, as much as a caliper
 /// reads wrong and a fit into the parent is allowed: which, by how much, and what would fit. Likewise for
-/// each two components of one parent. Errors: InputError for parts nearer than half of their diameter, of two
+/// each two components of one parent, and for parts outside a bore that is an ESTIMATE (room_of_parts()). Errors: InputError for parts nearer than half of their diameter, of two
 /// components where they go on alike, as cables at one angle. Insulation gives, but two such parts would
 /// share over a third of their sections.
 std::vector<Warning> overlap_warnings(const Dresspack& dresspack);
 
-/// The errors alone, in a hundredth of the time: nobody asks what would fit.
+/// The errors alone, in a hundredth of the time: what would fit is not computed.
 void refuse_gross_overlap(const Dresspack& dresspack);
 
 }  // namespace dresslife::pipeline

@@ -1,9 +1,19 @@
 #include "pipeline/cable/shares.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace dresslife::helices {
+
+double turning(double of_parent, double lay_angle, double helix_radius) {
+  const double own = helix_radius > 0 ? std::tan(lay_angle) / helix_radius : 0;
+  return (of_parent + own) * std::cos(lay_angle);
+}
+
+double evening_length(double turning, double longest) {
+  return std::min(longest, 2 * std::numbers::pi / std::abs(turning));
+}
 
 double elastic_share(double jacket_stiffness, double axial_stiffness, double evening_length) {
   if (jacket_stiffness == 0) return 0;

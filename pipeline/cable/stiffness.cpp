@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/corrugation.h"
 #include "pipeline/cable/plain_properties.h"
@@ -21,19 +23,6 @@ constexpr double gravity = 9.81;             // [m/s2]
 constexpr double believable_stretch = 1e-3;  // by its own weight; hoses of polyamide: 1e-4 and less
 constexpr double believable = 2;  // a life moves by up to a factor of five with twice the E I (README)
 
-/// Of a round of polymer.
-double round_bending(double radius) { return polymer_modulus * pi / 4 * std::pow(radius, 4); }
-
-/// Of a part's jacket and insulation: given, else of a round as wide as it is. A measured stiffness has it in
-/// it. Of a part without wires all of it.
-double polymer_of(const Component& part) {
-  if (part.plain) return properties_of(*part.plain, part.radius).bending;
-  if (part.components.empty()) return 0;
-  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness)
-    return part.polymer_bending_stiffness;
-  return round_bending(part.radius);
-}
-
 bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_value(); }
 
 /// Of all in it. What is no hose is a cable itself, of parts in a jacket, or holds nothing but one.
@@ -41,10 +30,10 @@ double polymer_of(const Dresspack& dresspack) {
   double sum = 0;
   bool on_axis = false;
   for (const Component& part : dresspack.components) {
-    sum += part.count * polymer_of(part);
+    sum += part.count * (part.plain ? properties_of(*part.plain, part.radius).bending : polymer_bending(part));
     on_axis |= part.helix_radius == 0 && !part.components.empty();
   }
-  return is_hose(dresspack) || on_axis ? sum : round_bending(dresspack.diameter / 2);
+  return is_hose(dresspack) || on_axis ? sum : jacket_bending(dresspack.diameter / 2);
 }
 
 bool knows_wall(const Dresspack& dresspack) {
@@ -221,26 +210,30 @@ void take_from_construction(Dresspack& dresspack) {
 
 namespace {
 
-/// Of stiffnesses from a construction of which something is not known; empty: none is taken from it.
-std::string too_little_words(const Dresspack& dresspack, const std::vector<std::string>& missing) {
-  std::vector<std::string> taken;
+/// Of stiffnesses from a construction of which something is not known.
+std::optional<Warning> too_little(const Dresspack& dresspack, const std::vector<std::string>& missing) {
+  std::vector<std::string> taken, keys;
   const auto take = [&](bool from_construction, const char* key, double value) {
-    if (from_construction) taken.push_back(fmt::format("{} {:.3g}", key, value));
+    if (!from_construction) return;
+    taken.push_back(fmt::format("{} {:.3g}", key, value));
+    keys.push_back(key);
   };
   take(dresspack.bending_from_construction, "bending_stiffness_Nm2", dresspack.bending_stiffness);
   take(dresspack.torsional_from_construction, "torsional_stiffness_Nm2", dresspack.torsional_stiffness);
   take(dresspack.axial_from_construction, "axial_stiffness_N", dresspack.axial_stiffness);
-  if (taken.empty() || missing.empty()) return "";
+  if (taken.empty() || missing.empty()) return std::nullopt;
   const double stretch = gravity * dresspack.mass_per_length / dresspack.axial_stiffness;
   const std::string soft =
       dresspack.axial_from_construction && stretch > believable_stretch
-          ? fmt::format("; it would stretch by {:.2g} % under a metre of its own weight", 100 * stretch)
+          ? fmt::format("; it would stretch by {:.2g} % (limit {:g} %) under a metre of its own weight", 100 * stretch,
+                        100 * believable_stretch)
           : "";
   const bool wall = is_hose(dresspack) && dresspack.hose_material.empty();
-  return fmt::format("too little is from_construction: {}, without {}{} ({}give {} as measured)",
-                     fmt::join(taken, ", "), fmt::join(missing, " and "), soft,
-                     wall ? "name the wall's, as hose_material: hose_polyamide, or " : "give that, or ",
-                     taken.size() == 1 ? "it" : "them");
+  return warning_of(WarningKind::material, "",
+                    fmt::format("too low: {} from the construction{}", fmt::join(taken, ", "), soft),
+                    fmt::format("the construction lacks {}", fmt::join(missing, " and ")),
+                    fmt::format("{}, or measured values of {}",
+                                wall ? "hose_material: hose_polyamide (the wall's)" : "the missing keys", fmt::join(keys, ", ")));
 }
 
 }  // namespace
@@ -250,10 +243,7 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   if (dresspack.components.empty() || given <= 0) return {};
   const auto missing = missing_in_construction(dresspack);
   std::vector<Warning> warnings;
-  const auto warn = [&](std::string words) {
-    warnings.push_back({WarningKind::material, "", std::move(words)});
-  };
-  if (const std::string words = too_little_words(dresspack, missing); !words.empty()) warn(words);
+  if (const auto warning = too_little(dresspack, missing)) warnings.push_back(*warning);
   if (dresspack.bending_from_construction) return warnings;
   const std::string without = missing.empty() ? "" : fmt::format(" without {}", fmt::join(missing, " and "));
   const Wires wires(dresspack);
@@ -269,11 +259,16 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
                       : is_hose(dresspack) ? std::min(friction * believable, stuck)
                                            : stuck;
   if (given >= least && given <= most) return warnings;
-  warn(fmt::format(
-      "bending_stiffness_Nm2 is {:.3g}, {:.2g} times what the dresspack's parts{} have by their friction and pressures at {:.3g} "
-      "1/m: {:.3g}, {:.3g} sliding, {:.3g} glued (measure it by the sag of a hanging length, or write "
-      "from_construction)",
-      given, given / friction, without, curvature, friction, sliding, stuck));
+  const std::string limits =
+      std::isinf(most) ? fmt::format("{:.3g} or more", least) : fmt::format("{:.3g} .. {:.3g}", least, most);
+  warnings.push_back(warning_of(
+      WarningKind::material, "",
+      fmt::format("bending_stiffness_Nm2 is {:.3g} (limits {}); calculated from the dresspack's parts{}: {:.3g} at a curvature of "
+                  "{:.3g} 1/m ({:.3g} sliding .. {:.3g} glued)",
+                  given, limits, without, friction, curvature, sliding, stuck),
+      "an estimate of the stiffness that does not belong to these parts, their friction and their pressures",
+      fmt::format("bending_stiffness_Nm2: {:.3g} or from_construction; or measure it by the sag of a hanging length",
+                  friction)));
   return warnings;
 }
 

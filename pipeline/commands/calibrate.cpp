@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/advise/calibrate/learning.h"
@@ -27,8 +26,9 @@ int calibrate(const RunOptions& options) {
   const Learned learned = learn(tests, options.sets, places,
                                 [&](const Study& study) { return made_rows(study, places, options); });
   const std::string table = learned_table(learned);
-  write_text_if_changed(places.folder / "calibration.yaml", to_yaml(echo_fields(learned.calibration)));
-  write_text_if_changed(places.folder / "calibration.svg", calibration_picture(learned));
+  write_text_if_changed(places.folder / "calibration.yaml",
+                        with_mark(to_yaml(echo_fields(learned.calibration)), Mark::yaml));
+  write_text_if_changed(places.folder / "calibration.svg", with_mark(calibration_picture(learned), Mark::xml));
   print(shown(fmt::format("{}\nCalibration: {}\nPicture: {}\n", table,
                           (places.folder / "calibration.yaml").string(),
                           (places.folder / "calibration.svg").string())));
@@ -37,15 +37,14 @@ int calibrate(const RunOptions& options) {
 
 }  // namespace
 
-Command add_calibrate(CLI::App& program) {
+Command calibrate_command() {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* words = program.add_subcommand(
-      "calibrate",
-      "learn what is not known of cables from lives that were observed; a job that names the result starts from it");
-  words->add_option("observations", options->study, "OBSERVATIONS.yaml")->required()->type_name("");
-  add_run_options(*words, *options);
-  add_study_options(*words, *options);
-  return {words, [options] { return calibrate(*options); }};
+  return {"calibrate",
+          "learn what is not known of cables from lives that were observed; a job that names the result starts "
+          "from it",
+          joined({{{"observations", "", "OBSERVATIONS.yaml", &options->study, {.required = true}}},
+                  run_options(*options), study_options(*options)}),
+          [options] { return calibrate(*options); }};
 }
 
 }  // namespace dresslife::pipeline

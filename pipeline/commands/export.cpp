@@ -1,11 +1,9 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/whole_file.h"
-#include "pipeline/commands/pictures.h"
 #include "pipeline/report/figures.h"
 #include "pipeline/report/paraview.h"
 
@@ -23,29 +21,21 @@ int export_job(const Options& options) {
   if (file.extension() != ".xdmf")
     throw InputError({file.string()}, "is no .xdmf", "name the file accordingly: ParaView goes by it");
   check_replaceable(file);
-  std::error_code failure;
-  if (fs::exists(file, failure) && beginning_of(file, 64).find("<Xdmf") == std::string::npos)
-    throw InputError({file.string()}, "is there already and no XDMF", "name another file after --paraview");
-  write_text_if_changed(file, xdmf_text(job_files(options.job), file));
+  write_text_if_changed(file, with_mark(xdmf_text(job_files(options.job), file), Mark::xml));
   return 0;
 }
 
 }  // namespace
 
-Command add_export(CLI::App& program) {
+Command export_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand(
-      "export", "write a job's motion and results for ParaView (5.11 or newer), which plays them in 3D");
-  words->add_option("job", options->job, "the job's folder, or one of its .h5 files")
-      ->required()
-      ->type_name("");
-  words
-      ->add_option("--paraview", options->xdmf,
-                   "file to write; it names the .h5 files, which must stay. Of ParaView's three readers "
-                   "only 'XDMF Reader' reads parts of their tables")
-      ->required()
-      ->type_name("FILE.xdmf");
-  return {words, [options] { return export_job(*options); }};
+  return {"export", "write a job's motion and results for ParaView (5.11 or newer), which plays them in 3D",
+          {{"job", "", "the job's folder, or one of its .h5 files", &options->job, {.required = true}},
+           {"--paraview", "FILE.xdmf",
+            "file to write; it names the .h5 files, which must stay. Of ParaView's three readers only 'XDMF "
+            "Reader' reads parts of their tables",
+            &options->xdmf, {.required = true}}},
+          [options] { return export_job(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -24,7 +23,6 @@ namespace fs = std::filesystem;
 
 struct Options : RunOptions {
   ImproveRequest request;
-  std::string method = "surrogate", second = "none";
   double off_mm = 10;
 };
 
@@ -50,10 +48,10 @@ int improve_study(Options options) {
   write_text_if_changed(places.folder / "improve.csv", improvement_csv(found));
   const MakeRows make_rows = [&](const Study& study) { return made_rows(study, places, options); };
   const Finals finals = finals_of(found, options.request, make_rows);
-  const bool all_written = write_results(finals.study, places, finals.rows);
+  const bool all_written = write_results(finals.study, places, finals.rows).empty();
   const double off = options.off_mm / 1000;
   const ImprovementStory story = story_of(found, finals, options.request, off, places, make_rows);
-  write_text_if_changed(places.folder / "improve.html", improvement_page(story));
+  write_text_if_changed(places.folder / "improve.html", with_mark(improvement_page(story), Mark::page));
   print(shown(improvement_words(found, finals, story, options.request.second, off, places)));
   print(shown(fmt::format("Trials: {}\nReport: {}\n", (places.folder / "improve.csv").string(),
                           (places.folder / "improve.html").string())));
@@ -61,78 +59,39 @@ int improve_study(Options options) {
   return failed != 0 || finals.of.size() == 1 || !all_written ? 1 : 0;
 }
 
-template <class Enum>
-Enum value_of(const std::string& text, std::initializer_list<Enum> values) {
-  for (const Enum value : values)
-    if (text == word(value)) return value;
-  throw std::logic_error("the command line let '" + text + "' through");
-}
-
 }  // namespace
 
-Command add_improve(CLI::App& program) {
+Command improve_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand(
-      "improve", "search for jobs that live longer: keys that are freed, under the limits of the checks");
-  words
-      ->add_option("study", options->study,
-                   "STUDY.yaml with `free`, or JOB.yaml whose clamps and length are then free")
-      ->required()
-      ->type_name("");
-  words
-      ->add_option(
-          "--free", options->request.frees,
-          "free a key: 'LOW .. HIGH', 'SPREAD around', 'ANGLE deg around', 'LOW .. HIGH along LINK' or '[A, B]'; "
-          "may be repeated")
-      ->type_name("KEY.PATH=RANGE")
-      ->allow_extra_args(false);
-  words->add_option("--trials", options->request.trials, "jobs to try, or sets of all the study's jobs")
-      ->check(CLI::Range(2, 100'000))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  words
-      ->add_option("--at-a-time", options->request.at_a_time,
-                   "trials that are thought of together; another number, another search")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  words->add_option("--seed", options->request.seed, "of the search's chances")
-      ->check(CLI::Range(0, 1'000'000'000))
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  words
-      ->add_option(
-          "--rehearsals", options->request.rehearsals,
-          "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each variable")
-      ->check(CLI::Range(-1, 100'000))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  words
-      ->add_option("--method", options->method,
-                   "models of lives and limits, or chance alone to hold against it")
-      ->check(CLI::IsMember({"surrogate", "random"}))
-      ->type_name("surrogate|random")
-      ->capture_default_str();
-  words->add_option("--second", options->second, "a second aim, to be small: the answer is the front of both")
-      ->check(CLI::IsMember({"none", "hose_length", "cycle_time"}))
-      ->type_name("none|hose_length|cycle_time")
-      ->capture_default_str();
-  words
-      ->add_option("--off", options->off_mm,
-                   "what a clamp or the length may be off by: told of the best job; 0: not asked")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->type_name("MM")
-      ->capture_default_str();
-  add_run_options(*words, *options);
-  add_launcher(*words, *options);
-  add_study_options(*words, *options);
+  ImproveRequest& request = options->request;
   return {
-      words, [options] {
-        options->request.method = value_of(options->method, {SearchMethod::surrogate, SearchMethod::random});
-        options->request.second =
-            value_of(options->second, {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time});
-        return improve_study(*options);
-      }};
+      "improve", "search for jobs that live longer: keys that are freed, under the limits of the checks",
+      joined(
+          {{{"study", "", "STUDY.yaml with `free`, or JOB.yaml whose clamps and length are then free",
+             &options->study, {.required = true}},
+            {"--free", "KEY.PATH=RANGE",
+             "free a key: 'LOW .. HIGH', 'SPREAD around', 'ANGLE deg around', 'LOW .. HIGH along LINK' or '[A, "
+             "B]'; may be repeated",
+             &request.frees},
+            {"--trials", "COUNT", "jobs to try, or sets of all the study's jobs", &request.trials,
+             {.range = {{2, 100'000}}}},
+            {"--at-a-time", "COUNT", "trials that are thought of together; another number, another search",
+             &request.at_a_time, {.range = {{1, 1024}}}},
+            {"--seed", "NUMBER", "of the search's chances", &request.seed, {.range = {{0, 1'000'000'000}}}},
+            {"--rehearsals", "COUNT",
+             "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each "
+             "variable",
+             &request.rehearsals, {.range = {{-1, 100'000}}}},
+            choice_option("--method", "models of lives and limits, or chance alone to hold against it",
+                          request.method, {SearchMethod::surrogate, SearchMethod::random}),
+            choice_option("--second", "a second aim, to be small: the answer is the front of both",
+                          request.second, {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time}),
+            {"--off", "MM", "what a clamp or the length may be off by: told of the best job; 0: not asked",
+             &options->off_mm, {.range = {{0, 1000}}}}},
+           run_options(*options),
+           {launcher_option(*options)},
+           study_options(*options)}),
+      [options] { return improve_study(*options); }};
 }
 
 }  // namespace dresslife::pipeline

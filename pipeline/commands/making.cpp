@@ -71,7 +71,8 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
   share_cores(options, left);
   Unkept unkept(study, places, states);
   const BuildResult built = run_build_graph(places, options.jobs, [&](const BuildEvent& event) {
-    progress.show(fmt::format("{}/{}  {}", event.finished, event.total, event.what));
+    progress.show(event.total > 0 ? static_cast<double>(event.finished) / static_cast<double>(event.total) : 0,
+                  fmt::format("{}/{}  {}", event.finished, event.total, event.what));
     unkept.ended(event.what);
   });
   progress.clear();

@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/commands/options.h"
@@ -15,7 +14,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-int manual(const CLI::App& program, const std::string& what) {
+int manual(const Command& program, const std::string& what) {
   if (what == "keys")
     print(study_manual() + "\n" + job_manual() + field_manual<Cluster>("cluster"));
   else
@@ -25,14 +24,14 @@ int manual(const CLI::App& program, const std::string& what) {
 
 }  // namespace
 
-Command add_manual(CLI::App& program) {
+Command manual_command(const Command& program) {
   const auto what = std::make_shared<std::string>();
-  CLI::App* words = program.add_subcommand(
-      "manual", "print a reference: of all keys or all files (Markdown), the man page, a shell's completion");
   std::vector<std::string> references{"keys", "files"};
   references.insert(references.end(), manual_kinds().begin(), manual_kinds().end());
-  words->add_option("what", *what, "which one")->required()->check(CLI::IsMember(references))->type_name("");
-  return {words, [&program, what] { return manual(program, *what); }};
+  return {"manual",
+          "print a reference: of all keys or all files (Markdown), the man page, a shell's completion",
+          {{"what", "", "which one", what.get(), {.required = true, .choices = references}}},
+          [&program, what] { return manual(program, *what); }};
 }
 
 }  // namespace dresslife::pipeline

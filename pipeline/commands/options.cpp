@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <thread>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/ownership.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 
@@ -16,48 +17,48 @@ namespace fs = std::filesystem;
 
 RunOptions::RunOptions() : jobs(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {}
 
-void add_sets(CLI::App& command, const std::string& what, std::vector<std::string>& sets) {
-  command.add_option("--set", sets, what + "; may be repeated")
-      ->type_name("KEY.PATH=VALUE")
-      ->allow_extra_args(false);
+Option study_or_job(StudyOptions& options) {
+  return {"study", "", "STUDY.yaml, or JOB.yaml for a study of one", &options.study, {.required = true}};
 }
 
-void add_study_options(CLI::App& command, StudyOptions& options) {
-  command.add_option("-o,--output", options.out, "folder of the results")
-      ->type_name("DIR")
-      ->capture_default_str();
-  add_sets(command, "override a key in every job", options.sets);
+Option sets_option(const std::string& what, std::vector<std::string>& sets) {
+  return {"--set", "KEY.PATH=VALUE", what + "; may be repeated", &sets};
 }
 
-void add_run_options(CLI::App& command, RunOptions& options) {
-  command.add_option("-j,--jobs", options.jobs, "stages at a time")
-      ->check(CLI::Range(1, 1024))
-      ->default_str("one per core");
-  command.add_flag("--quiet", options.quiet, "no progress, no notes");
+Option json_option(bool& json) { return {"--json", "", "print JSON for other programs", &json}; }
+
+std::vector<Option> study_options(StudyOptions& options) {
+  return {{"-o,--output", "DIR", "folder of the results", &options.out},
+          sets_option("override a key in every job", options.sets)};
 }
 
-void add_launcher(CLI::App& command, RunOptions& options) {
-  command
-      .add_option(
-          "--launcher", options.launcher,
-          "shell words before each stage's command, which start it elsewhere and end as it ends: 'srun -n1 -c1 --exact'")
-      ->type_name("WORDS")
-      ->check([](const std::string& text) {
-        return text.find('\n') == std::string::npos ? std::string() : std::string("must be one line");
-      });
+std::vector<Option> run_options(RunOptions& options) {
+  return {{"-j,--jobs", "COUNT", "stages at a time", &options.jobs,
+           {.range = {{1, 1024}}, .shown_default = "one per core"}},
+          {"--quiet", "", "no progress, no notes", &options.quiet}};
+}
+
+Option launcher_option(RunOptions& options) {
+  return {"--launcher", "WORDS",
+          "shell words before each stage's command, which start it elsewhere and end as it ends: 'srun -n1 -c1 "
+          "--exact'",
+          [&options](const std::string& text) {
+            if (text.find('\n') != std::string::npos)
+              throw InputError({"--launcher"}, "has more than one line", "write it as one line");
+            options.launcher = text;
+          }};
 }
 
 namespace {
 
 /// shelves: the first that has one counts.
 fs::path file_or_entry(const std::string& name, const std::vector<std::string>& shelves) {
-  std::error_code failure;
   const bool is_name = fs::path(name).parent_path().empty() && fs::path(name).extension() != ".yaml";
-  if (!is_name || fs::is_regular_file(name, failure)) return name;
+  if (!is_name || kind_of(name) == FileKind::file) return name;
   std::string looked_for;
   for (const std::string& shelf : shelves) {
     const fs::path entry = fs::path(shelf) / (name + ".yaml"), shipped = shipped_catalogue() / entry;
-    if (fs::is_regular_file(shipped, failure)) return fs::proximate(shipped);
+    if (kind_of(shipped) == FileKind::file) return fs::proximate(shipped);
     looked_for += (looked_for.empty() ? "" : " or ") + entry.string();
   }
   throw InputError({name},
@@ -65,13 +66,19 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
                    "write the path of a YAML file");
 }
 
+/// What a user names is read, here or by a stage, and not replaced.
+fs::path input(fs::path file) {
+  note_input(file);
+  return file;
+}
+
 }  // namespace
 
 fs::path named_file(const std::string& name, const std::string& shelf) {
-  return file_or_entry(name, {shelf});
+  return input(file_or_entry(name, {shelf}));
 }
 
-fs::path named_study(const std::string& name) { return file_or_entry(name, {"studies", "jobs"}); }
+fs::path named_study(const std::string& name) { return input(file_or_entry(name, {"studies", "jobs"})); }
 
 StudyRequest request_of(const StudyOptions& options) {
   return {named_study(options.study), options.sets, options.out, program_folder()};

@@ -6,16 +6,14 @@
 #include <vector>
 
 #include "pipeline/base/limits.h"
+#include "pipeline/stage/command_line.h"
 #include "pipeline/study/known_study.h"
-
-namespace CLI {
-class App;
-}
 
 namespace dresslife::pipeline {
 
 struct StudyOptions {
   std::string study, out = "runs";
+  bool json = false;  ///< of commands with json_option()
   std::vector<std::string> sets;
 };
 
@@ -28,15 +26,18 @@ struct RunOptions : StudyOptions {
   RunOptions();
 };
 
+/// The argument STUDY.yaml or JOB.yaml.
+Option study_or_job(StudyOptions& options);
 /// --set KEY.PATH=VALUE, as often as wanted. what: "override a key".
-void add_sets(CLI::App& command, const std::string& what, std::vector<std::string>& sets);
+Option sets_option(const std::string& what, std::vector<std::string>& sets);
+/// --json: of commands that print a table.
+Option json_option(bool& json);
 /// --output DIR and --set.
-void add_study_options(CLI::App& command, StudyOptions& options);
+std::vector<Option> study_options(StudyOptions& options);
 /// --jobs and --quiet: of commands that run stages.
-void add_run_options(CLI::App& command, RunOptions& options);
-
+std::vector<Option> run_options(RunOptions& options);
 /// --launcher: of commands whose stages may run elsewhere.
-void add_launcher(CLI::App& command, RunOptions& options);
+Option launcher_option(RunOptions& options);
 
 /// What a user names: a file, or an entry of the catalogue ("two_robots" of studies). Errors: InputError,
 /// neither.

@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/base/errors.h"
@@ -15,8 +14,7 @@ namespace fs = std::filesystem;
 /// Of any folder that holds a job's results.
 int page(const fs::path& folder) {
   JobFolder files{fs::weakly_canonical(folder).filename().string(), folder};
-  std::error_code failure;
-  if (!fs::is_regular_file(files.life(), failure))
+  if (kind_of(files.life()) != FileKind::file)
     throw InputError({folder.string()}, "holds no life.h5",
                      "name the folder of a job that is done: runs/STUDY/JOB");
   refresh_job_page(files);
@@ -26,12 +24,11 @@ int page(const fs::path& folder) {
 
 }  // namespace
 
-Command add_page(CLI::App& program) {
-  const auto folder = std::make_shared<std::string>();
-  CLI::App* words = program.add_subcommand(
-      "page", "write the page of one job: robot and dresspack in motion, its damage over place and time");
-  words->add_option("folder", *folder, "folder of its results: runs/STUDY/JOB")->required()->type_name("");
-  return {words, [folder] { return page(*folder); }};
+Command page_command() {
+  const auto folder = std::make_shared<fs::path>();
+  return {"page", "write the page of one job: robot and dresspack in motion, its damage over place and time",
+          {{"folder", "", "folder of its results: runs/STUDY/JOB", folder.get(), {.required = true}}},
+          [folder] { return page(*folder); }};
 }
 
 }  // namespace dresslife::pipeline

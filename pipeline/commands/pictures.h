@@ -1,4 +1,4 @@
-// Files for people that a command may replace: pictures by pictures, pages by pages.
+// Pictures for people, as files.
 #pragma once
 
 #include <filesystem>
@@ -6,13 +6,8 @@
 
 namespace dresslife::pipeline {
 
-/// The first bytes of a file; zeros where it is shorter or cannot be read.
-std::string beginning_of(const std::filesystem::path& file, std::size_t bytes);
-
-/// Errors: InputError when something else than a picture stands there.
-void check_picture(const std::filesystem::path& file);
-
-/// As the file's ending says: .png, else SVG.
+/// As the file's ending says: .png, else SVG. Errors: InputError when it cannot be written, or would replace a file
+/// that is not ours.
 void write_picture(const std::filesystem::path& file, const std::string& svg);
 
 }  // namespace dresslife::pipeline

@@ -1,10 +1,10 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/ownership.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/report/figures.h"
 #include "pipeline/report/job_page.h"
@@ -23,7 +23,7 @@ int plot(const Options& options) {
   const fs::path file = options.picture;
   if (file.extension() != ".svg" && file.extension() != ".png")
     throw InputError({file.string()}, "is neither an .svg nor a .png", "name the picture accordingly");
-  check_picture(file);
+  check_replaceable(file);
   Figure what{};
   while (word(what) != options.what) what = static_cast<Figure>(static_cast<int>(what) + 1);
   write_picture(file, figure(what, job_files(options.job), options.time));
@@ -39,24 +39,15 @@ std::vector<std::string> figure_words() {
 
 }  // namespace
 
-Command add_plot(CLI::App& program) {
+Command plot_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand("plot", "draw one figure of a job's results into a file");
-  words->add_option("job", options->job, "the job's folder, or one of its .h5 files")
-      ->required()
-      ->type_name("");
-  words->add_option("--what", options->what, "which figure")
-      ->required()
-      ->check(CLI::IsMember(figure_words()))
-      ->type_name("");
-  words->add_option("-o,--output", options->picture, "picture to write, .svg or .png")
-      ->required()
-      ->type_name("FILE");
-  words
-      ->add_option("--time", options->time,
-                   "of scene and deformation; without it when the most damaging cycle closes")
-      ->type_name("SECONDS");
-  return {words, [options] { return plot(*options); }};
+  return {"plot", "draw one figure of a job's results into a file",
+          {{"job", "", "the job's folder, or one of its .h5 files", &options->job, {.required = true}},
+           {"--what", "", "which figure", &options->what, {.required = true, .choices = figure_words()}},
+           {"-o,--output", "FILE", "picture to write, .svg or .png", &options->picture, {.required = true}},
+           {"--time", "SECONDS",
+            "of scene and deformation; without it when the most damaging cycle closes", &options->time}},
+          [options] { return plot(*options); }};
 }
 
 }  // namespace dresslife::pipeline

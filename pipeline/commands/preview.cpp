@@ -1,13 +1,12 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/study/stage_program.h"
@@ -22,22 +21,13 @@ struct Options {
   std::vector<std::string> sets;
 };
 
-/// A page may replace a page.
-void check_page(const fs::path& file) {
-  check_replaceable(file);
-  std::error_code failure;
-  if (fs::exists(file, failure) && made_from_of(file).empty())
-    throw InputError({file.string()}, "is there already and no page of dresslife's",
-                     "name another file after -o");
-}
-
 /// What a job looks like before its run, and what is wrong with its routing. A job that is refused has a
 /// page, too: the exit status tells that the page is there.
 int preview(const Options& options) {
   const fs::path job = named_file(options.job, "jobs");
   const fs::path page =
       options.page.empty() ? fs::path(job.stem().string() + "_preview.html") : fs::path(options.page);
-  check_page(page);
+  check_replaceable(page);
   const PassingFile told("preview.h5");
   if (const int status = tell_preview(job, options.sets, {}, told.path())) return status;
   write_text_if_changed(page, preview_page(told.path(), job.stem().string(), xxh3(shell_digest())));
@@ -50,17 +40,15 @@ int preview(const Options& options) {
 
 }  // namespace
 
-Command add_preview(CLI::App& program) {
+Command preview_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words =
-      program.add_subcommand("preview",
-                             "show a job before its run: robot, clamps and dresspack over the program, "
-                             "which lengths suit, and what is refused");
-  words->add_option("job", options->job, "JOB.yaml")->required()->type_name("");
-  words->add_option("-o,--output", options->page, "page to write (HTML); else JOB_preview.html here")
-      ->type_name("FILE.html");
-  add_sets(*words, "override a key", options->sets);
-  return {words, [options] { return preview(*options); }};
+  return {"preview",
+          "show a job before its run: robot, clamps and dresspack over the program, which lengths suit, and what "
+          "is refused",
+          {{"job", "", "JOB.yaml", &options->job, {.required = true}},
+           {"-o,--output", "FILE.html", "page to write (HTML); else JOB_preview.html here", &options->page},
+           sets_option("override a key", options->sets)},
+          [options] { return preview(*options); }};
 }
 
 }  // namespace dresslife::pipeline

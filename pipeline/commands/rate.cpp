@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "pipeline/base/installation.h"
@@ -31,16 +30,14 @@ int rate(const RunOptions& options) {
 
 }  // namespace
 
-Command add_rate(CLI::App& program) {
+Command rate_command() {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* words = program.add_subcommand(
-      "rate",
-      "tell how many cycles a cable, or each of a dresspack's, lives in the standard test rigs, beside its "
-      "ratings");
-  words->add_option("cable", options->study, "DRESSPACK.yaml")->required()->type_name("");
-  add_run_options(*words, *options);
-  add_study_options(*words, *options);
-  return {words, [options] { return rate(*options); }};
+  return {"rate",
+          "tell how many cycles a cable, or each of a dresspack's, lives in the standard test rigs, beside its "
+          "ratings",
+          joined({{{"cable", "", "DRESSPACK.yaml", &options->study, {.required = true}}}, run_options(*options),
+                  study_options(*options)}),
+          [options] { return rate(*options); }};
 }
 
 }  // namespace dresslife::pipeline

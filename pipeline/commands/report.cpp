@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 /// run left them.
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
-  if (const fs::path folder = request.out / study_name(request.file); !fs::is_directory(folder))
+  if (const fs::path folder = request.out / study_name(request.file); kind_of(folder) != FileKind::folder)
     throw InputError({folder.string()}, "is not there (the study has not run)",
                      "run it: dresslife run " + options.study);
   Standing standing = standing_of(request);
@@ -31,36 +31,42 @@ int report(const StudyOptions& options) {
   const auto& [study, places, states, remembered, looks, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
-  print(shown(ranking_table(rows)));
+  print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n" : shown(ranking_table(rows)));
   tell(shown(problem_words(study)) + warning_lines(rows));
   const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
     return !state.done() && !state.has_last && state.has_results && state.failure.empty();
   });
   bool all_written = true;
   std::string kept;
-  if (open > 0)
+  const auto others = std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); });
+  if (!options.sets.empty() && others > 0)
+    kept = fmt::format("of {} jobs there are no results with these --set", others);
+  else if (open > 0)
     kept = fmt::format("of {} jobs the results are broken off or damaged", open);
   else if (::access(places.folder.c_str(), W_OK) != 0)
     kept = "the folder cannot be written";
   if (kept.empty()) {
-    all_written = write_results(study, places, rows);
-    print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
+    all_written = write_results(study, places, rows).empty();
+    if (!options.json) print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
   } else {
     tell(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
                      places.folder.string(), kept));
   }
-  return count_failed(rows) || !all_written ? 1 : 0;
+  const int failed = count_failed(rows);
+  if (failed > 0)
+    tell(fmt::format("{}: error: {} of {} jobs have no result (their reasons are in the table); make them with dresslife run\n",
+                     options.study, failed, study.jobs.size()));
+  return failed > 0 || !all_written ? 1 : 0;
 }
 
 }  // namespace
 
-Command add_report(CLI::App& program) {
+Command report_command() {
   const auto options = std::make_shared<StudyOptions>();
-  CLI::App* words =
-      program.add_subcommand("report", "rank and report what has been computed, without running anything");
-  words->add_option("study", options->study, "STUDY.yaml")->required()->type_name("");
-  add_study_options(*words, *options);
-  return {words, [options] { return report(*options); }};
+  return {"report", "rank and report what has been computed, without running anything",
+          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}, json_option(options->json)},
+                  study_options(*options)}),
+          [options] { return report(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +8,9 @@
 
 #include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/other_ways.h"
+#include "pipeline/advise/improve/set_text.h"
+#include "pipeline/advise/reprogram/patched_program.h"
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/readable.h"
@@ -17,6 +19,7 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/report/life_charts.h"
+#include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/folder_lock.h"
 
@@ -36,6 +39,8 @@ struct TriedWay {
   OtherWay way;
   Outcome outcome;
   double seconds = 0;  ///< of a repeat
+  std::string patch;   ///< of the program, unified diff; empty: its motion is a list of steps
+  fs::path file;       ///< that it was written to
 };
 
 std::vector<double> cost_of_lines(const fs::path& life_file) {
@@ -59,21 +64,16 @@ std::string lines_words(const OtherWay& way) {
 }
 
 std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
-  const auto quoted = [](const std::string& text) {
-    std::string cell = "\"";
-    for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
-    return cell + "\"";
-  };
-  std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets\n";
+  std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch\n";
   for (const TriedWay& tried : ways) {
     std::string sets;
     for (const std::string& set : tried.way.sets) sets += (sets.empty() ? "" : "; ") + set;
     const bool ran = tried.outcome.failure.empty();
     text += fmt::format(
-        "{},{},{},{},{},{},{},{}\n", quoted(lines_words(tried.way)), quoted(tried.way.what),
+        "{},{},{},{},{},{},{},{},{}\n", csv_cell(lines_words(tried.way)), csv_cell(tried.way.what),
         ran ? shortest_text(tried.outcome.hours) : "", ran ? shortest_text(times_as_long(tried, before)) : "",
         ran ? shortest_text(tried.seconds) : "", ran ? shortest_text(before.seconds - tried.seconds) : "",
-        quoted(tried.outcome.words()), quoted(sets));
+        csv_cell(tried.outcome.words()), csv_cell(sets), csv_cell(tried.file.filename().string()));
   }
   return text;
 }
@@ -89,31 +89,75 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
     text += fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}{}\n", times_as_long(tried, before),
                         tried.seconds - before.seconds, lines_words(tried.way), tried.way.what,
                         tried.outcome.feasible() ? "" : "; ", tried.outcome.words());
+    if (!tried.file.empty()) text += fmt::format("  {:>24}patch: {}\n", "", tried.file.string());
   }
   return text;
 }
 
-TriedWay seen(const RankingRow& row, const StudyPlaces& places, OtherWay way) {
-  return {std::move(way), outcome_of(row, places.job(row.job)), row.done() ? row.repeat_seconds : 0};
+TriedWay seen(const RankingRow& row, const StudyPlaces& places) {
+  return {{}, outcome_of(row, places.job(row.job)), row.done() ? row.repeat_seconds : 0, {}, {}};
+}
+
+/// The ways of a job whose motion is a program, as its patched text reads; how many cannot be written in it.
+std::vector<TriedWay> program_ways_of(const Job& job, const std::vector<double>& cost, const Options& options) {
+  const ReadProgram read = read_job_program(job);
+  std::vector<TriedWay> ways;
+  std::map<std::string, int> refused;
+  for (const ProgramWay& way : program_ways(job, read, cost, static_cast<std::size_t>(options.lines))) {
+    try {
+      PatchedProgram made = patched(job, read, way);
+      ways.push_back({{way.what, way.lines, {"motion=" + set_text(echo_fields(made.motion))}}, {}, 0, std::move(made.patch), {}});
+    } catch (const InputError& error) {
+      ++refused[error.what()];
+    }
+  }
+  for (const auto& [why, count] : refused) tell(fmt::format("{} ({} ways are not tried)\n", why, count));
+  return ways;
+}
+
+std::vector<TriedWay> ways_of(const Job& job, const std::vector<double>& cost, const Options& options) {
+  if (!job.motion.program.empty()) return program_ways_of(job, cost, options);
+  std::vector<TriedWay> ways;
+  for (OtherWay& way : other_ways(job, cost, static_cast<std::size_t>(options.lines)))
+    ways.push_back({std::move(way), {}, 0, {}, {}});
+  return ways;
+}
+
+/// A patch for each way that helps, beside the table; those of an earlier run go.
+void write_patches(const StudyPlaces& places, const std::string& job, const TriedWay& before, std::vector<TriedWay>& ways) {
+  constexpr double helps = 1.01;  // times as long; less is rounding of a simulation
+  const auto name = [&](int number) { return places.folder / fmt::format("{}_{:02}.patch", job, number); };
+  int number = 0;
+  for (TriedWay& tried : ways) {
+    if (tried.patch.empty() || !tried.outcome.feasible() || !(times_as_long(tried, before) > helps)) continue;
+    tried.file = name(++number);
+    write_text_if_changed(tried.file, with_mark(tried.patch, Mark::yaml));
+  }
+  while (fs::exists(name(++number)) && remove_ours(name(number))) {
+  }
 }
 
 /// Of one job of the study: what it could do instead, best first.
 std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job, const StudyJob& base,
                                  const StudyPlaces& places, const Options& options) {
-  const std::vector<OtherWay> ways =
-      other_ways(*base.job, cost_of_lines(places.life(base.name)), static_cast<std::size_t>(options.lines));
+  const std::vector<TriedWay> ways = ways_of(*base.job, cost_of_lines(places.life(base.name)), options);
   Study study{base.name, {}};
   std::map<std::string, std::size_t> way_of;
   for (std::size_t k = 0; k < ways.size(); ++k) {
-    StudyJob changed = trial_jobs(request, ways[k].sets, "way").at(job);
+    StudyJob changed = changed_jobs(request, ways[k].way.sets, "way").at(job);
     changed.name = fmt::format("{}_way_{:02}", base.name, k + 1);
     way_of[changed.name] = k;
     study.jobs.push_back(std::move(changed));
   }
   std::vector<TriedWay> tried;
   if (study.jobs.empty()) return tried;
-  for (const RankingRow& row : made_rows(study, places, options))
-    tried.push_back(seen(row, places, ways[way_of.at(row.job)]));
+  for (const RankingRow& row : made_rows(study, places, options)) {
+    TriedWay way = ways[way_of.at(row.job)];
+    way.outcome = outcome_of(row, places.job(row.job));
+    way.seconds = row.done() ? row.repeat_seconds : 0;
+    if (!way.patch.empty()) way.way.sets.clear();  // the patch says it
+    tried.push_back(std::move(way));
+  }
   std::stable_sort(tried.begin(), tried.end(), [](const TriedWay& a, const TriedWay& b) {
     return std::tuple(!a.outcome.failure.empty(), -a.outcome.hours) <
            std::tuple(!b.outcome.failure.empty(), -b.outcome.hours);
@@ -128,20 +172,21 @@ int reprogram(const Options& options) {
   const std::string name = study_name(request.file);
   const StudyPlaces places{fs::path(options.out) / (name + "_reprogram"), program_folder()};
   const FolderLock lock(places.folder);
-  Study study{name, trial_jobs(request, {}, "as_it_is")};
+  Study study{name, changed_jobs(request, {}, "as_it_is")};
   int failed = 0;
   const std::vector<RankingRow> rows = made_rows(study, places, options);
   for (std::size_t k = 0; k < study.jobs.size(); ++k) {
     const StudyJob& job = study.jobs[k];
     const auto row =
         std::find_if(rows.begin(), rows.end(), [&](const RankingRow& of) { return of.job == job.name; });
-    const TriedWay before = seen(*row, places, {});
+    const TriedWay before = seen(*row, places);
     if (!before.outcome.failure.empty()) {
       tell(fmt::format("{}: error: it does not run: {}\n", job.name, before.outcome.failure));
       ++failed;
       continue;
     }
-    const std::vector<TriedWay> ways = tried_ways(request, k, job, places, options);
+    std::vector<TriedWay> ways = tried_ways(request, k, job, places, options);
+    write_patches(places, job.name, before, ways);
     const fs::path table = places.folder / (job.name + ".csv");
     write_text_if_changed(table, csv_of(before, ways));
     print(shown(table_of(job.name, before, ways) + fmt::format("Ways: {}\n", table.string())));
@@ -151,23 +196,18 @@ int reprogram(const Options& options) {
 
 }  // namespace
 
-Command add_reprogram(CLI::App& program) {
+Command reprogram_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand(
-      "reprogram",
-      "tell what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
-      "a point, or slower");
-  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
-      ->required()
-      ->type_name("");
-  words->add_option("--lines", options->lines, "of the program that are tried, those first that cost most")
-      ->check(CLI::Range(0, 1000))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  add_run_options(*words, *options);
-  add_launcher(*words, *options);
-  add_study_options(*words, *options);
-  return {words, [options] { return reprogram(*options); }};
+  return {"reprogram",
+          "try what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
+          "a point, or slower; of a robot program, patches in its own language are written for the ways that help",
+          joined({{study_or_job(*options),
+                   {"--lines", "COUNT", "of the program that are tried, those first that cost most",
+                    &options->lines, {.range = {{0, 1000}}}}},
+                  run_options(*options),
+                  {launcher_option(*options)},
+                  study_options(*options)}),
+          [options] { return reprogram(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -6,7 +6,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/whole_file.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/report/job_page.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
@@ -66,11 +66,10 @@ std::vector<fs::path> refresh_previews(const Study& study, const StudyPlaces& pl
         tell(fmt::format("note: no preview of {}: {}\n", job.name, problem.what()));
       }
     }
-    std::error_code ignored;
     if (shows)
       pages.push_back(page);
-    else if (!made_from_of(page).empty())  // of a refusal that has been mended
-      fs::remove(page, ignored);
+    else  // of a refusal that has been mended
+      remove_ours(page);
   }
   return pages;
 }
@@ -97,12 +96,12 @@ bool taken(const std::string& job, const std::function<void()>& step) {
   }
 }
 
-/// Pages of the jobs that the report tells of at length. Others that are there, made earlier or by hand, stay
-/// while they tell of the results that are there. Returns whether all could be written: where one cannot, the
+/// Pages of the jobs that the report shows at length. Others that are there, made earlier or by hand, stay
+/// while they are of the results that are there. Returns the jobs whose page could not be written: the
 /// ranking stands without it, and no old one stays beside it.
-bool refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& rows) {
+std::set<std::string> refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& rows) {
   const std::vector<bool> detailed = detailed_jobs(rows);
-  bool all = true;
+  std::set<std::string> failed;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const JobFolder files{rows[k].job, places.job(rows[k].job)};
     const bool brought_up = taken(files.name, [&] {
@@ -114,19 +113,23 @@ bool refresh_pages(const StudyPlaces& places, const std::vector<RankingRow>& row
         remove_old_job_page(files);
     });
     if (brought_up) continue;
-    all = false;
+    failed.insert(files.name);
     taken(files.name, [&] { remove_job_page(files); });
   }
-  return all;
+  return failed;
 }
 
 }  // namespace
 
-bool write_results(const Study& study, const StudyPlaces& places, const std::vector<RankingRow>& rows) {
-  const bool all_pages = refresh_pages(places, rows);
+std::set<std::string> write_results(const Study& study, const StudyPlaces& places,
+                                    const std::vector<RankingRow>& rows) {
+  std::set<std::string> failed = refresh_pages(places, rows);
   write_text_if_changed(places.folder / "ranking.csv", ranking_csv(rows));
-  write_report(places.folder / "report.html", study.name, rows);
-  return all_pages;
+  for (const ReportProblem& problem : write_report(places.folder / "report.html", study.name, rows)) {
+    tell(fmt::format("report.html shows no charts of {}: {}\n", problem.job, problem.words));
+    failed.insert(problem.job);
+  }
+  return failed;
 }
 
 }  // namespace dresslife::pipeline

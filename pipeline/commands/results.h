@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,10 @@
 
 namespace dresslife::pipeline {
 
-/// ranking.csv, report.html and the pages that it links to. False where a page could not be written, which it
-/// has told. Errors: InputError where one of the others cannot.
-[[nodiscard]] bool write_results(const Study& study, const StudyPlaces& places,
-                                 const std::vector<RankingRow>& rows);
+/// ranking.csv, report.html and the pages that it links to. Returns the jobs whose results could not all be shown,
+/// which it has said. Errors: InputError where a file cannot be written, DiskError.
+[[nodiscard]] std::set<std::string> write_results(const Study& study, const StudyPlaces& places,
+                                                  const std::vector<RankingRow>& rows);
 
 /// Pages of jobs that the simulation refuses, beside their logs; of the first few, as a study that varies a
 /// routing may have thousands. Returns them.

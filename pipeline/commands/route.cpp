@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -19,11 +19,13 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/study/job_folder.h"
+#include "pipeline/study/row_words.h"
 #include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
@@ -35,7 +37,8 @@ constexpr int trials = 3;  // routings of one search that are run through the wh
 
 struct Options : RunOptions {
   RouteRequest request;
-  std::string ring, job, scale = "auto";
+  std::string ring, job, scale = "1";
+  bool keep = false;
   int tried = 400, rehearsals = 160, seed = 1;
 };
 
@@ -44,6 +47,7 @@ struct Trial {
   double factor = 1;
   ScreenedList proposals;
   std::vector<Outcome> outcomes;  // (proposal) empty limits: it was not run
+  std::vector<RankingRow> rows;   // (proposal) likewise
   std::optional<std::size_t>
       best;  // that ran: feasible and of the longest life, else least beyond its limits
 
@@ -56,22 +60,11 @@ bool better(const Outcome& a, const Outcome& b) {
   return a.hours > b.hours;
 }
 
-constexpr std::string_view mark = "# Proposed by dresslife route";
-
-/// A job that it wrote itself may be replaced.
-void check_job_file(const fs::path& file) {
-  check_replaceable(file);
-  std::error_code failure;
-  if (fs::exists(file, failure) && beginning_of(file, mark.size()) != mark)
-    throw InputError({file.string()}, "is there already and was not proposed by dresslife route",
-                     "name another file after --job");
-}
-
 ScreenedList proposed(const Draft& draft, const Options& options, double factor, const fs::path& folder) {
   Node document = parse_yaml(job_text(draft.job), "draft");
   if (factor != 1) document["dresspack"] = *routed(draft, "{}", "{}", factor).find("dresspack");
   const fs::path job = folder / "draft.yaml";
-  write_text_if_changed(job, to_yaml(document));
+  write_text_if_changed(job, with_mark(to_yaml(document), Mark::yaml));
   const PassingFile told("screening.h5");
   std::vector<std::string> arguments{job.string(),
                                      "--propose",
@@ -99,7 +92,7 @@ void run(Trial& trial, std::size_t k, const Draft& draft, const Options& options
   Study study{fmt::format("{} at {:.0f} %", draft.name, 100 * trial.factor), {}};
   study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
                         std::make_shared<const Job>(job_from(document)), ""});
-  const RankingRow row = made_rows(study, places, options).front();
+  const RankingRow& row = trial.rows[k] = made_rows(study, places, options).front();
   trial.outcomes[k] = outcome_of(row, places.job(row.job));
   if (!trial.outcomes[k].failure.empty()) return;
   if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best])) trial.best = k;
@@ -107,8 +100,9 @@ void run(Trial& trial, std::size_t k, const Draft& draft, const Options& options
 
 /// Those that kept all limits in their rehearsal, until one does in the whole chain.
 Trial tried(const Draft& draft, const Options& options, double factor, const StudyPlaces& places) {
-  Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}};
+  Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
   trial.outcomes.resize(trial.proposals.candidates.size());
+  trial.rows.resize(trial.proposals.candidates.size());
   for (std::size_t k = 0; k < trial.outcomes.size() && !trial.feasible(); ++k)
     if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
       run(trial, k, draft, options, places);
@@ -131,7 +125,9 @@ double violation(const Trial& trial) {
 std::vector<double> factors_of(const Options& options) {
   if (options.scale == "auto") return {1, 0.8, 0.65, 0.5, 0.4, 0.3};
   double factor = 0;
-  if (!CLI::detail::lexical_cast(options.scale, factor) || !(factor >= 0.05 && factor <= 2))
+  const char* const end = options.scale.data() + options.scale.size();
+  const auto [rest, failure] = std::from_chars(options.scale.data(), end, factor);
+  if (failure != std::errc() || rest != end || !(factor >= 0.05 && factor <= 2))
     throw InputError({"--scale"},
                      fmt::format("'{}' is neither auto nor a number from 0.05 to 2", options.scale),
                      "write one");
@@ -154,19 +150,28 @@ std::string words_of(const Trial& trial, const Draft& draft) {
         dresspack.name, 100 * trial.factor, 1e3 * dresspack.diameter * trial.factor);
   if (draft.exercise)
     text += "No program was given: the wrist was only moved about. Look again with yours.\n";
-  const std::string life =
-      std::isinf(best.hours) ? "no wire is damaged" : fmt::format("p10 life {:.3g} h", best.hours);
-  return text + (best.feasible()
-                     ? fmt::format("It keeps all limits in a run; {}.\n", life)
-                     : fmt::format("It runs, but no routing was found that keeps all limits: {}; {}.\n",
-                                   best.words(), life));
+  text += best.feasible() ? "It keeps all limits in a run.\n"
+                          : fmt::format("It runs, but no routing was found that keeps all limits: {}.\n", best.words());
+  const RankingRow& row = trial.rows[*trial.best];
+  for (const std::string& words :
+       {action_words(row), uncertainty_words(row), failure_words(row), hose_words(row)})
+    text += words + (words.empty() ? "" : "\n");
+  return text;
+}
+
+/// Removes the runs of a search but that of its winner.
+void remove_others(const fs::path& folder, const std::string& winner) {
+  std::vector<fs::path> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != winner && is_job_folder(entry.path())) others.push_back(entry.path());
+  for (const fs::path& other : others) remove_job(other);
 }
 
 int route(const Options& options) {
   const Draft draft = draft_of(options.request);
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
-  check_job_file(job);
+  check_replaceable(job);
   check_replaceable(page);
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
@@ -192,9 +197,13 @@ int route(const Options& options) {
                      "no routing was found that runs (the notes above say what stands against it)",
                      "try other links (--from, --to), another --seed, a ring, or a gentler program");
   const std::string& routing = chosen->proposals.candidates[*chosen->best].changes;
-  const Node document = routed(draft, routing, chosen->proposals.motion, chosen->factor);
-  write_text_if_changed(job, fmt::format("{} {}\n{}", mark, options.request.of, to_yaml(document)));
+  const Node document = routed(draft, routing, chosen->proposals.motion, chosen->factor,
+                               job.has_parent_path() ? job.parent_path() : fs::path("."));
+  const std::string text =
+      fmt::format("# Proposed by dresslife route {}\n{}", shown(options.request.of), to_yaml(document));
+  write_text_if_changed(job, with_mark(text, Mark::yaml));
   write_page(job, page);
+  if (!options.keep) remove_others(places.folder, chosen->rows[*chosen->best].job);
   print(shown(words_of(*chosen, draft)));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
   return 0;
@@ -202,52 +211,34 @@ int route(const Options& options) {
 
 }  // namespace
 
-Command add_route(CLI::App& program) {
+Command route_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand("route",
-                                           "propose a routing from nothing: clamps on two links and a "
-                                           "length, tried in a run, as a job with its preview");
-  words->add_option("of", options->request.of, "JOB.yaml whose routing does not count, or a ROBOT")
-      ->required()
-      ->type_name("");
-  words
-      ->add_option("--dresspack", options->request.dresspack, "instead of the job's; of a robot spot_welding")
-      ->type_name("NAME");
-  words
-      ->add_option("--motion", options->request.motion,
-                   "instead of the job's; of a robot one that moves its wrist about")
-      ->type_name("NAME");
-  words
-      ->add_option("--from", options->request.base_link,
-                   "link of the base clamp; else the job's, or that which axis 3 moves")
-      ->type_name("LINK");
-  words->add_option("--to", options->request.tool_link, "link of the tool clamp; else the job's, or the last")
-      ->type_name("LINK");
-  words->add_option("--ring", options->ring, "also a guide ring on this link")->type_name("LINK");
-  words->add_option("--scale", options->scale, "of the dresspack's size; auto: as it is, or as big as goes")
-      ->type_name("auto|FACTOR")
-      ->capture_default_str();
-  words->add_option("--tried", options->tried, "routings that geometry looks at, of each size")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  words
-      ->add_option("--rehearsals", options->rehearsals,
-                   "short runs that the best of them are tried in and changed by, of each size")
-      ->check(CLI::Range(1, 100'000))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  words->add_option("--seed", options->seed, "of the search's chances")
-      ->check(CLI::Range(0, 1'000'000'000))
-      ->capture_default_str();
-  words->add_option("--job", options->job, "job to write; else NAME_routed.yaml here")
-      ->type_name("FILE.yaml");
-  words->add_option("-o,--output", options->out, "folder of the runs that try it")
-      ->type_name("DIR")
-      ->capture_default_str();
-  add_run_options(*words, *options);
-  add_sets(*words, "override a key of the job", options->request.sets);
-  return {words, [options] { return route(*options); }};
+  RouteRequest& request = options->request;
+  return {"route",
+          "propose a routing from nothing: clamps on two links and a length, tried in a run, as a job with its "
+          "preview",
+          joined({{{"of", "", "JOB.yaml whose routing does not count, or a ROBOT", &request.of, {.required = true}},
+                   {"--dresspack", "NAME", "instead of the job's; of a robot spot_welding", &request.dresspack},
+                   {"--motion", "NAME", "instead of the job's; of a robot one that moves its wrist about",
+                    &request.motion},
+                   {"--from", "LINK", "link of the base clamp; else the job's, or that which axis 3 moves",
+                    &request.base_link},
+                   {"--to", "LINK", "link of the tool clamp; else the job's, or the last", &request.tool_link},
+                   {"--ring", "LINK", "also a guide ring on this link", &options->ring},
+                   {"--scale", "auto|FACTOR", "of the dresspack's size; auto: as it is, then smaller until one fits",
+                    &options->scale},
+                   {"--tried", "COUNT", "routings that geometry looks at, of each size", &options->tried,
+                    {.range = {{1, 1'000'000}}}},
+                   {"--rehearsals", "COUNT",
+                    "short runs that the best of them are tried in and changed by, of each size",
+                    &options->rehearsals, {.range = {{1, 100'000}}}},
+                   {"--seed", "NUMBER", "of the search's chances", &options->seed, {.range = {{0, 1'000'000'000}}}},
+                   {"--keep", "", "keep the runs of all routings that were tried, not the best alone", &options->keep},
+                   {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
+                   {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},
+                  run_options(*options),
+                  {sets_option("override a key of the job", request.sets)}}),
+          [options] { return route(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
+#include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
@@ -27,6 +27,7 @@ int run_shard(const RunOptions& options) {
   Standing standing = expanded(request);
   const fs::path& folder = standing.places.folder;
   const FolderLock beside(folder, FolderLock::Held::with_shards);
+  make_notes(folder / ".stage");
   keep_shard(standing, shard);
   const FolderLock lock(folder / standing.places.notes());
   look_again(standing);
@@ -36,12 +37,33 @@ int run_shard(const RunOptions& options) {
   return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
 }
 
-int run(const RunOptions& options) {
+/// What a run would make, without making it.
+int dry_run(const RunOptions& options) {
+  Standing standing = standing_of(request_of(options));
+  tell_changes(standing.study, standing.places, standing.states);
+  std::size_t to_make = 0;
+  for (std::size_t k = 0; k < standing.states.size(); ++k) {
+    const StudyJob& job = standing.study.jobs[k];
+    if (!job.failure.empty() || standing.states[k].done()) continue;
+    ++to_make;
+    print(shown(fmt::format("{:<40} {}\n", job.name, standing.states[k].words())));
+  }
+  print(shown(problem_words(standing.study)));
+  print(fmt::format("{} of {} jobs to make; nothing was run\n", to_make, standing.study.jobs.size()));
+  return 0;
+}
+
+struct Options : RunOptions {
+  bool dry_run = false;
+};
+
+int run(const Options& options) {
+  if (options.dry_run) return dry_run(options);
   if (!options.shard.empty()) return run_shard(options);
   const StudyRequest request = request_of(options);
   const fs::path folder = request.out / study_name(request.file);
   Standing standing;
-  const bool begun = fs::is_directory(folder);
+  const bool begun = kind_of(folder) == FileKind::folder;
   if (!begun) standing = expanded(request);  // a study that cannot be expanded leaves no folder
   const FolderLock lock(folder);
   if (begun) standing = standing_of(request);
@@ -58,12 +80,14 @@ int run(const RunOptions& options) {
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, &options, rows);
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
-  const bool all_written = write_results(study, places, rows);
-  print(
-      shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
+  const std::set<std::string> not_shown = write_results(study, places, rows);
+  for (const std::string& job : not_shown) forget_damaged(places.job(job));
+  print(options.json
+            ? json_of_csv(ranking_csv(rows)).text + "\n"
+            : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows), (places.folder / "report.html").string())));
   if (!options.quiet) tell(warning_lines(rows));
   const int failed = count_failed(rows);
-  if (failed == 0) return all_written ? 0 : 1;
+  if (failed == 0) return not_shown.empty() ? 0 : 1;
   tell(shown(problem_words(study)));
   tell(fmt::format(
       "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",
@@ -77,29 +101,23 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
-Command add_run(CLI::App& program) {
-  const auto options = std::make_shared<RunOptions>();
-  CLI::App* words =
-      program.add_subcommand("run", "run what is not up to date in a study, then rank and report");
-  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
-      ->required()
-      ->type_name("");
-  add_run_options(*words, *options);
-  words->add_option("--job-time", options->limits.seconds, "let no stage of a job take longer; 0: no limit")
-      ->type_name("SECONDS")
-      ->capture_default_str();
-  words
-      ->add_option("--job-memory", options->limits.megabytes,
-                   "let no stage of a job take more memory; 0: no limit")
-      ->type_name("MB")
-      ->default_str("all of the machine's");
-  add_launcher(*words, *options);
-  words
-      ->add_option("--shard", options->shard,
-                   "make only the Kth of N parts of the study, beside runs of the others, and rank nothing")
-      ->type_name("K/N");
-  add_study_options(*words, *options);
-  return {words, [options] { return run(*options); }};
+Command run_command() {
+  const auto options = std::make_shared<Options>();
+  return {"run", "run what is not up to date in a study, then rank and report",
+          joined({{study_or_job(*options)},
+                  run_options(*options),
+                  {{"-n,--dry-run", "", "print what would be made and why, and run nothing", &options->dry_run},
+                   json_option(options->json)},
+                  {{"--job-time", "SECONDS", "let no stage of a job take longer; 0: no limit",
+                    &options->limits.seconds},
+                   {"--job-memory", "MB", "let no stage of a job take more memory; 0: no limit",
+                    &options->limits.megabytes, {.shown_default = "all of the machine's"}},
+                   launcher_option(*options),
+                   {"--shard", "K/N",
+                    "make only the Kth of N parts of the study, beside runs of the others, and rank nothing",
+                    &options->shard}},
+                  study_options(*options)}),
+          [options] { return run(*options); }};
 }
 
 }  // namespace dresslife::pipeline

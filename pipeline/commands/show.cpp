@@ -1,9 +1,9 @@
 #include "pipeline/commands/command.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "pipeline/commands/as_json.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
 #include "pipeline/report/figures.h"
@@ -16,10 +16,11 @@ namespace {
 struct Options {
   std::string file;
   std::vector<std::string> sets;
+  bool json = false;
 };
 
 int show(const Options& options) {
-  if (std::error_code failure; std::filesystem::is_directory(options.file, failure)) {
+  if (kind_of(options.file) == FileKind::folder) {
     print(shown(file_summary(job_files(options.file).life)));
     return 0;
   }
@@ -27,21 +28,22 @@ int show(const Options& options) {
     print(shown(file_summary(options.file)));
     return 0;
   }
-  print(job_text(named_file(options.file, "jobs"), options.sets));
+  const std::string text = job_text(named_file(options.file, "jobs"), options.sets);
+  print(options.json ? json_of(parse_yaml(text, options.file)).text + "\n" : text);
   return 0;
 }
 
 }  // namespace
 
-Command add_show(CLI::App& program) {
+Command show_command() {
   const auto options = std::make_shared<Options>();
-  CLI::App* words = program.add_subcommand(
-      "show",
-      "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a "
-      "job's folder its life.h5");
-  words->add_option("job", options->file, "JOB.yaml, FILE.h5, or a job's folder")->required()->type_name("");
-  add_sets(*words, "override a key", options->sets);
-  return {words, [options] { return show(*options); }};
+  return {"show",
+          "print a job with its catalogue entries and defaults written out, or what lies in an .h5 file, of a "
+          "job's folder its life.h5",
+          {{"job", "", "JOB.yaml, FILE.h5, or a job's folder", &options->file, {.required = true}},
+           {"--json", "", "print a job as JSON for other programs", &options->json},
+           sets_option("override a key", options->sets)},
+          [options] { return show(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "pipeline/commands/as_json.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/changes.h"
 #include "pipeline/study/study_problems.h"
@@ -16,12 +16,20 @@ int status(const StudyOptions& options) {
   Standing standing = standing_of(request_of(options));
   tell_changes(standing.study, standing.places, standing.states);
   std::size_t done = 0;
+  std::vector<Json> jobs;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     const std::string word =
         job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
     done += word == "done";
-    print(shown(fmt::format("{:<40} {}\n", job.name, word)));
+    if (options.json)
+      jobs.push_back({{"job", job.name}, {"state", word}});
+    else
+      print(shown(fmt::format("{:<40} {}\n", job.name, word)));
+  }
+  if (options.json) {
+    print(Json(jobs).text + "\n");
+    return 0;
   }
   print(shown(problem_words(standing.study)));
   print(fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));
@@ -30,13 +38,12 @@ int status(const StudyOptions& options) {
 
 }  // namespace
 
-Command add_status(CLI::App& program) {
+Command status_command() {
   const auto options = std::make_shared<StudyOptions>();
-  CLI::App* words =
-      program.add_subcommand("status", "tell which jobs of a study are done, stale, failed or to do");
-  words->add_option("study", options->study, "STUDY.yaml")->required()->type_name("");
-  add_study_options(*words, *options);
-  return {words, [options] { return status(*options); }};
+  return {"status", "tell which jobs of a study are done, stale, failed or to do",
+          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}, json_option(options->json)},
+                  study_options(*options)}),
+          [options] { return status(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -41,7 +40,7 @@ std::string script_of(const SubmitOptions& options, const Cluster& cluster, cons
   const auto memory = static_cast<long>(cluster.memory / megabyte);
   const auto whole = [](const fs::path& file) { return shell_word(fs::absolute(file).string()); };
   const fs::path log = standing.places.folder / "submit.log";
-  std::string text = "#!/bin/sh\n# Written by dresslife submit; submitted again, it goes on where it was.\n";
+  std::string text = "#!/bin/sh\n# Of dresslife submit; submitted again, it goes on where it was.\n";
   text += fmt::format("#SBATCH --job-name={}\n", standing.study.name);
   text += fmt::format("#SBATCH --ntasks={} --cpus-per-task=1 --mem-per-cpu={}\n", tasks, memory);
   text += "#SBATCH --requeue --output=/dev/null\n";
@@ -85,7 +84,7 @@ int submit(const SubmitOptions& options) {
   const int shards = shards_needed(standing, cluster.most_stages);
   const fs::path script = standing.places.folder / "submit.sh";
   fs::create_directories(standing.places.folder);
-  write_text_if_changed(script, script_of(options, cluster, standing));
+  write_text_if_changed(script, with_mark(script_of(options, cluster, standing), Mark::script));
   const std::string array = shards > 1 ? fmt::format(" --array=1-{}", shards) : "";
   if (options.only_write) {
     print(shown(fmt::format("{} is written; submit it: {}{} {}\n", script.string(), cluster.submit, array,
@@ -105,25 +104,16 @@ int submit(const SubmitOptions& options) {
 
 }  // namespace
 
-Command add_submit(CLI::App& program) {
+Command submit_command() {
   const auto options = std::make_shared<SubmitOptions>();
-  CLI::App* words = program.add_subcommand(
-      "submit",
-      "let a cluster's queue run a study: the same graph, each stage behind the cluster's launcher");
-  words->add_option("study", options->study, "STUDY.yaml, or JOB.yaml for a study of one")
-      ->required()
-      ->type_name("");
-  words->add_option("--cluster", options->cluster, "YAML of config/clusters, or a file")
-      ->capture_default_str()
-      ->type_name("");
-  words
-      ->add_option("-n,--tasks", options->tasks,
-                   "stages at a time, a core each; default: the cluster's tasks")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
-  words->add_flag("--only-write", options->only_write, "write the batch script, and submit nothing");
-  add_study_options(*words, *options);
-  return {words, [options] { return submit(*options); }};
+  return {"submit", "let a cluster's queue run a study: the same graph, each stage behind the cluster's launcher",
+          joined({{study_or_job(*options),
+                   {"--cluster", "", "YAML of config/clusters, or a file", &options->cluster},
+                   {"-n,--tasks", "N", "stages at a time, a core each; default: the cluster's tasks",
+                    &options->tasks, {.range = {{1, 1024}}}},
+                   {"--only-write", "", "write the batch script, and submit nothing", &options->only_write}},
+                  study_options(*options)}),
+          [options] { return submit(*options); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -1,12 +1,12 @@
 #include "pipeline/files/file_driver.h"
 
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <new>
 
 #include "pipeline/base/whole_file.h"
+#include "pipeline/files/checksum.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -15,8 +15,8 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 /// What the access list carries to open_file().
 struct Target {
-  WholeFile* written = nullptr;  ///< null: only read
-  int descriptor = -1;
+  WholeFile* written = nullptr;
+  InputBytes* read = nullptr;  ///< one of the two
 };
 
 /// The library's idea of an open file: its own part first.
@@ -36,9 +36,7 @@ H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
   auto* made = new (std::nothrow) OpenFile;
   if (!made) return nullptr;
   made->target = *static_cast<const Target*>(info);
-  if (!made->target.written)
-    made->end_of_file =
-        static_cast<haddr_t>(std::max<std::int64_t>(0, state_of(made->target.descriptor).size));
+  if (made->target.read) made->end_of_file = made->target.read->size();
   return &made->library;
 }
 
@@ -62,13 +60,14 @@ herr_t set_end_of_use(H5FD_t* file, H5FD_mem_t, haddr_t address) {
 }
 haddr_t get_end_of_file(const H5FD_t* file, H5FD_mem_t) { return opened(file).end_of_file; }
 
-/// Of a file that is only read nothing lies beyond its end, whatever lengths its tables tell; a file being
+/// Of a file that is only read nothing lies beyond its end, whatever lengths its tables name; a file being
 /// written has places that were given away and not filled yet.
 herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t count, void* bytes) {
   const OpenFile& from = opened(file);
-  const bool beyond = address > from.end_of_file || count > from.end_of_file - address;
-  if (!from.target.written && beyond) return -1;
-  return read_at(opened(file).target.descriptor, bytes, count, address) ? 0 : -1;
+  const std::size_t there = address >= from.end_of_file ? 0 : std::min<haddr_t>(count, from.end_of_file - address);
+  if (from.target.read) return there == count && from.target.read->read(bytes, count, address) ? 0 : -1;
+  std::fill_n(static_cast<char*>(bytes) + there, count - there, '\0');
+  return from.target.written->read_back(bytes, there, address) ? 0 : -1;
 }
 
 herr_t write_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t count, const void* bytes) {
@@ -122,7 +121,7 @@ hid_t access_for(const Target& target) {
 
 }  // namespace
 
-std::int64_t access_for_writing(WholeFile& file) { return access_for({&file, file.descriptor()}); }
-std::int64_t access_for_reading(int descriptor) { return access_for({nullptr, descriptor}); }
+std::int64_t access_for_writing(WholeFile& file) { return access_for({&file, nullptr}); }
+std::int64_t access_for_reading(InputBytes& file) { return access_for({nullptr, &file}); }
 
 }  // namespace dresslife::pipeline

@@ -26,7 +26,7 @@ constexpr Type type_of<std::uint64_t> = Type::u64;
 }  // namespace
 
 void FileReader::Impl::fail(const std::string& what) const {
-  throw_if_out_of_memory();
+  input.check_reads();
   throw InputError({name.string()}, what, fmt::format("make the file anew with {}", format->made_by));
 }
 
@@ -91,6 +91,7 @@ void FileReader::Impl::open_dataset(const Dataset& description) {
   for (std::size_t slash = description.path.find('/', 1);; slash = description.path.find('/', slash + 1)) {
     const std::string way = description.path.substr(0, slash);
     if (H5Lexists(file, way.c_str(), H5P_DEFAULT) <= 0) {
+      input.check_reads();
       if (description.may_be_absent) return;
       fail(fmt::format("dataset {} is missing", description.path));
     }
@@ -99,7 +100,6 @@ void FileReader::Impl::open_dataset(const Dataset& description) {
       fail(fmt::format("{} is a link (the data must lie in the file itself)", way));
     if (slash == std::string::npos) break;
   }
-  check_library_memory();
   Open made;
   made.description = &description;
   made.id = Handle(H5Dopen2(file, description.path.c_str(), H5P_DEFAULT), H5Dclose);
@@ -155,7 +155,6 @@ void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t cou
   begin[0] = first;
   length[0] = count;
   if (count == 0 || from.row_values == 0) return;
-  check_library_memory();
   if (from.chunks_to_be_checked) check_chunks(from);
   const Handle file_space(H5Dget_space(from.id), H5Sclose);
   H5Sselect_hyperslab(file_space, H5S_SELECT_SET, begin.data(), nullptr, length.data(), nullptr);
@@ -210,18 +209,15 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
   silence_library();
   impl_->name = file;
   impl_->format = &format;
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(file, failure))
+  if (kind_of(file) == FileKind::absent)
     throw InputError({file.string()}, "is not there",
                      fmt::format("check the path, or make it with {}", format.made_by));
   const std::string remedy = fmt::format("make the file anew with {}", format.made_by);
   impl_->input = InputBytes(file);
-  impl_->bytes =
-      static_cast<std::uint64_t>(std::max<std::int64_t>(0, state_of(impl_->input.descriptor()).size));
+  impl_->bytes = impl_->input.size();
   impl_->checksum = impl_->input.read_checksum(remedy);
   if (scope == Scope::everything) impl_->input.check(impl_->checksum, remedy);
-  check_library_memory();
-  const Handle access(access_for_reading(impl_->input.descriptor()), H5Pclose);
+  const Handle access(access_for_reading(impl_->input), H5Pclose);
   impl_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("is not an HDF5 file, or is cut off");
   impl_->check_format();
@@ -230,13 +226,16 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
   for (const AttributeInfo& attribute : format.attributes)
     if (!attribute.may_be_absent && H5Aexists(impl_->file, attribute.name.c_str()) <= 0)
       impl_->fail(fmt::format("attribute '{}' is missing", attribute.name));
+  impl_->input.check_reads();
 }
 
 FileReader::~FileReader() = default;
 
 bool FileReader::has(const std::string& dataset) const { return impl_->open.count(dataset) > 0; }
 bool FileReader::has_attribute(const std::string& name) const {
-  return H5Aexists(impl_->file, name.c_str()) > 0;
+  const bool there = H5Aexists(impl_->file, name.c_str()) > 0;
+  impl_->input.check_reads();
+  return there;
 }
 std::size_t FileReader::length(const std::string& axis) const {
   const auto found = impl_->axes.find(axis);
@@ -313,17 +312,28 @@ const std::string& FileReader::checksum() const { return impl_->checksum; }
 
 namespace {
 
-/// The root attribute `format`; empty: not one of ours.
-std::string written_format(const std::filesystem::path& file) {
-  silence_library();
-  const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!opened.valid() || H5Aexists(opened, "format") <= 0) return "";
-  const Handle attribute(H5Aopen(opened, "format", H5P_DEFAULT), H5Aclose);
+/// Of an open file.
+std::string format_in(hid_t file) {
+  constexpr std::size_t longest = 100;  // names of formats are short
+  if (H5Aexists(file, "format") <= 0) return "";
+  const Handle attribute(H5Aopen(file, "format", H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(attribute), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "";
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || H5Tget_size(type) > longest) return "";
   std::string format(H5Tget_size(type), '\0');
   if (H5Aread(attribute, type, format.data()) < 0 || !format.starts_with("dresslife-")) return "";
   return format.c_str();  // padded with zeros
+}
+
+/// The root attribute `format`; empty: not one of ours, or no file. Errors: those of PlainFile.
+std::string written_format(const std::filesystem::path& file) {
+  if (kind_of(file) == FileKind::absent) return "";
+  silence_library();
+  InputBytes input(file);
+  const Handle access(access_for_reading(input), H5Pclose);
+  const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+  const std::string format = opened.valid() ? format_in(opened) : "";
+  input.check_reads();
+  return format;
 }
 
 }  // namespace

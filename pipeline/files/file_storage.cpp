@@ -164,7 +164,6 @@ void FileReader::Impl::check_chunks(const Open& made) const {
 template <class T, class Unpack>
 void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, T* out,
                                    const Unpack& unpack) const {
-  check_library_memory();
   std::vector<char> packed;
   std::vector<T> numbers(from.packed_rows);
   for (std::size_t row = first, end = first + count; row < end;) {

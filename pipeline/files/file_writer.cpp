@@ -96,10 +96,10 @@ struct FileWriter::Impl {
     file.reset();
   }
 
-  /// The disk never lets a call of the library fail (file_driver.h): memory may, else the fault is ours.
+  /// The disk never lets a call of the library fail (file_driver.h), except where what was written cannot be read
+  /// back: else the fault is ours.
   [[noreturn]] void fail(const std::string& what) const {
     whole.check();
-    throw_if_out_of_memory();
     throw std::logic_error(whole.final_name().string() + ": HDF5 refuses " + what);
   }
 
@@ -216,7 +216,6 @@ struct FileWriter::Impl {
 
   /// rows: of the chunk that belong to the dataset.
   void write_chunk(Open& target, const char* numbers, std::size_t rows) {
-    check_library_memory();
     if (!target.id.valid()) create(target);
     if (target.description->lists)
       deflater.pack(std::span(reinterpret_cast<const std::uint32_t*>(numbers), target.chunk_rows), packed);
@@ -234,7 +233,6 @@ struct FileWriter::Impl {
     if (target.description->packed()) return flush_packed(target, true);
     const std::size_t row_bytes = target.row_bytes();
     if (target.buffer.empty() || row_bytes == 0) return;
-    check_library_memory();
     if (!target.id.valid()) create(target);
     const hsize_t rows = target.buffer.size() / row_bytes;
     const auto& shape = target.description->shape;
@@ -320,7 +318,6 @@ struct FileWriter::Impl {
 
 FileWriter::FileWriter(std::filesystem::path file, const Format& format) {
   silence_library();
-  check_library_memory();
   impl_ = std::make_unique<Impl>(std::move(file), format);
   const Handle access(access_for_writing(impl_->whole), H5Pclose);
   // The 1.8 layout lets attributes (the job's text) exceed 64 KiB.
@@ -375,7 +372,6 @@ void FileWriter::dataset_attribute(const std::string& dataset, const std::string
 void FileWriter::commit() {
   for (auto& [path, target] : impl_->open) impl_->finish(target);
   impl_->check_whole();
-  check_library_memory();
   for (auto& [path, target] : impl_->open)
     if (target.id.reset() < 0) impl_->fail("dataset " + path);
   impl_->open.clear();

@@ -155,10 +155,10 @@ class FileReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether a file was made by one of our stages, whole or not.
+/// Whether a file was made by one of our stages, whole or not. Errors: those of PlainFile, where there is a file.
 bool is_dresslife_file(const std::filesystem::path& file);
 
-/// Which of the three it says it is; null: none of them, or no file.
+/// Which format it says it is of; null: none of them, or no file. Errors: likewise.
 const Format* format_of(const std::filesystem::path& file);
 
 }  // namespace dresslife::pipeline

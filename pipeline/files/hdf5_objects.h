@@ -6,11 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <string>
 #include <utility>
 
-#include "pipeline/base/limits.h"
 #include "pipeline/files/files.h"
 
 namespace dresslife::pipeline {
@@ -44,25 +42,6 @@ class Handle {
 inline void silence_library() {
   H5dont_atexit();  // nothing is left open, and a library out of memory stumbles over itself
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-/// Before each call that lets the library take memory of its own: where that fails halfway, it frees what it
-/// never had and takes the program along. It takes a node of a tree, a chunk on its way and a chunk's cache,
-/// 1 MB each.
-inline void check_library_memory() {
-  constexpr std::uint64_t megabytes = 8;
-  check_memory(megabytes);
-}
-
-/// The library says of everything that it failed; too little memory is another matter than a damaged file.
-inline void throw_if_out_of_memory() {
-  const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
-    if (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) *static_cast<bool*>(found) = true;
-    return 0;
-  };
-  bool found = false;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &found);
-  if (found) throw std::bad_alloc();
 }
 
 inline hid_t memory_type(Type type) {

@@ -3,14 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/files/checksum.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/words.h"
 
@@ -39,7 +38,7 @@ std::string recipe_of(std::string_view settings, const std::vector<std::filesyst
   };
   add(settings);
   for (const std::filesystem::path& file : files) {
-    add(file.string());
+    add(file.filename().string());
     add(digests.of(file));
   }
   add(digests.of(program));
@@ -64,16 +63,12 @@ std::vector<Told> told_by(const std::filesystem::path& file, const Format& forma
 namespace {
 
 /// A short file at one go, and when it was changed last.
-std::optional<std::string> whole_text(const std::filesystem::path& file, std::int64_t& changed_ns) {
-  constexpr std::int64_t longest = 1 << 20;
-  const int opened = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (opened < 0) return std::nullopt;
-  const FileState state = state_of(opened);
-  changed_ns = state.changed_ns;
-  std::string text(static_cast<std::size_t>(std::clamp<std::int64_t>(state.size, 0, longest)), '\0');
-  const bool read = state.exists() && state.size <= longest && read_at(opened, text.data(), text.size(), 0);
-  ::close(opened);
-  return read ? std::optional(std::move(text)) : std::nullopt;
+std::optional<std::string> whole_text(const std::filesystem::path& name, std::int64_t& changed_ns) {
+  constexpr std::uint64_t longest = 1 << 20;
+  if (!state_of(name).exists()) return std::nullopt;
+  const PlainFile file(name);
+  changed_ns = file.state().changed_ns;
+  return file.size() <= longest ? std::optional(file.text()) : std::nullopt;
 }
 
 /// In one line, and back.
@@ -190,18 +185,6 @@ void renew_receipt(const std::filesystem::path& file, const std::filesystem::pat
   // The bytes are compared after the state was taken: what changes them later changes the state.
   if (receipt && checksum_of(output) == receipt->output && state_of(output) == state)
     write_receipt(file, *receipt, output);
-}
-
-void give_output(const std::filesystem::path& output, const std::filesystem::path& name) {
-  check_replaceable(name);
-  std::error_code failure;
-  std::filesystem::remove(name, failure);
-  std::filesystem::create_hard_link(output, name, failure);
-  if (failure)
-    std::filesystem::copy_file(output, name, std::filesystem::copy_options::overwrite_existing, failure);
-  if (failure)
-    throw InputError({name.string()}, "cannot be written (" + failure.message() + ")",
-                     "check the folder and the disk");
 }
 
 bool is_as_noted(const Receipt& receipt, const std::filesystem::path& output) {

@@ -44,7 +44,8 @@ struct Receipt {
   std::string recipe, input, output;
   FileState state;
   std::vector<Told> told{};
-  /// What else the recipe is of, with digests: the program by its name, and files by their paths.
+  /// What else the recipe is of, with digests: the program by its name, and files as seen from the folder of the
+  /// output.
   std::vector<std::pair<std::string, std::string>> made_with{};
   std::int64_t written_ns = 0;  ///< when the receipt itself was changed last
   bool state_suffices() const { return state.exists() && written_ns > state.changed_ns; }
@@ -71,7 +72,7 @@ std::string note_digests(const std::vector<std::filesystem::path>& files);
 std::string recipe_of(std::string_view settings, const std::vector<std::filesystem::path>& files,
                       const std::filesystem::path& program, Digests& digests);
 
-/// Nothing when there is none or it cannot be understood.
+/// Nothing when there is none or it cannot be understood. Errors: DiskError.
 std::optional<Receipt> read_receipt(const std::filesystem::path& file);
 
 /// Errors: InputError when it cannot be written.
@@ -79,10 +80,6 @@ void write_receipt(const std::filesystem::path& file, Receipt receipt, const std
 
 /// Notes the state of an output whose bytes are as noted, so that they need no look the next time.
 void renew_receipt(const std::filesystem::path& file, const std::filesystem::path& output);
-
-/// Gives an output a second name; where the file system has none for it, a copy. Replaces what is there.
-/// Errors: InputError when it cannot be written.
-void give_output(const std::filesystem::path& output, const std::filesystem::path& name);
 
 /// Whether `output` is the file that the receipt tells of.
 bool is_as_noted(const Receipt& receipt, const std::filesystem::path& output);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipeline/job/parts_room.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -16,7 +17,8 @@ void describe(Fields& f, Laying& laying) {
       "part is no wire, has a lay angle of 20 deg at most, may slide, and the dresspack has an inner_diameter_mm or a "
       "hose_corrugation");
   f.number("slack_percent", laying.slack, Need::optional, between(0, 20),
-           "length of the part beyond the path on which it was laid in, when the hose had its rest shape");
+           "length of the part beyond the path on which it was laid in, when the hose had its rest shape; of a "
+           "loose part that names none 1, an ESTIMATE");
   f.maybe_number(
       "play_mm", laying.play, above(0),
       "how far a loose part can leave its place; without it to the wall, what fills the middle and "
@@ -46,10 +48,11 @@ void describe(Fields& f, Component& component) {
   f.number("phase_deg", component.phase, Need::optional, between(-360, 360),
            "angle of part 1 at the base clamp");
   f.maybe_number("friction_coefficient", component.friction, between(0, 1e6),
-                 "Coulomb, of the part on what it lies against; needed where strain.slip is friction");
+                 "Coulomb, of the part on what it lies against; without it 0.3, an ESTIMATE");
   f.maybe_number(
       "radial_line_load_N_per_m", component.radial_line_load, at_least(0),
-      "presses the part on what it lies against, by jacket and tape; needed where strain.slip is friction");
+      "presses the part on what it lies against, by jacket and tape; without it an ESTIMATE: a jacket's 0.17 MPa "
+      "times its width, or the pressure on the part that holds it; nothing on a cable in a hose");
   f.number("tension_N", component.tension, Need::optional, at_least(0),
            "of the part in the dresspack at rest");
   describe(f, component.laying);
@@ -64,7 +67,8 @@ void describe(Fields& f, Component& component) {
            "force per length and displacement by which a jacket that fills the gussets holds the part along "
            "its path; read where strain.slip is friction");
   f.maybe_number("radial_stiffness_N_per_m2", component.radial_stiffness, above(0),
-                 "force per length and displacement of what the helix lies on; without it nothing gives");
+                 "force per length and displacement of what the helix lies on; without it 5e7, that of polymer, under parts in a "
+                 "cable that hold parts, and nothing gives under others or where strain.kinematics is thesis");
   f.maybe_number("measured_bending_stiffness_Nm2", component.measured_bending_stiffness, above(0),
                  "of one part with parts, moment over curvature; sets the level of radial_line_load_N_per_m "
                  "of all that lies in it, read where strain.slip is friction");
@@ -87,6 +91,8 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.place(dresspack.where);
   f.text("name", dresspack.name, Need::required, "name of the dresspack");
   f.text("source", dresspack.source, Need::required, "where the numbers come from");
+  f.text("estimates", dresspack.estimates, Need::optional,
+         "keys that were left out and their estimated values; dresslife writes it into resolved jobs");
   f.boolean(
       "cable_alone", dresspack.cable_alone, Need::optional,
       "it is one cable by itself, as `cable:` makes it; stiffness, mass and damping may be left out where a "
@@ -126,7 +132,8 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.text("damping_source", dresspack.damping_source, need,
          "where the damping comes from: life depends on it");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
-           "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts");
+           "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts; of a dresspack with "
+           "components that names none 0.3, an ESTIMATE");
   f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
                  "that the maker allows in motion; tighter is warned of; without it ten diameters");
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
@@ -148,7 +155,8 @@ void describe(Fields& f, Dresspack& dresspack) {
       "are held by a jacket");
   f.number("core_diameter_mm", dresspack.core_diameter, Need::optional, at_least(0),
            "of what fills the middle of a hose and is no component");
-  f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only");
+  f.list("components", dresspack.components, Need::optional, "what lies in the hose; none: motion only; place: auto in place of helix_radius_mm and phase_deg packs parts into the "
+         "bore");
   f.list("materials", dresspack.materials, Need::optional, "materials that are not in config/materials");
   f.list("ratings", dresspack.ratings, Need::optional,
          "of a dresspack that is one cable, without a hose: what its maker promises in test rigs");
@@ -188,7 +196,7 @@ namespace {
 
 void check_plain(const Component& part, const Component* parent, Problems& problems) {
   problems.attempt("", part.where, [&] { check_plain_part(*part.plain, part.radius, part.name); });
-  if (!parent->components.empty())
+  if (parent)
     problems.add(part.where, fmt::format("'{}' is without wires and lies in '{}'", part.name, parent->name),
                  "leave it out: what a cable holds beside its wires counts as polymer");
   if (!part.material.empty() || !part.components.empty())
@@ -201,7 +209,7 @@ void check_plain(const Component& part, const Component* parent, Problems& probl
                  "give without_wires.bending_stiffness_Nm2");
 }
 
-/// Returns how many levels of parts it has, itself the first.
+/// parent: null: the dresspack. Returns how many levels of parts it has, itself the first.
 int check_component(const Component& component, const Component* parent, Problems& problems) {
   const Where& where = component.where;
   if (component.plain)
@@ -209,8 +217,7 @@ int check_component(const Component& component, const Component* parent, Problem
   else if (component.components.empty() == component.material.empty())
     problems.add(
         where, fmt::format("'{}' must have either a material (a wire) or components", component.name),
-        parent->components.empty() ? "give one of the two, or without_wires: {kind: hose, fibre or filler}"
-                                   : "give one of the two");
+        parent ? "give one of the two" : "give one of the two, or without_wires: {kind: hose, fibre or filler}");
   if (component.count > 1 && component.helix_radius == 0)
     problems.add(
         where,
@@ -221,12 +228,13 @@ int check_component(const Component& component, const Component* parent, Problem
                  "set lay_angle_deg to 0");
   if (component.name.find('/') != std::string::npos || component.layer.find('/') != std::string::npos)
     problems.add(where, fmt::format("name '{}' holds a '/'", component.name), "choose another name");
-  if (parent && component.helix_radius + component.radius > parent->radius * 1.02)
-    problems.add(
-        where,
-        fmt::format("'{}' reaches {:.4g} mm from the axis of '{}', whose radius is {:.4g} mm", component.name,
-                    1e3 * (component.helix_radius + component.radius), parent->name, 1e3 * parent->radius),
-        "check helix_radius_mm and radius_mm");
+  const double reach = component.helix_radius + component.radius;
+  if (parent && reach > parent->radius * (1 + caliper_error))
+    problems.add(where,
+                 fmt::format("'{}' reaches {:.4g} mm from the axis of '{}', {:.3g} mm outside it (radius {:.4g} mm)",
+                             component.name, 1e3 * reach, parent->name, 1e3 * (reach - parent->radius),
+                             1e3 * parent->radius),
+                 "check helix_radius_mm and radius_mm");
   int depth = 0;
   for (const Component& inner : component.components)
     depth = std::max(depth, check_component(inner, &component, problems));
@@ -299,34 +307,50 @@ void check_room(const Dresspack& dresspack) {
                      "check core_diameter_mm");
 }
 
-/// What fills the middle is either told by the core's keys or a component.
-void check_middle(const Dresspack& dresspack, const Component& component) {
-  constexpr double allowed = 0.02;  // of its diameter, as a caliper reads wrong
-  const double inside = component.helix_radius - component.radius, core = dresspack.core_diameter / 2;
-  const bool has_core = core > 0 || dresspack.core_bending_stiffness.value_or(0) > 0;
+/// What fills the middle is either described by the core's keys or a component; no part lies in the core or outside
+/// the bore.
+void check_place(const Dresspack& dresspack, const Component& component) {
+  const PartsRoom room = room_of_parts(dresspack);
+  const bool has_core = room.core > 0 || dresspack.core_bending_stiffness.value_or(0) > 0;
   if (component.helix_radius == 0 && has_core && inner_radius(dresspack))
     throw InputError(
         component.where,
-        fmt::format("'{}' lies in the middle, and the keys core_.. tell of something that does too (of no "
-                    "component)",
-                    component.name),
-        "leave them out, or the component");
-  if (component.helix_radius > 0 && inside + 2 * allowed * component.radius < core)
+        fmt::format("'{}' lies in the middle, and the keys core_.. describe something else that does", component.name),
+        "leave out the keys core_.., or the component");
+  if (const double by = inside_core(room, component); by > 0)
     throw InputError(component.where,
-                     fmt::format("'{}' begins {:.4g} mm from the axis (core_diameter_mm is {:.4g})",
-                                 component.name, 1e3 * inside, 2e3 * core),
-                     "check core_diameter_mm, helix_radius_mm and radius_mm");
+                     fmt::format("'{}' begins {:.4g} mm from the axis, {:.3g} mm inside the core (core_diameter_mm is "
+                                 "{:.4g})",
+                                 component.name, 1e3 * (component.helix_radius - component.radius), 1e3 * by,
+                                 2e3 * room.core),
+                     fmt::format("give helix_radius_mm: {:.4g} or more, or core_diameter_mm: {:.4g} or less",
+                                 1e3 * (room.core + component.radius),
+                                 2e3 * std::max(0.0, component.helix_radius - component.radius)));
+  const double by = outside_bore(room, component);
+  if (by == 0 || room.estimated) return;  // of an estimated bore a warning (overlap.h)
+  const bool hose = inner_radius(dresspack).has_value();
+  throw InputError(
+      component.where,
+      fmt::format("'{}' reaches {:.4g} mm from the axis, {:.3g} mm outside the {} (radius {:.4g} mm)", component.name,
+                  1e3 * (component.helix_radius + component.radius), 1e3 * by, hose ? "hose's bore" : "dresspack",
+                  1e3 * room.bore),
+      fmt::format("give helix_radius_mm: {:.4g} or less, or {}: {:.4g} or more",
+                  1e3 * std::max(0.0, room.bore - component.radius),
+                  !hose                            ? "diameter_mm"
+                  : dresspack.inner_diameter       ? "inner_diameter_mm"
+                                                   : "inner_diameter_mm (now by hose_corrugation)",
+                  2e3 * (component.helix_radius + component.radius)));
 }
 
-/// Friction needs to know what presses the parts together. level: of `component`, 1 = in the dresspack.
-void check_friction(const Component& component, const std::vector<Slip>& slip, std::size_t level) {
-  if (rubs(slip[std::min(level, slip.size()) - 1]) && !component.plain &&
-      !(component.friction && component.radial_line_load))
-    throw InputError(component.where,
-                     fmt::format("'{}' has no {} (strain.slip of its level is friction)", component.name,
-                                 component.friction ? "radial_line_load_N_per_m" : "friction_coefficient"),
-                     "give both, or slip: free or stick");
-  for (const Component& inner : component.components) check_friction(inner, slip, level + 1);
+/// In a hose whose bore is not known it is not known whether parts fit, nor how far they can go.
+void check_bore(const Dresspack& dresspack) {
+  if (dresspack.hose_material.empty() || inner_radius(dresspack) || !has_wires(dresspack) || dresspack.cable_alone)
+    return;
+  throw InputError(dresspack.where,
+                   "hose_material is given and the hose's bore is not (whether its parts fit is not known)",
+                   fmt::format("give inner_diameter_mm, or hose_corrugation; corrugated hoses of {:.4g} mm usually "
+                               "have inner_diameter_mm: {:.3g} (ESTIMATE)",
+                               1e3 * dresspack.diameter, 1e3 * usual_bore_share * dresspack.diameter));
 }
 
 /// Ratings are of whole cables. A copy of each is checked: what the job says stays as written.
@@ -363,14 +387,12 @@ void drop_ratings(Dresspack& dresspack) {
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   Problems problems;
   const auto attempt = [&](const Where& where, const auto& check) { problems.attempt("", where, check); };
-  Component hose;
-  hose.name = "hose";
-  hose.radius = dresspack.diameter / 2;
   int depth = 0;
   for (const Component& component : dresspack.components)
-    depth = std::max(depth, check_component(component, &hose, problems));
+    depth = std::max(depth, check_component(component, nullptr, problems));
   attempt(dresspack.where, [&] { check_hose(dresspack); });
   attempt(dresspack.where, [&] { check_room(dresspack); });
+  attempt(dresspack.where, [&] { check_bore(dresspack); });
   if (!dresspack.ratings.empty() && inner_radius(dresspack))
     problems.add(dresspack.ratings.front().where, "ratings stand beside a hose (they are of a cable)",
                  "give them to the cable in dresspack.components");
@@ -378,13 +400,12 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   for (const Component& component : dresspack.components) {
     attempt(component.where, [&] { check_ratings(component, true); });
     attempt(component.where, [&] { check_laying(dresspack, component, true); });
-    attempt(component.where, [&] { check_middle(dresspack, component); });
+    attempt(component.where, [&] { check_place(dresspack, component); });
     if (component.laying.position == Position::loose && !slides(slip.front()))
       problems.add(component.where,
                    fmt::format("'{}' is loose, and sticks to the hose (strain.slip of its level is {})",
                                component.name, word(slip.front())),
                    "set strain.slip of the first level to free or friction, or position: held");
-    attempt(component.where, [&] { check_friction(component, slip, 1); });
   }
   problems.finish(dresspack.where.file);
   return depth;

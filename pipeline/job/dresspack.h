@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/job/material.h"
 #include "pipeline/job/plain_part.h"
 #include "pipeline/job/rating.h"
@@ -18,53 +19,17 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class Hand { right, left };
-constexpr std::string_view word(Hand value) {
-  switch (value) {
-    case Hand::right:
-      return "right";
-    case Hand::left:
-      return "left";
-  }
-  return {};
-}
+constexpr std::string_view word(Hand value) { return word_at({"right", "left"}, value); }
 /// +1 of a right-handed helix (Z), -1 of a left-handed one (S).
-constexpr int sign_of(Hand value) {
-  switch (value) {
-    case Hand::right:
-      return 1;
-    case Hand::left:
-      return -1;
-  }
-  return 0;
-}
+constexpr int sign_of(Hand value) { return value == Hand::right ? 1 : -1; }
 
 /// Where a part of the first level lies in the cross-section of its dresspack.
 enum class Position { automatic, held, loose };
-constexpr std::string_view word(Position value) {
-  switch (value) {
-    case Position::automatic:
-      return "auto";
-    case Position::held:
-      return "held";
-    case Position::loose:
-      return "loose";
-  }
-  return {};
-}
+constexpr std::string_view word(Position value) { return word_at({"auto", "held", "loose"}, value); }
 
 /// Of what a hose's stiffness is taken from (stiffness.h): whether its parts slip.
 enum class SlipState { sliding, friction, stuck };
-constexpr std::string_view word(SlipState value) {
-  switch (value) {
-    case SlipState::sliding:
-      return "sliding";
-    case SlipState::friction:
-      return "friction";
-    case SlipState::stuck:
-      return "stuck";
-  }
-  return {};
-}
+constexpr std::string_view word(SlipState value) { return word_at({"sliding", "friction", "stuck"}, value); }
 
 /// How a part of the first level is laid into its dresspack and clamped (strain/README.md, W32 to W37).
 struct Laying {
@@ -87,8 +52,8 @@ struct Component {
   double lay_angle = 0;     ///< alpha >= 0 [rad]
   Hand hand = Hand::right;
   double phase = 0;                ///< theta_layer: angle of part 1 at the base clamp [rad]
-  std::optional<double> friction;  ///< Coulomb, on what it lies against; needed where slip is `friction`
-  std::optional<double> radial_line_load;  ///< that presses the part on what it lies against [N/m]; likewise
+  std::optional<double> friction;          ///< Coulomb, on what it lies against; absent: none
+  std::optional<double> radial_line_load;  ///< presses the part on what it lies against [N/m]; absent: 0
   double tension = 0;                      ///< of the part in the dresspack at rest [N]
   double jacket_stiffness = 0;             ///< of a jacket that holds the part along its path [N/m2]
   std::optional<double> radial_stiffness;  ///< of what the helix lies on [N/m2]; absent: rigid
@@ -115,6 +80,7 @@ struct Corrugation {
 
 struct Dresspack {
   std::string name, source;
+  std::string estimates;  ///< keys that the user left out, with their values (estimates.h); empty: none
   bool cable_alone =
       false;            ///< it is one cable by itself (cable.h), whose stiffness and mass may be missing (0)
   double diameter = 0;  ///< outer, of the hose [m]
@@ -182,8 +148,8 @@ bool is_from_construction(const Dresspack& dresspack);
 /// Takes out what no stage reads.
 void drop_ratings(Dresspack& dresspack);
 
-/// Levels of parts in it. slip: of the job, which says where friction must be known. Errors: InputError at
-/// the part that does not fit into its parent, lacks what its slip needs, or has what its level does not.
+/// Levels of parts in it. slip: of the job. Errors: InputError at the part that does not fit into its parent
+/// or has what its level or slip does not allow.
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip);
 
 }  // namespace dresslife::pipeline

@@ -1,87 +1,38 @@
 // Settings of dresslife-fatigue.
 //
-// A choice of the user is an enumeration. Each has a word() for its values, and where the code goes one of
-// two ways by it, a named question: switches without default, in which a new value that is forgotten does not
-// compile.
+// A choice of the user is an enumeration with a word() for each value, in the order of the values. Where the
+// code goes one of two ways by it, that is a named question.
 #pragma once
 
 #include <string>
 #include <string_view>
+
+#include "pipeline/base/words.h"
 
 namespace dresslife::pipeline {
 
 class Fields;
 
 enum class Stress { cyclic, elastic };
-constexpr std::string_view word(Stress value) {
-  switch (value) {
-    case Stress::cyclic:
-      return "cyclic";
-    case Stress::elastic:
-      return "elastic";
-  }
-  return {};
-}
+constexpr std::string_view word(Stress value) { return word_at({"cyclic", "elastic"}, value); }
 /// Whether stress follows the cyclic curve; else it is E times strain.
-constexpr bool yields(Stress value) {
-  switch (value) {
-    case Stress::cyclic:
-      return true;
-    case Stress::elastic:
-      return false;
-  }
-  return false;
-}
+constexpr bool yields(Stress value) { return value == Stress::cyclic; }
 
 enum class MeanStress { none, morrow, swt, walker };
 constexpr std::string_view word(MeanStress value) {
-  switch (value) {
-    case MeanStress::none:
-      return "none";
-    case MeanStress::morrow:
-      return "morrow";
-    case MeanStress::swt:
-      return "swt";
-    case MeanStress::walker:
-      return "walker";
-  }
-  return {};
+  return word_at({"none", "morrow", "swt", "walker"}, value);
 }
 
 /// What becomes of the stress that a repeated history is off centre by (fatigue/README.md, F22).
 enum class MeanStressRelaxation { none, power_law, complete };
 constexpr std::string_view word(MeanStressRelaxation value) {
-  switch (value) {
-    case MeanStressRelaxation::none:
-      return "none";
-    case MeanStressRelaxation::power_law:
-      return "power_law";
-    case MeanStressRelaxation::complete:
-      return "complete";
-  }
-  return {};
+  return word_at({"none", "power_law", "complete"}, value);
 }
 
 enum class Counting { repeating, half_cycles };
-constexpr std::string_view word(Counting value) {
-  switch (value) {
-    case Counting::repeating:
-      return "repeating";
-    case Counting::half_cycles:
-      return "half_cycles";
-  }
-  return {};
-}
+constexpr std::string_view word(Counting value) { return word_at({"repeating", "half_cycles"}, value); }
 /// Whether the motion is taken to repeat for ever; else it happens once.
-constexpr bool is_repeated(Counting value) {
-  switch (value) {
-    case Counting::repeating:
-      return true;
-    case Counting::half_cycles:
-      return false;
-  }
-  return false;
-}
+constexpr bool is_repeated(Counting value) { return value == Counting::repeating; }
 
 struct Fatigue {
   Stress stress = Stress::cyclic;

@@ -3,27 +3,13 @@
 
 #include <string_view>
 
+#include "pipeline/base/words.h"
+
 namespace dresslife::pipeline {
 
 enum class Kinematics { exact, thesis };
-constexpr std::string_view word(Kinematics value) {
-  switch (value) {
-    case Kinematics::exact:
-      return "exact";
-    case Kinematics::thesis:
-      return "thesis";
-  }
-  return {};
-}
+constexpr std::string_view word(Kinematics value) { return word_at({"exact", "thesis"}, value); }
 /// Whether (12) to (23) are used as they are printed; else the geometry itself.
-constexpr bool is_thesis(Kinematics value) {
-  switch (value) {
-    case Kinematics::thesis:
-      return true;
-    case Kinematics::exact:
-      return false;
-  }
-  return false;
-}
+constexpr bool is_thesis(Kinematics value) { return value == Kinematics::thesis; }
 
 }  // namespace dresslife::pipeline

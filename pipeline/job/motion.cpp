@@ -17,9 +17,13 @@ void describe(Fields& f, MotionStep& step) {
             "target of the tool in the work object: x, y, z, instead of joints_deg");
   f.numbers("quaternion", step.quaternion, Need::optional, "orientation of the tool there: w, x, y, z");
   f.numbers("via_position_mm", step.via_position, Need::optional, "of a circular move: a point on the way");
+  f.numbers("circle_joints_deg", step.circle_joints, Need::optional,
+            "of a circular move to joints_deg: angles at another point of its circle, before its start or behind its "
+            "end");
   f.text(
       "configuration", step.configuration, Need::optional,
-      "which arm reaches the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0; without it the nearest");
+      "which arm reaches the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0, motoman and the first six numbers "
+      "of RCONF, near and six angles in deg; without it the nearest");
   f.numbers("external_axes", step.external_axes, Need::optional,
             "targets of external axes, mm or deg; without them they stay");
   f.text("tool", step.tool, Need::optional, "a name of tools; without it the flange");
@@ -35,6 +39,10 @@ void describe(Fields& f, MotionStep& step) {
   f.maybe_number("duration_s", step.duration, above(0), "of the whole move, instead of a speed");
   f.maybe_number("acceleration_percent", step.acceleration_percent, between(1, 150),
                  "of this move, besides the program's");
+  f.maybe_number("acceleration_deg_per_s2", step.acceleration, above(0),
+                 "highest of the axis that moves farthest, besides the axes' own");
+  f.maybe_number("acceleration_mm_per_s2", step.tool_acceleration, above(0),
+                 "highest of the tool along its path, besides the axes' own");
   f.maybe_number("zone_mm", step.tool_zone, at_least(0),
                  "the tool leaves its path this near to the target; 0: stop");
   f.maybe_number("zone_percent", step.stop_zone, between(0, 100),
@@ -91,8 +99,8 @@ void describe(Fields& f, Motion& motion) {
   f.list("work_objects", motion.work_objects, Need::optional,
          "work objects, in the robot's base frame; likewise");
   f.path("program", motion.program, Need::optional,
-         "a robot program instead of steps: RAPID (.mod, .prg, .sys, .pgf), KRL (.src), Fanuc (.ls), joints "
-         "(.csv), ROS (.yaml, .json), or the folder of a controller's backup");
+         "a robot program instead of steps: RAPID (.mod, .prg, .sys, .pgf), KRL (.src), Fanuc (.ls), INFORM (.jbi), "
+         "URScript (.script), joints (.csv), ROS (.yaml, .json), or the folder of a controller's backup");
   f.list("modules", motion.modules, Need::optional,
          "further files of the program: modules, .dat files, called programs");
   f.text(
@@ -139,10 +147,13 @@ void check_move(const MotionStep& step, const Robot& robot) {
   if (!step.joints.empty() && !step.position.empty())
     throw InputError(where, "both joints_deg and position_mm are given", "keep one of the two");
   if (!step.position.empty()) check_pose(step.position, step.quaternion, where);
-  if (has_via(step.path) != !step.via_position.empty() ||
-      (!step.via_position.empty() && step.via_position.size() != 3))
-    throw InputError(where, "via_position_mm belongs to a circular move, which must have it",
-                     "give x, y, z, or change the path");
+  const bool circle = !step.circle_joints.empty();
+  if (has_via(step.path) != (circle || !step.via_position.empty()) || (circle && !step.via_position.empty()) ||
+      (!step.via_position.empty() && step.via_position.size() != 3) ||
+      (circle && step.circle_joints.size() != robot.axes()))
+    throw InputError(where,
+                     "via_position_mm or circle_joints_deg belongs to a circular move, which must have one of them",
+                     "give x, y, z or one angle per axis, or change the path");
   if (step.speed.has_value() + step.speed_percent.has_value() + step.duration.has_value() > 1)
     throw InputError(where,
                      step.duration ? "duration_s is given beside a speed"
@@ -163,7 +174,7 @@ void check_lone_step(const MotionStep& step, const Robot& robot) {
     throw InputError(step.where, "a block needs both repeat (at least 1) and steps", "give both");
   if (move) check_move(step, robot);
   if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone ||
-                step.stop_zone || step.duration))
+                step.stop_zone || step.duration || step.acceleration || step.tool_acceleration))
     throw InputError(step.where, "speed and zone belong to a move", "take them out of this step");
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/base/warnings.h"
+#include "pipeline/base/words.h"
 #include "pipeline/job/rig.h"
 #include "pipeline/job/robot.h"
 #include "pipeline/settings/document.h"
@@ -19,39 +20,11 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class PathKind { joint, linear, circular };
-constexpr std::string_view word(PathKind value) {
-  switch (value) {
-    case PathKind::joint:
-      return "joint";
-    case PathKind::linear:
-      return "linear";
-    case PathKind::circular:
-      return "circular";
-  }
-  return {};
-}
+constexpr std::string_view word(PathKind value) { return word_at({"joint", "linear", "circular"}, value); }
 /// Whether the tool's origin follows a path in space; else the axes move straight to their targets.
-constexpr bool leads_tool(PathKind value) {
-  switch (value) {
-    case PathKind::linear:
-    case PathKind::circular:
-      return true;
-    case PathKind::joint:
-      return false;
-  }
-  return false;
-}
+constexpr bool leads_tool(PathKind value) { return value != PathKind::joint; }
 /// Whether a point on the way belongs to it.
-constexpr bool has_via(PathKind value) {
-  switch (value) {
-    case PathKind::circular:
-      return true;
-    case PathKind::joint:
-    case PathKind::linear:
-      return false;
-  }
-  return false;
-}
+constexpr bool has_via(PathKind value) { return value == PathKind::circular; }
 
 /// One line of a robot program: a move, a dwell, or a block repeated `repeat` times. A move leads to joint
 /// angles or to a pose of the tool in the work object.
@@ -61,7 +34,8 @@ struct MotionStep {
   std::vector<double> position;       ///< target of the tool: x, y, z [m]; empty: none
   std::vector<double> quaternion;     ///< of the tool: w, x, y, z
   std::vector<double> via_position;   ///< of a circular move: a point on the way [m]
-  std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty: the nearest
+  std::vector<double> circle_joints;  ///< likewise, of one by joints: a point of its circle beyond its way [rad]
+  std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 0 0 0 0 0 0", "near 0 -90 90 0 90 0"; empty: the nearest
   std::vector<double> external_axes;  ///< as programmed: mm or deg, in the order of the robot's
   std::string tool, work_object;      ///< names in Motion; empty: flange, robot base
   std::optional<double> speed_percent;         ///< of each axis' largest speed [%]
@@ -70,6 +44,8 @@ struct MotionStep {
   std::optional<double> turn_speed;            ///< largest of the tool's rotation [rad/s]
   std::optional<double> duration;              ///< of the whole move [s]
   std::optional<double> acceleration_percent;  ///< of each axis' largest acceleration, besides Motion's [%]
+  std::optional<double> acceleration;          ///< largest of the fastest axis [rad/s2]
+  std::optional<double> tool_acceleration;     ///< largest of the tool's origin along its path [m/s2]
   std::optional<double> zone;  ///< blending begins this far from the target, largest axis [rad]; 0 = stop
   std::optional<double> tool_zone;  ///< blending begins this far from the target, tool [m]; 0 = stop
   std::optional<double>

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "pipeline/base/words.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
@@ -12,28 +13,10 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class PlainKind { filler, hose, fibre };
-constexpr std::string_view word(PlainKind value) {
-  switch (value) {
-    case PlainKind::filler:
-      return "filler";
-    case PlainKind::hose:
-      return "hose";
-    case PlainKind::fibre:
-      return "fibre";
-  }
-  return {};
-}
+constexpr std::string_view word(PlainKind value) { return word_at({"filler", "hose", "fibre"}, value); }
 
 enum class Medium { air, water };
-constexpr std::string_view word(Medium value) {
-  switch (value) {
-    case Medium::air:
-      return "air";
-    case Medium::water:
-      return "water";
-  }
-  return {};
-}
+constexpr std::string_view word(Medium value) { return word_at({"air", "water"}, value); }
 
 struct PlainPart {
   PlainKind kind = PlainKind::filler;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "pipeline/base/words.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
@@ -14,21 +15,7 @@ class Fields;
 
 enum class RigKind { torsion, rolling_flex, two_pulley, tick_tock, swivel, axial };
 constexpr std::string_view word(RigKind value) {
-  switch (value) {
-    case RigKind::torsion:
-      return "torsion";
-    case RigKind::rolling_flex:
-      return "rolling_flex";
-    case RigKind::two_pulley:
-      return "two_pulley";
-    case RigKind::tick_tock:
-      return "tick_tock";
-    case RigKind::swivel:
-      return "swivel";
-    case RigKind::axial:
-      return "axial";
-  }
-  return {};
+  return word_at({"torsion", "rolling_flex", "two_pulley", "tick_tock", "swivel", "axial"}, value);
 }
 
 struct Rig {

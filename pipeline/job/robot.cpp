@@ -81,6 +81,8 @@ void describe(Fields& f, Robot& robot) {
   f.vector("program_base_m", robot.program_base, Need::optional,
            "origin of the frame that robot programs are written in, in the base link (Fanuc: at the height "
            "of axis 2)");
+  f.vector("program_base_rpy_deg", robot.program_orientation, Need::optional,
+           "roll, pitch, yaw of that frame in the base link (Universal Robots in ROS: 0, 0, 180)");
   f.vector("flange_position_m", robot.flange_position, Need::optional,
            "of the flange frame (tool0) in the last link");
   f.vector("flange_rpy_deg", robot.flange_orientation, Need::optional,

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/job/shapes.h"
 #include "pipeline/settings/document.h"
 
@@ -40,24 +41,8 @@ struct ExternalAxis {
   double speed = 0, acceleration = 0;
   Where where;
 };
-constexpr std::string_view word(ExternalAxis::Kind value) {
-  switch (value) {
-    case ExternalAxis::Kind::linear:
-      return "linear";
-    case ExternalAxis::Kind::rotary:
-      return "rotary";
-  }
-  return {};
-}
-constexpr std::string_view word(ExternalAxis::Carries value) {
-  switch (value) {
-    case ExternalAxis::Carries::robot:
-      return "robot";
-    case ExternalAxis::Carries::nothing:
-      return "nothing";
-  }
-  return {};
-}
+constexpr std::string_view word(ExternalAxis::Kind value) { return word_at({"linear", "rotary"}, value); }
+constexpr std::string_view word(ExternalAxis::Carries value) { return word_at({"robot", "nothing"}, value); }
 
 struct Link {
   std::string name;  ///< link k > 0 is moved by joint k - 1 (counted from 0); link 0 is the base
@@ -78,6 +63,7 @@ struct Robot {
   Vector3d base_position = Vector3d::Zero();     ///< of link 0 in the world [m]
   Vector3d base_orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
   Vector3d program_base = Vector3d::Zero();  ///< origin of the frame programs are written in, in link 0 [m]
+  Vector3d program_orientation = Vector3d::Zero();  ///< of that frame there: roll, pitch, yaw [rad]
   Vector3d flange_position = Vector3d::Zero();     ///< of the flange frame in the last link [m]
   Vector3d flange_orientation = Vector3d::Zero();  ///< roll, pitch, yaw; its z axis leaves the flange [rad]
   std::vector<ExternalAxis> external_axes;         ///< those that carry the robot from the world on

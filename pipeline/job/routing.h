@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/job/robot.h"
 #include "pipeline/settings/document.h"
 
@@ -53,25 +54,9 @@ struct Retraction {
 };
 
 enum class ToolEnd { clamped, free };
-constexpr std::string_view word(ToolEnd value) {
-  switch (value) {
-    case ToolEnd::clamped:
-      return "clamped";
-    case ToolEnd::free:
-      return "free";
-  }
-  return {};
-}
+constexpr std::string_view word(ToolEnd value) { return word_at({"clamped", "free"}, value); }
 /// Whether a clamp of the robot ends the dresspack; else it hangs from its last clamp.
-constexpr bool is_clamped(ToolEnd value) {
-  switch (value) {
-    case ToolEnd::clamped:
-      return true;
-    case ToolEnd::free:
-      return false;
-  }
-  return false;
-}
+constexpr bool is_clamped(ToolEnd value) { return value == ToolEnd::clamped; }
 
 struct Routing {
   double free_length = 0;                       ///< of dresspack between the clamps, unstretched [m]

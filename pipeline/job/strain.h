@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/job/kinematics.h"
 
 namespace dresslife::pipeline {
@@ -13,94 +14,26 @@ class Fields;
 
 enum class DeformationMeasure { rotation_vector, thesis };
 constexpr std::string_view word(DeformationMeasure value) {
-  switch (value) {
-    case DeformationMeasure::rotation_vector:
-      return "rotation_vector";
-    case DeformationMeasure::thesis:
-      return "thesis";
-  }
-  return {};
+  return word_at({"rotation_vector", "thesis"}, value);
 }
 /// Whether curvature and twist are the thesis' (24).
-constexpr bool is_thesis(DeformationMeasure value) {
-  switch (value) {
-    case DeformationMeasure::thesis:
-      return true;
-    case DeformationMeasure::rotation_vector:
-      return false;
-  }
-  return false;
-}
+constexpr bool is_thesis(DeformationMeasure value) { return value == DeformationMeasure::thesis; }
 
 enum class Slip { free, stick, friction };
-constexpr std::string_view word(Slip value) {
-  switch (value) {
-    case Slip::free:
-      return "free";
-    case Slip::stick:
-      return "stick";
-    case Slip::friction:
-      return "friction";
-  }
-  return {};
-}
+constexpr std::string_view word(Slip value) { return word_at({"free", "stick", "friction"}, value); }
 /// Whether a part may move along its parent.
-constexpr bool slides(Slip value) {
-  switch (value) {
-    case Slip::free:
-    case Slip::friction:
-      return true;
-    case Slip::stick:
-      return false;
-  }
-  return false;
-}
+constexpr bool slides(Slip value) { return value != Slip::stick; }
 /// Whether friction holds it back there.
-constexpr bool rubs(Slip value) {
-  switch (value) {
-    case Slip::friction:
-      return true;
-    case Slip::free:
-    case Slip::stick:
-      return false;
-  }
-  return false;
-}
+constexpr bool rubs(Slip value) { return value == Slip::friction; }
 
 enum class Equivalent { axial, shear_included, critical_plane };
 constexpr std::string_view word(Equivalent value) {
-  switch (value) {
-    case Equivalent::axial:
-      return "axial";
-    case Equivalent::shear_included:
-      return "shear_included";
-    case Equivalent::critical_plane:
-      return "critical_plane";
-  }
-  return {};
+  return word_at({"axial", "shear_included", "critical_plane"}, value);
 }
 /// Whether the shear of a wire enters its strain (W19).
-constexpr bool counts_shear(Equivalent value) {
-  switch (value) {
-    case Equivalent::shear_included:
-    case Equivalent::critical_plane:
-      return true;
-    case Equivalent::axial:
-      return false;
-  }
-  return false;
-}
+constexpr bool counts_shear(Equivalent value) { return value != Equivalent::axial; }
 /// Whether planes are judged one by one (F18).
-constexpr bool judges_planes(Equivalent value) {
-  switch (value) {
-    case Equivalent::critical_plane:
-      return true;
-    case Equivalent::axial:
-    case Equivalent::shear_included:
-      return false;
-  }
-  return false;
-}
+constexpr bool judges_planes(Equivalent value) { return value == Equivalent::critical_plane; }
 
 struct Probe {
   int segment_from_tool = 1;
@@ -123,7 +56,7 @@ constexpr int most_cable_elements = 16;
 struct Strain {
   DeformationMeasure deformation = DeformationMeasure::rotation_vector;
   Kinematics kinematics = Kinematics::exact;
-  std::vector<Slip> slip{Slip::free};         ///< one for every level, or one per level, outermost first
+  std::vector<Slip> slip{Slip::friction};     ///< one for every level, or one per level, outermost first
   Equivalent equivalent = Equivalent::axial;  ///< which strain of a fibre is counted
   int surface_fibres = 1;                     ///< per wire; 0: the wire's axis
   double gate = 5e-4;                         ///< turning points of a smaller strain range are dropped

@@ -44,6 +44,9 @@ struct UncertainParameter {
   std::string_view meaning;  ///< "friction times pressure inside the cables"
   std::string_view source;   ///< of the deviation
   std::string_view measure;  ///< what a user would measure to know it better
+  std::string_view cause;    ///< as the subject of a sentence: "the friction inside the cables"
+  std::string_view test;     ///< that would tell it, and how long that takes: "One bending test of a cable (one hour)"
+  double test_deviation;     ///< error of that test: one deviation of ln(key), or of the key. ESTIMATE
 
   double value(double z) const;  ///< of the key
   double z_of(double value) const;
@@ -83,5 +86,9 @@ ParameterKnowledge prior_of(const Uncertainty& uncertainty);
 /// were.
 Material changed(Material material, const Fatigue& fatigue);
 constexpr double reversals_of_slope = 2e5;  ///< in the middle of what wires are tested at
+
+/// How parts inside the cables slip: as in the job, not at all, or without friction.
+enum class Inside { as_is, glued, free };
+constexpr std::size_t inside_count = 3;
 
 }  // namespace dresslife::pipeline

@@ -3,153 +3,205 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <map>
-#include <numbers>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
 namespace dresslife::pipeline {
 namespace {
 
+using StrainPoint = std::array<double, strain_parameters>;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double farthest = 3.5;  // deviations: nothing is told of what lies beyond
+constexpr double farthest = 3.5;  // deviations: nothing is known of what lies beyond
+constexpr double tenth = 1.2815515655446004;  // deviations from the median to 10 and 90 %
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack);
 
-/// Where z lies among rising nodes: between `below` and the next, at `share` of the way, which lies outside
-/// [0, 1] beyond the ends.
-struct Place {
-  std::size_t below = 0;
-  double share = 0;
-};
-Place place_among(const std::vector<double>& nodes, double z) {
-  if (nodes.size() < 2) return {};
-  std::size_t below = 0;
-  while (below + 2 < nodes.size() && z > nodes[below + 1]) ++below;
-  return {below, (z - nodes[below]) / (nodes[below + 1] - nodes[below])};
+std::size_t number_of(Inside inside) { return static_cast<std::size_t>(inside); }
+
+/// Whether all of a point but some parameters is 0.
+bool is_zero_but(const StrainPoint& point, std::initializer_list<std::size_t> free) {
+  for (std::size_t p = 0; p < point.size(); ++p)
+    if (point[p] != 0 && std::find(free.begin(), free.end(), p) == free.end()) return false;
+  return true;
 }
 
-/// Straight between values at nodes.
-template <class ValueAt>
-double between(const Place& place, const ValueAt& value_at) {
-  const double first = value_at(place.below);
-  return place.share == 0 ? first : first + place.share * (value_at(place.below + 1) - first);
-}
-
-/// Nodes of one axis of the strain side, all else 0.
-std::vector<double> nodes_of(const LifeResponse& response, std::size_t parameter) {
-  std::vector<double> nodes;
-  for (const auto& point : response.points) {
-    const bool alone = std::all_of(point.begin(), point.end(),
-                                   [&](const double& z) { return z == 0 || &z == &point[parameter]; });
-    if (alone) nodes.push_back(point[parameter]);
-  }
+void sort_once(std::vector<double>& nodes) {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
 }
 
 }  // namespace
 
 // ---- the response -----------------------------------------------------------------------------------------
 
-namespace {
-
-/// What change() looks up again and again.
-class Surface {
- public:
-  explicit Surface(const LifeResponse& response) : response_(response) {
-    for (std::size_t p = 0; p < strain_parameters; ++p) nodes_[p] = nodes_of(response, p);
-    for (std::size_t k = 0; k < response.points.size(); ++k) index_[response.points[k]] = k;
-    for (std::size_t f = 0; f < nodes_[friction].size(); ++f)
-      for (std::size_t s = 0; s < nodes_[slack].size(); ++s) {
-        std::array<double, strain_parameters> at{};
-        at[friction] = nodes_[friction][f], at[slack] = nodes_[slack][s];
-        const auto found = index_.find(at);
-        if (found == index_.end()) crossed_ = false;
-        grid_.push_back(found == index_.end() ? 0 : found->second);
-      }
-    for (std::size_t p = 0; p < strain_parameters; ++p)
-      for (const double z : nodes_[p]) {
-        std::array<double, strain_parameters> at{};
-        at[p] = z;
-        alone_[p].push_back(index_.at(at));
-      }
-    at_zero_ = worst(0, place_among(response.strength, 0), place_among(response.slope, 0));
-  }
-
-  double change(const ParameterPoint& far) const {
-    ParameterPoint z = far;
-    for (double& one : z) one = std::clamp(one, -farthest, farthest);
-    const Place strength = place_among(response_.strength, z[index_of(Uncertain::strength)]);
-    const Place slope = place_among(response_.slope, z[index_of(Uncertain::slope)]);
-    const double here = worst(0, strength, slope);
-    double sum = here - at_zero_;
-    for (std::size_t p = 0; p < strain_parameters; ++p) {
-      if (nodes_[p].size() < 2 || (crossed_ && (p == friction || p == slack))) continue;
-      sum += between(place_among(nodes_[p], z[p]),
-                     [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) -
-             here;
+LifeSurface::LifeSurface(const LifeResponse& response) : response_(response) {
+  std::map<StrainPoint, std::size_t> index;
+  for (std::size_t k = 0; k < response.points.size(); ++k)
+    if (response.inside[k] == Inside::as_is) index[response.points[k]] = k;
+  for (std::size_t p = 0; p < strain_parameters; ++p) {
+    for (const auto& [point, k] : index)
+      if (is_zero_but(point, {p})) nodes_[p].push_back(point[p]);
+    sort_once(nodes_[p]);
+    for (const double z : nodes_[p]) {
+      StrainPoint at{};
+      at[p] = z;
+      alone_[p].push_back(index.at(at));
     }
-    if (crossed_) {
-      const Place of_friction = place_among(nodes_[friction], z[friction]),
-                  of_slack = place_among(nodes_[slack], z[slack]);
-      sum += between(of_friction,
-                     [&](std::size_t f) {
-                       return between(of_slack, [&](std::size_t s) {
-                         return worst(grid_[f * nodes_[slack].size() + s], strength, slope);
-                       });
-                     }) -
-             here;
-    }
-    const UncertainParameter& model = uncertain_parameters()[index_of(Uncertain::model)];
-    return sum + std::log10(model.value(far[index_of(Uncertain::model)]));
   }
-
- private:
-  double worst(std::size_t point, const Place& strength, const Place& slope) const {
-    const std::size_t slopes = response_.slope.size();
-    const double* const of_point = response_.worst_life.data() + point * response_.strength.size() * slopes;
-    return between(strength, [&](std::size_t s) {
-      return between(slope, [&](std::size_t t) { return of_point[s * slopes + t]; });
-    });
+  for (const Inside inside : {Inside::as_is, Inside::glued, Inside::free}) cores_[number_of(inside)] = core_of(inside);
+  const Place strength = place_among(response.strength, 0), slope = place_among(response.slope, 0);
+  at_zero_ = worst(0, strength, slope);
+  for (const Inside inside : {Inside::glued, Inside::free}) {
+    Core& of = cores_[number_of(inside)];
+    of.shift = response.bound[number_of(inside)] - core(of, {}, strength, slope);
   }
-
-  const LifeResponse& response_;
-  std::array<std::vector<double>, strain_parameters> nodes_;
-  std::array<std::vector<std::size_t>, strain_parameters> alone_;  // (parameter, node) point
-  std::map<std::array<double, strain_parameters>, std::size_t> index_;
-  std::vector<std::size_t> grid_;  // (friction node, slack node) point
-  bool crossed_ = true;
-  double at_zero_ = 0;
-};
-
-constexpr double tenth = 1.2815515655446004;  // deviations from the median to 10 and 90 %
-
-double planned(const LifeResponse& response, const Place& scatter, double u) {
-  const auto at = [&](std::size_t share) {
-    return between(scatter, [&](std::size_t k) { return response.planned[k][share]; });
-  };
-  const double median = at(1);
-  return u < 0 ? median + u / tenth * (median - at(0)) : median + u / tenth * (at(2) - median);
 }
 
-double life_on(const Surface& surface, const LifeResponse& response, const ParameterPoint& z, double u) {
-  const Place scatter = place_among(response.scatter, z[index_of(Uncertain::scatter)]);
-  const double life = planned(response, scatter, u) + surface.change(z);
-  return life < LifeResponse::endless ? life : infinity;
+/// A bound that was not computed anywhere is as_is, shifted.
+LifeSurface::Core LifeSurface::core_of(Inside inside) const {
+  Core of;
+  std::map<std::pair<double, double>, std::size_t> index;
+  for (std::size_t k = 0; k < response_.points.size(); ++k) {
+    const StrainPoint& point = response_.points[k];
+    if (response_.inside[k] != inside || !is_zero_but(point, {friction, slack})) continue;
+    index[{point[friction], point[slack]}] = k;
+    of.friction.push_back(point[friction]), of.slack.push_back(point[slack]);
+  }
+  if (index.empty()) return cores_[number_of(Inside::as_is)];
+  sort_once(of.friction), sort_once(of.slack);
+  for (const double f : of.friction)
+    for (const double s : of.slack) {
+      const auto found = index.find({f, s});
+      if (found == index.end()) {
+        of.grid.clear();
+        return of;
+      }
+      of.grid.push_back(found->second);
+    }
+  return of;
+}
+
+/// Where z lies among rising nodes: between `below` and the next, at `share` of the way, which lies outside
+/// [0, 1] beyond the ends.
+LifeSurface::Place LifeSurface::place_among(const std::vector<double>& nodes, double z) {
+  if (nodes.size() < 2) return {};
+  std::size_t below = 0;
+  while (below + 2 < nodes.size() && z > nodes[below + 1]) ++below;
+  return {below, (z - nodes[below]) / (nodes[below + 1] - nodes[below])};
+}
+
+namespace {
+
+/// Straight between values at nodes.
+template <class Place, class ValueAt>
+double between(const Place& place, const ValueAt& value_at) {
+  const double first = value_at(place.below);
+  return place.share == 0 ? first : first + place.share * (value_at(place.below + 1) - first);
 }
 
 }  // namespace
 
-double LifeResponse::change(const ParameterPoint& z) const { return Surface(*this).change(z); }
+double LifeSurface::worst(std::size_t point, const Place& strength, const Place& slope) const {
+  const std::size_t slopes = response_.slope.size();
+  const double* const of_point = response_.worst_life.data() + point * response_.strength.size() * slopes;
+  return between(strength, [&](std::size_t s) {
+    return between(slope, [&](std::size_t t) { return of_point[s * slopes + t]; });
+  });
+}
 
-double LifeResponse::log10_life(const ParameterPoint& z, double u) const {
-  return life_on(Surface(*this), *this, z, u);
+double LifeSurface::core(const Core& of, const ParameterPoint& z, const Place& strength,
+                         const Place& slope) const {
+  const double here = worst(0, strength, slope);
+  if (!of.grid.empty())
+    return between(place_among(of.friction, z[friction]), [&](std::size_t f) {
+      return between(place_among(of.slack, z[slack]), [&](std::size_t s) {
+        return worst(of.grid[f * of.slack.size() + s], strength, slope);
+      });
+    });
+  double sum = here;
+  for (const std::size_t p : {friction, slack})
+    if (nodes_[p].size() > 1)
+      sum += between(place_among(nodes_[p], z[p]),
+                     [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) -
+             here;
+  return sum;
+}
+
+double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
+  ParameterPoint z = far;
+  for (double& one : z) one = std::clamp(one, -farthest, farthest);
+  if (inside != Inside::as_is) z[friction] = 0;
+  const Core& of = cores_[number_of(inside)];
+  const Place strength = place_among(response_.strength, z[index_of(Uncertain::strength)]);
+  const Place slope = place_among(response_.slope, z[index_of(Uncertain::slope)]);
+  const double unmoved = core(of, z, strength, slope);
+  if (unmoved + of.shift >= LifeResponse::endless) return infinity;
+  double sum = unmoved + of.shift - at_zero_;
+  const double here = worst(0, strength, slope);
+  for (std::size_t p = 0; p < strain_parameters; ++p) {
+    if (nodes_[p].size() < 2 || p == friction || p == slack) continue;
+    sum += between(place_among(nodes_[p], z[p]),
+                   [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) -
+           here;
+  }
+  const UncertainParameter& model = uncertain_parameters()[index_of(Uncertain::model)];
+  return sum + std::log10(model.value(far[index_of(Uncertain::model)]));
+}
+
+double LifeSurface::log10_life(const ParameterPoint& z, double u, Inside inside) const {
+  const Place scatter = place_among(response_.scatter, z[index_of(Uncertain::scatter)]);
+  const auto at = [&](std::size_t share) {
+    return between(scatter, [&](std::size_t k) { return response_.planned[k][share]; });
+  };
+  const double median = at(1);
+  const double planned = u < 0 ? median + u / tenth * (median - at(0)) : median + u / tenth * (at(2) - median);
+  const double life = planned + change(z, inside);
+  return life < LifeResponse::endless ? life : infinity;
+}
+
+bool LifeSurface::depends_on(std::size_t parameter) const {
+  if (parameter < strain_parameters) return depends_on_strain(parameter);
+  const std::size_t slopes = response_.slope.size(), of_point = response_.strength.size() * slopes;
+  const std::vector<double>& W = response_.worst_life;
+  if (parameter == index_of(Uncertain::strength)) {
+    for (std::size_t k = 0; k < W.size(); ++k)
+      if (W[k] != W[k - k % of_point + k % slopes]) return true;
+    return false;
+  }
+  if (parameter == index_of(Uncertain::slope)) {
+    for (std::size_t k = 0; k < W.size(); ++k)
+      if (W[k] != W[k - k % slopes]) return true;
+    return false;
+  }
+  return parameter == index_of(Uncertain::model) ||
+         std::any_of(response_.planned.begin(), response_.planned.end(),
+                     [&](const auto& lives) { return lives != response_.planned.front(); });
+}
+
+/// Whether W differs between two points of the job's own slip that differ in this parameter alone.
+bool LifeSurface::depends_on_strain(std::size_t parameter) const {
+  const auto of_point = static_cast<std::ptrdiff_t>(response_.strength.size() * response_.slope.size());
+  const auto begin_of = [&](std::size_t point) {
+    return response_.worst_life.begin() + static_cast<std::ptrdiff_t>(point) * of_point;
+  };
+  for (std::size_t one = 0; one < response_.points.size(); ++one)
+    for (std::size_t other = 0; other < one; ++other) {
+      if (response_.inside[one] != Inside::as_is || response_.inside[other] != Inside::as_is) continue;
+      StrainPoint apart = response_.points[one];
+      for (std::size_t p = 0; p < apart.size(); ++p) apart[p] -= response_.points[other][p];
+      if (is_zero_but(apart, {parameter}) &&
+          !std::equal(begin_of(one), begin_of(one) + of_point, begin_of(other)))
+        return true;
+    }
+  return false;
+}
+
+double LifeResponse::change(const ParameterPoint& z, Inside way) const { return LifeSurface(*this).change(z, way); }
+
+double LifeResponse::log10_life(const ParameterPoint& z, double u, Inside way) const {
+  return LifeSurface(*this).log10_life(z, u, way);
 }
 
 // ---- as text ----------------------------------------------------------------------------------------------
@@ -180,33 +232,88 @@ void check(const LifeResponse& response) {
            std::adjacent_find(nodes.begin(), nodes.end(), std::greater_equal<>()) == nodes.end();
   };
   const bool whole =
-      !response.points.empty() && response.points[0] == std::array<double, strain_parameters>{} &&
+      !response.points.empty() && response.points[0] == StrainPoint{} &&
+      response.inside.size() == response.points.size() && response.inside[0] == Inside::as_is &&
       holds_zero(response.strength) && holds_zero(response.slope) && holds_zero(response.scatter) &&
       response.worst_life.size() ==
           response.points.size() * response.strength.size() * response.slope.size() &&
-      response.planned.size() == response.scatter.size() &&
-      response.knowledge.mean.size() == Eigen::Index(uncertain_count) &&
+      response.planned.size() == response.scatter.size() && response.scatter_shared >= 0 &&
+      response.scatter_shared <= 1 && response.knowledge.mean.size() == Eigen::Index(uncertain_count) &&
       response.knowledge.covariance.size() == Eigen::Index(uncertain_count * uncertain_count);
   if (!whole) throw std::invalid_argument("lists of other lengths");
+}
+
+/// One of each, or std::invalid_argument.
+template <std::size_t size>
+void fix(std::array<double, size>& array, const std::vector<double>& numbers) {
+  if (numbers.size() != array.size()) throw std::invalid_argument("a list of another length");
+  std::copy(numbers.begin(), numbers.end(), array.begin());
+}
+
+/// A line that begins with a name and is text from there; whether it is one.
+bool read_name(LifeResponse& response, const std::string& name, const std::string& rest) {
+  std::string* const to = name == "mode"           ? &response.mode
+                          : name == "dresspack"    ? &response.dresspack
+                          : name == "construction" ? &response.construction
+                          : name == "material"     ? &response.material
+                                                   : nullptr;
+  if (to) *to = rest;
+  return to != nullptr;
+}
+
+void read_numbers(LifeResponse& response, const std::string& name, const std::vector<double>& numbers,
+                  std::vector<double>& covariance) {
+  const auto add_point = [&](Inside inside) {
+    fix(response.points.emplace_back(), numbers);
+    response.inside.push_back(inside);
+  };
+  if (name == "mean")
+    response.knowledge.mean =
+        Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  else if (name == "covariance")
+    covariance.insert(covariance.end(), numbers.begin(), numbers.end());
+  else if (name == "point")
+    add_point(Inside::as_is);
+  else if (name == "glued_point")
+    add_point(Inside::glued);
+  else if (name == "free_point")
+    add_point(Inside::free);
+  else if (name == "planned")
+    fix(response.planned.emplace_back(), numbers);
+  else if (name == "bound")
+    fix(response.bound, numbers);
+  else if (name == "strength")
+    response.strength = numbers;
+  else if (name == "slope")
+    response.slope = numbers;
+  else if (name == "scatter")
+    response.scatter = numbers;
+  else if (name == "scatter_shared" && numbers.size() == 1)
+    response.scatter_shared = numbers[0];
+  else if (name == "worst_life")
+    response.worst_life = numbers;
 }
 
 }  // namespace
 
 std::string LifeResponse::text() const {
-  std::string text = "construction " + construction + "\nmaterial " + material + "\n";
-  text += line("mean", std::span(knowledge.mean.data(), uncertain_count));
+  constexpr std::array<const char*, inside_count> point_names{"point", "glued_point", "free_point"};
+  std::string text = "mode " + mode + "\ndresspack " + dresspack + "\nconstruction " + construction + "\nmaterial " +
+                     material + "\n";
+  text += line("mean", std::vector<double>(knowledge.mean.begin(), knowledge.mean.end()));
   for (Eigen::Index row = 0; row < knowledge.covariance.rows(); ++row)
     text += line("covariance", std::vector<double>(knowledge.covariance.row(row).begin(),
                                                    knowledge.covariance.row(row).end()));
-  for (const auto& point : points) text += line("point", point);
-  text += line("strength", strength) + line("slope", slope) + line("scatter", scatter);
+  for (std::size_t k = 0; k < points.size(); ++k) text += line(point_names[number_of(inside[k])], points[k]);
+  text += line("strength", strength) + line("slope", slope) + line("scatter", scatter) + line("bound", bound);
   for (const auto& lives : planned) text += line("planned", lives);
+  text += line("scatter_shared", std::array{scatter_shared});
   return text + line("worst_life", worst_life);
 }
 
 LifeResponse LifeResponse::from_text(const std::string& text) {
   LifeResponse response;
-  response.points.clear(), response.worst_life.clear();
+  response.points.clear(), response.inside.clear(), response.worst_life.clear();
   response.knowledge.mean = Eigen::VectorXd::Zero(0);
   std::vector<double> covariance;
   std::istringstream lines(text);
@@ -214,242 +321,14 @@ LifeResponse LifeResponse::from_text(const std::string& text) {
     std::istringstream words(one);
     std::string name;
     words >> name;
-    if (name == "construction" || name == "material") {
-      (name == "material" ? response.material : response.construction) =
-          one.substr(std::min(one.size(), name.size() + 1));
-      continue;
-    }
-    const std::vector<double> numbers = numbers_after(words);
-    const auto fixed = [&](auto& array) {
-      if (numbers.size() != array.size()) throw std::invalid_argument("a list of another length");
-      std::copy(numbers.begin(), numbers.end(), array.begin());
-    };
-    if (name == "mean")
-      response.knowledge.mean =
-          Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
-    else if (name == "covariance")
-      covariance.insert(covariance.end(), numbers.begin(), numbers.end());
-    else if (name == "point")
-      fixed(response.points.emplace_back());
-    else if (name == "planned")
-      fixed(response.planned.emplace_back());
-    else if (name == "strength")
-      response.strength = numbers;
-    else if (name == "slope")
-      response.slope = numbers;
-    else if (name == "scatter")
-      response.scatter = numbers;
-    else if (name == "worst_life")
-      response.worst_life = numbers;
+    if (!read_name(response, name, one.substr(std::min(one.size(), name.size() + 1))))
+      read_numbers(response, name, numbers_after(words), covariance);
   }
   if (covariance.size() == uncertain_count * uncertain_count)
     response.knowledge.covariance =
         Eigen::Map<const Eigen::MatrixXd>(covariance.data(), uncertain_count, uncertain_count);
   check(response);
   return response;
-}
-
-// ---- draws ------------------------------------------------------------------------------------------------
-
-namespace {
-
-/// Where the normal distribution has this share below it (Newton on the tail's logarithm, from a bisection).
-double normal_at(double share) {
-  double low = -9, high = 9;
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = (low + high) / 2;
-    (std::erfc(-middle / std::numbers::sqrt2) / 2 < share ? low : high) = middle;
-  }
-  return (low + high) / 2;
-}
-
-/// In the middles of equal shares of the normal distribution, rising.
-const std::vector<double>& normal_strata(std::size_t draws) {
-  thread_local std::vector<double> strata;
-  if (strata.size() != draws) {
-    strata.clear();
-    for (std::size_t d = 0; d < draws; ++d) strata.push_back(normal_at((double(d) + 0.5) / double(draws)));
-  }
-  return strata;
-}
-
-/// FNV-1a, then splitmix64 (Steele et al. 2014): fixed for ever.
-std::uint64_t seed_of(const std::string& name) {
-  std::uint64_t seed = 0xcbf29ce484222325;
-  for (const char letter : name) seed = (seed ^ static_cast<unsigned char>(letter)) * 0x100000001b3;
-  return seed;
-}
-std::uint64_t next_of(std::uint64_t& state) {
-  std::uint64_t x = state += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// (draw) standard normal, every stratum once, in an order that the name decides.
-std::vector<double> normals_of(const std::string& name, std::size_t draws) {
-  std::vector<double> values = normal_strata(draws);
-  std::uint64_t state = seed_of(name);
-  for (std::size_t k = draws; k > 1; --k) std::swap(values[k - 1], values[next_of(state) % k]);
-  return values;
-}
-
-std::string stream_of(const LifeResponse& response, std::size_t parameter, const std::string& job) {
-  const UncertainParameter& of = uncertain_parameters()[parameter];
-  std::string shared;
-  switch (of.shared) {
-    case SharedBy::construction:
-      shared = "construction " + response.construction;
-      break;
-    case SharedBy::material:
-      shared = "material " + response.material;
-      break;
-    case SharedBy::everything:
-      shared = "everything";
-      break;
-    case SharedBy::installation:
-      shared = "job " + job;
-      break;
-  }
-  return std::string(of.name) + "/" + shared;
-}
-
-/// Lower triangle L with L L^T = covariance; a parameter that is known has a row of zeros. What jobs share
-/// comes before what each has for itself, so that nothing shared hangs on a job's own numbers. order: (row)
-/// parameter.
-Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<std::size_t>& order) {
-  const auto n = static_cast<Eigen::Index>(order.size());
-  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
-  const auto of = [&](Eigen::Index a, Eigen::Index b) {
-    return covariance(static_cast<Eigen::Index>(order[std::size_t(a)]),
-                      static_cast<Eigen::Index>(order[std::size_t(b)]));
-  };
-  for (Eigen::Index column = 0; column < n; ++column) {
-    const double left = of(column, column) - factor.row(column).head(column).squaredNorm();
-    if (!(left > 1e-12)) continue;
-    factor(column, column) = std::sqrt(left);
-    for (Eigen::Index row = column + 1; row < n; ++row)
-      factor(row, column) =
-          (of(row, column) - factor.row(row).head(column).dot(factor.row(column).head(column))) /
-          factor(column, column);
-  }
-  return factor;
-}
-
-/// All that a job's lives are drawn from.
-struct Draws {
-  std::vector<ParameterPoint> z;
-  std::vector<double> u;
-};
-
-Draws draws_of(const LifeResponse& response, const std::string& job, std::size_t count) {
-  std::vector<std::size_t> order(uncertain_count);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_partition(order.begin(), order.end(), [](std::size_t p) {
-    return uncertain_parameters()[p].shared != SharedBy::installation;
-  });
-  const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
-  Draws draws{std::vector<ParameterPoint>(count), normals_of("scatter of wires/job " + job, count)};
-  for (std::size_t d = 0; d < count; ++d)
-    for (std::size_t p = 0; p < uncertain_count; ++p)
-      draws.z[d][p] = response.knowledge.mean(static_cast<Eigen::Index>(p));
-  for (std::size_t column = 0; column < uncertain_count; ++column) {
-    if (factor.col(static_cast<Eigen::Index>(column)).isZero(0)) continue;
-    const std::vector<double> normal = normals_of(stream_of(response, order[column], job), count);
-    for (std::size_t row = column; row < uncertain_count; ++row) {
-      const double weight = factor(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
-      if (weight == 0) continue;
-      for (std::size_t d = 0; d < count; ++d) draws.z[d][order[row]] += weight * normal[d];
-    }
-  }
-  return draws;
-}
-
-std::vector<double> lives_of(const LifeResponse& response, const Draws& draws) {
-  const Surface surface(response);
-  std::vector<double> lives(draws.u.size());
-  for (std::size_t d = 0; d < lives.size(); ++d)
-    lives[d] = life_on(surface, response, draws.z[d], draws.u[d]);
-  return lives;
-}
-
-/// Share of the variance of `lives` that lies between groups of draws with equal places in the order of
-/// `cause`: the first-order share (Sobol' 1993), less what `size` draws a group leave by chance. 0 where
-/// nothing varies.
-double first_order(const std::vector<double>& cause, const std::vector<double>& lives) {
-  constexpr std::size_t groups = 25;
-  std::vector<std::size_t> order(lives.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return cause[a] != cause[b] ? cause[a] < cause[b] : a < b; });
-  if (cause[order.front()] == cause[order.back()]) return 0;
-  const std::size_t size = lives.size() / groups;
-  double mean = 0, square = 0, between_groups = 0;
-  for (const double life : lives) mean += life / double(lives.size());
-  for (const double life : lives) square += (life - mean) * (life - mean) / double(lives.size());
-  if (!(square > 0)) return 0;
-  for (std::size_t g = 0; g < groups; ++g) {
-    double sum = 0;
-    for (std::size_t k = 0; k < size; ++k) sum += lives[order[g * size + k]];
-    between_groups += std::pow(sum / double(size) - mean, 2) / double(groups);
-  }
-  const double chance = 1 / double(size);
-  return std::clamp((between_groups / square - chance) / (1 - chance), 0.0, 1.0);
-}
-
-}  // namespace
-
-std::vector<double> draw_lives(const LifeResponse& response, const std::string& job, std::size_t draws) {
-  return lives_of(response, draws_of(response, job, draws));
-}
-
-DrawnLives drawn_lives(const LifeResponse& response, const std::string& job, std::size_t count) {
-  const Draws draws = draws_of(response, job, count);
-  DrawnLives drawn{lives_of(response, draws), {}, {}};
-  std::vector<double> sorted = drawn.log10_life;
-  std::sort(sorted.begin(), sorted.end());
-  const std::array<double, 3> shares{0.1, 0.5, 0.9};
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const double at = shares[i] * double(count) - 0.5;
-    const auto below = static_cast<std::size_t>(std::max(0.0, at));
-    const double low = sorted[below], high = sorted[std::min(below + 1, count - 1)];
-    drawn.percentiles[i] =
-        std::pow(10.0, std::isinf(high) ? high : low + (at - double(below)) * (high - low));
-  }
-  std::vector<double> finite = drawn.log10_life, cause(count);
-  for (double& life : finite) life = std::min(life, LifeResponse::endless);
-  for (std::size_t p = 0; p < uncertain_count; ++p) {
-    for (std::size_t d = 0; d < count; ++d) cause[d] = draws.z[d][p];
-    drawn.share[p] = first_order(cause, finite);
-  }
-  drawn.share[uncertain_count] = first_order(draws.u, finite);
-  return drawn;
-}
-
-double share_outliving(const std::vector<double>& one, const std::vector<double>& other) {
-  assert(one.size() == other.size() && !one.empty());
-  double count = 0;
-  for (std::size_t d = 0; d < one.size(); ++d) count += one[d] > other[d] ? 1 : one[d] == other[d] ? 0.5 : 0;
-  return count / double(one.size());
-}
-
-std::string share_words(const std::array<double, uncertain_count + 1>& share) {
-  std::vector<std::size_t> order(share.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
-  std::string words;
-  for (const std::size_t p : order) {
-    if (share[p] < 0.01) break;
-    words += fmt::format("{}{} {:.0f} %", words.empty() ? "" : "; ",
-                         p == uncertain_count ? "scatter of wires" : uncertain_parameters()[p].name,
-                         100 * share[p]);
-  }
-  return words;
-}
-
-std::size_t largest_share(const std::array<double, uncertain_count + 1>& share) {
-  return static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
 }
 
 }  // namespace dresslife::pipeline

@@ -1,15 +1,20 @@
-// How a job's life follows from what is not known of it (uncertainty.h), and lives drawn from that.
+// How the life of a dresspack by one failure mode follows from what is uncertain (uncertainty.h).
 //
 // With z of all parameters and u, both standard normal, log10 of a life in repeats is
-//     P(z_scatter, u) + W(z) - W(0) + model's own,
-// P: the planner's life over the scatter of wires, straight between its percentiles; W: log10 of the worst
-// wire's life, worked out at some points of z and put together: over friction and slack from all their
-// combinations, every other parameter of the strain side by itself, and at each of these points over strength
-// and slope of the material. Between points W is straight along each axis, and goes on so beyond them. A life
-// beyond `endless` counts as without end.
+//     P(z_scatter, u) + W(z) - W(0) + log10 of the model's factor,
+// P: the life over the scatter of wires, straight between its percentiles; W: log10 of the worst wire's life,
+// computed at some points of z and put together: over friction and slack from all their combinations, every
+// other parameter of the strain side by itself, and at each of these points over strength and slope of the
+// material. Between points W is straight along each axis, and goes on so beyond them. A life beyond `endless`
+// counts as without end.
+//
+// The same is known for cables whose inside is glued, and for cables whose inside slips without friction:
+// the bounds. There friction has no effect, W is known over slack, and it is shifted so that W at z = 0 is
+// the life of the bound's worst wire.
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,20 +30,26 @@ using ParameterPoint = std::array<double, uncertain_count>;  ///< (parameter) z
 struct LifeResponse {
   static constexpr double endless = 12;  ///< log10 repeats: 1e12 of a minute are two million years
 
+  std::string mode;       ///< what fails: "wires of signal cable"
+  std::string dresspack;  ///< in which, among several; empty: the only one
   /// Of what a deviation is shared with other jobs (SharedBy).
   std::string construction, material;
   ParameterKnowledge knowledge;
   /// (point) z on the strain side; the first is 0.
   std::vector<std::array<double, strain_parameters>> points{{}};
-  std::vector<double> strength{0}, slope{0};   ///< z that W is known at, rising, 0 among them
-  std::vector<double> worst_life{endless};     ///< W (point, strength, slope)
-  std::vector<double> scatter{0};              ///< z of the scatter, likewise
+  std::vector<Inside> inside{Inside::as_is};  ///< (point) the first is as_is
+  std::vector<double> strength{0}, slope{0};  ///< z that W is known at, rising, 0 among them
+  std::vector<double> worst_life{endless};    ///< W (point, strength, slope)
+  /// W(0) of the bounds, (Inside); that of as_is is not used.
+  std::array<double, inside_count> bound{endless, endless, endless};
+  std::vector<double> scatter{0};              ///< z of the scatter, as strength
   std::vector<std::array<double, 3>> planned;  ///< (scatter) log10 repeats until 10, 50, 90 % have failed
+  double scatter_shared = 1;  ///< share of u's variance that all modes of one dresspack have in common
 
-  /// W(z) - W(0) and the model's own.
-  double change(const ParameterPoint& z) const;
+  /// W(z) - W(0) and the model's factor; infinite: nothing is damaged at z.
+  double change(const ParameterPoint& z, Inside inside = Inside::as_is) const;
   /// log10 of the life in repeats; infinite: without end.
-  double log10_life(const ParameterPoint& z, double u) const;
+  double log10_life(const ParameterPoint& z, double u, Inside inside = Inside::as_is) const;
 
   /// As one text, for an attribute of a file; and back. Errors: std::invalid_argument for a text that is no
   /// response.
@@ -46,32 +57,38 @@ struct LifeResponse {
   static LifeResponse from_text(const std::string& text);
 };
 
-constexpr std::size_t life_draws = 10000;
+/// A response prepared for many evaluations.
+class LifeSurface {
+ public:
+  /// response: stays the caller's.
+  explicit LifeSurface(const LifeResponse& response);
+  double change(const ParameterPoint& z, Inside inside) const;
+  double log10_life(const ParameterPoint& z, double u, Inside inside) const;
+  /// Whether a parameter has any effect.
+  bool depends_on(std::size_t parameter) const;
 
-/// What a job's lives look like, drawn.
-struct DrawnLives {
-  std::vector<double> log10_life;       ///< (draw) repeats
-  std::array<double, 3> percentiles{};  ///< repeats until 10, 50, 90 % have failed
-  /// Share of the variance of log10 life that each parameter explains by itself, and the wires' scatter the
-  /// last.
-  std::array<double, uncertain_count + 1> share{};
+ private:
+  struct Place {
+    std::size_t below = 0;
+    double share = 0;
+  };
+  /// W over friction and slack, of one way of slipping.
+  struct Core {
+    std::vector<double> friction, slack;  ///< z, rising
+    std::vector<std::size_t> grid;        ///< (friction, slack) point; empty: not all combinations are known
+    double shift = 0;
+  };
+  static Place place_among(const std::vector<double>& nodes, double z);
+  Core core_of(Inside inside) const;
+  bool depends_on_strain(std::size_t parameter) const;
+  double worst(std::size_t point, const Place& strength, const Place& slope) const;
+  double core(const Core& of, const ParameterPoint& z, const Place& strength, const Place& slope) const;
+
+  const LifeResponse& response_;
+  std::array<std::vector<double>, strain_parameters> nodes_;        ///< (parameter, node) z of as_is
+  std::array<std::vector<std::size_t>, strain_parameters> alone_;   ///< (parameter, node) point
+  std::array<Core, inside_count> cores_;
+  double at_zero_ = 0;
 };
-
-/// job: names what only it has. Draws of one number of draws are the same in all jobs for what these share;
-/// each parameter's are spread evenly over its distribution (Latin hypercube). The same for the same names,
-/// anywhere.
-std::vector<double> draw_lives(const LifeResponse& response, const std::string& job,
-                               std::size_t draws = life_draws);
-/// The same with what follows from them. shares: which of the parameters explains how much, too.
-DrawnLives drawn_lives(const LifeResponse& response, const std::string& job, std::size_t draws = life_draws);
-
-/// Share of draws in which `one` lives longer than `other`; equal lives count half. Precondition: as many of
-/// both.
-double share_outliving(const std::vector<double>& one, const std::vector<double>& other);
-
-/// "friction_inside 41 %; model 30 %; ...", largest first; those below 1 % left out.
-std::string share_words(const std::array<double, uncertain_count + 1>& share);
-/// The parameter that explains most: its index, uncertain_count for the wires' scatter.
-std::size_t largest_share(const std::array<double, uncertain_count + 1>& share);
 
 }  // namespace dresslife::pipeline

@@ -43,7 +43,7 @@ class Bars {
   double add(const std::string& name, const Foretold& before, const Foretold* after,
              const std::string& words) {
     const double y = panel_.top + row_height * (static_cast<double>(rows_++) + 0.5);
-    picture_.text(left - 8, y + 4, shortened(name, 26), "name", Picture::Anchor::end);
+    picture_.text(left - 8, y + 4, name, "name", Picture::Anchor::end, left - 12);
     bar(y, 16, before, "before");
     if (after) {
       bar(y, 8, *after, "after");

@@ -10,6 +10,7 @@
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/stiffness.h"
+#include "pipeline/job/parts_room.h"
 #include "pipeline/report/plot.h"
 
 namespace dresslife::pipeline {
@@ -98,7 +99,7 @@ Stiffness stiffness_of(const Dresspack& dresspack, const Component& part, int le
 constexpr std::string_view style =
     "text{font:13px sans-serif;fill:#222}.wall{fill:none;stroke:#777}.room{fill:#f4f4f2}.core{fill:#ddd}"
     ".part{fill:#cfe0ee;stroke:#5a7d99}.plain{fill:#b9b4aa;stroke:#77726a}.air{fill:#fff}.water{fill:#9fc6e8}"
-    ".wire{fill:#c0733d}.over{fill:#e23b3b}.scale{stroke:#222;stroke-width:"
+    ".estimate{stroke-dasharray:4 4}.wire{fill:#c0733d}.over{fill:#e23b3b}.scale{stroke:#222;stroke-width:"
     "2}"
     "@media(prefers-color-scheme:dark){text{fill:#ddd}.room{fill:#1c1c1e}.core{fill:#444}"
     ".part{fill:#2c4356;stroke:#7fa6c4}.plain{fill:#57534c;stroke:#a39d92}.air{fill:#1c1c1e}.water{fill:#2f5f86}.scale{stroke:#ddd}}";
@@ -106,7 +107,10 @@ constexpr std::string_view style =
 class Drawing {
  public:
   Drawing(const Dresspack& dresspack, LayerLines layers)
-      : dresspack_(dresspack), layers_(layers), scale_((picture - 2 * margin) / dresspack.diameter) {}
+      : dresspack_(dresspack),
+        layers_(layers),
+        room_(room_of_parts(dresspack)),
+        scale_((picture - 2 * margin) / dresspack.diameter) {}
 
   std::string svg() {
     if (layers_ == LayerLines::drawn) list(dresspack_.components, 0);
@@ -134,20 +138,26 @@ class Drawing {
   }
 
   std::string hose() const {
-    const double outer = dresspack_.diameter / 2, inner = inner_radius(dresspack_).value_or(outer);
+    const double outer = dresspack_.diameter / 2, inner = room_.bore;
     const double wall = std::max(scale_ * (outer - inner), 1.0);
     std::string text = circle("room", outer);
-    text += fmt::format("<circle class=\"wall\" r=\"{:.5g}\" stroke-width=\"{:.4g}\"/>\n",
-                        scale_ * outer - wall / 2, wall);
+    text += fmt::format("<circle class=\"{}\" r=\"{:.5g}\" stroke-width=\"{:.4g}\"/>\n",
+                        room_.estimated ? "wall estimate" : "wall", scale_ * outer - wall / 2, wall);
     if (dresspack_.core_diameter > 0) text += circle("core", dresspack_.core_diameter / 2);
     return text;
+  }
+
+  bool leaves_room(const Component& component, const std::vector<Component>& among) const {
+    return &among == &dresspack_.components &&
+           (outside_bore(room_, component) > 0 || inside_core(room_, component) > 0);
   }
 
   /// Layers of equal parts: each part is drawn once and shown K times.
   std::string inside(const std::vector<Component>& components) {
     std::string text;
     for (const Component& component : components) {
-      const std::string id = define(component, overlap(component, components));
+      const std::string id =
+          define(component, overlap(component, components) || leaves_room(component, components));
       for (int k = 0; k < component.count; ++k) {
         const double angle = component.phase + 2 * pi * k / component.count,
                      R = scale_ * component.helix_radius;
@@ -184,7 +194,13 @@ class Drawing {
       if (of.helix_radius > 0)
         line += fmt::format(", {:.4g} mm off the axis, {}", millimetres(of.helix_radius), lay_words(of));
       if (of.plain) line += ", " + kind_words(of);
-      if (overlap(of, components)) line += " (overlap: red)";
+      if (leaves_room(of, components))
+        line += outside_bore(room_, of) > 0
+                    ? fmt::format(" ({:.3g} mm outside the bore{}: red)", millimetres(outside_bore(room_, of)),
+                                  room_.estimated ? ", an ESTIMATE" : "")
+                    : fmt::format(" ({:.3g} mm inside the core: red)", millimetres(inside_core(room_, of)));
+      else if (overlap(of, components))
+        line += " (overlap: red)";
       lines_.push_back(line);
       list(of.components, level + 1);
     }
@@ -206,6 +222,7 @@ class Drawing {
 
   const Dresspack& dresspack_;
   LayerLines layers_;
+  PartsRoom room_;
   double scale_;  // [px/m]
   std::string definitions_;
   std::vector<std::string> lines_;

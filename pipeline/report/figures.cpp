@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/chart_style.h"
@@ -164,8 +165,7 @@ std::string curvature_figure(const JobFiles& files) {
 }
 
 std::string scene_figure(const JobFiles& files, std::optional<double> time) {
-  std::error_code failure;
-  const auto worst = std::filesystem::exists(files.life, failure) ? find_worst(files.life) : std::nullopt;
+  const auto worst = kind_of(files.life) != FileKind::absent ? find_worst(files.life) : std::nullopt;
   return scene_picture(files.motion, time.value_or(worst ? worst->time : 0), worst ? worst->from_tool : 0,
                        worst ? worst->dresspack : "");
 }
@@ -191,8 +191,7 @@ std::string chart(Figure what, const JobFiles& files, std::optional<double> time
 }  // namespace
 
 JobFiles job_files(const std::filesystem::path& place) {
-  std::error_code failure;
-  const bool is_folder = std::filesystem::is_directory(place, failure);
+  const bool is_folder = kind_of(place) == FileKind::folder;
   const std::filesystem::path folder = is_folder ? place : place.parent_path();
   JobFiles files{folder / "motion.h5", folder / "strain.h5", folder / "life.h5"};
   if (is_folder) return files;

@@ -7,25 +7,13 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/base/words.h"
+
 namespace dresslife::pipeline {
 
 enum class Figure { strain, cycles, damage, deformation, curvature, scene };
 constexpr std::string_view word(Figure value) {
-  switch (value) {
-    case Figure::strain:
-      return "strain";
-    case Figure::cycles:
-      return "cycles";
-    case Figure::damage:
-      return "damage";
-    case Figure::deformation:
-      return "deformation";
-    case Figure::curvature:
-      return "curvature";
-    case Figure::scene:
-      return "scene";
-  }
-  return {};
+  return word_at({"strain", "cycles", "damage", "deformation", "curvature", "scene"}, value);
 }
 
 /// Where the results of a job lie.

@@ -12,7 +12,7 @@
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/files/checksum.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/damage_tables.h"
@@ -27,6 +27,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -34,8 +35,7 @@ namespace {
 using Reader = std::unique_ptr<const FileReader>;
 
 Reader opened(const std::filesystem::path& file, const Format& format, std::vector<std::string>& notes) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(file, ignored)) return std::make_unique<FileReader>(file, format);
+  if (kind_of(file) == FileKind::file) return std::make_unique<FileReader>(file, format);
   notes.push_back(
       fmt::format("{} is not there (run the job again to see what it tells)", file.filename().string()));
   return nullptr;
@@ -55,34 +55,34 @@ void check_together(const FileReader& life, const FileReader* other) {
 
 bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && row.damage_per_repeat > 0; }
 
+std::string paragraph(const std::string& words) {
+  return words.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(words));
+}
+
+/// What to do, the distribution behind it, and what fails.
 std::string headline(const RankingRow& row) {
   const double hours = row.headline_hours();
-  std::string text = fmt::format("<h1>{}</h1>\n<p><b>{}</b>", escaped(row.job), printed_hours(hours));
+  std::string text = fmt::format("<h1>{}</h1>\n<p><b>{}</b> {}</p>\n", escaped(row.job), escaped(action_words(row)),
+                                 escaped(uncertainty_words(row)));
+  std::string lives;
   if (std::isfinite(hours))
-    text += fmt::format(
-        " of motion until {}: {} repeats of {:.1f} s, {} by the calendar",
-        row.planned()
-            ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
-            : "the worst wire breaks (median)",
-        printed(row.headline_repeats()), row.repeat_seconds, calendar_words(row.headline_months()));
+    lives += fmt::format("{} of motion, {} repeats of {:.1f} s: by then {}. ", printed_hours(hours),
+                         printed(row.headline_repeats()), row.repeat_seconds,
+                         row.planned() ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
+                                       : "the worst wire breaks (median)");
   if (row.planned() && std::isfinite(row.planned_hours[2]))
-    text += fmt::format("; {} until half have, {} until 90 %", printed_hours(row.planned_hours[1]),
-                        printed_hours(row.planned_hours[2]));
+    lives += fmt::format("Half have failed after {}, 90 % after {}. ", printed_hours(row.planned_hours[1]),
+                         printed_hours(row.planned_hours[2]));
+  if (!std::isnan(row.glued_hours[0]))
+    lives += fmt::format("10 % would have failed after {} if everything inside the cables were glued, after {} if it slipped "
+                         "without friction. ",
+                         printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
   if (!std::isnan(row.first_wire_hours[0]) && std::isfinite(row.first_wire_hours[0]))
-    text += fmt::format(
-        "; by the scatter of wires alone, all else as the job has it, a first one breaks after {} .. {} h in 10 .. 90 %",
-        printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
-  text +=
-      fmt::format("; the worst wire's own median is {}, {} if all inside the cables stuck, {} if all slid",
-                  printed_hours(row.life_hours), printed_hours(row.hours_of(row.life_repeats_all_stick)),
-                  printed_hours(row.hours_of(row.life_repeats_all_free)));
-  text += ".</p>\n";
-  if (damaged(row))
-    text += fmt::format(
-        "<p>{} breaks first, segment {} from the tool ({:.2f} m){}, worst at {:.1f} s{}.</p>\n",
-        escaped(row.worst_component), row.worst_segment_from_tool, row.worst_position_from_tool,
-        row.worst_dresspack.empty() ? "" : " of the " + escaped(row.worst_dresspack), row.worst_time,
-        row.worst_step.empty() ? "" : " during '" + escaped(row.worst_step) + "'");
+    lives += fmt::format("By the scatter of wires alone a first wire breaks after {} .. {} h in 10 .. 90 %. ",
+                         printed(row.first_wire_hours[0]), printed(row.first_wire_hours[2]));
+  lives += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
+  text += fmt::format("<p>{}</p>\n", lives) + paragraph(hose_words(row));
+  if (damaged(row)) text += paragraph(failure_words(row));
   return text;
 }
 
@@ -130,6 +130,7 @@ std::string assumptions(const RankingRow& row, const Node& job, const FileReader
   };
   for (const Warning& warning : warnings_of(row))
     fact(title(warning.kind), "<b>" + escaped(warning.text()) + "</b>");
+  if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.force_ok() && row.largest_force_share.value_or(0) > 0)
     fact("forces",
          fmt::format("cables pull with at most {:.2g} of what tears them", *row.largest_force_share));
@@ -198,21 +199,19 @@ class Page {
   }
 
   std::string text(const std::string& made_from) {
-    const std::string data = this->data();
-    return whole_page(files_.name + ": dresspack in motion", made_from, body(), data);
+    const Json data = this->data();
+    return whole_page(files_.name + ": dresspack in motion", made_from, body(), data.text);
   }
 
  private:
-  std::string data() {
-    std::string text =
-        fmt::format("{{\"title\":{},\"life\":{}", json(files_.name), life_data(life_, strain_.get()));
+  Json data() {
+    Json data{{"title", files_.name}, {"life", life_data(life_, strain_.get())}};
     if (setup_) {
-      const std::string scene = scene_data(*setup_, notes_), section = section_data(life_, *setup_);
-      if (!section.empty()) text += ",\"section\":" + section;
-      text +=
-          fmt::format(",\"scene\":{},\"motion\":{}", scene, motion_data(*motion_, strain_.get(), *setup_));
+      const Json scene = scene_data(*setup_, notes_);
+      if (const auto section = section_data(life_, *setup_)) data.add("section", *section);
+      data.add("scene", scene).add("motion", motion_data(*motion_, strain_.get(), *setup_));
     }
-    return text + '}';
+    return data;
   }
 
   /// As it was resolved.
@@ -254,15 +253,6 @@ std::string made_from(const JobFolder& files) {
   return xxh3(told);
 }
 
-/// Style, and a mark of what is stale, lie in it.
-std::string head_of(const std::filesystem::path& page) {
-  std::string head(1 << 16, '\0');
-  std::ifstream in(page, std::ios::binary);
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return head;
-}
-
 }  // namespace
 
 std::string job_page(const JobFolder& files) { return Page(files).text(made_from(files)); }
@@ -276,31 +266,24 @@ bool refresh_job_page(const JobFolder& files) {
 void mark_job_page(const JobFolder& files, const std::string& words) {
   constexpr std::string_view body = "<body>\n", open = "<p class=\"failed\" id=\"stale\">", close = "</p>\n";
   const std::string digest = made_from_of(files.page());
-  if (digest.empty()) return;
+  if (digest.empty()) return remove_job_page(files);  // damaged, or of another version
   const std::string mark = fmt::format("{}{}{}{}", body, open, escaped(words), close);
-  if (head_of(files.page()).find(mark) != std::string::npos) return;
-  std::string text = read_text(files.page());
-  const std::size_t at = text.find(body), behind = at + body.size();
-  if (at == std::string::npos) return;
-  const bool marked = std::string_view(text).substr(behind).starts_with(open);
-  text.replace(at, (marked ? text.find(close, behind) + close.size() : behind) - at, mark);
-  text.replace(text.find(digest), digest.size(), xxh3(digest + mark));  // no page of these results any more
-  write_text_if_changed(files.page(), text, Sync::never);
+  const std::string page = read_text(files.page());
+  if (page.find(mark) != std::string::npos) return;
+  const std::string marked = changed_page(page, [&](std::string& text) {
+    const std::size_t at = text.find(body), behind = at + body.size();
+    if (at == std::string::npos) return;
+    const bool has_one = std::string_view(text).substr(behind).starts_with(open);
+    text.replace(at, (has_one ? text.find(close, behind) + close.size() : behind) - at, mark);
+    text.replace(text.find(digest), digest.size(), xxh3(digest + mark));  // no page of these results any more
+  });
+  write_text_if_changed(files.page(), marked, Sync::never);
 }
 
-void remove_job_page(const JobFolder& files) {
-  if (made_from_of(files.page()).empty()) return;
-  std::error_code failure;
-  std::filesystem::remove(files.page(), failure);
-  if (failure)
-    throw InputError({files.page().string()},
-                     fmt::format("tells of an older result and cannot be removed ({})", failure.message()),
-                     "remove it");
-}
+void remove_job_page(const JobFolder& files) { remove_ours(files.page()); }
 
 void remove_old_job_page(const JobFolder& files) {
-  const std::string digest = made_from_of(files.page());
-  if (!digest.empty() && digest != made_from(files)) remove_job_page(files);
+  if (made_from_of(files.page()) != made_from(files)) remove_job_page(files);
 }
 
 }  // namespace dresslife::pipeline

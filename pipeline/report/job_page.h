@@ -34,7 +34,7 @@ void mark_job_page(const JobFolder& files, const std::string& words);
 /// Removes a page; a file that is none of ours stays. Errors: InputError when it cannot be removed.
 void remove_job_page(const JobFolder& files);
 
-/// Removes a page that tells of other results than those that lie beside it. Errors: as above.
+/// Removes a page that is not of the results that lie beside it, or damaged. Errors: as above.
 void remove_old_job_page(const JobFolder& files);
 
 }  // namespace dresslife::pipeline

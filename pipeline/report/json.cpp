@@ -6,48 +6,48 @@
 #include <bit>
 #include <cmath>
 
+#include "pipeline/base/limits.h"
+
 namespace dresslife::pipeline {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "pages read little-endian numbers");
 
 template <class Value>
-std::string base64_of_bytes(std::span<const Value> values) {
-  return '"' + base64({reinterpret_cast<const char*>(values.data()), values.size_bytes()}) + '"';
-}
-
-template <class Values, class Each>
-std::string list(const Values& values, const Each& each) {
-  std::string text = "[";
-  for (const auto& value : values) text += (text.size() > 1 ? "," : "") + each(value);
-  return text + ']';
+Json base64_of_bytes(std::span<const Value> values) {
+  return base64({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
 }
 
 }  // namespace
 
-std::string json(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
+Json::Json(std::string_view value) : text("\"") {
+  for (const char c : shown(std::string(value))) {
     const auto code = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\')
-      quoted += {'\\', c};
+      text += {'\\', c};
     else if (code < 0x20 || c == '<' || c == '>' || c == '&')
-      quoted += fmt::format("\\u{:04x}", code);
+      text += fmt::format("\\u{:04x}", code);
     else
-      quoted += c;
+      text += c;
   }
-  return quoted + '"';
+  text += '"';
 }
 
-std::string json(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
-std::string json(const std::vector<double>& values) {
-  return list(values, [](double value) { return json(value); });
+Json::Json(double value) : text(std::isfinite(value) ? fmt::format("{}", value) : "null") {}
+
+Json& Json::add(std::string_view key, const Json& value) {
+  text.pop_back();
+  if (text.size() > 1) text += ',';
+  text += Json(key).text + ':' + value.text + '}';
+  return *this;
 }
-std::string json(const std::vector<std::string>& texts) {
-  return list(texts, [](const std::string& text) { return json(text); });
-}
-std::string json(const Eigen::Vector3d& vector) {
-  return json(std::vector<double>{vector.x(), vector.y(), vector.z()});
+
+Json& Json::add(const Json& members) {
+  if (members.text.size() <= 2) return *this;
+  text.pop_back();
+  if (text.size() > 1) text += ',';
+  text += members.text.substr(1);
+  return *this;
 }
 
 std::string base64(std::string_view bytes) {
@@ -64,8 +64,8 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-std::string base64_of(std::span<const std::uint16_t> values) { return base64_of_bytes(values); }
-std::string base64_of(std::span<const float> values) { return base64_of_bytes(values); }
+Json base64_of(std::span<const std::uint16_t> values) { return base64_of_bytes(values); }
+Json base64_of(std::span<const float> values) { return base64_of_bytes(values); }
 
 Steps::Steps(double lowest, double highest, int steps) : low(lowest), step((highest - lowest) / steps) {}
 

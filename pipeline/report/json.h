@@ -1,27 +1,51 @@
 // JSON for the scripts of a page, in the form in which it may stand inside a <script> element, and long rows
 // of numbers in it: base64 of little-endian 16-bit steps or 32-bit floats, a third of the digits' length.
+//
+// A library's tree of values would hold the 5 MB of a page's numbers twice; what is left of it, quoting a text
+// and putting commas, is the sixty lines here.
 #pragma once
 
 #include <Eigen/Core>
+#include <concepts>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dresslife::pipeline {
 
-/// A quoted text; "<" is written \u003c, so that no text ends the element it stands in.
-std::string json(std::string_view text);
-/// Shortest digits that read back to the same number; null for what is no finite number.
-std::string json(double value);
-std::string json(const std::vector<double>& values);
-std::string json(const std::vector<std::string>& texts);
-std::string json(const Eigen::Vector3d& vector);
+/// A value as its text. Json{{"name", "a1"}, {"radius_m", 0.1}} is an object.
+struct Json {
+  std::string text;
+
+  /// Shortest digits that read back to the same number; null for what is no finite number.
+  Json(double value);
+  Json(std::integral auto value) : text(std::to_string(value)) {}
+  Json(bool value) : text(value ? "true" : "false") {}
+  /// Quoted; "<" is written \u003c, so that no text ends the element it stands in.
+  Json(std::string_view value);
+  Json(const std::string& value) : Json(std::string_view(value)) {}
+  Json(const char* value) : Json(std::string_view(value)) {}
+  Json(const Eigen::Vector3d& vector) : Json(std::vector<double>{vector.x(), vector.y(), vector.z()}) {}
+  template <class Value>
+  Json(const std::vector<Value>& list) : text("[") {
+    for (const Value& value : list) text += (text.size() > 1 ? "," : "") + Json(value).text;
+    text += ']';
+  }
+  Json(std::initializer_list<std::pair<std::string_view, Json>> members) : text("{}") {
+    for (const auto& [key, value] : members) add(key, value);
+  }
+  /// One more member of an object.
+  Json& add(std::string_view key, const Json& value);
+  Json& add(const Json& members);  ///< those of another object
+};
 
 std::string base64(std::string_view bytes);
-std::string base64_of(std::span<const std::uint16_t> values);  ///< quoted
-std::string base64_of(std::span<const float> values);          ///< quoted
+Json base64_of(std::span<const std::uint16_t> values);
+Json base64_of(std::span<const float> values);
 
 /// Numbers as whole steps above `low`: value = low + step * n, n in 0 .. steps, wrong by half a step at most.
 struct Steps {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
@@ -73,7 +74,7 @@ std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<Progr
     if (!costliest) continue;
     labels.push_back({panel.across((costliest->begin + costliest->end) / 2),
                       fmt::format("{:.0f} %: line {}, {}", percent * life.step_damage[line] / total, line + 1,
-                                  shortened(life.step_text[line], 40))});
+                                  life.step_text[line])});
   }
   std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.x < b.x; });
   return labels;
@@ -94,7 +95,8 @@ void draw_labels(Picture& picture, const Panel& panel, const std::vector<Label>&
     picture.line(rows[row]->x, y - 8, rows[row]->x, panel.bottom(), "leader");
     const bool left = row < reading_left;
     picture.text(rows[row]->x + (left ? -5 : 5), y, rows[row]->words, "note",
-                 left ? Picture::Anchor::end : Picture::Anchor::start);
+                 left ? Picture::Anchor::end : Picture::Anchor::start,
+                 (left ? rows[row]->x : page_width - rows[row]->x) - 6);
   }
 }
 
@@ -228,9 +230,8 @@ PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
 LifeSummary read_life(const std::filesystem::path& life_file, const std::filesystem::path& strain_file) {
   const FileReader file(life_file, life_format());
   LifeSummary life;
-  std::error_code ignored;
   std::optional<FileReader> strain;
-  if (std::filesystem::is_regular_file(strain_file, ignored)) strain.emplace(strain_file, strain_format());
+  if (kind_of(strain_file) == FileKind::file) strain.emplace(strain_file, strain_format());
   const KnownHistory history = known_history(file, strain ? &*strain : nullptr);
   life.strain = history.strain;
   life.strain_of = history.words();

@@ -91,21 +91,24 @@ class Data {
     if (worst >= 0) worst_ = static_cast<std::uint32_t>(worst);
   }
 
-  std::string text() const {
-    return fmt::format(
-        "{{{},\"segments\":{},\"strains\":{},\"closings\":{},{}{}\"program\":{},\"joints\":{}}}",
-        attributes(), segments(), strains(), closings(), cycles(), loops(), program(),
-        json(life_.has("/joint/name") ? life_.read<std::string>("/joint/name") : std::vector<std::string>{}));
+  Json json() const {
+    Json data = attributes();
+    data.add("segments", segments()).add("strains", strains()).add("closings", closings());
+    if (const auto of_worst = cycles()) data.add("cycles", *of_worst);
+    if (const auto of_worst = loops()) data.add("loops", *of_worst);
+    data.add("program", program());
+    return data.add("joints", life_.has("/joint/name") ? life_.read<std::string>("/joint/name")
+                                                       : std::vector<std::string>{});
   }
 
  private:
-  std::string attributes() const {
-    std::string text;
+  Json attributes() const {
+    Json data{};
     for (const char* name : {"life_hours", "life_repeats", "damage_per_repeat", "repeat_seconds",
                              "worst_time", "worst_segment_from_tool"})
-      text += fmt::format("\"{}\":{},", name, json(life_.number_attribute(name)));
-    return text + fmt::format("\"worst_component\":{},\"worst_segment\":{}",
-                              json(life_.text_attribute("worst_component")), worst_segment());
+      data.add(name, life_.number_attribute(name));
+    return data.add("worst_component", life_.text_attribute("worst_component"))
+        .add("worst_segment", worst_segment());
   }
 
   /// In the order of the file; -1: none.
@@ -116,19 +119,19 @@ class Data {
     return of.front();
   }
 
-  std::string segments() const {
+  Json segments() const {
     std::vector<std::string> wires;
     for (const std::uint32_t site : worst_site_) {
       std::vector<std::string> path{""};
       if (site != no_site) life_.read_rows("/site/component", site, 1, path);
       wires.push_back(path.front());
     }
-    std::string text = fmt::format("{{\"length\":{},\"damage\":{},\"wire\":{},\"dresspack\":{}",
-                                   json(life_.read<double>("/segment/length")), json(damage_), json(wires),
-                                   json(of_dresspack()));
-    if (life_.has("/hose/damage")) text += ",\"hose_damage\":" + json(life_.read<double>("/hose/damage"));
-    if (strain_) text += extremes();
-    return text + '}';
+    Json data{{"length", life_.read<double>("/segment/length")},
+              {"damage", damage_},
+              {"wire", wires},
+              {"dresspack", of_dresspack()}};
+    if (life_.has("/hose/damage")) data.add("hose_damage", life_.read<double>("/hose/damage"));
+    return strain_ ? data.add(extremes()) : data;
   }
 
   std::vector<double> of_dresspack() const {
@@ -137,7 +140,7 @@ class Data {
   }
 
   /// Of all samples: largest curvature and its time, least and largest twist.
-  std::string extremes() const {
+  Json extremes() const {
     const std::size_t segments = damage_.size();
     std::vector<double> curvature(segments, 0.0), when(segments, 0.0), least(segments, INFINITY),
         most(segments, -INFINITY);
@@ -154,9 +157,10 @@ class Data {
         least[s] = std::min(least[s], twist[at]);
         most[s] = std::max(most[s], twist[at]);
       }
-    return fmt::format(
-        ",\"largest_curvature\":{},\"largest_curvature_time\":{},\"least_twist\":{},\"largest_twist\":{}",
-        json(curvature), json(when), json(least), json(most));
+    return {{"largest_curvature", curvature},
+            {"largest_curvature_time", when},
+            {"least_twist", least},
+            {"largest_twist", most}};
   }
 
   /// A wire whose whole history strain.h5 holds.
@@ -185,15 +189,15 @@ class Data {
 
   /// One history, at its own times or at those of all. sampled: whole, else straight between turning points.
   /// site: of the wire; the segment's worst where it is not told.
-  std::string strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
-                         const std::vector<float>& own_times = {}, const Probe* of = nullptr) const {
+  Json strain_row(std::size_t segment, bool sampled, const std::vector<double>& strain,
+                  const std::vector<float>& own_times = {}, const Probe* of = nullptr) const {
     const bool other = of && of->site != worst_site_[segment];
     std::vector<std::string> path{""};
     if (other) life_.read_rows("/site/component", of->site, 1, path);
-    return fmt::format(
-        "{{\"segment\":{},\"sampled\":{},{}{}\"numbers\":{}}}", segment, sampled,
-        other ? fmt::format("\"wire\":{},\"damage\":{},", json(path.front()), json(of->damage)) : "",
-        own_times.empty() ? "" : "\"time\":" + base64_of(own_times) + ",", packed(strain));
+    Json row{{"segment", segment}, {"sampled", sampled}};
+    if (other) row.add("wire", path.front()).add("damage", of->damage);
+    if (!own_times.empty()) row.add("time", base64_of(own_times));
+    return row.add("numbers", packed(strain));
   }
 
   /// Of a segment's worst wire: times after the first sample [s], strains.
@@ -212,12 +216,11 @@ class Data {
 
   /// The history of one wire of each segment: of the worst that is known whole; of the job's worst wire its
   /// turning points beside it. Where none is known whole the worst, straight between its turning points.
-  std::string strains() const {
+  Json strains() const {
     const auto probed = probes();
     const int worst = worst_segment();
-    std::string rows;
+    std::vector<Json> rows;
     std::size_t kept = 0;
-    const auto add = [&](const std::string& row) { rows += rows.empty() ? row : "," + row; };
     const bool worst_known = worst_ && strain_ && known_whole(*strain_, *worst_);
     std::size_t turns = 0;
     for (const std::size_t segment : most_damaged_first(damage_)) {
@@ -226,35 +229,35 @@ class Data {
       const auto probe = probed.find(segment);
       const bool room = kept + thinning_.length() <= most_strains || worst_one;
       if (worst_one && (worst_known || probe == probed.end())) {
-        add(strain_row(segment, worst_known, thinning_.of(life_.read<double>("/worst/strain"))));
+        rows.push_back(strain_row(segment, worst_known, thinning_.of(life_.read<double>("/worst/strain"))));
       } else if (room && probe != probed.end()) {
         std::vector<double> history;
         strain_->read_rows("/probe/strain", probe->second.row, 1, history);
-        add(strain_row(segment, true, thinning_.of(history), {}, &probe->second));
+        rows.push_back(strain_row(segment, true, thinning_.of(history), {}, &probe->second));
       } else {
         const auto [times, strain] = turning_points(segment);
         if (!strain.empty() && (turns += strain.size()) <= most_turns)
-          add(strain_row(segment, false, strain, times));
+          rows.push_back(strain_row(segment, false, strain, times));
         continue;
       }
       kept += thinning_.length();
     }
-    return fmt::format("{{\"thinned\":{},\"time\":{},\"rows\":[{}]{}}}", thinning_.thins(),
-                       base64_of(thinning_.times(time_)), rows, worst_turns(worst, worst_known));
+    Json data{{"thinned", thinning_.thins()}, {"time", base64_of(thinning_.times(time_))}, {"rows", rows}};
+    if (const auto of_worst = worst_turns(worst, worst_known)) data.add("turns", *of_worst);
+    return data;
   }
 
   /// Of the worst wire, where its history is not known whole.
-  std::string worst_turns(int worst, bool known) const {
-    if (worst < 0 || known || !strain_) return "";
+  std::optional<Json> worst_turns(int worst, bool known) const {
+    if (worst < 0 || known || !strain_) return {};
     const auto [times, strain] = turning_points(static_cast<std::size_t>(worst));
-    return strain.empty()
-               ? ""
-               : fmt::format(",\"turns\":{{\"time\":{},\"strain\":{}}}", base64_of(times), packed(strain));
+    if (strain.empty()) return {};
+    return Json{{"time", base64_of(times)}, {"strain", packed(strain)}};
   }
 
   /// Where cycles close: per segment the sum, then times and damages of the largest.
-  std::string closings() const {
-    std::string rows;
+  Json closings() const {
+    std::vector<Json> rows;
     std::vector<double> rate;
     for (std::size_t segment = 0; segment < damage_.size(); ++segment) {
       if (!(damage_[segment] > 0)) continue;
@@ -273,16 +276,15 @@ class Data {
         pairs.push_back(static_cast<float>(time_[k] - time_[0]));
         pairs.push_back(static_cast<float>(rate[k] / damage_[segment]));
       }
-      rows += fmt::format("{}{{\"segment\":{},\"pairs\":{}}}", rows.empty() ? "" : ",", segment,
-                          base64_of(pairs));
+      rows.push_back({{"segment", segment}, {"pairs", base64_of(pairs)}});
     }
-    return '[' + rows + ']';
+    return rows;
   }
 
   /// The worst site's cycles by range and mean: of each cell that holds any its place, their number, their
   /// damage, and when the most damaging one closes.
-  std::string cycles() const {
-    if (!worst_) return "";
+  std::optional<Json> cycles() const {
+    if (!worst_) return {};
     struct Cell {
       double count = 0, damage = 0, most = -1, time = 0;
     };
@@ -297,7 +299,7 @@ class Data {
       low_mean = std::min(low_mean, mean[k]);
       high_mean = std::max(high_mean, mean[k]);
     }
-    if (!(high > 0)) return "";
+    if (!(high > 0)) return {};
     const auto place = [](double value, double low, double width) {
       return width > 0 ? std::min(cycle_cells - 1, static_cast<int>((value - low) / width * cycle_cells)) : 0;
     };
@@ -311,25 +313,27 @@ class Data {
       cell.most = damage[k];
       cell.time = time_.at(std::min<std::size_t>(end[k], time_.size() - 1));
     }
-    std::string rows;
+    std::vector<std::vector<double>> rows;
     for (const auto& [at, cell] : cells)
-      rows += fmt::format("{}[{},{},{},{},{}]", rows.empty() ? "" : ",", at.first, at.second,
-                          json(cell.count), json(cell.damage), json(cell.time));
-    return fmt::format(
-        "\"cycles\":{{\"cells\":{},\"range\":{},\"low_mean\":{},\"high_mean\":{},\"rows\":[{}]}},",
-        cycle_cells, json(high), json(low_mean), json(high_mean), rows);
+      rows.push_back({double(at.first), double(at.second), cell.count, cell.damage, cell.time});
+    return Json{{"cells", cycle_cells},
+                {"range", high},
+                {"low_mean", low_mean},
+                {"high_mean", high_mean},
+                {"rows", rows}};
   }
 
   /// Stress over strain of the worst site.
-  std::string loops() const {
-    if (!worst_ || !life_.has("/worst/stress")) return "";
+  std::optional<Json> loops() const {
+    if (!worst_ || !life_.has("/worst/stress")) return {};
     const auto strain = life_.read<double>("/worst/strain"), stress = life_.read<double>("/worst/stress");
     const std::vector<std::size_t> kept = thinning_.kept(strain);
     std::vector<float> times;
     for (const std::size_t sample : kept) times.push_back(static_cast<float>(time_[sample] - time_[0]));
-    return fmt::format("\"loops\":{{\"rule\":{},\"time\":{},\"strain\":{},\"stress\":{}}},",
-                       json(stress_rule()), base64_of(times), packed(Thinning::at(strain, kept)),
-                       packed(Thinning::at(stress, kept)));
+    return Json{{"rule", stress_rule()},
+                {"time", base64_of(times)},
+                {"strain", packed(Thinning::at(strain, kept))},
+                {"stress", packed(Thinning::at(stress, kept))}};
   }
 
   /// What stress follows, in words.
@@ -345,16 +349,15 @@ class Data {
                  "metal hardly yields";
   }
 
-  static std::string packed(const std::vector<double>& values) {
+  static Json packed(const std::vector<double>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const Steps steps(*low, *high);
     std::vector<std::uint16_t> numbers;
     for (const double value : values) numbers.push_back(steps.of(value));
-    return fmt::format("{{\"low\":{},\"step\":{},\"numbers\":{}}}", json(steps.low), json(steps.step),
-                       base64_of(numbers));
+    return {{"low", steps.low}, {"step", steps.step}, {"numbers", base64_of(numbers)}};
   }
 
-  std::string program() const {
+  Json program() const {
     const auto step = life_.read<std::int32_t>("/program/step");
     std::vector<double> begin, line;
     for (std::size_t k = 0; k < step.size(); ++k)
@@ -362,9 +365,10 @@ class Data {
         begin.push_back(time_[k] - time_[0]);
         line.push_back(step[k]);
       }
-    return fmt::format("{{\"text\":{},\"damage\":{},\"begin\":{},\"line\":{}}}",
-                       json(life_.read<std::string>("/program/text")),
-                       json(life_.read<double>("/program/damage")), json(begin), json(line));
+    return {{"text", life_.read<std::string>("/program/text")},
+            {"damage", life_.read<double>("/program/damage")},
+            {"begin", begin},
+            {"line", line}};
   }
 
   const FileReader& life_;
@@ -377,6 +381,6 @@ class Data {
 
 }  // namespace
 
-std::string life_data(const FileReader& life, const FileReader* strain) { return Data(life, strain).text(); }
+Json life_data(const FileReader& life, const FileReader* strain) { return Data(life, strain).json(); }
 
 }  // namespace dresslife::pipeline

@@ -2,9 +2,8 @@
 // page.js.
 #pragma once
 
-#include <string>
-
 #include "pipeline/files/files.h"
+#include "pipeline/report/json.h"
 
 namespace dresslife::pipeline {
 
@@ -13,6 +12,6 @@ namespace dresslife::pipeline {
 /// 0.9 MB, those of the most damaged segments first; longer ones than 20,000 samples are told by the extremes
 /// of equal stretches. Of each segment the 300 largest closings of cycles are told. Everything else is told
 /// in full, numbers as the file holds them. Errors: InputError.
-std::string life_data(const FileReader& life, const FileReader* strain);
+Json life_data(const FileReader& life, const FileReader* strain);
 
 }  // namespace dresslife::pipeline

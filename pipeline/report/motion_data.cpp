@@ -83,7 +83,7 @@ class Player {
     join();
   }
 
-  std::string text() {
+  Json json() {
     double miss = first_miss;
     std::vector<std::size_t> keys = key_samples(histories_, tolerance(miss));
     while (keys.size() * row_bytes() > most_bytes && keys.size() > 2)
@@ -197,9 +197,9 @@ class Player {
     return of;
   }
 
-  std::string written(const std::vector<std::size_t>& keys) const {
+  Json written(const std::vector<std::size_t>& keys) const {
     const std::vector<double> misses = largest_misses(histories_, keys);
-    std::string groups;
+    Json groups{};
     for (const Group& group : groups_) {
       double low = std::numeric_limits<double>::infinity(), high = -low, miss = 0;
       for (std::size_t q = group.begin; q < group.begin + group.size; ++q) {
@@ -210,24 +210,31 @@ class Player {
         }
       }
       const Steps steps(low, high, group.narrow ? 255 : 65535);
-      groups += fmt::format(
-          "{}\"{}\":{{\"begin\":{},\"size\":{},\"low\":{},\"high\":{},\"step\":{},\"miss\":{},\"narrow\":{},"
-          "\"numbers\":{}}}",
-          groups.empty() ? "" : ",", group.name, group.begin, group.size, json(low), json(high),
-          json(steps.step), json(miss + steps.step / 2), group.narrow, numbers(group, steps, keys));
+      groups.add(group.name, {{"begin", group.begin},
+                              {"size", group.size},
+                              {"low", low},
+                              {"high", high},
+                              {"step", steps.step},
+                              {"miss", miss + steps.step / 2},
+                              {"narrow", group.narrow},
+                              {"numbers", numbers(group, steps, keys)}});
     }
     std::vector<float> times;
     for (const std::size_t key : keys)
       times.push_back(static_cast<float>(histories_.time[key] - histories_.time[0]));
-    return fmt::format(
-        "{{\"begin\":{},\"end\":{},\"keys\":{},\"samples\":{},\"stride\":{},\"width\":{},\"lines\":[{}],"
-        "\"groups\":{{{}}},\"time\":{}}}",
-        json(histories_.time.front()), json(histories_.time.back()), keys.size(), histories_.time.size(),
-        stride_, histories_.width, line_descriptions(), groups, base64_of(times));
+    return {{"begin", histories_.time.front()},
+            {"end", histories_.time.back()},
+            {"keys", keys.size()},
+            {"samples", histories_.time.size()},
+            {"stride", stride_},
+            {"width", histories_.width},
+            {"lines", line_descriptions()},
+            {"groups", groups},
+            {"time", base64_of(times)}};
   }
 
   /// (key, quantity) of a group.
-  std::string numbers(const Group& group, const Steps& steps, const std::vector<std::size_t>& keys) const {
+  Json numbers(const Group& group, const Steps& steps, const std::vector<std::size_t>& keys) const {
     std::vector<std::uint16_t> wide;
     std::string narrow;
     for (const std::size_t key : keys)
@@ -236,21 +243,21 @@ class Player {
           narrow += static_cast<char>(steps.of(histories_.row(key)[q]));
         else
           wide.push_back(steps.of(histories_.row(key)[q]));
-    return group.narrow ? '"' + base64(narrow) + '"' : base64_of(wide);
+    return group.narrow ? Json(base64(narrow)) : base64_of(wide);
   }
 
   /// places: of the points along the line, counted in segments from the base clamp.
-  std::string line_descriptions() const {
-    std::string text;
+  std::vector<Json> line_descriptions() const {
+    std::vector<Json> list;
     for (const HoseLine& line : lines_) {
       std::vector<double> places{0};
       for (const std::size_t segment : kept_centres(line))
         places.push_back(static_cast<double>(segment) + 0.5);
       places.push_back(static_cast<double>(line.segments));
-      text += fmt::format("{}{{\"first_segment\":{},\"segments\":{},\"places\":{}}}", text.empty() ? "" : ",",
-                          line.first_segment, line.segments, json(places));
+      list.push_back(
+          {{"first_segment", line.first_segment}, {"segments", line.segments}, {"places", places}});
     }
-    return text;
+    return list;
   }
 
   std::size_t stride_;
@@ -262,8 +269,8 @@ class Player {
 
 }  // namespace
 
-std::string motion_data(const FileReader& motion, const FileReader* strain, const Setup& setup) {
-  return Player(motion, strain, setup).text();
+Json motion_data(const FileReader& motion, const FileReader* strain, const Setup& setup) {
+  return Player(motion, strain, setup).json();
 }
 
 }  // namespace dresslife::pipeline

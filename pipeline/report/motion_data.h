@@ -2,10 +2,9 @@
 // the page has room for; as JSON for viewer.js.
 #pragma once
 
-#include <string>
-
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
+#include "pipeline/report/json.h"
 
 namespace dresslife::pipeline {
 
@@ -13,6 +12,6 @@ namespace dresslife::pipeline {
 /// between them miss no sample by more than half a millimetre, 1 % of the largest curvature and of the
 /// largest twist; these bounds double until a motion fits into 2.3 MB of numbers. What became of them stands
 /// in the text. Errors: InputError where the files cannot be read or do not belong together.
-std::string motion_data(const FileReader& motion, const FileReader* strain, const Setup& setup);
+Json motion_data(const FileReader& motion, const FileReader* strain, const Setup& setup);
 
 }  // namespace dresslife::pipeline

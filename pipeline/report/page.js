@@ -13,7 +13,7 @@ const state = {
   colour: '',
   drawn: 0
 };
-let viewer = null, timeline = null;
+let viewer = null, timeline = null, clamps = null;
 
 const make = (tag, attributes = {}, ...children) => {
   const element = document.createElement(tag);
@@ -176,7 +176,10 @@ function buildView() {
     const size = viewer.canvas.getBoundingClientRect(),
           segment = viewer.segmentAt(event.clientX - size.left, event.clientY - size.top);
     if (segment >= 0) choose(segment);
+    else if (clamps) clamps.place(event.clientX - size.left, event.clientY - size.top);
   });
+  const panel = document.getElementById('clamp');
+  if (panel && motion.group('link_positions') && viewer.clampGroups) clamps = new Clamps(viewer, data.scene, motion, panel);
   if (life) viewer.mark(viewer.worst, life.worst_segment);
 }
 
@@ -345,6 +348,7 @@ window.dresslife = {
   play,
   viewer: () => viewer,
   timeline: () => timeline,
+  clamps: () => clamps,
   motion,
   life,
   data

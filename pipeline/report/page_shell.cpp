@@ -3,26 +3,27 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
+#include <string_view>
 
 #include "pipeline/base/installation.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/ownership.h"
+#include "pipeline/base/plain_file.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/report/chart_style.h"
+#include "pipeline/report/glossary.h"
 #include "pipeline/report/page_assets.h"
 #include "pipeline/report/plot.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::string_view before_digest =
-    "<!DOCTYPE html>\n<html lang=\"en\">\n<!-- dresslife page made from ";
+constexpr std::string_view doctype = "<!DOCTYPE html>\n",
+                           before_digest = "<html lang=\"en\">\n<!-- dresslife page made from ";
 constexpr std::size_t digest_digits = 32;
 
 /// Empty where it is not installed.
 std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return "";
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return kind_of(file) == FileKind::file ? read_text(file) : "";
 }
 
 /// Both or nothing.
@@ -43,26 +44,33 @@ std::filesystem::path three_folder() {
 
 std::string shell_digest() {
   return xxh3(
-      fmt::format("{}{}{}{}{}", chart_style(), page_style(), page_scripts(), three_scripts(), version()));
+      fmt::format("{}{}{}{}{}{}", chart_style(), page_style(), page_scripts(), three_scripts(), glossary_html(), version()));
 }
 
 std::string whole_page(const std::string& title, const std::string& made_from, const std::string& body,
                        const std::string& data) {
-  return fmt::format(
-      "{}{} -->\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, "
+  const std::string page = fmt::format(
+      "{}{}{} -->\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}"
-      "<p class=\"soft\">dresslife {}</p>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
+      "{}<p class=\"soft\">dresslife {} \u00b7 <a href=\"#words\">what the words mean</a></p>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
       "{}<script>{}</script>\n</body>\n</html>\n",
-      before_digest, made_from, escaped(title), chart_style() + std::string(page_style()), body, version(),
+      doctype, before_digest, made_from, escaped(title), chart_style() + std::string(page_style()), body, glossary_html(), version(),
       data, three_scripts(), page_scripts());
+  return with_mark(page, Mark::page);
 }
 
 std::string made_from_of(const std::filesystem::path& page) {
-  std::ifstream in(page, std::ios::binary);
-  std::string begin(before_digest.size() + digest_digits, '\0');
-  if (!in.read(begin.data(), static_cast<std::streamsize>(begin.size())) || !begin.starts_with(before_digest))
-    return "";
-  return begin.substr(before_digest.size());
+  if (!state_of(page).exists()) return "";
+  const std::string text = read_text(page);
+  const std::string_view rest = without_mark(text);
+  if (!is_as_marked(text) || !rest.starts_with(before_digest)) return "";
+  return std::string(rest.substr(before_digest.size(), digest_digits));
+}
+
+std::string changed_page(std::string_view page, const std::function<void(std::string&)>& change) {
+  std::string text = std::string(doctype) + std::string(without_mark(page));
+  change(text);
+  return with_mark(text, Mark::page);
 }
 
 }  // namespace dresslife::pipeline

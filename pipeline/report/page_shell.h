@@ -4,7 +4,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace dresslife::pipeline {
 
@@ -18,7 +20,11 @@ std::string shell_digest();
 std::string whole_page(const std::string& title, const std::string& made_from, const std::string& body,
                        const std::string& data);
 
-/// Of a page that whole_page() made; empty: there is none, or it was not.
+/// Of a page that whole_page() made and that holds what was written; empty: there is none, it was not, or it was
+/// changed. Errors: those of PlainFile.
 std::string made_from_of(const std::filesystem::path& page);
+
+/// A page of whole_page() with a change.
+std::string changed_page(std::string_view page, const std::function<void(std::string&)>& change);
 
 }  // namespace dresslife::pipeline

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
 
 namespace dresslife::pipeline {
@@ -107,7 +108,7 @@ double share_of(const Axis& axis, double value) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char letter : text) switch (letter) {
+  for (const char letter : shown(text)) switch (letter) {
       case '&':
         out += "&amp;";
         break;
@@ -124,8 +125,7 @@ std::string escaped(const std::string& text) {
         out += "&#39;";
         break;
       default:
-        // Control characters have no place in HTML, escaped or not.
-        out += static_cast<unsigned char>(letter) < 0x20 && letter != '\n' && letter != '\t' ? ' ' : letter;
+        out += letter;
     }
   return out;
 }
@@ -200,9 +200,14 @@ void Picture::curve(const std::vector<std::pair<double, double>>& points, const 
   body_ += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, path);
 }
 
-void Picture::text(double x, double y, const std::string& words, const char* style, Anchor anchor) {
-  body_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", style, at(x),
-                       at(y), anchor_word(anchor), escaped(words));
+void Picture::text(double x, double y, const std::string& words, const char* style, Anchor anchor,
+                   double most_width) {
+  const std::string narrower =
+      most_width > 0 && text_width(words) > most_width
+          ? fmt::format(" textLength=\"{}\" lengthAdjust=\"spacingAndGlyphs\"", at(most_width))
+          : "";
+  body_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", style, at(x),
+                       at(y), anchor_word(anchor), narrower, escaped(words));
 }
 
 void Picture::upright_text(double x, double y, const std::string& words, const char* style) {

@@ -55,7 +55,9 @@ class Picture {
   void box(double x, double y, double width, double height, const char* style, const std::string& hint = "");
   void dot(double x, double y, double radius, const char* style, const std::string& hint = "");
   void curve(const std::vector<std::pair<double, double>>& points, const char* style);
-  void text(double x, double y, const std::string& words, const char* style, Anchor anchor = Anchor::start);
+  /// most_width: words that would take more are drawn narrower, not cut; 0: as wide as they are.
+  void text(double x, double y, const std::string& words, const char* style, Anchor anchor = Anchor::start,
+            double most_width = 0);
   void upright_text(double x, double y, const std::string& words,
                     const char* style);  ///< reads upwards, centred
 

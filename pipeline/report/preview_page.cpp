@@ -141,7 +141,7 @@ std::string scan_table(const std::vector<SpanPreview>& spans) {
 }
 
 /// Where program lines begin; -1 before the program.
-std::string program_data(const FileReader& file) {
+Json program_data(const FileReader& file) {
   const auto time = file.read<double>("/time");
   const auto step = file.read<std::int32_t>("/program/step");
   std::vector<double> begin, line;
@@ -151,23 +151,21 @@ std::string program_data(const FileReader& file) {
     begin.push_back(time[k] - time[0]);
     line.push_back(here);
   }
-  return fmt::format("{{\"text\":{},\"begin\":{},\"line\":{}}}",
-                     json(file.read<std::string>("/program/text")), json(begin), json(line));
+  return {{"text", file.read<std::string>("/program/text")}, {"begin", begin}, {"line", line}};
 }
 
-std::string ways_data(const FileReader& file, const std::vector<SpanPreview>& spans) {
+Json ways_data(const FileReader& file, const std::vector<SpanPreview>& spans) {
   const auto times = file.read<double>("/time"), ways = file.read<double>("/span/way");
-  std::string rows;
+  std::vector<Json> rows;
   for (std::size_t k = 0; k < spans.size(); ++k) {
     if (spans[k].hangs()) continue;
     std::vector<double> own;
     for (std::size_t at = k; at < ways.size(); at += spans.size()) own.push_back(ways[at]);
-    rows += fmt::format("{}{{\"name\":{},\"length\":{},\"ways\":{}}}", rows.empty() ? "" : ",",
-                        json(spans[k].subject), json(spans[k].length), json(own));
+    rows.push_back({{"name", spans[k].subject}, {"length", spans[k].length}, {"ways", own}});
   }
   std::vector<double> since;
   for (const double time : times) since.push_back(time - times[0]);
-  return fmt::format("{{\"time\":{},\"spans\":[{}]}}", json(since), rows);
+  return {{"time", since}, {"spans", rows}};
 }
 
 /// Of "... at 151.040 s, program step 9 ...", as the simulation words its moments; not a number: it names
@@ -222,12 +220,15 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
     refusal_time = time_in(failure);
   }
   std::vector<std::string> notes;
-  const std::string scene = scene_data(setup, notes);
-  const std::string data = fmt::format(
-      "{{\"title\":{},\"scene\":{},\"motion\":{},\"program\":{},\"preview\":{{\"refusal\":{},\"refusal_"
-      "time\":{},\"refusal_share\":{},\"ways\":{}}}}}",
-      json(name), scene, motion_data(file, nullptr, setup), program_data(file), json(refusal),
-      json(refusal_time), json(place_in(refusal) / length_of(spans)), ways_data(file, spans));
+  const Json scene = scene_data(setup, notes);
+  const Json data{{"title", name},
+                  {"scene", scene},
+                  {"motion", motion_data(file, nullptr, setup)},
+                  {"program", program_data(file)},
+                  {"preview", Json{{"refusal", refusal},
+                                   {"refusal_time", refusal_time},
+                                   {"refusal_share", place_in(refusal) / length_of(spans)},
+                                   {"ways", ways_data(file, spans)}}}};
   std::string body = fmt::format("<h1>{}: before the run</h1>\n", escaped(name));
   body += refusal.empty() ? "<p>The simulation takes this job.</p>\n"
                           : fmt::format("<p class=\"failed\" id=\"refusal\">{}</p>\n", escaped(refusal));
@@ -237,7 +238,7 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
   body += ill;
   for (const std::string& note : notes) body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
   body +=
-      "<div id=\"view\"></div>\n<p class=\"soft\">The dresspack is drawn as a smooth curve of its length "
+      "<div id=\"view\"></div>\n<div id=\"clamp\"></div>\n<p class=\"soft\">The dresspack is drawn as a smooth curve of its length "
       "between its clamps, as the "
       "search for its rest begins with: it does not sag, swing or touch yet.</p>\n<div class=\"beside\"><div "
       "id=\"timeline\"></div>\n<div>\n";
@@ -254,7 +255,7 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
   body += "</div></div>\n" + well + scan_table(spans) + layers;
   body += "<p class=\"soft\" id=\"shown\"></p>\n<details><summary>Settings</summary>\n<pre>" +
           escaped(file.text_attribute("job")) + "</pre></details>\n";
-  return whole_page(name + ": before the run", made_from, body, data);
+  return whole_page(name + ": before the run", made_from, body, data.text);
 }
 
 }  // namespace dresslife::pipeline

@@ -22,6 +22,7 @@
 #include "pipeline/settings/document.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -91,8 +92,7 @@ bool damaged(const RankingRow& row) { return row.worst_segment_from_tool > 0 && 
 
 /// Of a page beside the job's results, as seen from the study's; empty where there is none.
 std::string page_address(const RankingRow& row, const std::string& page) {
-  std::error_code ignored;
-  if (row.life_file.empty() || !std::filesystem::is_regular_file(row.life_file.parent_path() / page, ignored))
+  if (row.life_file.empty() || kind_of(row.life_file.parent_path() / page) != FileKind::file)
     return "";
   std::string address;
   for (const char c : row.job)
@@ -139,11 +139,9 @@ std::string number_cell(double value, const std::string& words) {
 /// Where half and 90 % lie, and how sure the job's place is, below its life.
 std::string certainty_cell(const RankingRow& row) {
   if (std::isnan(row.scatter_hours[0])) return "";
-  std::string text = fmt::format("<br><span class=\"soft\">p50 {}<br>p90 {}",
+  std::string text = fmt::format("<br><span class=\"soft\">half failed {}<br>90 % failed {}",
                                  printed_life(row.planned_hours[1]), printed_life(row.planned_hours[2]));
-  if (row.outlives_next)
-    text += fmt::format("<span class=\"certainty\">outlives the next in {:.0f} % of draws</span>",
-                        100 * *row.outlives_next);
+  if (row.outlives_next) text += fmt::format("<span class=\"certainty\">{}</span>", escaped(order_words(row)));
   return text + "</span>";
 }
 
@@ -182,18 +180,26 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
                   (row.worst_joint.empty()
                        ? ""
                        : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
+    const std::string fails_first =
+        row.failing_mode.empty() || !damaged(row)
+            ? ""
+            : fmt::format("{} ({:.0f} %)<br>", escaped(row.failing_mode), 100 * row.failing_mode_share);
+    const std::string unvalidated =
+        row.hose ? fmt::format("<br><span class=\"soft\">{}</span>", escaped(hose_words(row))) : "";
+    const bool planned = !std::isnan(row.glued_hours[0]);
     const auto bounds =
-        std::pair(row.hours_of(row.life_repeats_all_stick), row.hours_of(row.life_repeats_all_free));
+        std::pair(planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick),
+                  planned ? row.free_hours[0] : row.hours_of(row.life_repeats_all_free));
     const auto count = static_cast<double>(warnings_of(row).size());
     text += fmt::format(
         "{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
-        number_cell(static_cast<double>(i + 1), row.stale ? "-" : std::to_string(i + 1)),
+        number_cell(static_cast<double>(i + 1), row.rank ? std::to_string(row.rank) : "-"),
         name + stale_note(row),
         number_cell(row.headline_hours(),
                     "<b>" + printed_life(row.headline_hours()) + "</b>" + certainty_cell(row)),
         number_cell(bounds.first, printed_life(bounds.first) + " .. " + printed_life(bounds.second)),
         number_cell(row.first_wire_hours[0], first_break_cell(row)),
-        number_cell(row.headline_months(), calendar_text(row.headline_months())), where, moved,
+        number_cell(row.headline_months(), calendar_text(row.headline_months())), fails_first + where + unvalidated, moved,
         sorted_by(count), warning_cell(row));
   }
   return text;
@@ -240,7 +246,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const RankingRow& row = *shown[i];
     const double y = panel.top + row_height * (static_cast<double>(i) + 0.5);
-    picture.text(names - 10, y + 4, shortened(row.job, 32), "name", Picture::Anchor::end);
+    picture.text(names - 10, y + 4, row.job, "name", Picture::Anchor::end, names - 14);
     const auto x = [&](double repeats) { return panel.across(row.hours_of(repeats)); };
     picture.line(x(row.life_repeats_all_stick), y, x(row.life_repeats_all_free), y, "whisker");
     const std::array<double, 3>& spread = spread_of(row);
@@ -268,24 +274,23 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
                        : page_address(rows[k], rows[k].has_result() ? "page.html" : "preview.html");
   });
   return fmt::format(
-      "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">p10 life [h]</th>"
-      "<th class=\"number\">worst wire, inside stuck .. free [h]</th><th class=\"number\">first break by scatter "
+      "<div class=\"wide\"><table id=\"ranking\">\n<thead><tr><th>rank</th><th>job</th><th class=\"number\">replace after [h]</th>"
+      "<th class=\"number\">replace if glued .. free inside [h]</th><th class=\"number\">first wire by scatter "
       "alone, 10 .. 90 % [h]</th><th "
       "class=\"number\">calendar</th>"
-      "<th>breaks first</th><th>what moved then</th><th>warnings</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}{}{}"
-      "<p class=\"soft\">The p10 life is the planner's, in hours of motion: by then 10 % of such dresspacks have a "
-      "conductor that has lost its share of wires (fatigue.failed_wires_percent) at one place; the calendar counts the "
-      "job's operating hours per week. "
-      "Parts inside a cable rub on each other: glued together (stuck) they live shorter, slipping "
-      "freely longer, and the truth lies between: told is the median life of the wire that would then be the worst. "
-      "Wires scatter, and a dresspack has thousands: its first break comes earlier than that median, between the hours given "
-      "in 10 to 90 % of such dresspacks if all else is as the job has it; the p10 life counts what nobody measured, "
-      "too, and may be shorter. Material constants are medians.</p>\n",
+      "<th>fails first</th><th>what moved then</th><th>warnings</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n{}{}{}"
+      "<p class=\"soft\">Replace after: in so many hours of motion 1 of 10 such dresspacks has failed (p10), over everything "
+      "that is uncertain and the scatter of wires. A dresspack has failed when a conductor has lost its share of wires "
+      "(fatigue.failed_wires_percent) at one place. The calendar counts the job's operating hours per week. Jobs that "
+      "cannot be separated share a rank: one lives longer in fewer than 90 of 100 samples. "
+      "Parts inside a cable rub on each other. Glued .. free: the same p10 if they could not slip, and if they slipped "
+      "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
+      "of such dresspacks. The hose's wall is not in these hours: its law has not been compared with a test.</p>\n",
       ranking_rows(rows, detailed, 0, rows_at_once), more_rows(rows, detailed), matrix,
       chart.empty()
           ? ""
-          : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: the life that 10 % of such dresspacks do not "
-            "reach. Blue bar: the worst wire's, stuck to free inside (to the right end: no damage). Orange: what 10 to 90 % reach.</p>\n" +
+          : "<h3>Lives compared</h3>\n<p class=\"soft\">Dot: replace after. Blue bar: the median of the worst wire, glued to "
+            "free inside (to the right end: no damage). Orange: 10 to 90 % of such dresspacks have failed.</p>\n" +
                 chart_in_page(chart));
 }
 
@@ -347,13 +352,21 @@ std::string facts(const RankingRow& row) {
          fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, all else as the job has it",
                      printed_hours(row.scatter_hours[0]), printed_hours(row.scatter_hours[1]),
                      printed_hours(row.scatter_hours[2])));
-  if (!row.life_shares.empty()) fact("its spread comes from", escaped(row.life_shares));
-  if (const std::string certainty = certainty_words(row); !certainty.empty())
-    fact("how sure", escaped(certainty));
+  if (const std::string words = uncertainty_words(row); !words.empty()) fact("uncertainty", escaped(words));
+  if (!row.life_shares.empty()) fact("its causes", escaped(row.life_shares));
+  if (const std::string words = order_words(row); !words.empty()) fact("beside the next job", escaped(words));
+  if (!row.failing_mode.empty())
+    fact("fails first", fmt::format("{} ({:.0f} % of the samples)", escaped(row.failing_mode), 100 * row.failing_mode_share));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
-  fact("bounds", fmt::format("worst wire {} (inside of the cables stuck) .. {} (free)",
-                             printed_hours(row.hours_of(row.life_repeats_all_stick)),
-                             printed_hours(row.hours_of(row.life_repeats_all_free))));
+  const auto bounds = [&](const char* name, double glued, double free) {
+    fact(name, fmt::format("{} if everything inside the cables were glued, {} if it slipped without friction",
+                           printed_hours(glued), printed_hours(free)));
+  };
+  const std::array<const char*, 3> shares{"bounds of 10 % failed", "bounds of half failed", "bounds of 90 % failed"};
+  for (std::size_t i = 0; i < shares.size() && !std::isnan(row.glued_hours[0]); ++i)
+    bounds(shares[i], row.glued_hours[i], row.free_hours[i]);
+  bounds("bounds of the worst wire", row.hours_of(row.life_repeats_all_stick), row.hours_of(row.life_repeats_all_free));
+  if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.hours_mean_stress_kept)
     fact("mean stress", fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
                                     printed_hours(*row.hours_mean_stress_kept),
@@ -387,7 +400,7 @@ std::string facts(const RankingRow& row) {
   scatter("share of a conductor broken anywhere in it", row.conductor_hours);
   if (row.hose) {
     const HoseLife& hose = *row.hose;
-    fact("hose's wall",
+    fact("hose's wall, unvalidated",
          std::isinf(hose.hours)
              ? "not damaged"
              : fmt::format("{} of motion until it cracks, {}, segment {} from the tool ({:.2f} m){}",
@@ -433,8 +446,7 @@ std::string charts(const RankingRow& row) {
 /// The worst moment as a picture; none when the motion file has been cleared away.
 std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  std::error_code ignored;
-  if (!damaged(row) || !std::filesystem::is_regular_file(motion, ignored)) return "";
+  if (!damaged(row) || kind_of(motion) != FileKind::file) return "";
   const std::string picture =
       scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
   return picture.empty()
@@ -447,26 +459,29 @@ std::string scene(const RankingRow& row) {
 /// What a cell designer asks; none when the motion file has been cleared away.
 std::string checks(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(motion, ignored)) return "";
+  if (kind_of(motion) != FileKind::file) return "";
   const std::string table = check_table(motion);
   return table.empty() ? "" : "<h3>Checks of the motion</h3>\n" + table;
 }
 
-std::string job_section(const RankingRow& row, std::size_t rank) {
+/// problems: is told why a section has no more than that it cannot be shown.
+std::string job_section(const RankingRow& row, std::size_t rank, std::vector<ReportProblem>& problems) {
   std::string body;
   try {
-    body = page_link(row, "page.html", "See it move, and where and when the damage comes about") + facts(row);
+    const std::string action = row.done() ? action_words(row) : "";
+    if (!action.empty()) body += fmt::format("<p><b>{}</b> {}</p>\n", escaped(action), escaped(uncertainty_words(row)));
+    body += page_link(row, "page.html", "See it move, and where and when the damage comes about") + facts(row);
     // A stage that ran again since may have left another motion beside the last result.
     if (!row.stale) body += scene(row) + checks(row);
     body += charts(row);
   } catch (const InputError& problem) {
     body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
+    problems.push_back({row.job, problem.what()});
   }
   const std::string stale =
       row.stale ? fmt::format("<p class=\"failed\">{}</p>\n", escaped(stale_words(row))) : "";
-  return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}{}</section>\n", rank, rank,
-                     escaped(row.job), stale, body);
+  return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}{}</section>\n", rank,
+                     row.rank ? std::to_string(row.rank) : "-", escaped(row.job), stale, body);
 }
 
 std::string summary(const std::vector<RankingRow>& rows) {
@@ -501,6 +516,12 @@ std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
 }
 
 std::string report_page(const std::string& study, const std::vector<RankingRow>& rows) {
+  std::vector<ReportProblem> problems;
+  return report_page(study, rows, problems);
+}
+
+std::string report_page(const std::string& study, const std::vector<RankingRow>& rows,
+                        std::vector<ReportProblem>& problems) {
   const std::vector<bool> detailed = detailed_jobs(rows);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -510,7 +531,7 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
       escaped(study), chart_style() + report_style, escaped(study));
   page += summary(rows) + ranking_section(rows, detailed);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (detailed[i]) page += job_section(rows[i], i + 1);
+    if (detailed[i]) page += job_section(rows[i], i + 1, problems);
   return page +
          fmt::format(
              "<p class=\"soft\">dresslife {}</p>\n<script>\n\"use strict\";\n(() => {{\n{}}})();\n</script>\n"
@@ -518,9 +539,11 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
              version(), study_script());
 }
 
-void write_report(const std::filesystem::path& file, const std::string& study,
-                  const std::vector<RankingRow>& rows) {
-  write_text_if_changed(file, report_page(study, rows));
+std::vector<ReportProblem> write_report(const std::filesystem::path& file, const std::string& study,
+                                        const std::vector<RankingRow>& rows) {
+  std::vector<ReportProblem> problems;
+  write_text_if_changed(file, with_mark(report_page(study, rows, problems), Mark::page));
+  return problems;
 }
 
 }  // namespace dresslife::pipeline

@@ -12,13 +12,21 @@
 
 namespace dresslife::pipeline {
 
-/// The page as text. rows: of read_ranking(), best life first. A life file that cannot be read any more says
-/// so in its place. The same files give the same bytes.
-std::string report_page(const std::string& study, const std::vector<RankingRow>& rows);
+/// A job whose section could not be made from its files.
+struct ReportProblem {
+  std::string job, words;
+};
 
-/// Writes the page, whole or not at all; leaves it untouched when nothing changed.
-void write_report(const std::filesystem::path& file, const std::string& study,
-                  const std::vector<RankingRow>& rows);
+/// The page as text. rows: of read_ranking(), best life first. A life file that is damaged is named as such in its
+/// place, and in `problems`. The same files give the same bytes. Errors: DiskError.
+std::string report_page(const std::string& study, const std::vector<RankingRow>& rows);
+std::string report_page(const std::string& study, const std::vector<RankingRow>& rows,
+                        std::vector<ReportProblem>& problems);
+
+/// Writes the page, whole or not at all; leaves it untouched when nothing changed. Returns what could not be shown.
+/// Errors: DiskError; InputError when it cannot be written.
+std::vector<ReportProblem> write_report(const std::filesystem::path& file, const std::string& study,
+                                        const std::vector<RankingRow>& rows);
 
 /// Which jobs have a section in the report and a page of their own: all that have a result, or of more than
 /// 40 the 20 best and the 20 worst of them.

@@ -14,14 +14,16 @@ namespace {
 
 /// 24 characters of the page for a triangle: 0.7 MB for all meshes of a robot together.
 constexpr std::size_t most_triangles = 30'000;
+/// Between a link's surface and what it carries [m].
+constexpr double longest_bracket = 0.15;
 
-std::string pose(const Vector3d& position, const Vector3d& roll_pitch_yaw) {
+Json pose(const Vector3d& position, const Vector3d& roll_pitch_yaw) {
   const Eigen::Quaterniond turn = from_roll_pitch_yaw(roll_pitch_yaw);
-  return fmt::format("\"position\":{},\"quaternion\":{}", json(position),
-                     json(std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()}));
+  return {{"position", position},
+          {"quaternion", std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()}}};
 }
 
-std::string mesh_shape(const MeshFile& file, std::size_t most) {
+Json mesh_shape(const MeshFile& file, std::size_t most) {
   const std::vector<Triangle> mesh = simplified(read_triangles(file.file), most);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Triangle& triangle : mesh)
@@ -34,9 +36,9 @@ std::string mesh_shape(const MeshFile& file, std::size_t most) {
   for (const Triangle& triangle : mesh)
     for (const Vector3d& corner : triangle)
       for (const double x : corner) numbers.push_back(steps.of(file.scale * x));
-  return fmt::format("{{\"kind\":\"mesh\",{},\"low\":{},\"step\":{},\"triangles\":{}}}",
-                     pose(file.position, file.orientation), json(steps.low), json(steps.step),
-                     base64_of(numbers));
+  return Json{{"kind", "mesh"}}
+      .add(pose(file.position, file.orientation))
+      .add({{"low", steps.low}, {"step", steps.step}, {"triangles", base64_of(numbers)}});
 }
 
 class Scene {
@@ -46,74 +48,77 @@ class Scene {
     meshes_ += setup.cell.meshes.size();
   }
 
-  std::string text() {
-    std::string links, clamps, rings, points, hoses;
+  Json json() {
+    std::vector<Json> links, clamps, rings, points, hoses;
     for (const Link& link : setup_.robot.links)
-      add(links, fmt::format("{{\"name\":{},\"shapes\":{}}}", json(link.name), shapes(link)));
+      links.push_back({{"name", link.name}, {"shapes", shapes(link)}});
     for (std::size_t d = 0; d < setup_.dresspacks.size(); ++d) {
       const MountedDresspack& mounted = setup_.dresspacks[d];
-      add_routing(mounted, clamps, rings);
-      add(hoses, fmt::format("{{\"name\":{},\"radius\":{}}}", json(name_among(setup_, d)),
-                             json(mounted.dresspack.diameter / 2)));
+      add_routing(d, clamps, rings);
+      hoses.push_back({{"name", name_among(setup_, d)}, {"radius", mounted.dresspack.diameter / 2}});
     }
     for (const MountingPoint& point : setup_.robot.mounting_points)
-      add(points, fmt::format("{{\"name\":{},{}}}", json(point.name),
-                              place(point.link, point.position, point.direction)));
+      points.push_back(Json{{"name", point.name}}.add(place(point.link, point.position, point.direction)));
     std::vector<std::string> joints;
     for (const Joint& joint : setup_.robot.joints) joints.push_back(joint.name);
-    return fmt::format(
-        "{{\"joints\":{},\"links\":[{}],\"cell\":{},\"floor\":{},\"clamps\":[{}],\"rings\":[{}],\"mounting_"
-        "points\":[{}],"
-        "\"hoses\":[{}]}}",
-        json(joints), links, shapes(setup_.cell), setup_.simulation.floor, clamps, rings, points, hoses);
+    return {{"joints", joints},
+            {"links", links},
+            {"cell", shapes(setup_.cell)},
+            {"floor", setup_.simulation.floor},
+            {"clamps", clamps},
+            {"rings", rings},
+            {"mounting_points", points},
+            {"hoses", hoses},
+            {"bracket", longest_bracket}};
   }
 
  private:
-  static void add(std::string& list, const std::string& item) { list += (list.empty() ? "" : ",") + item; }
-
-  std::string place(const std::string& link, const Vector3d& position, const Vector3d& direction) const {
+  Json place(const std::string& link, const Vector3d& position, const Vector3d& direction) const {
     const auto& links = setup_.robot.links;
     const auto found =
         std::find_if(links.begin(), links.end(), [&](const Link& one) { return one.name == link; });
-    return fmt::format("\"link\":{},\"position\":{},\"direction\":{}", found - links.begin(), json(position),
-                       json(Vector3d(direction.normalized())));
+    return {{"link", found - links.begin()},
+            {"position", position},
+            {"direction", Vector3d(direction.normalized())}};
   }
 
-  void add_routing(const MountedDresspack& mounted, std::string& clamps, std::string& rings) const {
+  void add_routing(std::size_t dresspack, std::vector<Json>& clamps, std::vector<Json>& rings) const {
+    const MountedDresspack& mounted = setup_.dresspacks[dresspack];
     const Routing& routing = mounted.routing;
     const std::string before = mounted.name.empty() ? "" : mounted.name + ", ";
-    const auto clamp = [&](const std::string& name, const Clamp& one) {
-      add(clamps,
-          fmt::format("{{\"name\":{},\"radius\":{},{}}}", json(before + name),
-                      json(mounted.dresspack.diameter / 2), place(one.link, one.position, one.direction)));
+    const auto clamp = [&](const std::string& name, const std::string& key, double at, const Clamp& one) {
+      clamps.push_back(Json{{"name", before + name},
+                            {"key", key},
+                            {"dresspack", dresspack},
+                            {"at", at},
+                            {"radius", mounted.dresspack.diameter / 2}}
+                           .add(place(one.link, one.position, one.direction)));
     };
-    if (routing.base_clamp) clamp("base clamp", *routing.base_clamp);
+    if (routing.base_clamp) clamp("base clamp", "base_clamp", 0, *routing.base_clamp);
     for (const IntermediateClamp& between : routing.clamps)
-      clamp(fmt::format("clamp at {:.2f} m", between.at_length), between.clamp);
-    if (routing.tool_clamp) clamp("tool clamp", *routing.tool_clamp);
+      clamp(fmt::format("clamp at {:.2f} m", between.at_length), "clamp", between.at_length, between.clamp);
+    if (routing.tool_clamp) clamp("tool clamp", "tool_clamp", routing.free_length, *routing.tool_clamp);
     for (const GuideRing& ring : routing.rings)
-      add(rings,
-          fmt::format("{{\"name\":{},\"radius\":{},\"width\":{},{}}}", json(before + "ring"),
-                      json(ring.radius), json(ring.width), place(ring.link, ring.position, ring.direction)));
+      rings.push_back(Json{{"name", before + "ring"}, {"radius", ring.radius}, {"width", ring.width}}.add(
+          place(ring.link, ring.position, ring.direction)));
   }
 
   template <class Shapes>
-  std::string shapes(const Shapes& of) {
-    std::string list;
+  std::vector<Json> shapes(const Shapes& of) {
+    std::vector<Json> list;
     for (const Capsule& capsule : of.capsules)
-      add(list, fmt::format("{{\"kind\":\"capsule\",\"from\":{},\"to\":{},\"radius\":{}}}",
-                            json(capsule.from), json(capsule.to), json(capsule.radius)));
+      list.push_back(
+          {{"kind", "capsule"}, {"from", capsule.from}, {"to", capsule.to}, {"radius", capsule.radius}});
     for (const Box& box : of.boxes)
-      add(list, fmt::format("{{\"kind\":\"box\",{},\"sides\":{}}}", pose(box.position, box.orientation),
-                            json(box.sides)));
+      list.push_back(Json{{"kind", "box"}}.add(pose(box.position, box.orientation)).add("sides", box.sides));
     for (const MeshFile& mesh : of.meshes) {
       try {
-        add(list, mesh_shape(mesh, most_triangles / meshes_));
+        list.push_back(mesh_shape(mesh, most_triangles / meshes_));
       } catch (const InputError& problem) {
         notes_.push_back(fmt::format("not drawn: {}", problem.what()));
       }
     }
-    return '[' + list + ']';
+    return list;
   }
 
   const Setup& setup_;
@@ -123,8 +128,6 @@ class Scene {
 
 }  // namespace
 
-std::string scene_data(const Setup& setup, std::vector<std::string>& notes) {
-  return Scene(setup, notes).text();
-}
+Json scene_data(const Setup& setup, std::vector<std::string>& notes) { return Scene(setup, notes).json(); }
 
 }  // namespace dresslife::pipeline

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/job/setup.h"
+#include "pipeline/report/json.h"
 
 namespace dresslife::pipeline {
 
@@ -13,6 +14,6 @@ namespace dresslife::pipeline {
 /// hoses: [{name, radius}]}. A shape is a capsule {from, to, radius}, a box {position, quaternion x y z w,
 /// sides} or a mesh {position, quaternion, low, step, triangles}, in the frame of its link or of the world. A
 /// mesh whose file cannot be read any more is left out and told in `notes`.
-std::string scene_data(const Setup& setup, std::vector<std::string>& notes);
+Json scene_data(const Setup& setup, std::vector<std::string>& notes);
 
 }  // namespace dresslife::pipeline

@@ -21,23 +21,28 @@ constexpr std::size_t most_bytes = 260'000;  // a third more as base64
 constexpr std::size_t listed_wires = 5;      // of each segment
 constexpr std::size_t no_wire = static_cast<std::size_t>(-1);
 
-std::string parts_json(const std::vector<Component>& components) {
-  std::string list;
+Json parts_json(const std::vector<Component>& components) {
+  std::vector<Json> list;
   for (const Component& part : components)
-    list += fmt::format(
-        "{}{{\"name\":{},\"layer\":{},\"count\":{},\"radius\":{},\"at\":{},\"phase\":{},\"plain\":{},\"parts\":{}}}",
-        list.empty() ? "" : ",", json(part.name), json(part.layer), part.count, json(part.radius),
-        json(part.helix_radius), json(part.phase), part.plain ? "true" : "false",
-        parts_json(part.components));
-  return '[' + list + ']';
+    list.push_back({{"name", part.name},
+                    {"layer", part.layer},
+                    {"count", part.count},
+                    {"radius", part.radius},
+                    {"at", part.helix_radius},
+                    {"phase", part.phase},
+                    {"plain", part.plain.has_value()},
+                    {"parts", parts_json(part.components)}});
+  return list;
 }
 
-std::string dresspack_json(const Setup& setup, std::size_t d) {
+Json dresspack_json(const Setup& setup, std::size_t d) {
   const Dresspack& dresspack = setup.dresspacks[d].dresspack;
   const double outer = dresspack.diameter / 2;
-  return fmt::format("{{\"name\":{},\"radius\":{},\"inner\":{},\"core\":{},\"parts\":{}}}",
-                     json(name_among(setup, d)), json(outer), json(inner_radius(dresspack).value_or(outer)),
-                     json(dresspack.core_diameter / 2), parts_json(dresspack.components));
+  return {{"name", name_among(setup, d)},
+          {"radius", outer},
+          {"inner", inner_radius(dresspack).value_or(outer)},
+          {"core", dresspack.core_diameter / 2},
+          {"parts", parts_json(dresspack.components)}};
 }
 
 /// Sites of a segment lie together, those of one dresspack's segments alike.
@@ -85,31 +90,32 @@ std::string levels_of(const std::vector<double>& damage, double most) {
   return bytes;
 }
 
-std::string worst_json(const std::vector<double>& damage) {
+/// Wires and their damages.
+Json worst_json(const std::vector<double>& damage) {
   std::vector<std::size_t> order(damage.size());
   std::iota(order.begin(), order.end(), 0);
   const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(listed_wires, order.size()));
   std::partial_sort(order.begin(), end, order.end(), [&](auto a, auto b) { return damage[a] > damage[b]; });
-  std::string list;
+  std::vector<std::vector<double>> list;
   for (auto wire = order.begin(); wire != end && damage[*wire] > 0; ++wire)
-    list += fmt::format("{}[{},{}]", list.empty() ? "" : ",", *wire, json(damage[*wire]));
-  return '[' + list + ']';
+    list.push_back({static_cast<double>(*wire), damage[*wire]});
+  return list;
 }
 
 }  // namespace
 
-std::string section_data(const FileReader& life, const Setup& setup) {
+std::optional<Json> section_data(const FileReader& life, const Setup& setup) {
   const auto segment = life.read<std::int32_t>("/site/segment");
   const auto damage = life.read<double>("/damage"), of_segment = life.read<double>("/segment/damage");
   const double most = life.number_attribute("damage_per_repeat");
   const std::vector<std::size_t> dresspack = dresspack_of_segments(life);
   if (!(most > 0) || dresspack.size() != of_segment.size() || !std::is_sorted(segment.begin(), segment.end()))
-    return "";
+    return {};
   std::vector<std::size_t> order(of_segment.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return of_segment[a] > of_segment[b]; });
   std::vector<Wires> wires(setup.dresspacks.size());
-  std::string rows;
+  std::vector<Json> rows, dresspacks;
   std::size_t bytes = 0;
   for (const std::size_t at : order) {
     const std::size_t d = dresspack[at];
@@ -118,17 +124,20 @@ std::string section_data(const FileReader& life, const Setup& setup) {
     const auto first_site = static_cast<std::size_t>(first - segment.begin()),
                sites = static_cast<std::size_t>(end - first);
     if (wires[d].count == 0) wires[d] = wires_of(life, setup, d, first_site, sites);
-    if (wires[d].count == 0 || wires[d].of_site.size() != sites) return "";
+    if (wires[d].count == 0 || wires[d].of_site.size() != sites) return {};
     if ((bytes += wires[d].count / 2) > most_bytes) break;
     const std::vector<double> here = damage_of_wires(wires[d], &damage[first_site]);
-    rows += fmt::format("{}{{\"segment\":{},\"dresspack\":{},\"worst\":{},\"levels\":\"{}\"}}",
-                        rows.empty() ? "" : ",", at, d, worst_json(here), base64(levels_of(here, most)));
+    rows.push_back({{"segment", at},
+                    {"dresspack", d},
+                    {"worst", worst_json(here)},
+                    {"levels", base64(levels_of(here, most))}});
   }
-  std::string dresspacks;
-  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
-    dresspacks += (d > 0 ? "," : "") + dresspack_json(setup, d);
-  return fmt::format("{{\"steps\":{},\"low\":{},\"high\":{},\"dresspacks\":[{}],\"rows\":[{}]}}", steps,
-                     json(least_share * most), json(most), dresspacks, rows);
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) dresspacks.push_back(dresspack_json(setup, d));
+  return Json{{"steps", steps},
+              {"low", least_share * most},
+              {"high", most},
+              {"dresspacks", dresspacks},
+              {"rows", rows}};
 }
 
 }  // namespace dresslife::pipeline

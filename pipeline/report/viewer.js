@@ -29,13 +29,15 @@ function meshGeometry(shape) {
 function addShapes(group, shapes, material) {
   for (const shape of shapes) {
     if (shape.kind === 'capsule') {
-      for (const part of capsuleGeometries(shape.from, shape.to, shape.radius)) group.add(new THREE.Mesh(part, material));
+      for (const part of capsuleGeometries(shape.from, shape.to, shape.radius))
+        group.add(Object.assign(new THREE.Mesh(part, material), {userData: {shape: true}}));
       continue;
     }
     const mesh =
         new THREE.Mesh(shape.kind === 'box' ? new THREE.BoxBufferGeometry(...shape.sides) : meshGeometry(shape), material);
     mesh.position.set(...shape.position);
     mesh.quaternion.set(...shape.quaternion);
+    mesh.userData.shape = true;
     group.add(mesh);
   }
 }
@@ -215,6 +217,7 @@ class Viewer {
     group.add(arrow);
     this.linkOf(clamp).add(group);
     this.addLabel(clamp.name, group, 'clamp');
+    (this.clampGroups = this.clampGroups || []).push(group);
     (this.arrows = this.arrows || []).push(arrow);
   }
   addHoses() {
@@ -366,7 +369,7 @@ class Viewer {
     this.links.forEach((link, k) => {
       if (links[k])
         for (const part of link.children)
-          if (part.isMesh) part.material = material;
+          if (part.userData.shape) part.material = material;
     });
     this.dirty = true;
   }

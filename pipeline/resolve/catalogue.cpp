@@ -8,8 +8,11 @@
 #include <set>
 
 #include "pipeline/base/installation.h"
+#include "pipeline/resolve/beds.h"
 #include "pipeline/resolve/cable_alone.h"
 #include "pipeline/resolve/data_sheet.h"
+#include "pipeline/resolve/estimates.h"
+#include "pipeline/resolve/placement.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/resolve/urdf_request.h"
 #include "pipeline/settings/fields.h"
@@ -240,39 +243,6 @@ void add_materials(Node& dresspack, const Node& job, const std::string& path, Pr
     std::erase_if(dresspack.entries, [](const Entry& e) { return e.key == "materials"; });
 }
 
-/// A dresspack that is one cable on its axis and nothing else is as wide as that.
-void add_width(Node& dresspack, const std::vector<Node>& components) {
-  if (dresspack.find("diameter_mm") || is_hose(dresspack) || components.size() != 1) return;
-  const Node* const radius = components.front().find("radius_mm");
-  const Node* const off_axis = components.front().find("helix_radius_mm");
-  char* end = nullptr;
-  const double millimetres = radius ? std::strtod(radius->text.c_str(), &end) : 0;
-  if (!(millimetres > 0) || *end != '\0' || !off_axis || off_axis->text != "0") return;
-  const Where where = radius->where;  // what is added moves the entries
-  Node& diameter = dresspack["diameter_mm"];
-  diameter = scalar(shortest_text(2 * millimetres));
-  diameter.where = where;
-}
-
-/// What nobody measured of a dresspack is taken from its construction, and its damping is that of the shipped
-/// ones.
-void add_estimates(Node& dresspack) {
-  const Node* components = dresspack.find("components");
-  if (!components || components->items.empty() || dresspack.find("cable_alone")) return;
-  add_width(dresspack, components->items);
-  const auto add = [&](const char* key, const std::string& text) {
-    Node& value = dresspack[key];
-    value = scalar(text);
-    value.where = dresspack.where;
-  };
-  for (const char* key :
-       {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})
-    if (!dresspack.find(key)) add(key, "from_construction");
-  if (dresspack.find("damping_time_ms") || dresspack.find("damping_source")) return;
-  add("damping_time_ms", is_hose(dresspack) ? "10" : "20");
-  add("damping_source", "ESTIMATE, the default of dresslife; a decay test of a hanging length decides");
-}
-
 /// A catalogue entry where a job has one: written out, of a dresspack with the layers of cables that are
 /// given by data sheets and the materials that its wires name.
 void resolve_entry(Node* entry, const std::string& path, const std::string& folder, const Node& job,
@@ -280,7 +250,9 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
   if (!entry || !problems.attempt(path, entry->where, [&] { resolve(*entry, folder, job.where); })) return;
   if (folder != "dresspacks" || !entry->is_map()) return;
   expand_data_sheets(*entry, path, problems);
+  expand_places(*entry, path, problems);
   add_estimates(*entry);
+  add_beds(*entry, job);
   add_materials(*entry, job, path, problems);
 }
 

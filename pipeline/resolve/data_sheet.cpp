@@ -1,6 +1,6 @@
 #include "pipeline/resolve/data_sheet.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,7 +11,9 @@
 #include <string_view>
 
 #include "pipeline/cable/overlap.h"
+#include "pipeline/resolve/cable_rules.h"
 #include "pipeline/job/dresspack.h"
+#include "pipeline/resolve/estimates.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 
@@ -25,7 +27,6 @@ constexpr int closed_ring = 5;         // six parts that touch leave room for a 
 constexpr int filled_ring = 9;         // ten for two
 constexpr double wire_lay_ratio = 16;  // lay length over the conductor's width: stranding has 10 to 20
 constexpr double core_lay_ratio = 12;  // over the width of the cores: flexible cables have 8 to 16
-constexpr double wire_share = 0.2;     // of the line load on a core that presses one of its wires
 constexpr int rounds = 60;             // of the search for the cores' diameter
 
 double first_radius(int count, double diameter) {
@@ -83,20 +84,32 @@ void lay(Ring& ring, double diameter, double lay_length, const Where& where) {
 /// What a sheet stands for, from the wire outwards.
 class Expansion {
  public:
-  explicit Expansion(const DataSheet& sheet) : sheet_(sheet) {
-    const double wire = pi / 4 * sheet.wire_diameter * sheet.wire_diameter;
-    const double wires = std::round(sheet.cross_section / wire);
+  explicit Expansion(const DataSheet& sheet) : sheet_(sheet), wire_(wire_of(sheet)) {
+    const double section = pi / 4 * wire_ * wire_;
+    const double wires = std::round(sheet.cross_section / section);
     if (wires < 1 || wires > most_wires)
       throw InputError(sheet.where,
                        fmt::format("{:.4g} mm2 of wires of {:.4g} mm are {:.4g} wires (1 .. {})",
-                                   1e6 * sheet.cross_section, 1e3 * sheet.wire_diameter,
-                                   sheet.cross_section / wire, most_wires),
+                                   1e6 * sheet.cross_section, 1e3 * wire_, sheet.cross_section / section, most_wires),
                        "check cross_section_mm2, of one core, and wire_diameter_mm");
     pack_wires(static_cast<int>(wires));
     size_cores();
   }
 
-  double radius() const { return sheet_.outer_diameter / 2; }
+  double radius() const { return outer_ / 2; }
+
+  /// What a rule stands in for: "wire 0.15 mm, jacket 1.21 mm"; empty: nothing.
+  std::string estimates() const {
+    std::vector<std::string> parts;
+    const auto add = [&](const char* what, bool given, double value) {
+      if (!given) parts.push_back(fmt::format("{} {:.3g} mm", what, 1e3 * value));
+    };
+    add("wire", sheet_.wire_diameter.has_value(), wire_);
+    add("core", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_);
+    add("jacket", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_);
+    add("outer diameter", sheet_.outer_diameter.has_value(), outer_);
+    return fmt::format("{}", fmt::join(parts, ", "));
+  }
 
   std::vector<Component> components() const {
     const std::vector<Ring> rings = cabled(core_diameter_);
@@ -105,7 +118,7 @@ class Expansion {
     for (std::size_t k = rings.size(); k-- > 0;) {  // the outermost is layer 1
       const Hand hand = (rings.size() - 1 - k) % 2 == 0 ? Hand::left : Hand::right;
       Component layer =
-          part_of(grouped() ? group_name() : "core", rings, k, part, hand, sheet_.jacket_pressure * part);
+          part_of(grouped() ? group_name() : "core", rings, k, part, hand, line_load(part));
       layer.components = grouped() ? group(opposite(hand)) : wires(opposite(hand));
       layers.push_back(layer);
     }
@@ -115,12 +128,42 @@ class Expansion {
  private:
   static constexpr int most_wires = 5000;  // 400 mm2 of class 6
 
+  /// Given, else by the class. Errors: InputError for a class without it, or a wire that is too thick for it.
+  static double wire_of(const DataSheet& sheet) {
+    if (!sheet.conductor_class && !sheet.wire_diameter)
+      throw InputError(sheet.where, "data_sheet has neither wire_diameter_mm nor conductor_class",
+                       "give one of the two: wire_diameter_mm: 0.15, or conductor_class: 6 (IEC 60228)");
+    if (!sheet.conductor_class) return *sheet.wire_diameter;
+    if (sheet.conductor_class < flexible_class)
+      throw InputError(sheet.where,
+                       fmt::format("conductor_class is {} (classes 1 to 4 of IEC 60228 are for cables that lie still)",
+                                   sheet.conductor_class),
+                       "give 5 or 6, or wire_diameter_mm without the class");
+    const double most = thickest_wire(sheet.conductor_class, sheet.cross_section);
+    if (most == 0)
+      throw InputError(sheet.where,
+                       fmt::format("cross_section_mm2 is {:.4g} (IEC 60228 has no conductor of class {} so large)",
+                                   1e6 * sheet.cross_section, sheet.conductor_class),
+                       "check cross_section_mm2, of one core, or give wire_diameter_mm without the class");
+    if (sheet.wire_diameter && *sheet.wire_diameter > most)
+      throw InputError(sheet.where,
+                       fmt::format("wire_diameter_mm is {:.4g} (class {} has wires of {:.4g} mm at most at {:.4g} mm2)",
+                                   1e3 * *sheet.wire_diameter, sheet.conductor_class, 1e3 * most,
+                                   1e6 * sheet.cross_section),
+                       "check both, or leave out the class");
+    return sheet.wire_diameter.value_or(usual_wire(sheet.conductor_class, sheet.cross_section));
+  }
+
   static Hand opposite(Hand hand) { return hand == Hand::left ? Hand::right : Hand::left; }
+  /// Of a jacket's pressure on this width [N/m]; absent: the sheet gives no pressure (estimates.h).
+  std::optional<double> line_load(double width) const {
+    return sheet_.jacket_pressure ? std::optional(*sheet_.jacket_pressure * width) : std::nullopt;
+  }
   bool grouped() const { return sheet_.cores_per_group > 1; }
   std::string group_name() const { return sheet_.cores_per_group == 2 ? "pair" : "group"; }
 
   Component part_of(const std::string& name, const std::vector<Ring>& rings, std::size_t k, double diameter,
-                    Hand hand, double line_load) const {
+                    Hand hand, std::optional<double> line_load) const {
     Component part;
     part.name = name;
     if (rings.size() > 1) part.layer = fmt::format("layer {}", rings.size() - k);
@@ -137,8 +180,7 @@ class Expansion {
   std::vector<Component> wires(Hand hand) const {
     std::vector<Component> layers;
     for (std::size_t k = wire_rings_.size(); k-- > 0;) {
-      layers.push_back(part_of("wire", wire_rings_, k, sheet_.wire_diameter, hand,
-                               wire_share * sheet_.jacket_pressure * core_diameter_));
+      layers.push_back(part_of("wire", wire_rings_, k, wire_, hand, line_load(wire_)));
       layers.back().material = sheet_.material;
     }
     return layers;
@@ -149,19 +191,17 @@ class Expansion {
     std::vector<Component> layers;
     for (std::size_t k = rings.size(); k-- > 0;) {
       layers.push_back(
-          part_of("core", rings, k, core_diameter_, hand, sheet_.jacket_pressure * core_diameter_));
+          part_of("core", rings, k, core_diameter_, hand, line_load(core_diameter_)));
       layers.back().components = wires(opposite(hand));
     }
     return layers;
   }
 
   void pack_wires(int count) {
-    const double straight = width_of(
-        packed(count, sheet_.wire_diameter, infinite, Fillers::none, sheet_.where), sheet_.wire_diameter);
-    wire_rings_ =
-        packed(count, sheet_.wire_diameter, sheet_.wire_lay_length.value_or(wire_lay_ratio * straight),
-               Fillers::none, sheet_.where);
-    conductor_ = width_of(wire_rings_, sheet_.wire_diameter);
+    const double straight = width_of(packed(count, wire_, infinite, Fillers::none, sheet_.where), wire_);
+    wire_rings_ = packed(count, wire_, sheet_.wire_lay_length.value_or(wire_lay_ratio * straight), Fillers::none,
+                         sheet_.where);
+    conductor_ = width_of(wire_rings_, wire_);
   }
 
   std::vector<Ring> laid(int count, double diameter, const std::optional<double>& lay_length) const {
@@ -181,20 +221,28 @@ class Expansion {
   double cabled_width(double core) const { return width_of(cabled(core), group_diameter(core)); }
 
   void size_cores() {
-    const double inside = sheet_.outer_diameter - 2 * sheet_.jacket_thickness.value_or(0);
-    core_diameter_ = sheet_.core_diameter.value_or(0);
-    if (!sheet_.core_diameter) {
-      if (!sheet_.jacket_thickness)
-        throw InputError(sheet_.where, "data_sheet has neither core_diameter_mm nor jacket_thickness_mm",
-                         "give one of the two: it says how thick the insulation is");
-      core_diameter_ = widest_core(inside);
+    const bool by_rule = sheet_.conductor_class > 0;
+    if (!sheet_.outer_diameter && !by_rule)
+      throw InputError(sheet_.where, "data_sheet has no outer_diameter_mm",
+                       "give it, or conductor_class (IEC 60228), by which it is estimated");
+    if (!sheet_.core_diameter && !sheet_.jacket_thickness && !by_rule)
+      throw InputError(sheet_.where, "data_sheet has neither core_diameter_mm nor jacket_thickness_mm",
+                       "give one of the two: it says how thick the insulation is; or conductor_class (IEC 60228), by which "
+                       "the jacket is estimated");
+    if (!sheet_.outer_diameter) {  // from the inside outwards
+      core_diameter_ = sheet_.core_diameter.value_or(conductor_ + 2 * usual_insulation(sheet_.cross_section));
+      const double bundle = cabled_width(core_diameter_);
+      jacket_ = sheet_.jacket_thickness.value_or(usual_jacket(bundle));
+      outer_ = bundle + 2 * jacket_;
+      return check_conductor();
     }
-    if (conductor_ > core_diameter_ * (1 + touching))
-      throw InputError(
-          sheet_.where,
-          fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)",
-                      wire_count(), 1e3 * sheet_.wire_diameter, 1e3 * conductor_, 1e3 * core_diameter_),
-          "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
+    outer_ = *sheet_.outer_diameter;
+    const double inside = sheet_.jacket_thickness || sheet_.core_diameter
+                              ? outer_ - 2 * sheet_.jacket_thickness.value_or(0)
+                              : bundle_in(outer_);
+    jacket_ = sheet_.jacket_thickness.value_or((outer_ - inside) / 2);
+    core_diameter_ = sheet_.core_diameter ? *sheet_.core_diameter : widest_core(inside);
+    check_conductor();
     if (const double width = cabled_width(core_diameter_); width > inside * (1 + slack_of_a_caliper))
       throw InputError(sheet_.where,
                        fmt::format("the cores make a bundle {:.4g} mm wide (the cable leaves {:.4g} mm)",
@@ -202,12 +250,20 @@ class Expansion {
                        "check cores, core_diameter_mm, outer_diameter_mm and jacket_thickness_mm");
   }
 
+  void check_conductor() const {
+    if (conductor_ > core_diameter_ * (1 + touching))
+      throw InputError(
+          sheet_.where,
+          fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)",
+                      wire_count(), 1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
+          "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
+  }
+
   /// The bundle's width grows with that of a core, almost in proportion.
   double widest_core(double inside) const {
     if (!(inside > 0))
       throw InputError(sheet_.where,
-                       fmt::format("the jacket of {:.4g} mm leaves no room in {:.4g} mm",
-                                   1e3 * *sheet_.jacket_thickness, 1e3 * sheet_.outer_diameter),
+                       fmt::format("the jacket of {:.4g} mm leaves no room in {:.4g} mm", 1e3 * jacket_, 1e3 * outer_),
                        "check jacket_thickness_mm");
     double core = inside / (sheet_.cores * sheet_.cores_per_group);
     for (int round = 0; round < rounds; ++round) core *= inside / cabled_width(core);
@@ -224,6 +280,7 @@ class Expansion {
   static constexpr double slack_of_a_caliper = 0.02;  // as in a fit of a part into its parent
 
   DataSheet sheet_;
+  double wire_, outer_ = 0, jacket_ = 0;  // [m]
   std::vector<Ring> wire_rings_;
   double conductor_ = 0, core_diameter_ = 0;  // [m]
 };
@@ -233,7 +290,8 @@ struct Layers {
 };
 void describe(Fields& f, Layers& layers) { f.list("components", layers.components, Need::required, ""); }
 
-void expand(Node& component) {
+/// notes: gets what rules stand in for.
+void expand(Node& component, std::vector<std::string>& notes) {
   const Node* written = component.find("data_sheet");
   if (!written) return;
   for (const char* key : {"components", "material", "radius_mm"})
@@ -244,6 +302,10 @@ void expand(Node& component) {
   sheet.where = written->where;
   read_fields(written->is_scalar() ? sheet_from_line(*written) : *written, sheet);
   const Expansion expansion(sheet);
+  if (const std::string estimates = expansion.estimates(); !estimates.empty()) {
+    const Node* name = component.find("name");
+    notes.push_back(fmt::format("{} {}", name ? name->text : "cable", estimates));
+  }
   Node made = echo_fields(Layers{expansion.components()});
   made["radius_mm"] = scalar(text_in_unit(expansion.radius(), unit_of_key("radius_mm")));
   place_at(made, sheet.where);
@@ -266,7 +328,7 @@ constexpr const char* example_line =
 std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
                                                                 const Where& where) {
   static const std::regex section(R"((\d+) *[x*] *(?:(\d+) *[x*] *)?([\d.]+) *mm(?:2|\^2|²))"),
-      word_class("class *[1-6]"), length(R"(([a-z][a-z -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
+      word_class("class *([1-6])"), length(R"(([a-z][a-z -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
   static const std::vector<std::pair<std::regex, const char*>> lengths{
       {std::regex("(single )?wires?( diameter)?"), "wire_diameter_mm"},
       {std::regex("(outer |outside )?diameter|od"), "outer_diameter_mm"},
@@ -276,7 +338,7 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
       {std::regex("(pair|group) lay( length)?"), "group_lay_length_mm"},
       {std::regex("wire lay( length)?"), "wire_lay_length_mm"}};
   std::smatch found;
-  if (std::regex_match(phrase, word_class)) return {};
+  if (std::regex_match(phrase, found, word_class)) return {{"conductor_class", found[1]}};
   if (std::regex_match(phrase, found, section)) {
     std::vector<std::pair<const char*, std::string>> keys{{"cores", found[1]},
                                                           {"cross_section_mm2", found[3]}};
@@ -320,13 +382,18 @@ void describe(Fields& f, DataSheet& sheet) {
             "twisted together first: 2 of a cable of pairs, the second number of 4 x 2 x 0.25 mm2");
   f.number("cross_section_mm2", sheet.cross_section, Need::required, above(0),
            "nominal, of the metal of one core");
-  f.number("wire_diameter_mm", sheet.wire_diameter, Need::required, above(0),
-           "of the core's single wires; class 6 up to 4 mm2: at most 0.16");
-  f.number("outer_diameter_mm", sheet.outer_diameter, Need::required, above(0), "of the cable");
+  f.integer("conductor_class", sheet.conductor_class, Need::optional, between(0, fine_class),
+            "5 or 6 of IEC 60228, 0: not given; by it the standards' rules stand in for lengths that are not given, as ESTIMATES");
+  f.maybe_number("wire_diameter_mm", sheet.wire_diameter, above(0),
+                 "of the core's single wires; without it by the class: 0.15 of class 6 from 0.5 to 4 mm2");
+  f.maybe_number("outer_diameter_mm", sheet.outer_diameter, above(0),
+                 "of the cable; without it, and with a class, from the cores outwards");
   f.maybe_number(
       "jacket_thickness_mm", sheet.jacket_thickness, at_least(0),
-      "with tapes and screens; what it leaves is filled by the cores if core_diameter_mm is not given");
-  f.maybe_number("core_diameter_mm", sheet.core_diameter, above(0), "of a core over its insulation");
+      "with tapes and screens; what it leaves is filled by the cores if core_diameter_mm is not given; without both, and "
+      "with a class, 1 mm and 3.5 % of the width of the cores (IEC 60502-1)");
+  f.maybe_number("core_diameter_mm", sheet.core_diameter, above(0),
+                 "of a core over its insulation; without it, with a class and without outer_diameter_mm by EN 50525");
   f.maybe_number("lay_length_mm", sheet.lay_length, above(0),
                  "of the cores, or groups; without it 12 times their width");
   f.maybe_number("group_lay_length_mm", sheet.group_lay_length, above(0),
@@ -334,12 +401,11 @@ void describe(Fields& f, DataSheet& sheet) {
   f.maybe_number("wire_lay_length_mm", sheet.wire_lay_length, above(0),
                  "of the wires in a core; without it 16 times the conductor's width");
   f.text("material", sheet.material, Need::optional, "of the wires, a name of config/materials");
-  f.number("friction_coefficient", sheet.friction, Need::optional, between(0, 1e6),
-           "Coulomb, of cores and wires; an ESTIMATE");
-  f.number("jacket_pressure_MPa", sheet.jacket_pressure, Need::optional, at_least(0),
-           "on the cores, a fifth of a core's line load on a wire; an ESTIMATE: "
-           "measured_bending_stiffness_Nm2 beside "
-           "data_sheet sets their level");
+  f.maybe_number("friction_coefficient", sheet.friction, between(0, 1e6),
+                 "Coulomb, of cores and wires; without it 0.3, an ESTIMATE");
+  f.maybe_number("jacket_pressure_MPa", sheet.jacket_pressure, at_least(0),
+                 "on cores and wires, each by its width; without it 0.17, an ESTIMATE by the friction of published cables; "
+                 "measured_bending_stiffness_Nm2 beside data_sheet sets its level");
 }
 
 std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where) {
@@ -374,16 +440,28 @@ void expand_data_sheets(Node& dresspack) {
   problems.finish(dresspack.where.file);
 }
 
-void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems) {
+namespace {
+
+void expand_all(Node& dresspack, const std::string& path, Problems& problems, std::vector<std::string>& notes) {
   Node* components = dresspack.is_map() ? dresspack.find("components") : nullptr;
   if (!components || !components->is_list()) return;
   for (std::size_t i = 0; i < components->items.size(); ++i) {
     Node& component = components->items[i];
     if (!component.is_map()) continue;
     const std::string item = fmt::format("{}{}components[{}]", path, path.empty() ? "" : ".", i + 1);
-    if (problems.attempt(item, component.where, [&] { expand(component); }))
-      expand_data_sheets(component, item, problems);
+    if (problems.attempt(item, component.where, [&] { expand(component, notes); }))
+      expand_all(component, item, problems, notes);
   }
+}
+
+}  // namespace
+
+void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems) {
+  std::vector<std::string> notes;
+  expand_all(dresspack, path, problems, notes);
+  Node* source = dresspack.is_map() ? dresspack.find("source") : nullptr;
+  if (source && source->is_scalar() && !notes.empty())
+    source->text += fmt::format("{}{} (by IEC 60228, EN 50525 and IEC 60502-1)", estimate_mark, fmt::join(notes, "; "));
 }
 
 }  // namespace dresslife::pipeline

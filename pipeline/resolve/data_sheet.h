@@ -8,10 +8,12 @@
 // may also lie around a filler. Of all s the narrowest bundle is taken, of equal ones that with the fullest
 // outer ring, whose parts are evenly spaced. A lay widens a ring until its neighbours touch (overlap.h).
 //
-// Conductors (IEC 60228, class 5 and 6) are told by their section: the number of wires is section over that
+// Conductors (IEC 60228, class 5 and 6) are described by their section: the number of wires is section over that
 // of a wire, rounded. They are bunched: all wires have one lay length and one hand, against that of their
 // core; rings of cores alternate. Without core_diameter_mm the cores are as thick as the jacket leaves room
-// for.
+// for. Where a sheet gives the conductor's class and not these lengths, the rules of the standards (cable_rules.h) stand
+// in for the wire's diameter, the insulation, the jacket and the cable's diameter; each is marked as an ESTIMATE in the
+// dresspack's source.
 #pragma once
 
 #include <optional>
@@ -28,16 +30,17 @@ struct DataSheet {
   int cores = 1;                           ///< or groups of them
   int cores_per_group = 1;                 ///< 2: pairs
   double cross_section = 0;                ///< of a core's metal, nominal [m2]
-  double wire_diameter = 0;                ///< [m]
-  double outer_diameter = 0;               ///< of the cable [m]
+  int conductor_class = 0;                 ///< of IEC 60228: 5 or 6; 0: not given
+  std::optional<double> wire_diameter;     ///< [m]
+  std::optional<double> outer_diameter;    ///< of the cable [m]
   std::optional<double> jacket_thickness;  ///< with tapes and screens [m]
   std::optional<double> core_diameter;     ///< over the insulation [m]
   std::optional<double> lay_length;        ///< of the cores, or groups [m]
   std::optional<double> group_lay_length;  ///< of the cores in a group [m]
   std::optional<double> wire_lay_length;   ///< [m]
   std::string material = "copper_halved";  ///< of the wires
-  double friction = 0.3;                   ///< Coulomb, of cores and of wires on each other
-  double jacket_pressure = 0.04e6;         ///< on the cores [Pa]
+  std::optional<double> friction;          ///< Coulomb, of cores and wires; absent: an ESTIMATE (estimates.h)
+  std::optional<double> jacket_pressure;   ///< on cores and wires [Pa]; absent: an ESTIMATE
   Where where;
 };
 
@@ -46,8 +49,9 @@ void describe(Fields& f, DataSheet& sheet);
 
 /// A sheet's line as keys of a data sheet: "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer
 /// diameter 8.2 mm, jacket PUR 1.1 mm". Of pairs "4 x 2 x 0.25 mm2", "pair lay length 20 mm"; "core
-/// diameter 1.4 mm", "wire lay length 18 mm". The class tells no more than the wires do, a jacket's material
-/// nothing. Errors: InputError at the line for words that are none of these.
+/// diameter 1.4 mm", "wire lay length 18 mm". The class may stand in for the lengths; a jacket's material says
+/// nothing. Without a class the wire and the jacket or core must be given. Errors: InputError at the line for words that
+/// are none of these.
 Node sheet_from_line(const Node& line);
 
 enum class Fillers { none, allowed };
@@ -58,6 +62,9 @@ struct Ring {
   double lay_angle;  ///< >= 0 [rad]
 };
 
+/// Before what rules stand in for, in the source of a dresspack.
+inline constexpr std::string_view estimate_mark = " ESTIMATE by rules: ";
+
 /// Rings of `count` >= 1 parts of one diameter [m] and lay length [m] (infinity: straight), innermost first.
 /// Errors: InputError at `where` for a lay too short for them to lie
 /// beside each other.
@@ -67,7 +74,7 @@ std::vector<Ring> packed(int count, double diameter, double lay_length, Fillers 
 double width_of(const std::vector<Ring>& rings, double diameter);
 
 /// Replaces `data_sheet` in every component of a dresspack's tree by what it stands for: radius_mm and
-/// components. Errors: InputError at the sheet, which says what does not fit into what.
+/// components; says in `source` what rules stood in for. Errors: InputError at the sheet, which says what does not fit into what.
 void expand_data_sheets(Node& dresspack);
 /// The same. Components that cannot be are added to the problems, under `path` and their number.
 void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "pipeline/base/related_files.h"
 #include "pipeline/cable/cyclic_curve.h"
 #include "pipeline/job/job_forms.h"
 #include "pipeline/resolve/job_text.h"
@@ -106,6 +107,7 @@ void describe_sim(Fields& echo, Job copy) {
   for (MountedDresspack& mounted : copy.dresspacks) {
     drop_ratings(mounted.dresspack);
     Dresspack& dresspack = mounted.dresspack;
+    dresspack.estimates.clear();
     count_as_numbers(dresspack);
     if (copy.motion.is_prescribed()) break;  // its wires say how a pull stretches the cable
     dresspack.components.clear();
@@ -154,18 +156,22 @@ std::string part_text(const Job& job, Part part) {
   const auto described = part == Part::sim      ? describe_sim
                          : part == Part::strain ? describe_strain
                                                 : describe_fatigue;
-  return to_yaml(echo_fields(Describe([&](Fields& f) { described(f, job); })));
+  // What a file holds counts, and its digest is compared beside this text; where it lies does not.
+  const PathText name = [](const std::filesystem::path& file) { return file.filename().string(); };
+  return to_yaml(echo_fields(Describe([&](Fields& f) { described(f, job); }), name));
 }
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {
   std::vector<std::filesystem::path> files;
   for (const auto& file : {job.motion.clamp_poses, job.motion.deformation, job.motion.program})
     if (!file.empty() && !is_folder(file)) files.push_back(file);
+  std::vector<std::filesystem::path> programs{job.motion.program}, beside = files_of_program(job.motion.program);
   for (const ProgramFile& module : job.motion.modules) {
     files.push_back(module.file);
-    for (const auto& file : files_of_program(module.file)) files.push_back(file);
+    programs.push_back(module.file);
+    for (const auto& file : files_of_program(module.file)) beside.push_back(file);
   }
-  for (const auto& file : files_of_program(job.motion.program)) files.push_back(file);
+  for (const auto& file : related_files(programs, std::move(beside))) files.push_back(file);
   for (const Link& link : job.robot.links)
     for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);
   for (const MeshFile& mesh : job.cell.meshes) files.push_back(mesh.file);

@@ -11,6 +11,7 @@
 #include "pipeline/resolve/sources.h"
 #include "pipeline/resolve/urdf_request.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/settings/problems.h"
 
 namespace dresslife::pipeline {
 
@@ -70,11 +71,23 @@ Setup setup_from(Node document) { return job_from(std::move(document)); }
 
 std::string job_text(const Job& job) { return to_yaml(echo_fields(job)); }
 
+std::string stored_job_text(const Job& job, const std::filesystem::path& folder) {
+  const PathText seen = [&](const std::filesystem::path& file) { return as_seen_from(folder, file).string(); };
+  return to_yaml(echo_fields(Describe([copy = job](Fields& f) mutable { describe(f, copy); }), seen));
+}
+
 std::string job_text(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   return job_text(read_job(file, sets));
 }
 
 Dresspack read_dresspack(const std::filesystem::path& file) {
+  std::string faults;
+  Dresspack dresspack = read_dresspack(file, faults);
+  if (faults.empty()) return dresspack;
+  throw InputErrors({{{file.string()}, "", faults}});
+}
+
+Dresspack read_dresspack(const std::filesystem::path& file, std::string& faults) {
   Node job;
   job["dresspack"] = read_yaml(file);
   job.where = {file.string()};
@@ -84,10 +97,16 @@ Dresspack read_dresspack(const std::filesystem::path& file) {
   resolve_job(job);
   Dresspack dresspack;
   read_fields(*job.find("dresspack"), dresspack);
-  check_dresspack(dresspack, {Slip::free});
   check_materials(dresspack.materials);
-  refuse_gross_overlap(dresspack);
-  take_from_construction(dresspack);
+  Problems problems;
+  problems.attempt("", dresspack.where, [&] { check_dresspack(dresspack, {Slip::free}); });
+  problems.attempt("", dresspack.where, [&] { refuse_gross_overlap(dresspack); });
+  try {
+    problems.finish(file.string());
+    take_from_construction(dresspack);
+  } catch (const InputErrors& refused) {
+    faults = refused.what();
+  }
   return dresspack;
 }
 

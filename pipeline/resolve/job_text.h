@@ -25,17 +25,23 @@ Setup setup_from(Node document);
 /// The resolved job as YAML: catalogue entries written out, defaults filled in. Reads back to the same job.
 std::string job_text(const Job& job);
 std::string job_text(const std::filesystem::path& file, const std::vector<std::string>& sets);
+/// The same for a file in this folder: it names other files as seen from there, so that both may be moved together.
+std::string stored_job_text(const Job& job, const std::filesystem::path& folder);
 
-/// What of the job each stage's result depends on; equal text (and equal files beside it), equal result.
+/// What of the job each stage's result depends on; equal text and equal bytes of the files beside it, equal result.
+/// The text names files without their folders.
 enum class Part { sim, strain, fatigue };
 std::string part_text(const Job& job, Part part);
 
-/// Files beyond the job and the catalogue that dresslife-sim reads.
+/// Files beyond the job and the catalogue on which the result of dresslife-sim depends.
 std::vector<std::filesystem::path> files_beside(const Job& job);
 
 /// A dresspack's file by itself, with its materials, checked as in a job whose parts may all slide. Errors:
 /// InputError.
 Dresspack read_dresspack(const std::filesystem::path& file);
+/// The same for a picture that marks what does not fit: problems of parts that do not are not thrown but go to `faults`, a
+/// line each; then what is taken from the construction stays 0.
+Dresspack read_dresspack(const std::filesystem::path& file, std::string& faults);
 
 /// Every key of a job, as Markdown tables.
 std::string job_manual();

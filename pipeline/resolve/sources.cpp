@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/base/ownership.h"
 #include "pipeline/base/program_files.h"
 
 namespace dresslife::pipeline {
@@ -14,14 +15,8 @@ thread_local Sources* current = nullptr;
 
 const char* word(bool yes) { return yes ? "yes" : "no"; }
 
-bool is_file_now(const fs::path& path) {
-  std::error_code failure;
-  return fs::is_regular_file(path, failure);
-}
-bool is_folder_now(const fs::path& path) {
-  std::error_code failure;
-  return fs::is_directory(path, failure);
-}
+bool is_file_now(const fs::path& path) { return kind_of(path) == FileKind::file; }
+bool is_folder_now(const fs::path& path) { return kind_of(path) == FileKind::folder; }
 
 std::string program_names(const fs::path& program) {
   std::string names;
@@ -74,6 +69,7 @@ std::string read_source(const fs::path& file) {
         known != current->found_.end() && known->second != word(false))
       return known->second;
   std::string text;
+  note_input(file);
   try {
     text = read_text(file);
   } catch (const InputError&) {
@@ -85,7 +81,10 @@ std::string read_source(const fs::path& file) {
 }
 
 Node read_document(const fs::path& file) {
-  if (!current) return read_yaml(file);
+  if (!current) {
+    note_input(file);
+    return read_yaml(file);
+  }
   std::shared_ptr<const Node>& known = current->documents_[file.string()];
   if (!known) known = std::make_shared<const Node>(parse_yaml(read_source(file), file.string()));
   return *known;

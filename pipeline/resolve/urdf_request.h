@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::pipeline {
@@ -17,15 +18,7 @@ struct UrdfRequest {
   enum class Collision { keep, drop } collision = Collision::keep;
   std::vector<double> accelerations;  ///< of the axes, in their order [rad/s2]
 };
-constexpr std::string_view word(UrdfRequest::Collision value) {
-  switch (value) {
-    case UrdfRequest::Collision::keep:
-      return "keep";
-    case UrdfRequest::Collision::drop:
-      return "drop";
-  }
-  return {};
-}
+constexpr std::string_view word(UrdfRequest::Collision value) { return word_at({"keep", "drop"}, value); }
 
 class Fields;
 void describe(Fields& f, UrdfRequest& request);

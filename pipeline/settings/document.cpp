@@ -4,16 +4,14 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 #include <unordered_set>
 
 namespace dresslife::pipeline {
 namespace {
 
-constexpr int most_nodes = 2'000'000;  // far above any job; stops aliases that multiply without end
+constexpr int most_nodes = 1'000'000;  // far above any job: the library takes 10 s and 600 MB for so many
+constexpr std::size_t most_bytes = 16 << 20;  // likewise: 4 s for so much comment
 constexpr int deepest_level = 64;
 
 Where place(const YAML::Mark& mark, const std::string& file) {
@@ -100,6 +98,19 @@ class Walker : public YAML::EventHandler {
   }
   void OnMapEnd() override {}
 };
+
+/// Refuses what the library would read for longer than anybody waits. No value is without a sign before or behind it.
+void check_size(const std::string& text, const std::string& file) {
+  if (text.size() > most_bytes)
+    throw InputError({file}, fmt::format("has {} bytes (at most {} are read as YAML)", text.size(), most_bytes),
+                     "leave out what is not needed, or keep poses in a CSV file");
+  const auto values = std::count_if(text.begin(), text.end(), [](char letter) {
+    return letter == ',' || letter == '\n' || letter == ':' || letter == '[' || letter == '{';
+  });
+  if (values > most_nodes)
+    throw InputError({file}, fmt::format("holds about {} values (at most {} are read)", values, most_nodes),
+                     "leave out what is not needed, or keep poses in a CSV file");
+}
 
 /// Refuses what the library lets pass: further documents, a stray ',' (to it an endless stream of empty
 /// documents) and a quote that is never closed, which it only notices in text that does not end in a line
@@ -277,6 +288,7 @@ void place_at(Node& node, const Where& where) {
 }
 
 Node parse_yaml(const std::string& text, const std::string& file) {
+  check_size(text, file);
   YAML::Node document;
   try {
     check_stream(text, file);
@@ -300,27 +312,6 @@ std::string to_yaml(const Node& node) {
 
 std::filesystem::path folder_of(const Where& where) {
   return where.file.starts_with("--set ") ? "" : std::filesystem::path(where.file).parent_path();
-}
-
-std::string read_text(const std::filesystem::path& file) {
-  constexpr std::uintmax_t longest = 256 << 20;  // [bytes]; a day of recorded poses takes 100 MB
-  std::error_code failure;                       // opening tells it
-  const std::filesystem::file_status status = std::filesystem::status(file, failure);
-  if (std::filesystem::is_directory(status))
-    throw InputError({file.string()}, "is a folder, not a file", "name a file");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw InputError({file.string()}, "is a device or a pipe, not a file", "save it as a file first");
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError({file.string()}, fmt::format("cannot be read ({})", std::strerror(errno)),
-                     "check the path");
-  if (const auto size = std::filesystem::file_size(file); size > longest)
-    throw InputError({file.string()}, fmt::format("has {} bytes (at most {} are read)", size, longest),
-                     "split it, or leave out what is not needed");
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (in.bad()) throw InputError({file.string()}, "cannot be read to its end", "check the disk");
-  return text.str();
 }
 
 }  // namespace dresslife::pipeline

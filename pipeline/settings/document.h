@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::pipeline {
 
@@ -51,9 +52,5 @@ std::string to_yaml(const Node& node);
 
 /// The folder that file names written at a place are relative to: the file's, or the current one for `--set`.
 std::filesystem::path folder_of(const Where& where);
-
-/// The whole of a text file. Errors: InputError when it cannot be read, is no plain file (a pipe may never
-/// end) or is longer than any text that a person or a controller writes.
-std::string read_text(const std::filesystem::path& file);
 
 }  // namespace dresslife::pipeline

@@ -149,9 +149,11 @@ class FieldReader final : public Fields {
     std::string written;
     text(key, written, need, meaning);
     if (written.empty()) return;
-    const Node* node = levels_.back().map->find(key);
-    // Absolute, because the echo of a job may be read from another folder.
-    value = std::filesystem::absolute(folder_of(node->where) / written).lexically_normal();
+    // Absolute, because a job may be used from another folder. What is stored relative to a folder was seen from
+    // where that is behind links.
+    std::filesystem::path folder = folder_of(levels_.back().map->find(key)->where);
+    if (!folder.empty()) folder = std::filesystem::weakly_canonical(folder);
+    value = std::filesystem::absolute(folder / written).lexically_normal();
   }
 
   void place(Where& where) override { where = levels_.back().map->where; }
@@ -344,7 +346,7 @@ class FieldReader final : public Fields {
 class FieldEcho final : public Fields {
  public:
   Node finish() { return std::move(levels_.front()); }
-  FieldEcho() {
+  explicit FieldEcho(const PathText& path_text) : path_text_(path_text) {
     levels_.emplace_back();
     levels_.back().kind = Node::Kind::map;
     keys_.emplace_back();
@@ -388,7 +390,7 @@ class FieldEcho final : public Fields {
   }
 
   void path(Key key, std::filesystem::path& value, Need, std::string_view) override {
-    if (!value.empty()) put(key, scalar(value.string()));
+    if (!value.empty()) put(key, scalar(path_text_ ? path_text_(value) : value.string()));
   }
 
   void place(Where&) override {}
@@ -447,6 +449,7 @@ class FieldEcho final : public Fields {
 
  private:
   void put(Key key, Node value) { levels_.back()[key] = std::move(value); }
+  const PathText& path_text_;
   std::vector<Node> levels_;       ///< open maps and lists, outermost first
   std::vector<std::string> keys_;  ///< under which each of them goes into the one before
 };
@@ -602,8 +605,8 @@ void read_fields(const Node& node, const Describe& described, Problems& problems
   reader.finish();
 }
 
-Node echo_fields(const Describe& described) {
-  FieldEcho echo;
+Node echo_fields(const Describe& described, const PathText& path_text) {
+  FieldEcho echo(path_text);
   described(echo);
   return echo.finish();
 }

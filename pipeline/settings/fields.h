@@ -131,8 +131,10 @@ void read_fields(const Node& node, const Describe& described);
 /// The same among other problems: keys that they refused are passed over, and its own are added to them. A
 /// value that is refused leaves what it was before.
 void read_fields(const Node& node, const Describe& described, Problems& problems);
+/// How a file is written into a document; without it by its absolute path.
+using PathText = std::function<std::string(const std::filesystem::path&)>;
 /// To a map, with defaults filled in.
-Node echo_fields(const Describe& described);
+Node echo_fields(const Describe& described, const PathText& path_text = {});
 /// One Markdown table per map, each under a heading; `title` heads the root.
 std::string field_manual(const std::string& title, const Describe& described);
 

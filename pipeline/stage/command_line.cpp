@@ -4,76 +4,155 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <limits>
+#include <type_traits>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/settings/fields.h"
 #include "pipeline/stage/program_manual.h"
+#include "pipeline/stage/stage.h"
 
 namespace dresslife::pipeline {
+namespace {
 
-std::optional<int> read_command_line(const StageInfo& info, int argc, char** argv, StageCall& call,
-                                     StageFlags& flags) {
-  call.info = info;
-  CLI::App app(info.purpose + example_mark + info.example, info.program);
-  std::string input, output, job_file, receipt, likes;
-  CLI::Option* job = nullptr;
-  app.add_option("input", input, info.input)->required()->type_name("");
-  app.add_option("-o,--output", output, "where to write " + info.output)
-      ->required(!info.may_lack_output)
-      ->type_name("FILE");
-  if (!info.input_is_job)
-    job = app.add_option("--job", job_file, "take the settings from this job instead of the one in the input")
-              ->type_name("JOB.yaml");
-  app.add_option("--set", call.sets,
-                 "override a key of the job, for example simulation.segments=80; may be repeated")
-      ->type_name("KEY.PATH=VALUE")
-      ->allow_extra_args(false);
-  call.options.resize(info.options.size());
-  for (std::size_t i = 0; i < info.options.size(); ++i)
-    if (info.options[i].value.empty())
-      app.add_flag_callback(
-          info.options[i].name, [&call, i] { call.options[i].emplace_back(); }, info.options[i].meaning);
-    else
-      app.add_option(info.options[i].name, call.options[i], info.options[i].meaning)
-          ->type_name(info.options[i].value)
-          ->allow_extra_args(false);
-  app.add_flag("--force", flags.force, "replace an output that is no " + info.output);
-  if (info.part) {
-    CLI::Option* noted =
-        app.add_option("--receipt", receipt,
-                       "note there from what the output is made, and make it only when that has changed")
-            ->type_name("FILE");
-    if (job) noted->needs(job);
-    app.add_option("--likes", likes,
-                   "a list of folders that get the same output and note, each under its name")
-        ->type_name("FILE")
-        ->needs(noted);
+/// Adds an option to the parser: one function for each kind of target.
+struct Adder {
+  CLI::App& app;
+  const Option& option;
+
+  CLI::Option* operator()(bool* flag) const { return app.add_flag(option.names, *flag, option.meaning); }
+  CLI::Option* operator()(std::string* text) const { return added(*text); }
+  CLI::Option* operator()(std::vector<std::string>* list) const { return added(*list)->allow_extra_args(false); }
+  CLI::Option* operator()(std::filesystem::path* path) const {
+    return (*this)([path](const std::string& text) { *path = text; });
   }
-  app.add_option("--job-time", call.limits.seconds, "give up after so long")->type_name("SECONDS");
-  app.add_option("--job-memory", call.limits.megabytes, "take no more memory than this")->type_name("MB");
-  app.add_flag("--quiet", call.quiet, "no progress, no notes");
-  app.set_version_flag("--version", [&info] { return version_text(info.program); });
+  CLI::Option* operator()(const std::function<void(const std::string&)>& take) const {
+    return app.add_option_function<std::string>(option.names, take, option.meaning);
+  }
+  template <class Number>
+  CLI::Option* operator()(Number* number) const {
+    return within<Number>(added(*number));
+  }
+  template <class Number>
+  CLI::Option* operator()(std::optional<Number>* number) const {
+    return within<Number>(added(*number));
+  }
+
+ private:
+  template <class Value>
+  CLI::Option* added(Value& value) const {
+    return app.add_option(option.names, value, option.meaning);
+  }
+  /// Refuses what is outside the range, and what is not finite.
+  template <class Number>
+  CLI::Option* within(CLI::Option* number) const {
+    const auto& range = option.rules.range;
+    const Number low = range ? static_cast<Number>(range->at(0)) : std::numeric_limits<Number>::lowest();
+    const Number high = range ? static_cast<Number>(range->at(1)) : std::numeric_limits<Number>::max();
+    const std::string bounds = range ? fmt::format("{} .. {}", low, high) : "";
+    return number->check(CLI::Validator(
+        [low, high, bounds](const std::string& text) {
+          Number value{};
+          if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+          return fmt::format("'{}' is no {}{}", text, std::is_floating_point_v<Number> ? "number" : "whole number",
+                             bounds.empty() ? "" : " in " + bounds);
+        },
+        bounds));
+  }
+};
+
+void add_options(CLI::App& app, const std::vector<Option>& options) {
+  for (const Option& option : options) {
+    CLI::Option* const added = std::visit(Adder{app, option}, option.target);
+    if (!std::holds_alternative<bool*>(option.target)) added->type_name(option.value);
+    added->required(option.rules.required)->default_str(default_text(option));
+    if (!option.rules.choices.empty()) added->check(CLI::IsMember(option.rules.choices));
+    if (!option.rules.needs.empty()) added->needs(option.rules.needs);
+  }
+}
+
+void add_manual(CLI::App& app, const Command& program, const Option& manual) {
   app.add_option_function<std::string>(
-         "--manual",
-         [&app](const std::string& kind) {
-           std::fputs(program_manual(app, kind).c_str(), stdout);
+         manual.names,
+         [&program](const std::string& kind) {
+           std::fputs(program_manual(program, kind).c_str(), stdout);
            throw CLI::Success();
          },
-         "print this program's man page, or its completion for a shell")
-      ->check(CLI::IsMember(manual_kinds()))
-      ->type_name(fmt::format("{}", fmt::join(manual_kinds(), "|")))
+         manual.meaning)
+      ->check(CLI::IsMember(manual.rules.choices))
+      ->type_name(manual.value)
       ->trigger_on_parse();
+}
+
+/// The command whose name is nearest to the first word of a command line; empty: the word is a command, an option, or
+/// like none.
+std::string meant_command(const Command& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return "";
+  std::vector<std::string> names;
+  for (const Command& command : program.commands) names.push_back(command.name);
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return "";
+  return nearest_word(argv[1], names);
+}
+
+}  // namespace
+
+std::vector<Option> joined(std::initializer_list<std::vector<Option>> tables) {
+  std::vector<Option> all;
+  for (const std::vector<Option>& table : tables) all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
+std::string default_text(const Option& option) {
+  if (option.rules.shown_default) return *option.rules.shown_default;
+  const auto shown = [](const auto& target) -> std::string {
+    using Value = std::decay_t<decltype(target)>;
+    if constexpr (std::is_same_v<Value, std::string*> || std::is_same_v<Value, int*> ||
+                  std::is_same_v<Value, std::uint64_t*> || std::is_same_v<Value, double*>)
+      return fmt::format("{}", *target);
+    else
+      return "";
+  };
+  return std::visit(shown, option.target);
+}
+
+Option help_option() { return {"-h,--help", "", "print this help and exit", {}}; }
+
+std::vector<Option> last_options(const Command& program) {
+  std::vector<Option> options{{"--version", "", "print the version and exit", {}}};
+  if (program.commands.empty())
+    options.push_back({"--manual", fmt::format("{}", fmt::join(manual_kinds(), "|")),
+                       "print this program's man page, or its completion for a shell",
+                       std::function<void(const std::string&)>(), {.choices = manual_kinds()}});
+  return options;
+}
+
+std::optional<int> read_command_line(const Command& program, int argc, char** argv, const Command** called) {
+  const Option help = help_option();
+  const std::vector<Option> last = last_options(program);
+  const std::string example = "\n\nExample: " + program.example;
+  CLI::App app(program.purpose + example, program.name);
+  app.set_help_flag(help.names, help.meaning);
+  add_options(app, program.options);
+  app.set_version_flag(last[0].names, [&] { return version_text(program.name); }, last[0].meaning);
+  if (program.commands.empty()) add_manual(app, program, last[1]);
+  std::vector<const CLI::App*> commands;
+  for (const Command& command : program.commands) {
+    commands.push_back(app.add_subcommand(command.name, command.purpose));
+    add_options(*app.get_subcommand(command.name), command.options);
+  }
+  if (!commands.empty()) app.require_subcommand(1);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
+    if (const std::string meant = meant_command(program, argc, argv); !meant.empty() && problem.get_exit_code() != 0)
+      fmt::print(stderr, "'{}' is no command of {}; did you mean '{}'?\n", shown(argv[1]), program.name, meant);
     return finish_output(app.exit(problem) == 0 ? 0 : 2);
   }
-  call.input = input;
-  call.output = output;
-  call.job_file = job_file;
-  flags.receipt = receipt;
-  flags.likes = likes;
-  call.of_a_study = !receipt.empty();
+  for (std::size_t k = 0; k < commands.size(); ++k)
+    if (commands[k]->parsed()) *called = &program.commands[k];
   return {};
 }
 

@@ -1,24 +1,15 @@
 #include "pipeline/stage/memory.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/progress.h"
-#include "pipeline/base/whole_file.h"
 #include "pipeline/files/files.h"
 #include "pipeline/stage/stage.h"
 
@@ -70,45 +61,6 @@ std::optional<double> left_in_group() {
   return *most - *now + number_in(group / "memory.stat", "inactive_file ").value_or(0);
 }
 
-/// What a process holds [MB]; 0 when it is gone or nothing is told of it.
-double held_mb(pid_t process) {
-  std::ifstream in(fmt::format("/proc/{}/statm", process));
-  double size = 0, resident = 0;
-  in >> size >> resident;
-  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / megabyte;
-}
-
-/// A file that only one process works on at a time.
-class Locked {
- public:
-  explicit Locked(const std::filesystem::path& file)
-      : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644)) {
-    while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
-    }
-  }
-  ~Locked() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Locked(const Locked&) = delete;
-  Locked& operator=(const Locked&) = delete;
-
-  std::string text() const {
-    const std::int64_t size = descriptor_ < 0 ? 0 : state_of(descriptor_).size;
-    std::string text(static_cast<std::size_t>(std::max<std::int64_t>(0, size)), '\0');
-    if (!text.empty() && !read_at(descriptor_, text.data(), text.size(), 0)) text.clear();
-    return text;
-  }
-  /// A claim that cannot be noted is not seen by others: they may begin too early, no more.
-  void put(const std::string& text) const {
-    if (descriptor_ >= 0 && ::ftruncate(descriptor_, 0) == 0 &&
-        ::pwrite(descriptor_, text.data(), text.size(), 0) < 0)
-      return;
-  }
-
- private:
-  int descriptor_;
-};
-
 }  // namespace
 
 void MemoryNeed::add(double bytes, std::string what, std::string remedy) {
@@ -156,25 +108,6 @@ std::optional<double> free_memory_mb() {
   return free;
 }
 
-MemoryClaims::Answer MemoryClaims::ask(double megabytes) const {
-  const std::optional<double> free = free_();
-  if (!free) return Answer::given;
-  if (file_.empty()) return megabytes <= *free ? Answer::given : Answer::never;
-  const Locked claims(file_);
-  std::istringstream lines(claims.text());
-  std::string kept;
-  double not_taken_yet = 0;
-  pid_t process = 0;
-  for (double claimed = 0; lines >> process >> claimed;) {
-    if (process <= 0 || process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH)) continue;
-    kept += fmt::format("{} {}\n", process, claimed);
-    not_taken_yet += std::max(0.0, claimed - held_mb(process));
-  }
-  if (megabytes > *free - not_taken_yet) return kept.empty() ? Answer::never : Answer::wait;
-  claims.put(kept + fmt::format("{} {}\n", ::getpid(), megabytes));
-  return Answer::given;
-}
-
 namespace {
 
 [[noreturn]] void refuse(const StageCall& call, const MemoryNeed& need, const std::string& limit,
@@ -188,11 +121,14 @@ namespace {
 
 }  // namespace
 
-void heed_memory(const StageCall& call, const MemoryNeed& need, Progress& progress) {
+void require_memory(const StageCall& call, const MemoryNeed& need, Progress& progress) {
   constexpr double worth_a_word = 0.125;  // of the machine's: a person need not hear of less
   const double megabytes = need.megabytes(), machine = static_cast<double>(installed_memory_mb());
   if (call.limits.megabytes > 0 && megabytes > static_cast<double>(call.limits.megabytes))
     refuse(call, need, fmt::format("--job-memory allows {} MB", call.limits.megabytes), "allow more");
+  if (const std::optional<double> free = free_memory_mb(); free && megabytes > *free)
+    refuse(call, need, fmt::format("{} are free", shown_megabytes(*free)),
+           "end other programs or run fewer jobs at a time");
   const std::string words =
       fmt::format("note: takes about {} of memory{}", shown_megabytes(megabytes),
                   need.largest().empty() ? "" : fmt::format(", {} of it", need.largest()));
@@ -200,21 +136,7 @@ void heed_memory(const StageCall& call, const MemoryNeed& need, Progress& progre
     tell(words + "\n");  // into the stage's log
   else if (megabytes > worth_a_word * machine)
     progress.note(words);
-  const char* const run = std::getenv("DRESSLIFE_MEMORY");
-  const MemoryClaims claims(run && call.of_a_study ? run : "", free_memory_mb);
-  for (bool waits = false;; waits = true) {
-    const MemoryClaims::Answer answer = claims.ask(megabytes);
-    if (answer == MemoryClaims::Answer::given) {
-      limit_memory(call.limits.megabytes);
-      if (waits) limit_time(call.info.program, call.limits.seconds);  // waiting is no work
-      return;
-    }
-    if (answer == MemoryClaims::Answer::never)
-      refuse(call, need, fmt::format("{} are free", shown_megabytes(free_memory_mb().value_or(0))),
-             "end other programs");
-    if (!waits) tell("note: waits until other stages have given back their memory\n");
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  }
+  limit_memory(call.limits.megabytes);
 }
 
 }  // namespace dresslife::pipeline

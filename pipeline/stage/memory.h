@@ -1,16 +1,13 @@
-// What memory a stage's job will take: told and heeded before time is spent on it.
+// The memory that a stage's job will take, estimated and checked before time is spent on the job.
 //
-// A stage adds up what grows with its job, from sizes that it knows before it begins. The sum is told,
-// refused where it cannot be had, and waited for where other stages of the same run will give it back: better
-// than a program that the kernel kills, which can say nothing.
+// A stage adds up what grows with its job, from sizes that it knows before it begins. The sum is noted, and a
+// job that cannot have it is refused: a program that the kernel kills can give no reason.
 //
-// Of what a peak consists that is not added up - the allocator's rounding, freed memory that it keeps, the
-// HDF5 library's tables - is of the size of the rest: an estimate is good within `memory_factor`, either way.
+// The sum leaves out the allocator's rounding, freed memory that it keeps and the HDF5 library's tables. They
+// are of the size of the rest, so an estimate is good within `memory_factor`, either way.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -52,26 +49,8 @@ double file_buffers(const Format& format, const std::map<std::string, std::size_
 /// the control group leaves of it. Nothing where the system does not tell.
 std::optional<double> free_memory_mb();
 
-/// Who of a run's stages has been given how much memory: lines "process megabytes" in a file of the run.
-/// Stages that have ended count no more.
-class MemoryClaims {
- public:
-  /// file: empty where a stage runs alone.
-  MemoryClaims(std::filesystem::path file, std::function<std::optional<double>()> free)
-      : file_(std::move(file)), free_(std::move(free)) {}
-
-  enum class Answer { given, wait, never };
-  /// Gives this process `megabytes` if they are free beside what others were given and have not taken yet.
-  /// wait: others work, and will give theirs back; never: nobody does.
-  Answer ask(double megabytes) const;
-
- private:
-  std::filesystem::path file_;
-  std::function<std::optional<double>()> free_;
-};
-
-/// Tells what the job needs, and waits until it may be had. Errors: InputError, at the call's input, for a
-/// job that does not fit into --job-memory or the machine.
-void heed_memory(const StageCall& call, const MemoryNeed& need, Progress& progress);
+/// Notes what the job needs. Errors: InputError, at the call's input, for a job that needs more than
+/// --job-memory allows or than is free.
+void require_memory(const StageCall& call, const MemoryNeed& need, Progress& progress);
 
 }  // namespace dresslife::pipeline

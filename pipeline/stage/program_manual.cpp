@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <stdexcept>
 
 #include "pipeline/base/installation.h"
@@ -12,59 +11,24 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// One option or positional argument, out of the parser's own description of it.
-struct Argument {
-  Words names;        ///< "-o", "--output"; of a positional one: what stands for it, "JOB.yaml"
-  std::string value;  ///< what an option takes: "FILE"; "" of a flag
-  Words choices;      ///< the words that it may take, when only some are allowed
-  std::string meaning, by_default;
-  bool positional = false, repeatable = false;
-};
+bool is_argument(const Option& option) { return !option.names.starts_with('-'); }
 
-/// The program itself, or one of its commands.
-struct Command {
-  std::string name, purpose, example;
-  std::vector<Argument> arguments;
-  std::vector<Command> commands;
-};
-
-/// Of "{man,bash,zsh}", as the parser describes a check against a list.
-Words listed_words(const std::string& type) {
-  const std::size_t begin = type.find('{'), end = type.rfind('}');
-  if (begin == std::string::npos || end == std::string::npos) return {};
-  return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
+/// Empty for an argument whose meaning is one word: that word is its name.
+std::string meaning_of(const Option& option) {
+  return is_argument(option) && option.meaning.find(' ') == std::string::npos ? "" : option.meaning;
 }
 
-Argument argument_of(const CLI::Option& option) {
-  Argument argument;
-  const std::string type = option.get_type_name();
-  argument.positional = !option.nonpositional();
-  argument.meaning = option.get_description();
-  argument.choices = listed_words(type);
-  argument.by_default = option.get_default_str();
-  argument.repeatable = option.get_items_expected_max() > 1;
-  if (argument.positional) {
-    const bool stands_for_it = argument.meaning.find(' ') == std::string::npos;
-    argument.names = {stands_for_it ? argument.meaning : option.get_name(true)};
-    if (stands_for_it) argument.meaning.clear();
-    return argument;
-  }
-  for (const std::string& name : option.get_snames()) argument.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) argument.names.push_back("--" + name);
-  if (option.get_items_expected_max() > 0) argument.value = type.substr(0, type.find(':'));
-  return argument;
+/// With those that every program has.
+std::vector<Option> all_options(const Command& command, bool is_program) {
+  return joined({{help_option()}, command.options, is_program ? last_options(command) : std::vector<Option>{}});
 }
 
-Command command_of(const CLI::App& app) {
-  Command command{app.get_name(), app.get_description(), "", {}, {}};
-  if (const std::size_t mark = command.purpose.find(example_mark); mark != std::string::npos) {
-    command.example = command.purpose.substr(mark + std::string(example_mark).size());
-    command.purpose.resize(mark);
-  }
-  for (const CLI::Option* option : app.get_options()) command.arguments.push_back(argument_of(*option));
-  for (const CLI::App* inner : app.get_subcommands([](const CLI::App*) { return true; }))
-    command.commands.push_back(command_of(*inner));
-  return command;
+/// "-o,--output" as its two names; of an argument the word that stands for it.
+Words names_of(const Option& option) {
+  if (is_argument(option)) return {meaning_of(option).empty() ? option.meaning : option.names};
+  const std::size_t comma = option.names.find(',');
+  if (comma == std::string::npos) return {option.names};
+  return {option.names.substr(0, comma), option.names.substr(comma + 1)};
 }
 
 std::string replaced(std::string text, char what, const std::string& by) {
@@ -83,23 +47,25 @@ std::string troff(const std::string& text) {
 
 std::string man_synopsis(const std::string& words, const Command& command) {
   std::string line = fmt::format("\\fB{}\\fR [\\fIoptions\\fR]", troff(words));
-  for (const Argument& argument : command.arguments)
-    if (argument.positional) line += fmt::format(" \\fI{}\\fR", troff(argument.names[0]));
+  for (const Option& option : command.options)
+    if (is_argument(option)) line += fmt::format(" \\fI{}\\fR", troff(names_of(option)[0]));
   return line + "\n";
 }
 
-std::string man_arguments(const Command& command) {
+std::string man_options(const std::vector<Option>& options) {
   std::string text;
-  for (const Argument& argument : command.arguments) {
-    if (argument.positional && argument.meaning.empty()) continue;  // its name says all
+  for (const Option& option : options) {
+    if (is_argument(option) && meaning_of(option).empty()) continue;  // its name is enough
     std::string names;
-    for (const std::string& name : argument.names)
-      names += fmt::format("{}\\f{}{}\\fR", names.empty() ? "" : ", ", argument.positional ? 'I' : 'B',
+    for (const std::string& name : names_of(option))
+      names += fmt::format("{}\\f{}{}\\fR", names.empty() ? "" : ", ", is_argument(option) ? 'I' : 'B',
                            troff(name));
-    if (!argument.value.empty()) names += " \\fI" + troff(argument.value) + "\\fR";
-    std::string meaning = troff(argument.meaning);
-    if (!argument.choices.empty()) meaning += fmt::format(" ({})", fmt::join(argument.choices, ", "));
-    if (!argument.by_default.empty()) meaning += fmt::format(" (default: {})", troff(argument.by_default));
+    if (!option.value.empty()) names += " \\fI" + troff(option.value) + "\\fR";
+    std::string meaning = troff(option.meaning);
+    const Words& choices = option.rules.choices;
+    if (!choices.empty()) meaning += fmt::format(" ({})", fmt::join(choices, ", "));
+    const std::string by_default = default_text(option);
+    if (!by_default.empty()) meaning += fmt::format(" (default: {})", troff(by_default));
     text += fmt::format(".TP\n{}\n{}\n", names, meaning);
   }
   return text;
@@ -116,7 +82,7 @@ a folder to take as the catalogue instead of the one that came with the programs
 how many threads a stage may use; by default as many as there are cores
 .TP
 \fBDRESSLIFE_KERNELS\fR
-the instruction set of the hot loops: baseline, sse4, avx2 or avx512; by default the widest of the machine
+the instruction set of the hot loops: portable, avx2 or avx512; by default the widest of the machine
 .SH FILES
 .TP
 \fI../share/dresslife/config\fR
@@ -140,32 +106,35 @@ std::string man_page(const Command& program) {
   for (const Command& command : program.commands) {
     synopsis += (synopsis.empty() ? "" : ".br\n") + man_synopsis(program.name + " " + command.name, command);
     commands +=
-        fmt::format(".SS {}\n{}.\n{}", troff(command.name), troff(command.purpose), man_arguments(command));
+        fmt::format(".SS {}\n{}.\n{}", troff(command.name), troff(command.purpose),
+                            man_options(all_options(command, false)));
   }
   return fmt::format(
       ".TH {} 1 \"\" \"dresslife {}\" \"dresslife\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}.SH "
       "DESCRIPTION\n{}\n"
       ".SH OPTIONS\n{}{}{}{}.SH EXAMPLE\n.EX\n{}\n.EE\n",
       troff(name), version(), troff(program.name), troff(in_short(program.purpose)), synopsis,
-      troff(program.purpose), man_arguments(program), commands.empty() ? "" : ".SH COMMANDS\n", commands,
+      troff(program.purpose), man_options(all_options(program, true)), commands.empty() ? "" : ".SH COMMANDS\n", commands,
       man_common, troff(program.example));
 }
 
 // ---- bash -------------------------------------------------------------------------------------------------
 
 /// Cases of `case "$level" in` and of `case "$level $before" in` for a program or a command.
-void add_bash_cases(const std::string& level, const Command& command, std::string& options,
+void add_bash_cases(const std::string& level, const Command& command, bool is_program, std::string& options,
                     std::string& values) {
   Words names, words;
-  for (const Argument& argument : command.arguments) {
-    if (argument.positional) {
-      words.insert(words.end(), argument.choices.begin(), argument.choices.end());
+  for (const Option& option : all_options(command, is_program)) {
+    const Words& choices = option.rules.choices;
+    if (is_argument(option)) {
+      words.insert(words.end(), choices.begin(), choices.end());
       continue;
     }
-    names.insert(names.end(), argument.names.begin(), argument.names.end());
-    if (argument.choices.empty()) continue;
-    for (const std::string& name : argument.names)
-      values += fmt::format("    '{} {}') words='{}' ;;\n", level, name, fmt::join(argument.choices, " "));
+    for (const std::string& name : names_of(option)) {
+      names.push_back(name);
+      if (choices.empty()) continue;
+      values += fmt::format("    '{} {}') words='{}' ;;\n", level, name, fmt::join(choices, " "));
+    }
   }
   for (const Command& inner : command.commands) words.push_back(inner.name);
   options += fmt::format("    '{}') options='{}' words='{}' ;;\n", level, fmt::join(names, " "),
@@ -176,9 +145,9 @@ std::string function_name(const Command& program) { return "_" + replaced(progra
 
 std::string bash_completion(const Command& program) {
   std::string options, values;
-  add_bash_cases(program.name, program, options, values);
+  add_bash_cases(program.name, program, true, options, values);
   for (const Command& command : program.commands)
-    add_bash_cases(program.name + " " + command.name, command, options, values);
+    add_bash_cases(program.name + " " + command.name, command, false, options, values);
   const std::string find_command = program.commands.empty() ? "" : R"(  for ((k = 1; k < COMP_CWORD; ++k)); do
     [[ ${COMP_WORDS[k]} == -* ]] || { level+=" ${COMP_WORDS[k]}" && break; }
   done
@@ -209,26 +178,27 @@ std::string zsh_text(const std::string& text) {
   return escaped;
 }
 
-std::string zsh_value(const Argument& argument, const std::string& what) {
-  const std::string action = argument.choices.empty() ? std::string("_files")
-                                                      : fmt::format("({})", fmt::join(argument.choices, " "));
+std::string zsh_value(const Option& option, const std::string& what) {
+  const Words& choices = option.rules.choices;
+  const std::string action =
+      choices.empty() ? std::string("_files") : fmt::format("({})", fmt::join(choices, " "));
   return fmt::format(":{}:{}", zsh_text(what), action);
 }
 
 /// The words after `_arguments`, one line each.
-std::string zsh_arguments(const Command& command, const std::string& indent) {
+std::string zsh_options(const std::vector<Option>& options, const std::string& indent) {
   std::string text;
-  for (const Argument& argument : command.arguments) {
-    const std::string& last = argument.names.back();
-    if (argument.positional) {
-      text += fmt::format(" \\\n{}'1{}'", indent, zsh_value(argument, last));
+  for (const Option& option : options) {
+    const Words names = names_of(option);
+    if (is_argument(option)) {
+      text += fmt::format(" \\\n{}'1{}'", indent, zsh_value(option, names[0]));
       continue;
     }
-    const std::string value = argument.value.empty() ? "" : zsh_value(argument, argument.value);
-    for (const std::string& name : argument.names) {
-      const std::string others =
-          argument.repeatable ? "*" : fmt::format("({})", fmt::join(argument.names, " "));
-      text += fmt::format(" \\\n{}'{}{}[{}]{}'", indent, others, name, zsh_text(argument.meaning), value);
+    const bool repeatable = std::holds_alternative<std::vector<std::string>*>(option.target);
+    const std::string value = option.value.empty() ? "" : zsh_value(option, option.value);
+    for (const std::string& name : names) {
+      const std::string others = repeatable ? "*" : fmt::format("({})", fmt::join(names, " "));
+      text += fmt::format(" \\\n{}'{}{}[{}]{}'", indent, others, name, zsh_text(option.meaning), value);
     }
   }
   return text;
@@ -237,17 +207,17 @@ std::string zsh_arguments(const Command& command, const std::string& indent) {
 std::string zsh_completion(const Command& program) {
   const std::string head =
       fmt::format("#compdef {0}\n# Completion of {0} for zsh, made from its own options.\n", program.name);
-  if (program.commands.empty()) return head + "_arguments" + zsh_arguments(program, "  ") + "\n";
+  if (program.commands.empty()) return head + "_arguments" + zsh_options(all_options(program, true), "  ") + "\n";
   std::string names, cases;
   for (const Command& command : program.commands) {
     names += fmt::format("  '{}:{}'\n", command.name, zsh_text(command.purpose));
-    cases += fmt::format("  {}) _arguments{} ;;\n", command.name, zsh_arguments(command, "      "));
+    cases += fmt::format("  {}) _arguments{} ;;\n", command.name, zsh_options(all_options(command, false), "      "));
   }
   return fmt::format(
       "{}local state line\nlocal -a commands=(\n{})\n_arguments -C{} \\\n  '1: :->command' \\\n"
       "  '*:: :->rest'\n[[ $state == command ]] && _describe command commands\n"
       "[[ $state == rest ]] && case $words[1] in\n{}esac\n",
-      head, names, zsh_arguments(program, "  "), cases);
+      head, names, zsh_options(all_options(program, true), "  "), cases);
 }
 
 }  // namespace
@@ -257,11 +227,10 @@ const std::vector<std::string>& manual_kinds() {
   return kinds;
 }
 
-std::string program_manual(const CLI::App& program, const std::string& kind) {
-  const Command command = command_of(program);
-  if (kind == "man") return man_page(command);
-  if (kind == "bash") return bash_completion(command);
-  if (kind == "zsh") return zsh_completion(command);
+std::string program_manual(const Command& program, const std::string& kind) {
+  if (kind == "man") return man_page(program);
+  if (kind == "bash") return bash_completion(program);
+  if (kind == "zsh") return zsh_completion(program);
   throw std::logic_error("no manual of kind '" + kind + "'");
 }
 

@@ -14,12 +14,11 @@
 #include "pipeline/base/limits.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/files/checksum.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
-#include "pipeline/stage/command_line.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -36,31 +35,22 @@ const char* part_name(Part part) {
   return "";
 }
 
-/// A result that a user can make again at any time: ours, or nothing yet.
-bool may_be_replaced(const StageCall& call) {
-  const FileState state = state_of(call.output);
-  if (!state.exists() || state.size == 0) return true;
-  if (call.info.part) return is_dresslife_file(call.output);
-  return read_text(call.output).find("source: imported from ") != std::string::npos;
-}
+/// What only the command line of a stage says.
+struct StageFlags {
+  bool force = false;
+  std::filesystem::path receipt;
+  std::filesystem::path likes;  ///< names the folders of jobs to which this output belongs, too, line by line
+};
 
-void check_output(const StageCall& call, bool force) {
+void check_output(const StageCall& call, const StageFlags& flags) {
+  if (flags.force) let_replace_files_of_others();
+  if (!flags.receipt.empty()) check_replaceable(flags.receipt);
   if (call.info.may_lack_output && call.output.empty()) return;
-  check_replaceable(call.output);
-  std::error_code failure;
-  for (const StageInput& input : call.inputs)
-    if (std::filesystem::equivalent(input.file, call.output, failure))
-      throw InputError({call.output.string()},
-                       input.file == call.input ? "is the input itself" : "is one of the files that are read",
-                       "name another output after -o");
   const auto folder = call.output.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder, failure))
+  if (!folder.empty() && kind_of(folder) != FileKind::folder)
     throw InputError({call.output.string()}, "lies in a folder that does not exist",
                      fmt::format("make {} first", folder.string()));
-  if (!force && !may_be_replaced(call))
-    throw InputError({call.output.string()},
-                     fmt::format("is there already and no {} of {}'s", call.info.output, call.info.program),
-                     "name another file after -o, or replace it with --force");
+  check_replaceable(call.output);
 }
 
 /// Of the file behind links: inputs may lie anywhere.
@@ -73,6 +63,8 @@ FileState input_state(const std::filesystem::path& file) {
 /// Two changes within one tick of the clock of file times have the same state: of a file that was changed so
 /// lately, or by a clock that ran ahead, the bytes count.
 StageInput input_as_it_is(const std::filesystem::path& file) {
+  if (kind_of(file) == FileKind::other) PlainFile{file};  // refuses it
+  note_input(file);
   constexpr auto tick = std::chrono::milliseconds(10);  // of the slowest kernels
   const FileState state = input_state(file);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -94,6 +86,34 @@ void check_inputs_unchanged(const StageCall& call) {
     if (!is_unchanged(input))
       throw InputError({input.file.string()}, fmt::format("has changed while {} ran", call.info.program),
                        "run it again");
+}
+
+Command command_of(const StageInfo& info, StageCall& call, StageFlags& flags) {
+  std::vector<Option> options{
+      {"input", "", info.input, &call.input, {.required = true}},
+      {"-o,--output", "FILE", "where to write " + info.output, &call.output, {.required = !info.may_lack_output}}};
+  if (!info.input_is_job)
+    options.push_back({"--job", "JOB.yaml", "take the settings from this job instead of the one in the input",
+                       &call.job_file});
+  options.push_back({"--set", "KEY.PATH=VALUE",
+                     "override a key of the job, for example simulation.segments=80; may be repeated",
+                     &call.sets});
+  options.insert(options.end(), info.options.begin(), info.options.end());
+  options.push_back({"--force", "", "replace files that dresslife did not write; never one that it reads", &flags.force});
+  if (info.part) {
+    options.push_back({"--receipt", "FILE",
+                       "note there from what the output is made, and make it only when that has changed",
+                       &flags.receipt, {.needs = info.input_is_job ? "" : "--job"}});
+    options.push_back({"--likes", "FILE",
+                       "a list of folders that get the same output and note, each under its name", &flags.likes,
+                       {.needs = "--receipt"}});
+  }
+  options.push_back(
+      {"--job-time", "SECONDS", "give up after so long", &call.limits.seconds, {.shown_default = ""}});
+  options.push_back(
+      {"--job-memory", "MB", "take no more memory than this", &call.limits.megabytes, {.shown_default = ""}});
+  options.push_back({"--quiet", "", "no progress, no notes", &call.quiet});
+  return {.name = info.program, .purpose = info.purpose, .options = options, .example = info.example};
 }
 
 /// The settings that this stage's result depends on, and the files beside them.
@@ -146,8 +166,8 @@ void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt
   std::istringstream lines(read_text(flags.likes));
   for (std::string line; std::getline(lines, line);) folders.push_back(line);
   for (const std::filesystem::path& folder : folders) {
-    std::filesystem::remove(folder / note);  // it tells of a file that is about to go
-    give_output(call.output, folder / name);
+    remove_ours(folder / note);  // it is of a file that is about to go
+    give_second_name(call.output, folder / name);
   }
   write_receipt(flags.receipt, receipt, call.output);
   for (const std::filesystem::path& folder : folders) write_receipt(folder / note, receipt, folder / name);
@@ -162,7 +182,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
   wanted.recipe = recipe_of(settings.text, settings.files, program_file(), digests);
   wanted.made_with.emplace_back(call.info.program, digests.of(program_file()));
   for (const std::filesystem::path& file : settings.files)
-    wanted.made_with.emplace_back(file.string(), digests.of(file));
+    wanted.made_with.emplace_back(as_seen_from(call.output.parent_path(), file).string(), digests.of(file));
   wanted.input = call.info.input_is_job ? "-" : told_checksum(call.input).value_or("damaged");
   const std::optional<Receipt> known = read_receipt(flags.receipt);
   const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
@@ -172,7 +192,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
     wanted.output = known->output;
     wanted.told = known->told;
   } else {
-    std::filesystem::remove(flags.receipt);  // it tells of a file that is about to go
+    remove_ours(flags.receipt);  // it is of a file that is about to go
     body();
     wanted.output = told_checksum(call.output).value_or("damaged");
     if (call.info.told) wanted.told = call.info.told(call.output);
@@ -197,7 +217,7 @@ void run_body(StageCall& call, const StageFlags& flags,
   if (call.info.part && (call.info.input_is_job || !call.job_file.empty())) settings = settings_of(call);
   if (settings)
     for (const std::filesystem::path& file : settings->files) watch(file);
-  check_output(call, flags.force);
+  check_output(call, flags);
   if (!call.info.input_is_job)  // jobs are short
     call.input_sha256 = beside<std::string>([file = call.input] { return sha256_of_file(file); }).share();
   if (flags.receipt.empty()) return body(call, progress);
@@ -212,8 +232,10 @@ int run_stage(const StageInfo& info, int argc, char** argv,
   end_with_parent();
   StageCall call;
   StageFlags flags;
-  if (const std::optional<int> status = read_command_line(info, argc, argv, call, flags)) return *status;
+  call.info = info;
   return guarded(info.program, [&] {
+    if (const auto status = read_command_line(command_of(info, call, flags), argc, argv)) return *status;
+    call.of_a_study = !flags.receipt.empty();
     run_body(call, flags, body);
     return 0;
   });
@@ -233,20 +255,20 @@ int guarded(const std::string& program, const std::function<int()>& body) {
   } catch (const InputError& problem) {
     tell(fmt::format("{}\n", problem.what()));
     return 1;
+  } catch (const DiskError& problem) {
+    tell(fmt::format("{}\n", problem.what()));
+    return 1;
   } catch (const std::filesystem::filesystem_error& problem) {
     tell(fmt::format("{}: error: {}; check the folder and its permissions\n", problem.path1().string(),
                      problem.code().message()));
     return 1;
   } catch (const std::bad_alloc&) {
-    tell(
-        fmt::format("{}: error: out of memory; run fewer jobs at a time, ask for fewer segments or samples, "
-                    "or allow more\n",
-                    program));
-    return 3;
+    tell(fmt::format("{}: {}", program, out_of_memory_words));
+    return 1;
   } catch (const std::system_error& problem) {
     tell(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits\n",
                      program, problem.what()));
-    return 3;
+    return 1;
   } catch (const std::exception& problem) {
     tell(fmt::format("{}: error: internal fault ({}); please report it with the job\n", program,
                      problem.what()));
@@ -254,11 +276,34 @@ int guarded(const std::string& program, const std::function<int()>& body) {
   }
 }
 
+namespace {
+
+/// Lines of a history: the files beside a job that its simulation reads, by their bytes.
+constexpr std::string_view reads = "\n  reads ";
+std::string files_read(const Job& job) {
+  std::string lines;
+  Digests digests;
+  for (const std::filesystem::path& file : files_beside(job))
+    lines += fmt::format("{}{} xxh3-128 {}", reads, file.filename().string(), digests.of(file));
+  return lines;
+}
+
+/// Those lines of a file's history; nothing of files by older programs.
+std::optional<std::string> files_read(const FileReader& file) {
+  std::istringstream history(file.text_attribute("history"));
+  std::string lines;
+  for (std::string line; std::getline(history, line);)
+    if (("\n" + line).starts_with(reads)) lines += '\n' + line;
+  return lines.empty() ? std::nullopt : std::optional(lines);
+}
+
+}  // namespace
+
 Job job_of(const StageCall& call, const FileReader& input, const std::vector<Part>& before) {
   const std::string own_text = input.text_attribute("job");
   const std::string own_name = input.where().file + " (attribute job)";
   // In a study it is the same text, which need not be understood twice.
-  if (!call.job_file.empty() && call.sets.empty() && read_source(call.job_file) == own_text)
+  if (!call.job_file.empty() && call.sets.empty() && without_mark(read_source(call.job_file)) == own_text)
     return read_job(call.job_file);
   const Job own = job_from(parse_yaml(own_text, own_name));
   const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets)
@@ -269,6 +314,9 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Par
                        fmt::format("was made with other settings of {} than this job has", part_name(part)),
                        fmt::format("run the stage before again with the same --job and --set, then {}",
                                    call.info.program));
+  if (const auto lines = files_read(input); lines && !call.job_file.empty() && *lines != files_read(job))
+    throw InputError(input.where(), "was made with other files beside the job than this job has",
+                     fmt::format("run the stage before again with the same --job, then {}", call.info.program));
   return job;
 }
 
@@ -287,7 +335,9 @@ void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::s
                                  call.input.filename().string());
   if (!call.job_file.empty()) line += " --job " + call.job_file.filename().string();
   for (const std::string& set : call.sets) line += " --set " + set;
-  file.attribute("job", job_text(job));
+  if (call.info.part == Part::sim) line += files_read(job);
+  const std::filesystem::path& described_by = call.job_file.empty() ? call.input : call.job_file;
+  file.attribute("job", stored_job_text(job, described_by.parent_path()));
   file.attribute("history", earlier.empty() ? line : earlier + "\n" + line);
   file.attribute("input_sha256",
                  call.input_sha256.valid() ? call.input_sha256.get() : sha256_of_file(call.input));

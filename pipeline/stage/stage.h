@@ -18,18 +18,12 @@
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/receipt.h"
+#include "pipeline/stage/command_line.h"
 
 namespace dresslife::pipeline {
 
 struct Job;
 enum class Part;
-
-/// An option of one stage only; it may be given several times.
-struct StageOption {
-  std::string name;   ///< "--assume"
-  std::string value;  ///< what it takes: "LINE=then|else"; empty: nothing, the option is there or not
-  std::string meaning;
-};
 
 struct StageInfo {
   std::string program;           ///< "dresslife-sim"
@@ -39,7 +33,7 @@ struct StageInfo {
   std::string example;           ///< a command that can be typed
   bool input_is_job = false;     ///< the input is the job itself; other stages take --job
   bool may_lack_output = false;  ///< without -o nothing is written
-  std::vector<StageOption> options = {};
+  std::vector<Option> options = {};      ///< of this stage only
   std::optional<Part> part = {};  ///< of the job, on which the result depends; nothing: no stage of a study
   /// What the receipt of its output tells, for who does not keep or open that; empty: nothing.
   std::function<std::vector<Told>(const std::filesystem::path& output)> told = {};
@@ -60,7 +54,6 @@ struct StageCall {
   std::filesystem::path input, output;
   std::filesystem::path job_file;  ///< of --job; empty: the job in the input file
   std::vector<std::string> sets;
-  std::vector<std::vector<std::string>> options;  ///< values given for each of info.options
   bool quiet = false;
   std::shared_future<std::string> input_sha256{};  ///< worked out beside the stage, for the stamp
   std::vector<StageInput> inputs{};

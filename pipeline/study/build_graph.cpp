@@ -43,7 +43,6 @@ fs::path receipt_file(const Stage& stage) { return beside(stage, ".receipt"); }
 fs::path log_file(const Stage& stage) { return beside(stage, ".log"); }
 fs::path launcher_log(const Stage& stage) { return beside(stage, ".launcher"); }
 constexpr const char* failure_file = ".stage/failure";
-constexpr const char* memory_file = "memory";  // in a run's notes: who may take how much (pipeline/stage/memory.h)
 std::string program_name(const Stage& stage) { return std::string("dresslife-") + stage.name; }
 
 /// Of all stages, behind links. Errors: InputError when one is missing.
@@ -88,7 +87,10 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     const FileState now = state_of(folder / stage.output);
     const bool removed = !now.exists() && may_lack(state.keep, state.next);
     if (!removed && !is_as_noted(*receipt, folder / stage.output)) {
-      if (now.exists()) state.damaged = stage.output;
+      if (now.exists()) {
+        state.damaged = stage.output;
+        state.foreign = !is_ours(folder / stage.output);
+      }
       return;
     }
     if (!removed && (now != receipt->state || !receipt->state_suffices()))
@@ -120,8 +122,7 @@ std::string failure_key(const JobState& state) { return fmt::format("{}", fmt::j
 
 /// The reason of the last attempt, if it was one with these recipes.
 std::string noted_failure(const JobState& state, const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(folder / failure_file, ignored)) return "";
+  if (!state_of(folder / failure_file).exists()) return "";
   std::istringstream lines(read_text(folder / failure_file));
   std::string key, reason;
   std::getline(lines, key);
@@ -134,7 +135,7 @@ std::string noted_failure(const JobState& state, const fs::path& folder) {
 /// would be first in one file.
 std::string launching(const std::string& launcher, const Stage& stage) {
   if (launcher.empty()) return "";
-  std::string words = "env -u DRESSLIFE_PARENT -u DRESSLIFE_MEMORY ";
+  std::string words = "env -u DRESSLIFE_PARENT ";
   for (const char letter : launcher) words += letter == '$' ? "$$" : std::string(1, letter);
   return words + fmt::format(" sh -c 'exec \"$$0\" \"$$@\" > $job/{} 2>&1' ", log_file(stage).string());
 }
@@ -149,11 +150,10 @@ std::string rules(const StudyPlaces& places, const StageLimits& limits, const st
     // as the stage.
     text += fmt::format(
         "rule {0}\n  command = exec {9}\"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
-        "--force "
-        "--quiet --job-time {6} --job-memory {7}$likes 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
+        "{10}--quiet --job-time {6} --job-memory {7}$likes 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
         stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(),
         limits.seconds, limits.megabytes, (launcher.empty() ? log_file(stage) : launcher_log(stage)).string(),
-        launching(launcher, stage));
+        launching(launcher, stage), replaces_files_of_others() ? "--force " : "");
   }
   return text;
 }
@@ -203,10 +203,9 @@ std::string error_line(const fs::path& log) {
 /// Why a job is not done after a run.
 std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result) {
   const Stage& stage = stages[state.next];
-  std::error_code ignored;
   bool begun = false;
   for (const fs::path& log : {log_file(stage), launcher_log(stage)}) {
-    if (!fs::is_regular_file(folder / log, ignored)) continue;
+    if (!state_of(folder / log).exists()) continue;
     begun = true;
     if (const std::string line = error_line(folder / log); !line.empty()) return line;
   }
@@ -225,18 +224,15 @@ std::string reason_of(const JobState& state, const fs::path& folder, const Build
 
 /// What a stage said is said to all for whom it worked.
 void give_log(const fs::path& from, const fs::path& to, const Stage& stage) {
-  std::error_code ignored;
-  for (const fs::path& log : {log_file(stage), launcher_log(stage)})
-    fs::copy_file(from / log, to / log, fs::copy_options::overwrite_existing, ignored);
+  for (const fs::path& log : {log_file(stage), launcher_log(stage)}) copy_if_there(from / log, to / log);
 }
 
 void join_logs(const fs::path& folder) {
   std::string text;
   for (const Stage& stage : stages) {
-    std::error_code ignored;
-    if (fs::is_regular_file(folder / log_file(stage), ignored))
+    if (state_of(folder / log_file(stage)).exists())
       text += fmt::format("== {}\n{}", program_name(stage), read_text(folder / log_file(stage)));
-    if (fs::is_regular_file(folder / launcher_log(stage), ignored))
+    if (state_of(folder / launcher_log(stage)).exists())
       text += read_text(folder / launcher_log(stage));
   }
   write_text_if_changed(folder / "log", text, Sync::never);
@@ -251,16 +247,18 @@ class Ninja {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
     std::fflush(nullptr);
+    const SignalsHeld until_it_is_noted;
     process_ = ::fork();
     if (process_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (process_ == 0) become_ninja(places, parallel, digests, ends[1]);
+    ended_at_the_end_.emplace(process_);
     ::close(ends[1]);
     said_ = ::fdopen(ends[0], "r");
   }
   ~Ninja() {
     if (said_) std::fclose(said_);
     if (process_ > 0) {  // this program gives up before Ninja is through
-      ::kill(process_, SIGKILL);
+      ::kill(process_, SIGTERM);
       ::waitpid(process_, nullptr, 0);
     }
   }
@@ -280,6 +278,7 @@ class Ninja {
     int status = 0;
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
+    ended_at_the_end_.reset();
     process_ = -1;
     return status;
   }
@@ -290,17 +289,17 @@ class Ninja {
   [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, const std::string& digests,
                                         int said) {
     const pid_t runner = ::getppid();
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // by which it ends its stages and waits for them
     if (::getppid() != runner) ::_exit(1);   // it died before that was said
     ::setenv("NINJA_STATUS", "@%f/%t ", 1);  // a line "@finished/total description" per stage
     // Through the environment goes whatever a folder may be named.
     ::setenv("DRESSLIFE_PROGRAMS", fs::absolute(places.programs).c_str(), 1);
-    ::setenv("DRESSLIFE_MEMORY", (fs::absolute(places.folder) / places.notes() / memory_file).c_str(), 1);
     ::setenv("DRESSLIFE_DIGESTS", digests.c_str(), 1);
     ::setenv("DRESSLIFE_PARENT", std::to_string(::getpid()).c_str(), 1);
     ::dup2(said, STDOUT_FILENO);
     ::dup2(said, STDERR_FILENO);
     const std::string jobs = std::to_string(parallel), graph = places.graph().string();
+    release_signals();
     if (::chdir(places.folder.c_str()) == 0)
       ::execlp("ninja", "ninja", "-f", graph.c_str(), "-k", "0", "-j", jobs.c_str(),
                static_cast<char*>(nullptr));
@@ -308,6 +307,7 @@ class Ninja {
   }
 
   pid_t process_ = -1;
+  std::optional<EndedAtTheEnd> ended_at_the_end_;
   std::FILE* said_ = nullptr;
 };
 
@@ -316,6 +316,8 @@ class Ninja {
 std::string JobState::words() const {
   if (done()) return "done";
   if (!failure.empty()) return "failed   " + failure;
+  if (!damaged.empty() && foreign)
+    return fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force", damaged);
   if (!damaged.empty())
     return fmt::format("damaged  {} is not what its stage wrote; run makes it anew", damaged);
   if (!has_results) return "to do";
@@ -338,11 +340,20 @@ bool may_lack(Keep keep, std::size_t stage) {
   return false;
 }
 
+void forget_damaged(const fs::path& folder) {
+  for (const Stage& stage : stages) {
+    const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
+    const fs::path output = folder / stage.output;
+    if (receipt && state_of(output).exists() && checksum_of(output) != receipt->output)
+      remove_ours(folder / receipt_file(stage));
+  }
+}
+
 void look_at(JobState& state, const fs::path& folder) {
   state.damaged.clear();
   state.compared.clear();
   state.told.clear();
-  if (std::error_code ignored; !fs::exists(folder, ignored)) {  // of thousands that are new
+  if (kind_of(folder) == FileKind::absent) {  // of thousands that are new
     state.failure.clear();
     state.changed.clear();
     state.has_results = state.has_last = false;
@@ -381,11 +392,12 @@ std::uintmax_t remove_unkept(const JobState& state, const fs::path& folder) {
   std::uintmax_t freed = 0;
   for (std::size_t k = 0; state.done() && k < stage_count; ++k) {
     const fs::path output = folder / stages[k].output;
-    std::error_code ignored;
-    if (!may_lack(state.keep, k) || !fs::is_regular_file(fs::symlink_status(output, ignored))) continue;
+    const FileState file = state_of(output);
+    if (!may_lack(state.keep, k) || !file.exists()) continue;
     // Under other jobs' names it stays.
-    const std::uintmax_t size = fs::hard_link_count(output, ignored) > 1 ? 0 : fs::file_size(output, ignored);
-    if (fs::remove(output, ignored)) freed += size;
+    std::error_code ignored;
+    const bool is_last_name = fs::hard_link_count(output, ignored) == 1;
+    if (remove_ours(output) && is_last_name) freed += static_cast<std::uintmax_t>(file.size);
   }
   return freed;
 }
@@ -411,6 +423,17 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, D
   return states;
 }
 
+void check_places(const Study& study, const StudyPlaces& places) {
+  for (const fs::path& name : {places.graph(), fs::path("ranking.csv"), fs::path("report.html")})
+    check_replaceable(places.folder / name);
+  for (const StudyJob& job : study.jobs) {
+    const fs::path folder = places.job(job.name);
+    if (!job.failure.empty() || kind_of(folder) == FileKind::absent) continue;
+    for (const char* name : {"job.yaml", "log", "page.html", "preview.html"}) check_replaceable(folder / name);
+    for (const Stage& stage : stages) check_replaceable(folder / stage.output);
+  }
+}
+
 void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states) {
   for (std::size_t k = 0; k < states.size(); ++k)
     for (const std::size_t stage : states[k].compared) {
@@ -422,10 +445,10 @@ void renew_receipts(const Study& study, const StudyPlaces& places, const std::ve
 void write_build_graph(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states,
                        const StageLimits& limits, const std::string& launcher) {
   const fs::path notes = places.folder / places.notes();
+  make_notes(places.folder / ".stage");
   fs::create_directories(notes);
   for (const char* memory : {".ninja_log", ".ninja_deps"})  // of times, which decide nothing here
-    fs::remove_all(notes / memory);
-  fs::remove_all(notes / memory_file);  // of stages that have ended
+    remove_ours(notes / memory);
   renew_receipts(study, places, states);
   std::string graph = rules(places, limits, launcher);
   const std::vector<Makers> makers = makers_of(study, states);
@@ -435,12 +458,12 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     if (!job.failure.empty()) continue;
     const fs::path folder = places.job(job.name);
     const bool is_new = fs::create_directory(folder);
-    fs::create_directory(folder / ".stage");
-    write_text_if_changed(folder / "job.yaml", job_text(*job.job), Sync::never);
+    make_notes(folder / ".stage");
+    write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml), Sync::never);
     if (states[k].done()) continue;
     for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
       for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])})
-        fs::remove(folder / log);
+        remove_ours(folder / log);
     graph += chain_of(study, places, states[k], k, makers, likes);
   }
   write_text_if_changed(places.folder / places.graph(), graph);
@@ -484,9 +507,9 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
     for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
       if (makers[k][stage] != k)
         give_log(places.job(study.jobs[makers[k][stage]].name), folder, stages[stage]);
-    fs::remove(folder / failure_file);
+    remove_ours(folder / failure_file);
     look_at(states[k], folder);
-    for (const Stage& stage : stages) remove_leftovers(folder / stage.output);
+    remove_leftovers(folder);
     join_logs(folder);
   }
   for (const std::size_t k :

@@ -44,6 +44,7 @@ struct JobState {
   std::size_t next = 0;  ///< the first stage to run; stage_count: the job is done
   std::array<std::string, stage_count> inputs;  ///< checksums of what the stages up to the next read
   std::string damaged;                          ///< "life.h5": is not what its stage wrote
+  bool foreign = false;                         ///< whether `damaged` is a file that no program of ours wrote
   std::string failure;                          ///< why the last attempt with these recipes failed
   bool has_results = false;                     ///< of any settings
   std::vector<Told> told;                       ///< what its life.h5 says, where its receipt tells
@@ -54,7 +55,7 @@ struct JobState {
   Keep keep = Keep::all;
   std::vector<std::size_t> compared;  ///< stages whose bytes had to be compared, as no times vouch for them
   bool done() const { return next == stage_count; }
-  /// "done", "failed   WHY", "damaged  life.h5 ...", "stale" with results of other settings and what changed,
+  /// "done", "failed   WHY", "damaged  life.h5 ...", "foreign  life.h5 ...", "stale" with results of other settings and what changed,
   /// "to do" without any.
   std::string words() const;
 };
@@ -70,6 +71,9 @@ struct StageFiles {
 };
 StageFiles files_of_stage(std::size_t stage);
 
+/// Forgets results of a job that are not what their receipts say: the next run makes them anew. Errors: DiskError.
+void forget_damaged(const std::filesystem::path& folder);
+
 /// Brings a state up to date whose recipes are known.
 void look_at(JobState& state, const std::filesystem::path& folder);
 
@@ -83,6 +87,9 @@ bool may_lack(Keep keep, std::size_t stage);
 
 /// Removes what the study does not keep of a job that is done. Returns the bytes that it took.
 std::uintmax_t remove_unkept(const JobState& state, const std::filesystem::path& folder);
+
+/// Before anything is computed. Errors: InputError where a run would replace a file that is not ours.
+void check_places(const Study& study, const StudyPlaces& places);
 
 /// Notes of outputs whose bytes had to be compared that they need no look the next time.
 void renew_receipts(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states);

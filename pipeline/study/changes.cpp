@@ -24,12 +24,14 @@ bool is_plain(const Node& node) {
 std::string value_words(const Node* value) {
   constexpr std::size_t longest = 40;
   if (!value || value->kind == Node::Kind::null) return "nothing";
-  if (value->is_scalar()) return shortened(value->text, longest);
+  if (value->is_scalar())
+    return value->text.size() <= longest ? value->text : fmt::format("a text of {} letters", value->text.size());
   if (value->is_map()) return fmt::format("{} keys", value->entries.size());
   if (!is_plain(*value)) return fmt::format("{} entries", value->items.size());
   std::vector<std::string> items;
   for (const Node& item : value->items) items.push_back(item.text);
-  return shortened(fmt::format("[{}]", fmt::join(items, ", ")), longest);
+  const std::string list = fmt::format("[{}]", fmt::join(items, ", "));
+  return list.size() <= longest ? list : fmt::format("a list of {}", items.size());
 }
 
 class Comparison {
@@ -66,7 +68,7 @@ std::vector<std::string> changed_settings(const StudyJob& job, const StudyPlaces
       FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("job");
   const fs::path settings =
       places.job(job.name) / "job.yaml";  // of a study that was not expanded, as it is now
-  const std::string now = job.job ? job_text(*job.job) : read_text(settings);
+  const std::string now = job.job ? stored_job_text(*job.job, places.job(job.name)) : read_text(settings);
   return changed_keys(parse_yaml(was, life.string()), parse_yaml(now, settings.string()));
 }
 
@@ -80,10 +82,11 @@ std::vector<std::string> changed_files(const fs::path& folder, const StudyPlaces
     if (!receipt || (later && receipt->output != later->input)) break;
     for (const auto& [what, digest] : receipt->made_with) {
       const bool program = what.starts_with("dresslife-");
-      const std::string& now = digests.of(program ? places.programs / what : fs::path(what));
+      const fs::path file = program ? places.programs / what : (folder / what).lexically_normal();
+      const std::string& now = digests.of(file);
       if (now == digest) continue;
       const char* how = program ? "is another program" : now == "absent" ? "is gone" : "has changed";
-      changed.push_back(fmt::format("{} {}", what, how));
+      changed.push_back(fmt::format("{} {}", program ? what : file.string(), how));
     }
     later = receipt;
   }

@@ -13,16 +13,29 @@
 #include <thread>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/limits.h"
+#include "pipeline/base/whole_file.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The process that took the lock last; 0: not told.
-long owner_of(int descriptor) {
-  char text[32] = "";
-  return ::pread(descriptor, text, sizeof text - 1, 0) > 0 ? std::strtol(text, nullptr, 10) : 0;
+constexpr const char* lock_name = ".lock";
+
+constexpr std::size_t note_bytes = 21;  // a process number, blanks and a line feed
+
+/// The process that took the lock last; 0: not known. Errors: InputError when it is a file of another kind.
+long owner_of(int descriptor, const fs::path& file) {
+  char text[note_bytes + 2] = "";
+  const bool is_plain = state_of(descriptor, file).exists();
+  const ssize_t got = is_plain ? read_some(descriptor, text, note_bytes + 1, 0) : 0;
+  if (got < 0) throw DiskError(file.string(), errno);
+  if (!is_plain || got > static_cast<ssize_t>(note_bytes) ||
+      text[std::strspn(text, "0123456789 \n")] != '\0')
+    throw InputError({file.string()}, "is there already and is no lock of dresslife's",
+                     "move it away, or choose another folder with -o");
+  return std::strtol(text, nullptr, 10);
 }
 
 bool lives(long process) {
@@ -41,8 +54,13 @@ std::string run_of(long process) {
 
 void take(int descriptor, const fs::path& folder, int how) {
   constexpr std::chrono::milliseconds most{10'000}, pause{20};  // a killed process ends in milliseconds
-  for (std::chrono::milliseconds waited{0}; ::flock(descriptor, how | LOCK_NB) != 0; waited += pause) {
-    const long owner = owner_of(descriptor);
+  for (std::chrono::milliseconds waited{0};; waited += pause) {
+    const LockState state = take_lock(descriptor, how);
+    if (state == LockState::taken) return;
+    if (state == LockState::not_known_here)
+      return tell(fmt::format(
+          "note: {} lies on a file system without locks: let no two runs write there at a time\n", folder.string()));
+    const long owner = owner_of(descriptor, folder / lock_name);
     if (lives(owner) || waited >= most)
       throw InputError({folder.string()}, "is in use by " + run_of(owner),
                        "wait for it, or choose another folder with -o");
@@ -54,14 +72,16 @@ void take(int descriptor, const fs::path& folder, int how) {
 
 FolderLock::FolderLock(const fs::path& folder, Held held) {
   fs::create_directories(folder);
-  descriptor_ =
-      ::open((folder / ".lock").c_str(), O_CREAT | O_RDWR | O_NOFOLLOW, 0644);  // passes to the stages
+  descriptor_ = ::open((folder / lock_name).c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK,
+                       0644);  // passes to the stages
   if (descriptor_ < 0) refuse(folder);
+  owner_of(descriptor_, folder / lock_name);
   take(descriptor_, folder, held == Held::alone ? LOCK_EX : LOCK_SH);
   // As long for every process: over an earlier one's there is room on a full disk, too, which `clean` would
   // empty.
   const std::string own = fmt::format("{:<20}\n", held == Held::alone ? std::to_string(::getpid()) : "");
   if (::pwrite(descriptor_, own.data(), own.size(), 0) != static_cast<ssize_t>(own.size())) refuse(folder);
+  remove_leftovers(folder);
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

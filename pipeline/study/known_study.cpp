@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "pipeline/base/installation.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/files/words.h"
 #include "pipeline/study/relative_life.h"
 
@@ -46,7 +46,7 @@ std::string digest_of(const StudyRequest& request) {
 
 std::string noted(const std::string& found) { return found == "yes" || found == "no" ? found : xxh3(found); }
 
-constexpr std::string_view title = "dresslife study 2";
+constexpr std::string_view title = "dresslife study 3";
 
 /// Whether every look that a line tells of finds the same now.
 bool finds_the_same(Words& line) {
@@ -68,8 +68,7 @@ JobState state_from(Words& line, std::string& name, FileState& settings) {
 }
 
 std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces& places) {
-  std::error_code failure;
-  if (!fs::is_regular_file(memory_of(places), failure)) return std::nullopt;
+  if (!state_of(memory_of(places)).exists()) return std::nullopt;
   const std::string text = read_text(memory_of(places));
   const std::int64_t written = state_of(memory_of(places)).changed_ns;
   Words lines(text);
@@ -85,6 +84,10 @@ std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces&
       if (!finds_the_same(lines)) return std::nullopt;
     } else if (what == "keep") {
       standing.study.keep = static_cast<Keep>(lines.number<int>('\n'));
+    } else if (what == "varied") {
+      standing.study.varied.emplace_back(lines.until('\n'));
+    } else if (what == "value") {
+      standing.study.jobs.back().values.emplace_back(lines.until('\n'));
     } else if (what == "digest") {
       const std::string_view was = lines.until(' ');
       if (standing.digests.of(lines.until('\n')) != was) return std::nullopt;
@@ -101,7 +104,7 @@ std::optional<Standing> recalled(const StudyRequest& request, const StudyPlaces&
   return standing;
 }
 
-/// What a look or a digest was of stands at the end of a line.
+/// What a look or a digest was of, and what was varied, stands at the end of a line.
 bool fits_a_line(const std::string& path) { return path.find('\n') == std::string::npos; }
 
 /// Nothing of a study that would not be read back as it is.
@@ -116,6 +119,10 @@ std::optional<std::string> text_of(const StudyRequest& request, const Standing& 
     text += fmt::format("digest {} {}\n", digest, file.string());
   }
   text += fmt::format("keep {}\n", static_cast<int>(standing.study.keep));
+  for (const std::string& key : standing.study.varied) {
+    if (!fits_a_line(key)) return std::nullopt;
+    text += fmt::format("varied {}\n", key);
+  }
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     const JobState& state = standing.states[k];
@@ -125,6 +132,10 @@ std::optional<std::string> text_of(const StudyRequest& request, const Standing& 
     text += fmt::format("job {} {} {} {} {} {} {} {} {}\n", job.name, state.settings, state.recipes[0],
                         state.recipes[1], state.recipes[2], settings.size, settings.modified_ns,
                         settings.changed_ns, settings.inode);
+    for (const std::string& value : job.values) {
+      if (!fits_a_line(value)) return std::nullopt;
+      text += fmt::format("value {}\n", value);
+    }
   }
   return fmt::format("{}\n{}\n", title, xxh3(text)) + text;
 }
@@ -161,7 +172,7 @@ void remember(const StudyRequest& request, const Standing& standing) {
   const fs::path memory = memory_of(standing.places);
   const std::optional<std::string> text = text_of(request, standing);
   if (!text) {
-    fs::remove(memory);
+    remove_ours(memory);
     return;
   }
   // Younger than every job.yaml by the file system's clock, which ticks every 1 .. 10 ms.

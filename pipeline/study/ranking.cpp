@@ -10,12 +10,14 @@
 #include <map>
 #include <string_view>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
-#include "pipeline/life/life_response.h"
+#include "pipeline/life/first_failure.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/row_words.h"
 #include "pipeline/study/shown_rows.h"
 #include "pipeline/study/study_problems.h"
 
@@ -75,6 +77,19 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
     row.measure_next = file.text_attribute("measure_next");
     row.measure_next_share = file.number_attribute("measure_next_share");
   }
+  if (file.has_attribute("failing_mode")) {
+    row.failing_mode = file.text_attribute("failing_mode");
+    row.failing_mode_share = file.number_attribute("failing_mode_share");
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      read(fmt::format("life_hours_{}_all_glued", ends[i]), row.glued_hours[i]);
+      read(fmt::format("life_hours_{}_all_free", ends[i]), row.free_hours[i]);
+    }
+  }
+  if (file.has_attribute("best_test")) {
+    row.best_test = file.text_attribute("best_test");
+    row.tested_p10 = file.number_attribute("best_test_life_hours_p10");
+    row.tested_p90 = file.number_attribute("best_test_life_hours_p90");
+  }
   row.failing_conductor = file.text_attribute("failing_conductor");
   row.failing_position_from_tool = file.number_attribute("failing_position_from_tool");
 }
@@ -130,6 +145,7 @@ RankingRow read_row(const JobResult& result) {
       row.hours_mean_stress_kept = file.number_attribute("life_hours_mean_stress_kept");
       row.hours_without_mean_stress = file.number_attribute("life_hours_without_mean_stress");
     }
+    if (file.has_attribute("estimates")) row.estimates = file.text_attribute("estimates");
     if (file.has_attribute("warnings")) row.warnings = warnings_from(file.text_attribute("warnings"));
     if (file.number_attribute("worst_site") < 0) return row;
     row.worst_segment_from_tool = count_attribute(file, "worst_segment_from_tool");
@@ -149,26 +165,41 @@ RankingRow read_row(const JobResult& result) {
   return row;
 }
 
-/// How sure the order of neighbours is: what their jobs share is drawn once for both. Draws get fewer the more jobs there are, and
-/// beyond `most` jobs nobody reads the order of two of them.
+/// (sample) log10 hours of a row; empty: not known. A response that cannot be read makes a failed row.
+std::vector<double> lives_of(RankingRow& row, std::size_t samples) {
+  if (!row.done() || row.life_response.empty()) return {};
+  try {
+    std::vector<double> lives = first_failures(modes_from_text(row.life_response), row.job, samples);
+    for (double& life : lives) life += std::log10(row.repeat_seconds / 3600);
+    return lives;
+  } catch (const std::invalid_argument& problem) {
+    row.failure =
+        fmt::format("{}: attribute 'life_response' is no response ({}); make the file anew with dresslife-fatigue",
+                    row.life_file.string(), problem.what());
+    return {};
+  }
+}
+
+/// Ranks, and how sure the order of neighbours is. What jobs share has the same samples in both. A job shares
+/// the rank of the first job before it from which it cannot be separated. There are fewer samples the more
+/// jobs there are; beyond `most` jobs nobody reads the order of two of them.
 void tell_orders(std::vector<RankingRow>& rows) {
-  constexpr std::size_t most = 1000, draws_in_all = 2'000'000;
-  if (rows.size() < 2 || rows.size() > most) return;
-  const std::size_t draws = std::min(life_draws, draws_in_all / rows.size());
-  std::vector<double> before;  // log10 hours (draw)
+  constexpr std::size_t most = 1000, samples_in_all = 2'000'000;
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].rank = rows[k].done() ? k + 1 : 0;
+  if (rows.empty() || rows.size() > most) return;
+  const std::size_t samples = std::min(life_samples, samples_in_all / rows.size());
+  std::vector<double> before, leader;
+  std::size_t rank = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    std::vector<double> lives;
-    if (rows[k].done() && !rows[k].life_response.empty()) {
-      try {
-        lives = draw_lives(LifeResponse::from_text(rows[k].life_response), rows[k].job, draws);
-      } catch (const std::invalid_argument& problem) {
-        rows[k].failure = fmt::format(
-            "{}: attribute 'life_response' is no response ({}); make the file anew with dresslife-fatigue",
-                                      rows[k].life_file.string(), problem.what());
-      }
-      for (double& life : lives) life += std::log10(rows[k].repeat_seconds / 3600);
-    }
-    if (!before.empty() && !lives.empty()) rows[k - 1].outlives_next = share_outliving(before, lives);
+    std::vector<double> lives = lives_of(rows[k], samples);
+    if (!rows[k].done()) rows[k].rank = 0;
+    const bool known = !lives.empty();
+    if (known && !before.empty()) rows[k - 1].outlives_next = share_outliving(before, lives);
+    const bool tied = known && !leader.empty() && share_outliving(leader, lives) < separated_share;
+    if (tied)
+      rows[k].rank = rank;
+    else
+      leader = lives, rank = rows[k].rank;
     before = std::move(lives);
   }
 }
@@ -180,28 +211,6 @@ bool better(const RankingRow& one, const RankingRow& other) {
     return one.headline_hours() > other.headline_hours();
   if (one.has_result() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
   return one.job < other.job;
-}
-
-/// Text that a spreadsheet would take for a formula begins with an apostrophe, and no letter acts on a
-/// terminal.
-std::string harmless(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  const bool number = !text.empty() && *end == '\0';
-  const bool formula =
-      !number && !text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos;
-  return shown(formula ? "'" + text : text);
-}
-
-std::string csv_cell(const std::string& written) {
-  const std::string text = harmless(written);
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"') quoted += '"';
-    quoted += letter;
-  }
-  return quoted + '"';
 }
 
 /// One column of the terminal's table, as wide as its widest cell.
@@ -221,36 +230,35 @@ struct Column {
 };
 
 std::string bounds_text(const RankingRow& row) {
-  return fmt::format("{} .. {}", life_text(row.hours_of(row.life_repeats_all_stick)),
-                     life_text(row.hours_of(row.life_repeats_all_free)));
+  const bool planned = !std::isnan(row.glued_hours[0]);
+  return fmt::format("{} .. {}", life_text(planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick)),
+                     life_text(planned ? row.free_hours[0] : row.hours_of(row.life_repeats_all_free)));
 }
 
-std::string segment_text(const RankingRow& row) {
-  if (row.worst_segment_from_tool == 0 || !(row.damage_per_repeat > 0)) return "-";
-  return fmt::format("{} ({:.2f} m)", row.worst_segment_from_tool, row.worst_position_from_tool);
+std::string planned_text(const RankingRow& row, std::size_t share) {
+  return row.planned() ? life_text(row.planned_hours[share]) : "-";
 }
 
-/// What breaks and what moved then; the second line of a job.
-std::string story(const RankingRow& row) {
-  if (row.worst_component.empty()) return "no wire was evaluated";
-  if (!(row.damage_per_repeat > 0)) return "no damage";
-  const std::string during = row.worst_step.empty() ? "" : " during '" + row.worst_step + "'";
-  return fmt::format("{} breaks first, worst at {:.1f} s{}", row.worst_component, row.worst_time, during);
-}
-
-/// When first wires break in a fleet, which joint does it, and the hose; the third line, empty where nothing
-/// is known.
-std::string more_story(const RankingRow& row) {
-  std::vector<std::string> parts;
-  const bool damaged = !row.worst_component.empty() && row.damage_per_repeat > 0;
-  if (damaged && row.planned())
-    parts.push_back(fmt::format("p50 {}, p90 {}", life_text(row.planned_hours[1]), hours_text(row.planned_hours[2])));
-  if (damaged && !std::isnan(row.first_wire_hours[0]))
-    parts.push_back(fmt::format("first wire after {} .. {} by scatter alone",
-                                life_text(row.first_wire_hours[0]), hours_text(row.first_wire_hours[2])));
-  if (damaged && !row.worst_joint.empty()) parts.push_back(joint_words(row));
-  if (row.hose) parts.push_back("hose's wall " + hose_life_words(row.hose->hours));
-  return fmt::format("{}", fmt::join(parts, "; "));
+/// What stands below the table of one job, a paragraph each.
+std::vector<std::string> paragraphs(const RankingRow& row) {
+  std::vector<std::string> all;
+  if (row.stale)
+    all.push_back(stale_words(row));
+  else if (!(row.done() || row.waits()))
+    all.push_back(row.failure);
+  if (!row.has_result()) return all;
+  if (row.done())
+    if (const std::string kinds = warning_kinds(row); !kinds.empty()) all.push_back("WARNING: " + kinds);
+  all.push_back(uncertainty_words(row));
+  all.push_back(failure_words(row));
+  if (row.planned() && std::isfinite(row.first_wire_hours[0]))
+    all.push_back(fmt::format("By the scatter of wires alone a first wire breaks after {}.",
+                              range_text(row.first_wire_hours[0], row.first_wire_hours[2])));
+  all.push_back(hose_words(row));
+  if (row.done() && row.relative) all.push_back(relative_words(*row.relative));
+  if (row.done()) all.push_back(order_words(row));
+  std::erase(all, "");
+  return all;
 }
 
 std::string one_line(std::string text) {
@@ -318,22 +326,6 @@ std::string stale_words(const RankingRow& row) {
                      row.changed.empty() ? "" : "; since this result " + row.changed);
 }
 
-std::string certainty_words(const RankingRow& row) {
-  std::vector<std::string> parts;
-  if (row.outlives_next) parts.push_back(fmt::format("outlives the next in {:.0f} % of draws", 100 * *row.outlives_next));
-  if (!row.measure_next.empty() && row.measure_next_share > 0)
-    for (const UncertainParameter& parameter : uncertain_parameters())
-      if (parameter.name == row.measure_next)
-        parts.push_back(fmt::format("{:.0f} % of its spread by {}; measure next: {}", 100 * row.measure_next_share,
-                                    parameter.name, parameter.measure));
-  return fmt::format("{}", fmt::join(parts, "; "));
-}
-
-std::string joint_words(const RankingRow& row) {
-  if (row.worst_joint_share > 1) return fmt::format("all by {}, which others relieve", row.worst_joint);
-  return fmt::format("{:.0f} % by {}", 100 * row.worst_joint_share, row.worst_joint);
-}
-
 std::string force_words(const RankingRow& row) {
   if (row.force_ok()) return "";
   std::vector<std::string> parts;
@@ -345,72 +337,98 @@ std::string force_words(const RankingRow& row) {
   return fmt::format("{}", fmt::join(parts, " and "));
 }
 
+namespace {
+
+std::vector<std::string> csv_columns() {
+  std::vector<std::string> columns{
+      "job", "life_repeats", "life_hours", "worst_segment_from_tool", "worst_component", "damage_per_repeat",
+      "life_months", "life_repeats_all_stick", "life_repeats_all_free", "worst_position_from_tool_m", "worst_time_s",
+      "worst_step", "status", "message", "life_hours_p10", "life_hours_p50", "life_hours_p90",
+      "conductor_life_hours_p10", "conductor_life_hours_p50", "conductor_life_hours_p90", "hose_life_hours",
+      "hose_segment_from_tool", "hose_position_from_tool_m", "worst_joint", "worst_joint_share", "worst_dresspack",
+      "settings", "largest_force_share", "clamp_moment_share", "force_ok", "life_hours_mean_stress_kept",
+      "life_hours_without_mean_stress", "life_months_p10", "life_hours_all_stick", "life_hours_all_free",
+      "first_wire_life_hours_p10", "first_wire_life_hours_p50", "first_wire_life_hours_p90", "failing_conductor",
+      "failing_position_from_tool_m", "rated_cycles_per_hour", "relative_life_hours", "rated_cable",
+      "scatter_life_hours_p10", "scatter_life_hours_p50", "scatter_life_hours_p90", "outlives_next", "life_shares",
+      "measure_next", "measure_next_share"};
+  for (const std::string& column : warning_columns()) columns.push_back(column);
+  for (const char* column :
+       {"loose_mesh_error", "estimates", "rank", "failing_mode", "failing_mode_share", "life_hours_p10_all_glued",
+        "life_hours_p50_all_glued", "life_hours_p90_all_glued", "life_hours_p10_all_free", "life_hours_p50_all_free",
+        "life_hours_p90_all_free", "best_test", "best_test_life_hours_p10", "best_test_life_hours_p90"})
+    columns.push_back(column);
+  return columns;
+}
+
+/// Empty where it is not known.
+std::string number_text(double value) { return std::isnan(value) ? "" : shortest_text(value); }
+std::string number_text(const std::optional<double>& value) { return value ? shortest_text(*value) : ""; }
+
+/// The cells of a row with a result, in the order of the columns.
+std::vector<std::string> cells_of(const RankingRow& row) {
+  const bool evaluated = row.worst_segment_from_tool > 0;
+  std::vector<std::string> cells{row.job,
+                                 shortest_text(row.life_repeats),
+                                 shortest_text(row.life_hours),
+                                 evaluated ? std::to_string(row.worst_segment_from_tool) : "",
+                                 row.worst_component,
+                                 shortest_text(row.damage_per_repeat),
+                                 shortest_text(row.life_months),
+                                 shortest_text(row.life_repeats_all_stick),
+                                 shortest_text(row.life_repeats_all_free),
+                                 evaluated ? shortest_text(row.worst_position_from_tool) : "",
+                                 evaluated ? shortest_text(row.worst_time) : "",
+                                 row.worst_step,
+                                 row.stale ? "stale" : "done",
+                                 row.stale ? stale_words(row) : ""};
+  const auto add = [&](std::initializer_list<std::string> more) { cells.insert(cells.end(), more); };
+  const auto add_each = [&](const std::array<double, 3>& lives) {
+    for (const double life : lives) cells.push_back(number_text(life));
+  };
+  add_each(row.planned() ? row.planned_hours : row.first_wire_hours);
+  add_each(row.conductor_hours);
+  add({row.hose ? shortest_text(row.hose->hours) : "", row.hose ? std::to_string(row.hose->segment_from_tool) : "",
+       row.hose ? shortest_text(row.hose->position_from_tool) : "", row.worst_joint,
+       row.worst_joint.empty() ? "" : shortest_text(row.worst_joint_share), row.worst_dresspack, row.settings,
+       number_text(row.largest_force_share), number_text(row.clamp_moment_share),
+       !row.clamp_moment_share ? "" : row.force_ok() ? "yes" : "no", number_text(row.hours_mean_stress_kept),
+       number_text(row.hours_without_mean_stress), row.planned() ? shortest_text(row.planned_months) : "",
+       shortest_text(row.hours_of(row.life_repeats_all_stick)), shortest_text(row.hours_of(row.life_repeats_all_free))});
+  add_each(row.first_wire_hours);
+  add({row.failing_conductor, row.failing_conductor.empty() ? "" : shortest_text(row.failing_position_from_tool),
+       row.relative ? shortest_text(row.relative->cycles_per_hour) : "",
+       row.relative ? shortest_text(row.relative->hours()) : "", row.relative ? row.relative->cable : ""});
+  add_each(row.scatter_hours);
+  add({number_text(row.outlives_next), row.life_shares, row.measure_next,
+       row.measure_next.empty() ? "" : shortest_text(row.measure_next_share)});
+  for (const std::string& cell : warning_cells(row)) cells.push_back(cell);
+  add({number_text(row.loose_mesh_error), row.estimates, row.rank ? std::to_string(row.rank) : "", row.failing_mode,
+       row.failing_mode.empty() ? "" : shortest_text(row.failing_mode_share)});
+  add_each(row.glued_hours);
+  add_each(row.free_hours);
+  add({row.best_test, number_text(row.tested_p10), number_text(row.tested_p90)});
+  return cells;
+}
+
+}  // namespace
+
 std::string ranking_csv(const std::vector<RankingRow>& rows) {
-  std::string text =
-      "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,life_months,"
-      "life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,worst_time_s,worst_step,"
-      "status,message,life_hours_p10,life_hours_p50,life_hours_p90,conductor_life_hours_p10,"
-      "conductor_life_hours_p50,conductor_life_hours_p90,hose_life_hours,hose_segment_from_tool,"
-      "hose_position_from_tool_m,worst_joint,worst_joint_share,worst_dresspack,settings,largest_force_share,"
-      "clamp_moment_share,force_ok,life_hours_mean_stress_kept,life_hours_without_mean_stress,"
-      "life_months_p10,life_hours_all_stick,life_hours_all_free,first_wire_life_hours_p10,"
-      "first_wire_life_hours_p50,first_wire_life_hours_p90,failing_conductor,failing_position_from_tool_m,"
-      "rated_cycles_per_hour,relative_life_hours,rated_cable,scatter_life_hours_p10,scatter_life_hours_p50,"
-      "scatter_life_hours_p90,outlives_next,life_shares,measure_next,measure_next_share" +
-      fmt::format(",{},loose_mesh_error\n", fmt::join(warning_columns(), ","));
+  const std::vector<std::string> columns = csv_columns();
+  const auto place_of = [&](const char* column) {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+  };
+  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
   for (const RankingRow& row : rows) {
-    if (!row.has_result()) {
-      text += fmt::format("{},,,,,,,,,,,,{},{},,,,,,,,,,,,,{},,,,,,,,,,,,,,,,,,,,,,,{}\n", csv_cell(row.job),
-                          row.waits() ? row.failure : "failed", csv_cell(row.failure), row.settings,
-                          std::string(warning_columns().size() + 1, ','));
-      continue;
+    std::vector<std::string> cells(columns.size());
+    if (row.has_result()) {
+      cells = cells_of(row);
+    } else {
+      cells[place_of("job")] = row.job;
+      cells[place_of("status")] = row.waits() ? row.failure : "failed";
+      cells[place_of("message")] = row.failure;
+      cells[place_of("settings")] = row.settings;
     }
-    const bool evaluated = row.worst_segment_from_tool > 0;
-    std::vector<std::string> cells{row.job,
-                                   shortest_text(row.life_repeats),
-                                   shortest_text(row.life_hours),
-                                   evaluated ? std::to_string(row.worst_segment_from_tool) : "",
-                                   row.worst_component,
-                                   shortest_text(row.damage_per_repeat),
-                                   shortest_text(row.life_months),
-                                   shortest_text(row.life_repeats_all_stick),
-                                   shortest_text(row.life_repeats_all_free),
-                                   evaluated ? shortest_text(row.worst_position_from_tool) : "",
-                                   evaluated ? shortest_text(row.worst_time) : "",
-                                   row.worst_step,
-                                   row.stale ? "stale" : "done",
-                                   row.stale ? stale_words(row) : ""};
-    const auto& first = row.planned() ? row.planned_hours : row.first_wire_hours;
-    for (const auto* lives : {&first, &row.conductor_hours})
-      for (const double life : *lives) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
-    cells.push_back(row.hose ? shortest_text(row.hose->hours) : "");
-    cells.push_back(row.hose ? std::to_string(row.hose->segment_from_tool) : "");
-    cells.push_back(row.hose ? shortest_text(row.hose->position_from_tool) : "");
-    cells.push_back(row.worst_joint);
-    cells.push_back(row.worst_joint.empty() ? "" : shortest_text(row.worst_joint_share));
-    cells.push_back(row.worst_dresspack);
-    cells.push_back(row.settings);
-    for (const auto& share : {row.largest_force_share, row.clamp_moment_share})
-      cells.push_back(share ? shortest_text(*share) : "");
-    cells.push_back(!row.clamp_moment_share ? "" : row.force_ok() ? "yes" : "no");
-    for (const auto& hours : {row.hours_mean_stress_kept, row.hours_without_mean_stress})
-      cells.push_back(hours ? shortest_text(*hours) : "");
-    cells.push_back(row.planned() ? shortest_text(row.planned_months) : "");
-    for (const double bound : {row.life_repeats_all_stick, row.life_repeats_all_free})
-      cells.push_back(shortest_text(row.hours_of(bound)));
-    for (const double life : row.first_wire_hours) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
-    cells.push_back(row.failing_conductor);
-    cells.push_back(row.failing_conductor.empty() ? "" : shortest_text(row.failing_position_from_tool));
-    cells.push_back(row.relative ? shortest_text(row.relative->cycles_per_hour) : "");
-    cells.push_back(row.relative ? shortest_text(row.relative->hours()) : "");
-    cells.push_back(row.relative ? row.relative->cable : "");
-    for (const double life : row.scatter_hours) cells.push_back(std::isnan(life) ? "" : shortest_text(life));
-    cells.push_back(row.outlives_next ? shortest_text(*row.outlives_next) : "");
-    cells.push_back(row.life_shares);
-    cells.push_back(row.measure_next);
-    cells.push_back(row.measure_next.empty() ? "" : shortest_text(row.measure_next_share));
-    for (const std::string& cell : warning_cells(row)) cells.push_back(cell);
-    cells.push_back(row.loose_mesh_error ? shortest_text(*row.loose_mesh_error) : "");
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + csv_cell(cells[i]);
     text += '\n';
   }
@@ -418,53 +436,62 @@ std::string ranking_csv(const std::vector<RankingRow>& rows) {
 }
 
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width) {
-  constexpr std::size_t longest_name = 32;
+  constexpr std::size_t told_at_length = 3;  // of a long ranking: nobody reads more on a terminal
   std::array<Column, 7> columns{{{"", true, {}},
                                  {"job", false, {}},
-                                 {"p10 life [h]", true, {}},
-                                 {"wire stuck .. free [h]", true, {}},
+                                 {"replace after [h]", true, {}},
                                  {"calendar", true, {}},
-                                 {"repeats", true, {}},
-                                 {"segment from tool", true, {}}}};
+                                 {"half failed [h]", true, {}},
+                                 {"90 % failed [h]", true, {}},
+                                 {"replace if glued .. free [h]", true, {}}}};
   const ShownRows selected = shown_rows(rows);
   for (const std::size_t k : selected.indices) {
     const RankingRow& row = rows[k];
     const std::array<std::string, 7> cells =
-        row.has_result() ? std::array<std::string, 7>{row.stale ? "-" : std::to_string(k + 1),
-                                                      "",
+        row.has_result() ? std::array<std::string, 7>{row.rank ? std::to_string(row.rank) : "-",
+                                                      one_line(row.job),
                                                       (row.stale ? "stale " : "") + life_text(row.headline_hours()),
-                                                      bounds_text(row),
                                                       calendar_text(row.headline_months()),
-                                                      life_text(row.headline_repeats()),
-                                                      segment_text(row)}
-                         : std::array<std::string, 7>{"-", "", row.waits() ? row.failure : "failed", "", "", "", ""};
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      columns[i].cells.push_back(i == 1 ? shortened(one_line(row.job), longest_name) : cells[i]);
+                                                      planned_text(row, 1),
+                                                      planned_text(row, 2),
+                                                      bounds_text(row)}
+                         : std::array<std::string, 7>{"-", one_line(row.job), row.waits() ? row.failure : "failed",
+                                                      "", "", "", ""};
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
   }
+  // A name for which the table has no room stands in a line of its own, above the job's numbers.
+  std::size_t numbers = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) numbers += i == 1 ? 0 : columns[i].width() + 2;
+  std::vector<std::string> above(selected.indices.size());
+  for (std::size_t k = 0; k < above.size(); ++k)
+    if (std::string& name = columns[1].cells[k]; numbers + columns_of(name) > width) above[k].swap(name);
   const auto line = [&](auto cell_of) {
     std::string text;
     for (const Column& column : columns) text += column.padded(cell_of(column)) + "  ";
     return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
   };
-  std::string text = line([](const Column& column) { return column.title; });
   const std::string indent(columns[0].width() + 2, ' ');
+  const auto below = [&](const std::string& words) { return wrapped(one_line(words), width, indent); };
+  std::string text, details;
+  if (rows.size() == 1 && rows[0].done()) text += wrapped(action_words(rows[0]), width, "") + '\n';
+  text += line([](const Column& column) { return column.title; });
   for (std::size_t i = 0; i < selected.indices.size(); ++i) {
     const RankingRow& row = rows[selected.indices[i]];
-    if (i > 0 && selected.indices[i] != selected.indices[i - 1] + 1) text += indent + "...\n";
+    if (i > 0 && selected.indices[i] != selected.indices[i - 1] + 1) text += indent + "(more)\n";
+    if (!above[i].empty()) text += indent + above[i] + '\n';
     text += line([i](const Column& column) { return column.cells[i]; });
-    // A reason for failure is kept whole: its end is the remedy.
-    if (row.stale || !(row.done() || row.waits())) text += indent + one_line(row.stale ? stale_words(row) : row.failure) + '\n';
-    if (row.has_result()) text += indent + shortened(one_line(story(row)), width - indent.size()) + '\n';
-    if (const std::string kinds = row.done() ? warning_kinds(row) : ""; !kinds.empty())
-      text += indent + shortened("WARNING: " + kinds, width - indent.size()) + '\n';
-    const std::string third = row.has_result() ? one_line(more_story(row)) : "";
-    if (!third.empty()) text += indent + shortened(third, width - indent.size()) + '\n';
-    if (row.done() && row.relative)
-      text += indent + shortened(one_line(relative_words(*row.relative)), width - indent.size()) + '\n';
-    const std::string certainty = row.done() ? certainty_words(row) : "";
-    if (!certainty.empty()) text += indent + shortened(certainty, width - indent.size()) + '\n';
+    if (row.done() && selected.indices[i] >= told_at_length && !selected.summary.empty()) continue;
+    std::string words;
+    if (const std::string action = action_words(row); rows.size() > 1 && row.done() && !action.starts_with("Plan"))
+      words += below(action);
+    for (const std::string& paragraph : paragraphs(row)) words += below(paragraph);
+    if (!words.empty()) details += '\n' + (rows.size() > 1 ? one_line(row.job) + '\n' : "") + words;
   }
-  return text + selected.summary;
+  text += details;
+  std::string estimates;
+  for (const std::string& one : estimate_words(rows)) estimates += wrapped(one_line(one), width, "");
+  if (!estimates.empty()) text += '\n' + shown(estimates);
+  return selected.summary.empty() ? text : text + '\n' + selected.summary;
 }
 
 }  // namespace dresslife::pipeline

@@ -77,7 +77,14 @@ struct RankingRow {
   std::string life_shares;    ///< which parameters explain its spread: "friction_inside 53 %; strength 29 %"
   std::string measure_next;   ///< the parameter that explains most; empty: none but the scatter of wires
   double measure_next_share = 0;
-  std::optional<double> outlives_next;    ///< share of draws in which it lives longer than the next row's job
+  std::optional<double> outlives_next;    ///< share of samples in which it lives longer than the next row's job
+  std::size_t rank = 0;  ///< 1 is best; jobs that cannot be separated share one. 0: no result of now
+  /// planned_hours if everything inside the cables were glued, and if it slipped freely, over the same samples.
+  std::array<double, 3> glued_hours{unknown, unknown, unknown}, free_hours{unknown, unknown, unknown};
+  std::string failing_mode;       ///< what fails first in most of the samples: "wires of signal cable"
+  double failing_mode_share = 0;  ///< in which share of them
+  std::string best_test;  ///< the parameter whose test narrows planned_hours most; empty: none does
+  double tested_p10 = unknown, tested_p90 = unknown;  ///< planned_hours after that test
   double planned_months = unknown;        ///< of the first of them, by the calendar
   std::string failing_conductor;          ///< where that is likeliest; empty: unknown or nowhere
   double failing_position_from_tool = 0;  ///< [m]
@@ -92,6 +99,7 @@ struct RankingRow {
   std::optional<double> largest_force_share, clamp_moment_share;
   std::optional<double>
       loose_mesh_error;  ///< share of loose cables' curvature that their mesh misses; absent: none lies loose
+  std::string estimates;  ///< keys that the dresspacks leave out, with their estimated values; empty: none, or not known
   /// The worst wire's life if its mean stress never relaxed, and if mean stress did nothing; absent: not
   /// known.
   std::optional<double> hours_mean_stress_kept, hours_without_mean_stress;
@@ -123,6 +131,10 @@ struct RankingRow {
   }
 };
 
+/// Jobs are separated when one lives longer in so many of the samples: then 1 of 10 such comparisons is wrong,
+/// as often as the planner's life is.
+constexpr double separated_share = 0.9;
+
 /// One row per job, best life first, equal lives by name, failed jobs last. A life file that is missing or
 /// cannot be read makes a failed row with the reason; nothing is thrown.
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results);
@@ -148,18 +160,12 @@ std::string hose_life_words(double hours);
 /// "one hour does the damage of 1,200 rated cycles of lead; 5,000,000 rated: 4,200 h (torsion: ..)"
 std::string relative_words(const RelativeLife& relative);
 
-/// What the worst joint's motion costs, in words: "41 % by joint_6", "all by joint_4, which others relieve".
-std::string joint_words(const RankingRow& row);
-
-/// "outlives the next in 93 % of draws; friction_inside makes 53 % of its spread: measure ..."; empty where
-/// nothing is uncertain.
-std::string certainty_words(const RankingRow& row);
-
 /// "cables pull with 0.34 of what tears them, ..." where forces are not believable; else nothing.
 std::string force_words(const RankingRow& row);
 
-/// The ranking for a terminal, two lines per job and a third on its scatter, joint and hose where they are
-/// known, at most `width` columns; ends with a line feed.
+/// The ranking for a terminal: of one job first what to do; then a table with a line per job, and below it
+/// the rest of each job in sentences (row_words.h), in lines of at most `width` columns. Nothing is cut off.
+/// Ends with a line feed.
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width = 120);
 
 }  // namespace dresslife::pipeline

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/cable_alone.h"
@@ -115,12 +116,6 @@ const RankingRow* row_of(const std::vector<RankingRow>& rows, const std::string&
   return found == rows.end() ? nullptr : &*found;
 }
 
-std::string quoted(const std::string& text) {
-  std::string cell = "\"";
-  for (const char letter : text) cell += letter == '"' ? "\"\"" : std::string(1, letter);
-  return cell + '"';
-}
-
 /// "respected" where half of such cables reach what the maker promises.
 std::string verdict(double rated, double predicted) {
   if (rated == 0 || std::isnan(predicted)) return "";
@@ -168,22 +163,24 @@ CycleLives cycles_of(const RankingRow& row) {
 
 std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows) {
   std::string text, cable;
+  std::size_t wide = 46;
+  for (const RatedTest& test : rated.tests) wide = std::max(wide, columns_of(test.rig));
   for (const RatedTest& test : rated.tests) {
     if (test.cable != cable) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", test.cable);
     if (test.cable != cable)
-      text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", "rig", "cycles", "10 .. 90 %",
+      text += fmt::format("  {:<{}} {:>12} {:>27} {:>27}  {}\n", "rig", wide, "cycles", "10 .. 90 %",
                           "inside stuck .. free", "maker");
     cable = test.cable;
     const RankingRow* row = row_of(rows, test.job);
     if (!row || !row->done()) {
-      text += fmt::format("  {:<46} {}\n", shortened(test.rig, 46), row ? row->failure : "not computed");
+      text += fmt::format("  {:<{}} {}\n", test.rig, wide, row ? row->failure : "not computed");
       continue;
     }
     const CycleLives lives = cycles_of(*row);
     std::string maker = test.rated_cycles > 0 ? readable(test.rated_cycles) : "";
     if (const std::string words = verdict(test.rated_cycles, lives.conductor[1]); !words.empty())
       maker += " (" + words + ")";
-    text += fmt::format("  {:<46} {:>12} {:>27} {:>27}  {}\n", shortened(test.rig, 46),
+    text += fmt::format("  {:<{}} {:>12} {:>27} {:>27}  {}\n", test.rig, wide,
                         life_text(lives.conductor[1]),
                         life_text(lives.conductor[0]) + " .. " + life_text(lives.conductor[2]),
                         life_text(lives.all_stick) + " .. " + life_text(lives.all_free), maker);
@@ -201,14 +198,14 @@ std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows
   for (const RatedTest& test : rated.tests) {
     const RankingRow* row = row_of(rows, test.job);
     const bool done = row && row->done();
-    std::vector<std::string> cells{quoted(test.cable), quoted(test.job), quoted(test.rig),
-                                   done ? "done" : quoted(row ? row->failure : "to do")};
+    std::vector<std::string> cells{csv_cell(test.cable), csv_cell(test.job), csv_cell(test.rig),
+                                   done ? "done" : csv_cell(row ? row->failure : "to do")};
     const CycleLives lives = done ? cycles_of(*row) : CycleLives{};
     for (const double value : {lives.conductor[0], lives.conductor[1], lives.conductor[2], lives.worst_wire,
                                lives.all_stick, lives.all_free})
       cells.push_back(done && !std::isnan(value) ? shortest_text(value) : "");
     cells.push_back(test.rated_cycles > 0 ? shortest_text(test.rated_cycles) : "");
-    cells.push_back(quoted(test.source));
+    cells.push_back(csv_cell(test.source));
     text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;

@@ -9,7 +9,7 @@
 #include <set>
 #include <string_view>
 
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/cable_alone.h"

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "pipeline/base/normal_numbers.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
+#include "pipeline/base/random.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 
@@ -18,19 +18,6 @@ namespace {
 
 constexpr const char* ways =
     "write !normal {mean: M, deviation: S}, !uniform [LOW, HIGH] or !choice [A, B, ...]";
-
-/// Of a standard normal number to be below z.
-double share_below(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
-
-/// Its inverse, by halving.
-double normal_quantile(double share) {
-  double low = -40, high = 40;  // beyond, the share is 0 or 1 in double precision
-  for (int k = 0; k < 64; ++k) {
-    const double middle = (low + high) / 2;
-    (share_below(middle) < share ? low : high) = middle;
-  }
-  return (low + high) / 2;
-}
 
 struct Bounds {
   std::vector<double> values;
@@ -72,7 +59,7 @@ Distribution::Normal Distribution::normal_from(const std::string& path, const No
   Normal normal;
   read_fields(under("normal", written),
               Describe([&](Fields& f) { f.group("normal", normal, Need::required, ""); }));
-  const auto below = [&](double value) { return share_below((value - normal.mean) / normal.deviation); };
+  const auto below = [&](double value) { return normal_share((value - normal.mean) / normal.deviation); };
   normal.share_below = normal.at_least ? below(*normal.at_least) : 0;
   normal.share_within = (normal.at_most ? below(*normal.at_most) : 1) - normal.share_below;
   constexpr double least_share = 1e-6;  // below it quantiles would be made of the rounding of shares
@@ -123,7 +110,7 @@ Node Distribution::value_at(double u) const {
 std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path,
                                  std::size_t count) {
   const std::string digest = xxh3(fmt::format("{} {}", seed, path));
-  NormalNumbers numbers(std::stoull(digest.substr(0, 16), nullptr, 16));
+  RandomNumbers numbers(std::stoull(digest.substr(0, 16), nullptr, 16));
   std::vector<double> drawn(count);
   for (double& u : drawn) u = numbers.uniform();
   if (method == SamplingMethod::random) return drawn;

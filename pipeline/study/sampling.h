@@ -22,6 +22,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/study/variant.h"
 
 namespace dresslife::pipeline {
@@ -53,13 +54,7 @@ class Distribution {
 
 enum class SamplingMethod { latin_hypercube, random };
 constexpr std::string_view word(SamplingMethod value) {
-  switch (value) {
-    case SamplingMethod::latin_hypercube:
-      return "latin_hypercube";
-    case SamplingMethod::random:
-      return "random";
-  }
-  return {};
+  return word_at({"latin_hypercube", "random"}, value);
 }
 
 /// `count` numbers between 0 and 1, neither of them, for the key at a path.

@@ -42,11 +42,10 @@ void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std:
   const StageFiles files = files_of_stage(stage);
   const bool is_there = state_of(from / files.output).exists();
   for (const fs::path& to : folders) {
-    fs::create_directories(to / ".stage");
-    fs::remove(to / files.receipt);  // it tells of a file that is about to go
-    if (is_there) give_output(from / files.output, to / files.output);
-    std::error_code none;
-    fs::copy_file(from / files.log, to / files.log, fs::copy_options::overwrite_existing, none);
+    make_notes(to / ".stage");
+    remove_ours(to / files.receipt);  // it is of a file that is about to go
+    if (is_there) give_second_name(from / files.output, to / files.output);
+    copy_if_there(from / files.log, to / files.log);
   }
   if (is_there)
     renew_receipt(from / files.receipt, from / files.output);  // another name changed one of its times

@@ -11,9 +11,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/whole_file.h"
 
 namespace dresslife::pipeline {
 
@@ -24,13 +26,17 @@ int run_stage_program(const std::string& program, const std::vector<std::string>
   words.push_back(nullptr);
   constexpr int not_there = 127;
   std::fflush(nullptr);
+  std::optional<SignalsHeld> until_it_is_noted(std::in_place);
   const pid_t parent = ::getpid(), child = ::fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (child == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    release_signals();
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() == parent) ::execv(file.c_str(), words.data());
     ::_exit(not_there);
   }
+  const EndedAtTheEnd ended_at_the_end(child);
+  until_it_is_noted.reset();
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -45,15 +51,19 @@ PassingFile::PassingFile(const std::string& name) {
   const char* const wanted = std::getenv("TMPDIR");
   const std::filesystem::path folder = wanted && *wanted ? wanted : "/tmp";
   std::string own = (folder / "dresslife-XXXXXX").string();
+  const SignalsHeld until_it_is_noted;
   if (!::mkdtemp(own.data()))
     throw InputError({folder.string()}, fmt::format("takes no temporary folder ({})", std::strerror(errno)),
                      "make room there, or set TMPDIR to a folder that may be written");
   file_ = std::filesystem::path(own) / name;
+  folder_at_the_end_.emplace(own);
+  file_at_the_end_.emplace(file_);
 }
 
 PassingFile::~PassingFile() {
-  std::error_code ignored;
-  std::filesystem::remove_all(file_.parent_path(), ignored);
+  remove_leftovers(file_.parent_path());
+  remove_ours(file_);
+  remove_empty(file_.parent_path());
 }
 
 }  // namespace dresslife::pipeline

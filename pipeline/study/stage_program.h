@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "pipeline/base/last_moment.h"
 
 namespace dresslife::pipeline {
 
@@ -23,6 +26,7 @@ class PassingFile {
 
  private:
   std::filesystem::path file_;
+  std::optional<RemovedAtTheEnd> folder_at_the_end_, file_at_the_end_;
 };
 
 }  // namespace dresslife::pipeline

@@ -119,12 +119,19 @@ std::vector<std::string> varied_of(const Node& study) {
   return varied;
 }
 
+/// Files of a job may have longer names than its folder; file systems take 255 letters.
+constexpr std::size_t longest_name = 200;
+
 StudyJob make_job(const Node& base, const Variant& variant, const std::string& fallback_name,
                   const std::vector<std::string>& sets) {
   StudyJob made;
   made.name = folder_name(variant.name.empty() ? fallback_name : variant.name);
   made.values = variant.values;
   try {
+    if (made.name.size() > longest_name)
+      throw InputError(base.where,
+                       fmt::format("a job's name has {} letters (at most {} fit a folder)", made.name.size(), longest_name),
+                       "name it under 'jobs', or shorten the values that make its name");
     Node document = base;
     for (const Change& change : variant.changes) set_value(document, change.path, change.value, change.where);
     made.job = std::make_shared<const Job>(job_from(std::move(document), sets));

@@ -18,6 +18,8 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
+
 namespace dresslife::pipeline {
 
 struct Job;
@@ -35,17 +37,7 @@ enum class Keep {
   histories,  ///< strain.h5 and life.h5: of which wires other materials make lives
   lives,      ///< what the ranking says, in its receipts: no result's file
 };
-constexpr std::string_view word(Keep value) {
-  switch (value) {
-    case Keep::all:
-      return "all";
-    case Keep::histories:
-      return "histories";
-    case Keep::lives:
-      return "lives";
-  }
-  return {};
-}
+constexpr std::string_view word(Keep value) { return word_at({"all", "histories", "lives"}, value); }
 
 struct Study {
   std::string name;

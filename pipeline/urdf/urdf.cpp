@@ -385,14 +385,19 @@ class Chain {
     }
   }
 
-  /// ROS-Industrial calls the frame of the controller's programs `base`.
+  /// ROS-Industrial calls the frame of the controller's programs `base`. Fixed joints lead to it from the root,
+  /// or from the base that slides.
   void add_base(Tree& robot) const {
-    const auto base = model_.getLink("base");
-    if (!base || !base->parent_joint || base->parent_joint->type != urdf::Joint::FIXED ||
-        base->getParent().get() != carriers_[0].link)
-      return;
-    const Isometry3d frame = transform(base->parent_joint->parent_to_joint_origin_transform);
-    if (frame.linear().isIdentity(1e-9)) robot.vector("program_base_m", frame.translation());
+    const urdf::Link* link = model_.getLink("base").get();
+    if (!link) return;
+    Isometry3d frame = Isometry3d::Identity();
+    for (; link != carriers_[0].link; link = link->getParent().get()) {
+      if (!link->parent_joint || link->parent_joint->type != urdf::Joint::FIXED) return;
+      frame = transform(link->parent_joint->parent_to_joint_origin_transform) * frame;
+    }
+    robot.vector("program_base_m", frame.translation());
+    if (!frame.linear().isIdentity(1e-9))
+      robot.vector("program_base_rpy_deg", degrees * roll_pitch_yaw(frame.linear()));
   }
 
   Node joint_node(std::size_t k) const {

@@ -154,19 +154,4 @@ std::vector<Mesh::Touching> Mesh::near(const Vector3& from, const Vector3& to, d
   return kept;
 }
 
-std::vector<Triangle> box_triangles(const Frame& frame, const Vector3& sides) {
-  const auto corner = [&](int k) {
-    const Vector3 sign(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-    return frame.point(0.5 * sign.cwiseProduct(sides));
-  };
-  constexpr int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                               {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  std::vector<Triangle> triangles;
-  for (const auto& f : faces) {
-    triangles.push_back({corner(f[0]), corner(f[1]), corner(f[2])});
-    triangles.push_back({corner(f[0]), corner(f[2]), corner(f[3])});
-  }
-  return triangles;
-}
-
 }  // namespace dresslife::sim

@@ -60,7 +60,4 @@ class Mesh {
   double radius_ = 0;
 };
 
-/// The twelve triangles of a box centred on `frame`.
-std::vector<Triangle> box_triangles(const Frame& frame, const Vector3& sides);
-
 }  // namespace dresslife::sim

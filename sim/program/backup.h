@@ -6,6 +6,9 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "sim/program/import.h"
 
@@ -26,6 +29,21 @@ bool is_backup(const std::filesystem::path& program);
 /// could be meant.
 Backup backup_of(const std::filesystem::path& program, const std::string& routine);
 
+/// What a program calls, told without running it.
+struct Calls {
+  std::string name;             ///< in lower case; empty: the file holds no program
+  std::set<std::string> names;  ///< that it calls, in lower case
+  bool moves = false;
+};
+using CallGraph = std::map<std::string, Calls>;  // by the programs' names
+
+/// Whether a program, or one that it calls, moves the robot.
+bool moves(const std::string& program, const CallGraph& graph);
+/// Programs that move the robot and that no other one calls; the main one alone where one has that name.
+std::vector<std::string> uncalled_programs(const CallGraph& graph);
+/// The one start. Errors: InputError where there is none ("holds no WHAT that moves"), or where there are several.
+std::string only_start(const std::filesystem::path& folder, std::vector<std::string> choices, const char* what);
+
 /// The programs of one language among `files` of `folder`.
 Backup rapid_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
                     const std::string& routine);
@@ -33,5 +51,7 @@ Backup krl_backup(const std::filesystem::path& folder, const std::vector<std::fi
                   const std::string& routine);
 Backup fanuc_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
                     const std::string& routine);
+Backup inform_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
+                     const std::string& routine);
 
 }  // namespace dresslife::sim

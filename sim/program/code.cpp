@@ -17,6 +17,13 @@ const Routine* Code::find(const std::string& name, int module) const {
   return found == global_.end() ? nullptr : found->second.front();
 }
 
+const Routine* Code::find_in(const std::string& module, const std::string& name) const {
+  for (const Routine& routine : routines)
+    if (routine.name == name && routine.module >= 0 && modules[routine.module].name == module)
+      return &routine;
+  return nullptr;
+}
+
 const Code::Scope& Code::scope_of(const Routine& routine) const {
   return routine.local && routine.module >= 0 ? local_[routine.module] : global_;
 }

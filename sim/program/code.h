@@ -75,6 +75,7 @@ struct Statement {
   std::vector<Branch> branches;
   bool keeps_counter = false;  ///< FOR: its variable is the program's, and goes on behind the loop
   bool elsewhere = false;      ///< declare: without a value here because another task's module gives it
+  bool constant = false;       ///< declare: nothing can write to it
   Place place;
 };
 
@@ -95,6 +96,7 @@ struct Routine {
   std::vector<Problem> problems;           ///< of its lines; they count when it is run
   Place handler;                           ///< of errors (RAPID's ERROR, UNDO, BACKWARD)
   std::vector<std::string> handler_words;  ///< in it, in lower case; it is not run
+  std::string robot;  ///< of an INFORM job: "rb1" that it moves, "rb1,rb2"; empty: none is named
 };
 
 /// What has names of its own: a RAPID module; a KRL program with the data list of its name.
@@ -108,11 +110,15 @@ struct Module {
 struct Datum {
   Statement statement;
   int module = -1;
-  bool local = false;  ///< known in its module alone
+  bool local = false;      ///< known in its module alone
+  bool by_backup = false;  ///< a value of the time of the backup: it counts where no program gives one
 };
 
 /// Name of an instruction whose first argument tells the routine that it calls: %"step" + ValToStr(n)%;
 inline constexpr const char* late_binding = "%";
+
+/// Name of the instruction that stands where nobody wrote a statement; the program ends behind it.
+inline constexpr const char* unwritten_statement = "<SMT>";
 
 /// Fields of a record, in their order; types: of records within, null for single values.
 struct RecordType {
@@ -122,6 +128,13 @@ struct RecordType {
   std::vector<std::string> field_types{};  ///< of a KRL structure, in lower case; else empty
   std::vector<int> sizes{};                ///< likewise: of fields that are lists, else 0
   int optional_from = 1'000'000;           ///< fields from here on may be left out
+  bool indexed = false;                    ///< its fields have numbers, too: URScript's pose[2]
+};
+
+/// An answer that is safe: what controllers are delivered with.
+struct Preset {
+  std::string text;
+  Expression value;
 };
 
 struct Code {
@@ -134,12 +147,15 @@ struct Code {
   std::map<std::string, Expression> values;  ///< that the user gives; names in lower case, without blanks
   /// "file.mod:12" or "12" -> the value by which an undecided TEST or SWITCH chooses.
   std::map<std::string, Expression> choices;
+  std::map<std::string, Preset> presets;              ///< of names that the user may give, likewise
   std::map<std::string, std::string> written_beside;  ///< ImportOptions::written_beside, and submit programs
   std::string start;  ///< routine to run, in lower case; empty: the language's own
   std::vector<Expression> start_arguments;
 
   /// The routine that a name means within a module: its own local one, else the one of all modules.
   const Routine* find(const std::string& name, int module) const;
+  /// The routine of that name which stands in that module; null: there is none.
+  const Routine* find_in(const std::string& module, const std::string& name) const;
   /// Another routine that the same name means as well; null: there is none.
   const Routine* rival(const Routine& routine) const;
   const RecordType* record(const std::string& name) const;

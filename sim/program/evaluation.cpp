@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/program/interpreter.h"
+#include "sim/program/request.h"
 
 namespace dresslife::sim {
 namespace {
@@ -65,28 +66,43 @@ std::optional<double> Interpreter::number(const Expression& expression) {
   return value.is_number() ? std::optional(value.number) : std::nullopt;
 }
 
+Value Interpreter::answered(const Expression& expression) {
+  const std::size_t problems = problem_count();
+  Value value = evaluate(expression);
+  // A list has parts that are asked for by their own names, and in KRL such as are not set.
+  if (value.known() || value.kind == Value::Kind::list || problem_count() != problems) return value;
+  const std::string text = written(expression);
+  if (std::optional<Value> known = given_here(text)) return *known;
+  const std::vector<const Cause*> causes = value.causes();
+  const bool named = std::any_of(causes.begin(), causes.end(), [](const Cause* cause) {
+    return !cause->asked().empty() || !cause->line.empty();
+  });
+  if (named || text.empty()) return value;
+  return unknown_value(name_here(text), causes.empty() ? "is not known offline" : causes[0]->why);
+}
+
 Value Interpreter::call_value(const Expression& expression) {
   if (const Routine* routine = routine_named(expression.text, expression.place))
     return call(*routine, expression.items, expression.place);
   std::optional<Value> value = dialect_.function(expression, *this);
   if (value && value->known()) return *value;
   // An input by its function, or a routine of a file that is not there: the user may know.
-  if (std::optional<Value> known = given(expression.text)) return *known;
+  if (std::optional<Value> known = given_here(expression.text)) return *known;
   if (value && value->first_cause()) return *value;
-  for (const Expression& argument : expression.items)
-    if (Value cause = why_unknown(argument); cause.cause) return cause;
+  if (const Value cause = why_unknown(expression.items); cause.cause) return cause;
   if (value) return unknown_value(expression.text, "is a function of what the robot meets");
   forget_arguments(expression.text, expression.items, expression.place);
   return unknown_value(expression.text, "is a function that no file read holds");
 }
 
-/// What makes an expression unknown, found without running anything twice.
-Value Interpreter::why_unknown(const Expression& expression) {
-  if (expression.kind == Kind::name || expression.kind == Kind::field || expression.kind == Kind::element)
-    return unknown_value(evaluate(expression));
-  for (const Expression& item : expression.items)
-    if (Value cause = why_unknown(item); cause.cause) return cause;
-  return {};
+/// What makes expressions unknown, found without running anything twice.
+Value Interpreter::why_unknown(const std::vector<Expression>& expressions) {
+  Value why;
+  for (const Expression& e : expressions) {
+    const bool data = e.kind == Kind::name || e.kind == Kind::field || e.kind == Kind::element;
+    why = unknown_value(why, data ? evaluate(e) : why_unknown(e.items));
+  }
+  return why;
 }
 
 // ---- variables --------------------------------------------------------------------------------------------
@@ -100,7 +116,8 @@ void Interpreter::index_data() {
     Scope& scope = datum.local && datum.module >= 0 ? module_data_[datum.module] : globals_;
     if (code_.values.contains(datum.statement.name)) scopes[datum.statement.name].insert(&scope);
     Variable& variable = scope[datum.statement.name];
-    if (!variable.datum) {
+    if (variable.datum && datum.by_backup) continue;
+    if (!variable.datum || variable.datum->by_backup) {
       variable.datum = &datum;
       variable.written = datum.statement.place;
     } else if (!variable.rival && !same_declaration(*variable.datum, datum)) {
@@ -112,6 +129,23 @@ void Interpreter::index_data() {
       complain(code_.values.at(name).place,
                fmt::format("is a name that {} modules have each for themselves", holders.size()),
                fmt::format("write --value MODULE:{}=...", name));
+  count_holders();
+}
+
+/// How many routines and modules declare each name.
+void Interpreter::count_holders() {
+  for (const Scope& scope : module_data_)
+    for (const auto& [name, variable] : scope) ++holders_[name];
+  for (const auto& [name, variable] : globals_) ++holders_[name];
+  for (const Routine& routine : code_.routines) {
+    std::set<std::string> names;
+    for (const Parameter& parameter : routine.parameters) names.insert(parameter.name);
+    for (const Statement& statement : routine.body)
+      if (statement.kind == Statement::Kind::declare) names.insert(statement.name);
+    for (const std::string& name : names) ++holders_[name];
+  }
+  for (int module = 0; module < static_cast<int>(code_.modules.size()); ++module)
+    modules_apart_ += !dialect_.shares("name", module);
 }
 
 namespace {
@@ -177,6 +211,7 @@ std::optional<Value> Interpreter::given_for(const Datum& datum) {
   if (datum.module >= 0)
     value = given(fmt::format("{}:{}", code_.modules[datum.module].name, statement.name));
   if (!value) value = given(statement.name);
+  if (!value && statement.elsewhere) value = dialect_.constant(statement.name);  // a frame that the user gives
   if (const RecordType* type = dialect_.type_of(statement.text);
       value && type && statement.arguments.size() == 1)
     if (!shape(*value, type))
@@ -192,11 +227,45 @@ const Value* Interpreter::variable(const std::string& name) {
   return found ? ready(*found) : nullptr;
 }
 
+std::string Interpreter::answer_name(const std::string& path) {
+  const std::string base = path.substr(0, path.find_first_of(".["));
+  const auto known = holders_.find(base);
+  const int holders = known == holders_.end() ? 0 : known->second;
+  if (!locals_.empty() && !routines_.empty() && locals_.back().contains(base))
+    return holders > 1 ? routines_.back()->name + ":" + path : path;
+  if (module_ < 0 || path.starts_with("$")) return path;
+  const bool own = module_data_[module_].contains(base);
+  const bool apart = !own && !globals_.contains(base) && modules_apart_ > 1 && dialect_.is_of_module(base) &&
+                     !dialect_.shares(base, module_);
+  return (own && holders > 1) || apart ? code_.modules[module_].name + ":" + path : path;
+}
+
 std::optional<Value> Interpreter::given(const std::string& name) {
-  const auto found = code_.values.find(name);
+  if (exploration_.supposes(name)) return evaluate(code_.presets.at(name).value);
+  if (code_.values.empty()) return {};
+  const std::string unique = answer_name(name);
+  const auto own = code_.values.find(unique);
+  const auto found = own != code_.values.end() ? own : code_.values.find(name);
   if (found == code_.values.end()) return {};
-  used_values_.insert(name);
+  used_values_.insert(found->first);
+  const std::string& first = given_to_.emplace(found->first, unique).first->second;
+  if (found->first != unique && first != unique)
+    miss("shared " + name, found->second.place, fmt::format("is a name that {} and {} mean each for themselves", first, unique),
+         fmt::format("give each its own value: --value '{}=...' and --value '{}=...'", first, unique),
+         {{Question::Kind::value, first, form_of(name)}, {Question::Kind::value, unique, form_of(name)}});
   return evaluate(found->second);
+}
+
+std::string Interpreter::name_here(const std::string& what) const { return short_place(here_) + ":" + what; }
+
+std::optional<Value> Interpreter::given_here(const std::string& what) {
+  if (code_.values.empty()) return {};
+  for (const std::string& name : {value_key(name_here(what)), value_key(what)})
+    if (const auto found = code_.values.find(name); found != code_.values.end()) {
+      used_values_.insert(name);
+      return evaluate(found->second);
+    }
+  return {};
 }
 
 Place Interpreter::origin(const Expression& expression) {
@@ -219,6 +288,10 @@ std::string Interpreter::written(const Expression& expression) const {
     const char c = line[end];
     if (c == '(' || c == '[' || c == '{') ++depth;
     if ((c == ')' || c == ']' || c == '}') && --depth < 0) break;
+    if (expression.kind == Kind::call && depth == 0 && (c == ')' || c == ']')) {
+      ++end;
+      break;
+    }
     if (depth == 0 && (c == ',' || c == ';' || c == '\\')) break;
   }
   while (end > 0 && line[end - 1] == ' ') --end;
@@ -254,10 +327,10 @@ Value* Interpreter::locate(const Expression& expression) {
   if (!whole) return nullptr;
   if (expression.kind == Kind::field) return const_cast<Value*>(whole->field(expression.text));
   for (double index : indices) {
-    if (whole->kind != Value::Kind::list || whole->type) return nullptr;
+    if (whole->kind != Value::Kind::list || (whole->type && !whole->type->indexed)) return nullptr;
     const auto count = static_cast<double>(whole->items.size());
     if (!(index >= 1 && index <= count) || index != std::trunc(index)) {
-      complain(expression.place, fmt::format("has the index {} of a list of {}", index, count),
+      complain(expression.place, fmt::format("has the index {} of a list of {}", index - 1 + dialect_.first_index(), count),
                "mend the index (the controller stops here)");
       return nullptr;
     }
@@ -290,7 +363,7 @@ std::optional<Value> Interpreter::value_written_beside(const Expression& express
   if (written == code_.written_beside.end() || own) return {};
   const std::string path = path_of(expression);
   if (std::optional<Value> value = given(path)) return value;
-  return unknown_value(path.empty() ? base->text : path,
+  return unknown_value(answer_name(path.empty() ? base->text : path),
                        fmt::format("may be written by {}, which runs beside", written->second));
 }
 
@@ -315,8 +388,11 @@ Value Interpreter::name_value(const Expression& expression) {
     }
     // A part of an element that is kept by its path.
     const Value whole = locate(expression.items[0]) ? Value{} : name_value(expression.items[0]);
-    if (expression.kind == Kind::field && whole.kind == Value::Kind::list)
-      if (const Value* part = whole.field(expression.text)) return *part;
+    if (const Value* part = part_of_given(const_cast<Value&>(whole), expression)) return *part;
+    if (whole.kind == Value::Kind::unknown && expression.items[0].text.starts_with("$") &&
+        dialect_.constant(expression.items[0].text))  // all of where the robot stands, not its parts one by one
+      if (std::optional<Value> part = given(path_of(expression)); part || whole.cause)
+        return part ? *part : whole;
     if (std::optional<Value> character = character_of(expression)) return *character;
   }
   if (const Value* value = locate(expression)) {
@@ -324,14 +400,14 @@ Value Interpreter::name_value(const Expression& expression) {
     if (!code_.values.empty() && unset(*value))
       if (std::optional<Value> known = given(path_of(expression))) return *known;
     const bool unnamed = value->kind == Value::Kind::unknown && value->cause && value->cause->name.empty();
-    return unnamed ? unknown_value(path_of(expression), value->cause->why) : *value;
+    return unnamed ? unknown_value(answer_name(path_of(expression)), value->cause->why) : *value;
   }
   if (expression.kind == Kind::name)
     if (std::optional<Value> value = dialect_.constant(expression.text)) return *value;
   const std::string path = path_of(expression);
   if (path.empty()) return unknown_index(expression);
   if (std::optional<Value> value = given(path)) return *value;
-  return unknown_value(path, path.starts_with("$") ? "is a variable of the system that no file read sets"
+  return unknown_value(answer_name(path), path.starts_with("$") ? "is a variable of the system that no file read sets"
                                                    : "is a name that no file read declares");
 }
 
@@ -371,9 +447,11 @@ void Interpreter::assign(const Expression& target, Value value) {
     complain(target.place, "grows without end", "mend the assignment");
     value = {};
   }
-  if (Value* place = locate(target)) {
+  Value* place = locate(target);
+  if (!place) place = given_part(target);
+  if (place) {
     if (place->type && value.kind == Value::Kind::list && !value.type) shape(value, place->type);
-    if (value.kind == Value::Kind::unknown) value = forgotten(*place, value.cause);
+    if (value.kind == Value::Kind::unknown) value = forgotten(*place, typed_cause(value, place->type));
     dialect_.store(*place, std::move(value));
     if (Variable* variable = base_of(target)) {
       variable->written = target.place;
@@ -383,7 +461,7 @@ void Interpreter::assign(const Expression& target, Value value) {
   }
   if (Value* whole = target.kind == Kind::element ? locate(target.items[0]) : nullptr;
       whole && whole->kind == Value::Kind::text) {  // KRL: a letter of a text
-    *whole = unknown_value(path_of(target.items[0]), "is written letter by letter");
+    *whole = unknown_value(answer_name(path_of(target.items[0])), "is written letter by letter");
     return;
   }
   const std::string path = path_of(target);
@@ -405,6 +483,56 @@ void Interpreter::assign(const Expression& target, Value value) {
                                         .assigned = true});
 }
 
+/// Of an unknown value that goes to a record: how it is written is known then.
+std::shared_ptr<const Cause> Interpreter::typed_cause(const Value& unknown, const RecordType* type) const {
+  if (!unknown.cause || !type || !unknown.cause->form.empty() || unknown.cause->behind) return unknown.cause;
+  Cause cause = *unknown.cause;
+  cause.form = dialect_.form_of(type->name);
+  return std::make_shared<const Cause>(std::move(cause));
+}
+
+/// A component or an element of what the user gives; null: it has none of that name or number. A list without
+/// a type takes that of the record which has such a component.
+Value* Interpreter::part_of_given(Value& whole, const Expression& part) {
+  if (whole.kind != Value::Kind::list) return nullptr;
+  if (part.kind == Kind::field) {
+    for (const RecordType& type : code_.records)
+      if (!whole.type && std::find(type.fields.begin(), type.fields.end(), part.text) != type.fields.end())
+        shape(whole, &type);
+    return const_cast<Value*>(whole.field(part.text));
+  }
+  Value* found = &whole;
+  for (std::size_t i = 1; i < part.items.size(); ++i) {
+    const auto index = number(part.items[i]);
+    if (!index || found->type || !(*index >= 1 && *index <= static_cast<double>(found->items.size())))
+      return nullptr;
+    found = &found->items[static_cast<std::size_t>(*index) - 1];
+  }
+  return found;
+}
+
+/// The part, to be written to, of what the user gives: from then on it is a variable of the program.
+Value* Interpreter::given_part(const Expression& expression) {
+  if (expression.kind != Kind::field && expression.kind != Kind::element) return nullptr;
+  const Expression& outer = expression.items[0];
+  Value* whole = locate(outer);
+  if (const std::string path = whole ? "" : path_of(outer); !path.empty()) {
+    Variable* kept = find(path);
+    std::optional<Value> value;
+    if (!kept) value = dialect_.constant(path);
+    if (!kept && (!value || !value->known())) value = given(path);
+    if (value && value->kind == Value::Kind::list) {
+      kept = &scope_of(path)[path];
+      kept->state = Variable::State::ready;
+      kept->value = *std::move(value);
+      kept->assigned = true;
+    }
+    if (kept) whole = ready(*kept);
+  }
+  if (!whole) whole = given_part(outer);
+  return whole ? part_of_given(*whole, expression) : nullptr;
+}
+
 /// Where a path is kept: beside the variable that it begins with.
 Interpreter::Scope& Interpreter::scope_of(const std::string& path) {
   const std::string base = path.substr(0, path.find_first_of(".["));
@@ -418,6 +546,16 @@ const std::string& Interpreter::base_name(const Expression& expression) {
   const Expression* base = &expression;
   while (base->kind == Kind::field || base->kind == Kind::element) base = &base->items[0];
   return base->text;
+}
+
+bool Interpreter::was_assigned(const Expression& expression) const {
+  const Variable* variable = const_cast<Interpreter*>(this)->base_of(expression);
+  return variable && variable->assigned;
+}
+
+bool Interpreter::is_constant(const Variable& variable) {
+  const Statement* declared = variable.datum ? &variable.datum->statement : variable.declaration;
+  return declared && declared->constant;
 }
 
 Interpreter::Variable* Interpreter::base_of(const Expression& expression) {
@@ -438,12 +576,28 @@ void Interpreter::assign_somewhere(const Expression& target) {
 
 void Interpreter::make_unknown(const Expression& target, Cause cause) {
   if (target.kind != Kind::name && target.kind != Kind::field && target.kind != Kind::element) return;
-  cause.name = path_of(target);
-  if (std::optional<Value> value = given(cause.name)) return assign(target, *value);
+  const std::string path = path_of(target);
+  cause.name = answer_name(path);
+  if (const Variable* variable = base_of(target); variable && is_constant(*variable)) return;
+  if (std::optional<Value> value = given(path)) return assign(target, *value);
   if (!locate(target)) return;
   Value unknown;
   unknown.cause = std::make_shared<const Cause>(std::move(cause));
   assign(target, std::move(unknown));
+}
+
+void Interpreter::forget_numbers(const std::string& why) {
+  charge(globals_.size());
+  const auto cause = std::make_shared<const Cause>(Cause{"", why});
+  for (auto& [name, variable] : globals_) {
+    const bool list = variable.datum ? dialect_.type_of(variable.datum->statement.text) != nullptr
+                                     : variable.value.kind == Value::Kind::list;
+    if (list) continue;
+    variable.state = Variable::State::ready;
+    variable.value = Value{};
+    variable.value.cause = cause;
+    variable.assigned = true;
+  }
 }
 
 std::string Interpreter::because(const Value& unknown) const {
@@ -457,30 +611,44 @@ std::string Interpreter::because(const Value& unknown) const {
 }
 
 std::string Interpreter::remedy_for(const Value& unknown) const {
-  const Cause* cause = unknown.first_cause();
-  if (!cause || cause->name.empty()) return "";
-  const Cause& asked = cause->behind ? *cause->behind : *cause;
-  return cause->line.empty()
-             ? fmt::format("--value '{}=...'", asked.name)
-             : fmt::format("--value '{}=...', or --assume {}=then or =else", asked.name, cause->line);
-}
-
-std::string Interpreter::question_of(const Value& unknown) const {
-  const Cause* cause = unknown.first_cause();
-  return !cause ? "" : cause->behind ? cause->behind->name : cause->name;
-}
-
-/// The names that an undecided condition hangs on, each once.
-void Interpreter::unknown_names(const Expression& expression, std::vector<std::string>& names) {
-  constexpr std::size_t listed = 6;
-  if (expression.kind == Kind::name || expression.kind == Kind::field || expression.kind == Kind::element) {
-    const std::string name = question_of(evaluate(expression));
-    if (!name.empty() && names.size() < listed && std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
-    return;
+  std::string remedy;
+  for (const Cause* cause : unknown.causes()) {
+    if (cause->asked().empty()) continue;
+    remedy += fmt::format("{}--value '{}=...'", remedy.empty() ? "" : ", ", cause->asked());
+    if (!cause->line.empty()) remedy += fmt::format(", or --assume {}=then or =else", cause->line);
   }
-  if (expression.kind == Kind::call && code_.find(expression.text, module_)) return;  // it may move the robot
-  for (const Expression& item : expression.items) unknown_names(item, names);
+  return remedy;
+}
+
+std::vector<Question> Interpreter::questions_for(const Value& unknown, const std::string& form) {
+  std::vector<Question> questions;
+  const std::vector<const Cause*> causes = unknown.causes();
+  for (const Cause* cause : causes) {
+    if (!cause->line.empty()) exploration_.follow(cause->line);
+    const bool by_line = !cause->line.empty() && !cause->behind;
+    const std::string name = by_line ? cause->line : cause->asked();
+    if (name.empty()) continue;
+    const std::string own = cause->behind || cause->form.empty() ? form_of(cause->asked()) : cause->form;
+    const bool itself = causes.size() == 1 && cause->line.empty() && own.empty();
+    Question question{by_line ? Question::Kind::branch : Question::Kind::value, name,
+                      by_line ? "then or else" : itself ? form : own};
+    if (const auto preset = code_.presets.find(name); preset != code_.presets.end() && !by_line) {
+      question.preset = preset->second.text;
+      exploration_.suppose(name);
+    }
+    questions.push_back(std::move(question));
+  }
+  return questions;
+}
+
+/// How a value of the type is written that the name was declared with; empty: it is not known.
+std::string Interpreter::form_of(const std::string& name) {
+  const std::string path = name.substr(name.find_last_of(':') + 1);
+  const bool part = path.find_first_of(".[") != std::string::npos;
+  const Variable* variable = part ? nullptr : find(path);
+  const Statement* declared =
+      !variable ? nullptr : variable->datum ? &variable->datum->statement : variable->declaration;
+  return declared && declared->arguments.size() == 1 ? dialect_.form_of(declared->text) : "";
 }
 
 Value Interpreter::aggregate(const Expression& expression) {
@@ -526,10 +694,24 @@ Value Interpreter::unary(const Expression& expression) {
 
 namespace {
 
+/// Of values with parts that are not known: equal as far as both are known, or different; absent: nobody knows.
+std::optional<bool> alike(const Value& a, const Value& b) {
+  using Type = Value::Kind;
+  if (a.kind == Type::unknown || b.kind == Type::unknown) return {};
+  if (a.kind != b.kind || a.items.size() != b.items.size()) return false;
+  if (a.kind != Type::list) return a.kind == Type::text ? a.text == b.text : a.number == b.number;
+  bool known = true;
+  for (std::size_t i = 0; i < a.items.size(); ++i) {
+    const auto part = alike(a.items[i], b.items[i]);
+    if (part == std::optional(false)) return false;
+    known &= part.has_value();
+  }
+  return known ? std::optional(true) : std::nullopt;
+}
+
 Value compared(const std::string& op, const Value& a, const Value& b) {
-  const bool equal = a.kind == Value::Kind::text ? a.text == b.text : a.number == b.number;
-  if (op == "=" || op == "==") return truth_value(equal);
-  if (op == "<>") return truth_value(!equal);
+  if (op == "=" || op == "==" || op == "<>")
+    if (const auto equal = alike(a, b)) return truth_value(*equal == (op != "<>"));
   if (!a.is_number()) return {};
   if (op == "<") return truth_value(a.number < b.number);
   if (op == ">") return truth_value(a.number > b.number);
@@ -614,16 +796,20 @@ Value Interpreter::binary(const Expression& expression) {
     for (const Value* side : {&a, &b})
       if (side->kind == Value::Kind::truth && (side->number != 0) == deciding) return truth_value(deciding);
   }
-  if (a.kind == Value::Kind::unknown || b.kind == Value::Kind::unknown) {
-    const Value cause = unknown_value(a);
-    return cause.cause ? cause : unknown_value(b);
-  }
+  if (a.kind == Value::Kind::unknown || b.kind == Value::Kind::unknown) return unknown_value(a, b);
   if (a.kind == Value::Kind::list || b.kind == Value::Kind::list) {
+    if (const Value relation = compared(op, a, b); relation.known()) return relation;
     if (const Value result = computed_lists(op, a, b); result.known()) return result;
-    const Value cause = unknown_value(a);
-    return cause.cause ? cause : unknown_value(b);
+    return unknown_value(a, b);
   }
-  if (a.kind != b.kind) return {};
+  if (a.kind != b.kind || (a.kind == Value::Kind::text && op != "+")) {  // KRL: a CHAR is the number of its letter
+    const auto first = dialect_.letter(a), second = dialect_.letter(b);
+    const bool letters = (first || a.is_number()) && (second || b.is_number());
+    const Value relation = letters ? compared(op, number_value(first.value_or(a.number)),
+                                              number_value(second.value_or(b.number)))
+                                   : Value{};
+    if (relation.known() || a.kind != b.kind) return relation;
+  }
   if (op == "and" || op == "or") return a.kind == Value::Kind::truth ? truth_value(op == "and") : Value{};
   if (op == "xor" || op == "exor")
     return a.kind == Value::Kind::truth ? truth_value(a.number != b.number) : Value{};

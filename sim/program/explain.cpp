@@ -65,9 +65,12 @@ std::string speed(const Instruction& instruction) {
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (s.duration) add(fmt::format("{} s", number(*s.duration)));
   if (!s.duration && s.axis_percent) add(fmt::format("{} %", number(*s.axis_percent)));
+  if (!s.duration && s.axis) add(fmt::format("{} deg/s of the fastest axis", number(*s.axis / degree)));
   if (!s.duration && s.tool) add(fmt::format("{} mm/s", number(*s.tool / millimetre)));
   if (!s.duration && s.orientation) add(fmt::format("{} deg/s", number(*s.orientation / degree)));
   if (text.empty()) text = "as fast as the axes can";
+  if (s.axis_acceleration) add(fmt::format("{} deg/s2 of the fastest axis", number(*s.axis_acceleration / degree)));
+  if (s.tool_acceleration) add(fmt::format("{} mm/s2", number(*s.tool_acceleration / millimetre)));
   if (instruction.acceleration_percent != 100)
     add(fmt::format("acceleration {} %", number(instruction.acceleration_percent)));
   return text;
@@ -99,7 +102,7 @@ std::vector<std::string> explanation(const Program& program) {
     }
     static constexpr const char* paths[] = {"axes", "line", "circle"};
     line += fmt::format(" | {} to {}{}", paths[static_cast<int>(i.kind)], target(i), from(i, "target"));
-    if (i.kind == Instruction::Kind::circular)
+    if (i.kind == Instruction::Kind::circular && i.target.circle_joints.empty())
       line += fmt::format(" | by {}{}", position(i.via.position), from(i, "via"));
     line += fmt::format(" | {}{}", named("tool", program.tools, i.tool, "flange"), from(i, "tool"));
     line += fmt::format(" | {}{}", named("work object", program.work_objects, i.work_object, "robot base"),

@@ -53,8 +53,12 @@ void read_fanuc(const std::deque<SourceFile>& files, const ImportOptions& option
     return problems.add({files[0].name(), 1, 1}, fmt::format("is not the program '{}'", name),
                         "give the listing of that program");
   if (!problems.empty()) return;
-  FanucRun({files, listings, parsing, variables, options, tools, work_objects}, program, problems)
-      .run(*start, arguments);
+  explore(
+      [&](Exploration& exploration, Program& made, Problems& found) {
+        FanucRun({files, listings, parsing, variables, options, tools, work_objects}, made, found, exploration)
+            .run(*start, arguments);
+      },
+      program, problems);
 }
 
 }  // namespace dresslife::sim

@@ -11,6 +11,9 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double millimetre = 1e-3;
 
+constexpr const char* position_form =
+    "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
+
 int whole(double number) { return static_cast<int>(std::clamp(std::trunc(number), 0.0, 1e6)); }
 
 Frame inverse(const Frame& frame) {
@@ -74,7 +77,10 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   }
   const std::string name = fmt::format("{}[{}]", registered ? "PR" : "P", whole(*index->number));
   at.move_to(begin);
-  const auto read = position(at);
+  auto read = position(at);
+  const std::string own_name = fmt::format("{}:{}", routine().listing->name, name);
+  if (!registered && (!read || (!read->known() && read->form != FanucPosition::Form::other_groups)))
+    if (const auto given = values_.given_position(own_name)) read = given;
   if (registered && values_.doubtful(whole(*index->number)))
     note(fmt::format("{} is taken from the backup; a program that was not read may have written it since",
                      name),
@@ -87,22 +93,30 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
     return {};
   }
   if (read && (read->known() || read->form == FanucPosition::Form::other_groups)) return read;
-  if (registered)
-    missing(
-        name, fmt::format("moves to {}, which is known only while the robot runs", name),
-        fmt::format(
-            "give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
-            "(motion.values)",
-            name));
-  else if (read)
-    missing(fmt::format("{} of {}", name, routine().listing->name),
-            fmt::format("moves to {}, which is not taught", name),
-            "list the program again behind teaching it");
-  else
-    missing(fmt::format("{} of {}", name, routine().listing->name),
-            fmt::format("moves to {}, which is not listed", name),
-            "list the program with its positions (/POS)");
+  if (registered) {
+    values_.forget_missing();
+    values_.miss_position(whole(*index->number));
+    missing_position(name, "moves to");
+    return {};
+  }
+  missing(fmt::format("{} of {}", name, routine().listing->name),
+          fmt::format("moves to {}, which is not {}", name, read ? "taught" : "listed"),
+          fmt::format("{}, or give --value '{}=X ... Y ... Z ... W ... P ... R ...'",
+                      read ? "list the program again behind teaching it" : "list the program with its positions (/POS)",
+                      own_name),
+          {{Question::Kind::value, own_name, position_form}});
   return {};
+}
+
+/// What makes a position register unknown, which `values_` misses.
+void FanucRun::missing_position(const std::string& name, const char* what) {
+  const FanucCauses& causes = values_.causes();
+  if (causes.size() != 1 || causes[0].name != name) return missing_value(fmt::format("{} {} by", what, name));
+  missing(name, fmt::format("{} {}, which is known only while the robot runs", what, name),
+          fmt::format("give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
+                      "(motion.values)",
+                      name),
+          {{Question::Kind::value, name, position_form}});
 }
 
 /// The active frame where a position names none; false: nobody knows it.
@@ -113,12 +127,27 @@ bool FanucRun::active(bool tool, int& number) {
     number = whole(*known);
     return true;
   }
-  const std::string written = tool ? "UTOOL_NUM" : "UFRAME_NUM";
+  const std::string written = tool ? "UTOOL_NUM" : "UFRAME_NUM", list = tool ? "UTOOL" : "UFRAME";
+  if (given_frame(tool, list)) return true;
+  const bool by_number = !(tool ? around_.variables.tools : around_.variables.frames).empty();
+  const Question by_its_number{Question::Kind::value, written, "a number"},
+      frame{tool ? Question::Kind::tool : Question::Kind::work_object, list, ""};
   missing(written,
           fmt::format("moves in the active {}, and nothing says which that is ({})",
                       tool ? "tool" : "user frame", written),
-          fmt::format("give it with --value {}=1 (motion.values), or sysframe.va of the backup", written));
+          fmt::format("give it with --value {}=1 (motion.values), its frame in motion.{} (--frames) with the name '{}', or "
+                      "sysframe.va of the backup",
+                      written, tool ? "tools" : "work_objects", list),
+          {by_number ? by_its_number : frame});
   return false;
+}
+
+/// A frame that the user gives; null: there is none of that name.
+const NamedFrame* FanucRun::given_frame(bool tool, const std::string& name) const {
+  const auto& given = tool ? around_.tools : around_.work_objects;
+  const auto found = std::find_if(given.begin(), given.end(),
+                                  [&](const NamedFrame& frame) { return same_word(frame.name, name); });
+  return found == given.end() ? nullptr : &*found;
 }
 
 /// A controller moves to a P[n] only while the frames that it was taught in are active.
@@ -135,18 +164,17 @@ void FanucRun::compare_active(bool tool, int listed) {
 
 /// UFRAME[n] or UTOOL[n], n above 0: as assigned, else as the user gave it, else as in the backup.
 std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
-  NamedFrame made{fmt::format("{}[{}]", tool ? "UTOOL" : "UFRAME", number), {}, false};
+  const std::string list = tool ? "UTOOL" : "UFRAME";
+  NamedFrame made{fmt::format("{}[{}]", list, number), {}, false};
   if (number == 0) return made;
+  if (number < 0) return *given_frame(tool, list);  // the active one
   if (const auto own = frames_.find({tool, number}); own != frames_.end()) {
     if (own->second) {
       made.frame = *own->second;
       return made;
     }
   }
-  const auto& given = tool ? around_.tools : around_.work_objects;
-  const auto known = std::find_if(given.begin(), given.end(),
-                                  [&](const NamedFrame& f) { return same_word(f.name, made.name); });
-  if (known != given.end()) return *known;
+  if (const NamedFrame* given = given_frame(tool, made.name)) return *given;
   const auto& backup = tool ? around_.variables.tools : around_.variables.frames;
   if (const auto found = backup.find(number);
       found != backup.end() && found->second.known() && !frames_.contains({tool, number})) {
@@ -157,7 +185,8 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
           fmt::format(
               "give it in motion.{} (--frames of dresslife import) with the name '{}', or sysframe.va of the "
               "backup",
-              tool ? "tools" : "work_objects", made.name));
+              tool ? "tools" : "work_objects", made.name),
+          {{tool ? Question::Kind::tool : Question::Kind::work_object, made.name, ""}});
   return {};
 }
 
@@ -231,7 +260,8 @@ std::optional<double> FanucRun::override_share() {
     const auto percent = values_.override_percent(name);
     if (!percent || !(*percent > 0) || *percent > 100) {
       missing("OVERRIDE", "moves under an OVERRIDE that is known only while the robot runs",
-              "give it with --value OVERRIDE=100 (motion.values)");
+              "give it with --value OVERRIDE=100 (motion.values)",
+              {{Question::Kind::value, "OVERRIDE", "a number in %", "100"}});
       return {};
     }
     share *= *percent / 100;
@@ -247,7 +277,8 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     const auto given = values_.given("weld_speed");
     if (!given) {
       missing("WELD_SPEED", "moves with WELD_SPEED, which lies in the controller's weld schedule",
-              "give it with --value 'WELD_SPEED=8mm/sec' (motion.values)");
+              "give it with --value 'WELD_SPEED=8mm/sec' (motion.values)",
+              {{Question::Kind::value, "WELD_SPEED", "a speed with its unit: 8mm/sec"}});
       return false;
     }
     text = *given;
@@ -322,12 +353,42 @@ void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, co
     return;
   }
   into.reset();
-  const std::string name = index && index->number ? fmt::format("PR[{}]", whole(*index->number)) : "PR[?]";
-  missing(name, fmt::format("is offset by {}, which is known only while the robot runs", name),
-          fmt::format(
-              "give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
-              "(motion.values)",
-              name));
+  if (!index || !index->number) return missing_value("is offset by");
+  values_.forget_missing();
+  values_.miss_position(whole(*index->number));
+  missing_position(fmt::format("PR[{}]", whole(*index->number)), "is offset by");
+}
+
+/// What a camera finds: ",VR[n]".
+void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& into) {
+  at.take_sign(',');
+  const auto index = at.take("VR") ? values_.index(at) : std::nullopt;
+  const std::string name = fmt::format("VR[{}]", index && index->number ? whole(*index->number) : 1);
+  into = values_.given_position(name);
+  if (!into)
+    missing(name, fmt::format("is offset by what a camera finds ({})", name),
+            fmt::format("give it with --value '{}=X ... Y ... Z ... W ... P ... R ...' (motion.values)", name),
+            {{Question::Kind::value, name, position_form}});
+}
+
+/// Whether the condition of SKIP CONDITION comes before a move ends. Skip goes on with the next line when it comes, SkipJump at
+/// its label; where it does not come, the other way round.
+bool FanucRun::skip_condition_comes(bool jumps) {
+  values_.forget_missing();
+  FanucCursor at(skip_condition_);
+  std::optional<bool> comes = assumed(where().line);
+  if (!comes && !skip_condition_.empty()) comes = values_.condition(at);
+  if (!comes && jumps) {
+    comes = ask("jumps or not (SkipJump) by SKIP CONDITION, which hangs on", 2, "then or =else") == 0;
+  } else if (!comes) {
+    note(fmt::format("SKIP: the condition comes at the end of the move, and the program goes on with the next line (--assume "
+                     "{}=else: it does not come)",
+                     line_name()),
+         true);
+    return true;
+  }
+  note(fmt::format("SKIP: the move goes to its end, and its condition {}", *comes ? "comes there" : "does not come"), true);
+  return *comes;
 }
 
 /// One option behind the speed; false: none that is known here.
@@ -353,16 +414,19 @@ bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options)
     offset_by(at, options.offset, "OFFSET");
     options.failed |= !options.offset;
   } else if (at.take("VOFFSET")) {
-    complain("is offset by what a camera finds (VOFFSET)", "list the program with a position of its own");
-    options.failed = true;
+    offset_by_camera(at, options.offset);
+    options.failed |= !options.offset;
   } else if (at.take("INC")) {
     complain("is an incremental move", "write the target itself");
     options.failed = true;
   } else if (at.take("RTCP")) {
     options.remote = true;
-  } else if (at.take("SKIP") || at.take("SKIPJUMP")) {
-    note("SKIP: the move goes to its end, and the program on with the next line", true);
+  } else if (const bool jumps = at.take("SKIPJUMP"); jumps || at.take("SKIP")) {
     options.skips = true;
+    const bool comes = skip_condition_comes(jumps);
+    FanucCursor next = at;
+    next.take_sign(',');
+    if (next.take("LBL") && comes == jumps) options.jumps = std::string(next.rest());
   } else if (at.take("COORD")) {
     options.coordinated = true;
   } else if (at.take("WJNT") || at.take("MROT")) {
@@ -476,8 +540,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
     FanucPosition there;
     there.frame = there.tool = -1;
     if (target) there = *target;
-    const bool pose = target ? target->form == FanucPosition::Form::pose : kind != Instruction::Kind::joint;
-    if (pose) frames_of(there);
+    if (!target || target->form == FanucPosition::Form::pose) frames_of(there);
     return;
   }
   via_options.remote = options.remote;
@@ -496,6 +559,14 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
     last_->form = joints ? FanucPosition::Form::unknown : last_->form;
   if (options.skips) stopped_on_the_way();
   if (!options.calls.empty()) call_statement(options.calls, false);
+  if (!options.jumps.empty()) {
+    FanucCursor label(options.jumps);
+    const auto number = values_.index(label);
+    const auto& labels = routine().listing->labels;
+    const auto found = number && number->number ? labels.find(whole(*number->number)) : labels.end();
+    if (found == labels.end()) return complain("jumps to a label that is not there", "mend the label");
+    jump_to(found->second, false);
+  }
   if (lower_case(statement().text).find("spot[") == std::string::npos) return;
   Instruction weld;
   weld.kind = Instruction::Kind::dwell;
@@ -512,9 +583,9 @@ void FanucRun::stopped_on_the_way() {
   FanucCursor written(std::string_view(text).substr(std::min(text.rfind("PR", lpos) + 2, text.size())));
   const auto index = values_.index(written);
   if (index && index->number)
-    values_.forget_position(whole(*index->number));
+    values_.forget_position(whole(*index->number), {});
   else
-    values_.forget_registers();
+    values_.forget_registers({});
 }
 
 }  // namespace dresslife::sim

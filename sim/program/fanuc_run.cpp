@@ -24,24 +24,26 @@ bool same_move(const Instruction& a, const Instruction& b) {
 
 }  // namespace
 
-FanucRun::FanucRun(const Surroundings& around, Program& program, Problems& problems)
+FanucRun::FanucRun(const Surroundings& around, Program& program, Problems& problems, Exploration& exploration)
     : around_(around),
       program_(program),
       problems_(problems),
+      exploration_(exploration),
       values_(around.variables, around.options.values, problems),
       outlook_(around.listings, around.variables.macros) {}
 
 void FanucRun::run(const FanucListing& listing, const std::string& arguments) {
   FanucCursor at(arguments);
-  std::vector<FanucNumber> read;
+  std::vector<FanucValues::Argument> read;
   while (!at.at_end()) {
-    read.push_back(values_.expression(at));
+    read.push_back({values_.expression(at), {}});
     if (!at.take_sign(',') && !at.at_end()) at.move_to(at.offset() + 1);
   }
   try {
     call(listing, std::move(read));
   } catch (const Stop&) {
   }
+  exploration_.spend(executed_ + values_.charged());
 }
 
 // ---- words -----------------------------------------------------------------------------------------------
@@ -68,23 +70,80 @@ std::string FanucRun::program_name() const {
 }
 
 void FanucRun::complain(const std::string& what, const std::string& remedy) {
-  problems_.add(where(), what, remedy, program_name());
+  if (!exploration_.guessing()) problems_.add(where(), what, remedy, program_name());
 }
 
-void FanucRun::missing(const std::string& name, const std::string& what, const std::string& remedy) {
-  problems_.add_missing(name, where(), what, remedy, program_name());
+void FanucRun::missing(const std::string& name, const std::string& what, const std::string& remedy,
+                       std::vector<Question> questions, bool decision) {
+  if (questions.empty() && exploration_.guessing()) return;
+  for (const Question& question : questions) exploration_.meet_question(question.name);
+  Problem problem{.where = where(), .what = what, .remedy = remedy};
+  problem.about = name;
+  problem.decision = decision;
+  problem.routine = program_name();
+  problem.questions = std::move(questions);
+  problem.certain = !exploration_.guessing();
+  problems_.add_use(std::move(problem));
 }
 
+namespace {
+
+constexpr const char* then_or_else = "then or =else";
+
+std::string form_of(const std::string& name) {
+  if (name.starts_with("PR[") && name.find(',') == std::string::npos)
+    return "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
+  if (name.find(' ') != std::string::npos) return "nothing, or the registers that it sets: R[5]=3 R[6]=0";
+  for (const char* signal : {"DI[", "DO[", "RI[", "RO[", "UI[", "UO[", "SI[", "SO[", "WI[", "WO[", "F[", "M["})
+    if (name.starts_with(signal)) return "ON or OFF";
+  return "a number";
+}
+
+/// "DI[3] and R[5]".
+std::string names_in(const FanucCauses& causes) {
+  std::string names;
+  for (const FanucCause& cause : causes)
+    if (const bool call = cause.name.find(' ') != std::string::npos; !cause.name.empty())
+      names += fmt::format("{}{}{}", names.empty() ? "" : " and ", call ? "a register behind " : "", cause.name);
+  return names;
+}
+
+std::string options_for(const FanucCauses& causes) {
+  std::string options;
+  for (const FanucCause& cause : causes)
+    if (!cause.name.empty()) options += fmt::format("{}--value '{}=...'", options.empty() ? "" : " ", cause.name);
+  return options;
+}
+
+}  // namespace
+
+/// Names that make it known; a branch that was left out and has no name is decided itself.
+std::vector<Question> FanucRun::questions_for(const FanucCauses& causes) {
+  std::vector<Question> questions;
+  for (const FanucCause& cause : causes) {
+    if (!cause.line.empty()) exploration_.follow(cause.line);
+    if (!cause.name.empty())
+      questions.push_back({Question::Kind::value, cause.name, form_of(cause.name)});
+    else if (!cause.line.empty())
+      questions.push_back({Question::Kind::branch, cause.line, "then or else"});
+  }
+  return questions;
+}
+
+/// What `values_` misses, for a statement that needs it.
 void FanucRun::missing_value(const std::string& what) {
-  const std::string name = values_.missing().empty() ? "a value" : values_.missing();
-  const bool position = name.starts_with("PR");
-  const bool named = name.find('[') != std::string::npos || name.find(' ') == std::string::npos;
-  missing(name, fmt::format("{} {}, which is known only while the robot runs", what, name),
-          !named ? "write it as a constant"
-                 : fmt::format("give it with --value '{}=...' (motion.values){}", name,
-                               position                 ? ", or posreg.va of the backup"
-                               : name.starts_with("R[") ? ", or numreg.va of the backup"
-                                                        : ""));
+  const FanucCauses& causes = values_.causes();
+  const std::vector<Question> questions = questions_for(causes);
+  const std::string names = names_in(causes), name = causes.empty() ? "" : causes[0].name;
+  if (questions.empty())
+    return missing("a value", fmt::format("{} a value, which is known only while the robot runs", what),
+                   "write it as a constant", {});
+  missing(names, fmt::format("{} {}, which is known only while the robot runs", what, names),
+          fmt::format("give it with {} (motion.values){}", options_for(causes),
+                      name.starts_with("PR")   ? ", or posreg.va of the backup"
+                      : name.starts_with("R[") ? ", or numreg.va of the backup"
+                                               : ""),
+          questions);
 }
 
 void FanucRun::note(const std::string& what, bool may_move) {
@@ -95,15 +154,17 @@ void FanucRun::note(const std::string& what, bool may_move) {
 
 void FanucRun::charge(long steps) {
   executed_ += steps;
+  if (exploration_.guessing() && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
   if (executed_ + values_.charged() <= ImportLimits::executed) return;
   const pipeline::Where at = last_jump_.line > 0 ? last_jump_ : where();
   const std::string end =
       last_decision_.line > 0
           ? fmt::format("--assume {}:{}=then or =else", file_of(last_decision_.file), last_decision_.line)
           : "a statement that leaves it";
-  problems_.add(at,
-                fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
-                fmt::format("decide what ends the loop: {}, or --value with what it hangs on", end));
+  if (!exploration_.guessing())
+    problems_.add(at,
+                  fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
+                  fmt::format("decide what ends the loop: {}, or --value with what it hangs on", end));
   throw Stop{};
 }
 
@@ -118,13 +179,14 @@ std::optional<bool> FanucRun::assumed(int line) const {
 
 // ---- programs --------------------------------------------------------------------------------------------
 
-void FanucRun::call(const FanucListing& listing, std::vector<FanucNumber> arguments) {
+void FanucRun::call(const FanucListing& listing, std::vector<FanucValues::Argument> arguments) {
   if (static_cast<int>(routines_.size()) >= ImportLimits::calls) {
     complain(fmt::format("calls {} programs deep (without end?)", ImportLimits::calls), "mend the recursion");
     throw Stop{};
   }
   if (const Problems& parsing = around_.parsing[listing.file]; !parsing.empty()) {
-    for (const Problem& problem : parsing.list()) problems_.add(problem.where, problem.what, problem.remedy);
+    if (!exploration_.guessing())
+      for (const Problem& problem : parsing.list()) problems_.add(problem.where, problem.what, problem.remedy);
     throw Stop{};
   }
   routines_.push_back({&listing, 0, {}, {}});
@@ -133,6 +195,7 @@ void FanucRun::call(const FanucListing& listing, std::vector<FanucNumber> argume
     charge();
     const std::size_t before = routine().at;
     values_.forget_missing();
+    exploration_.meet(&listing.statements[before]);
     execute(listing.statements[before]);
     if (routine().at == before) ++routine().at;
     if (problems_.full()) throw Stop{};
@@ -141,11 +204,13 @@ void FanucRun::call(const FanucListing& listing, std::vector<FanucNumber> argume
   routines_.pop_back();
 }
 
-std::vector<FanucNumber> FanucRun::arguments_in(FanucCursor& at) {
-  std::vector<FanucNumber> read;
+std::vector<FanucValues::Argument> FanucRun::arguments_in(FanucCursor& at) {
+  std::vector<FanucValues::Argument> read;
   if (!at.take_sign('(')) return read;
   while (!at.at_end() && !at.take_sign(')') && read.size() < 100) {
-    read.push_back(values_.expression(at));
+    values_.forget_missing();
+    const FanucNumber value = values_.expression(at);
+    read.push_back({value, value ? FanucCauses{} : values_.causes()});
     if (!at.take_sign(',') && !at.at_end() && !at.rest().starts_with(')')) at.move_to(at.offset() + 1);
   }
   values_.forget_missing();
@@ -155,21 +220,28 @@ std::vector<FanucNumber> FanucRun::arguments_in(FanucCursor& at) {
 /// CALL name(arguments), RUN name.
 void FanucRun::call_statement(const std::string& text, bool beside) {
   FanucCursor at(text);
-  const std::string name = lower_case(at.name());
+  const std::string written(at.name()), name = lower_case(written);
   const FanucListing* listing = outlook_.program(name);
   if (beside) {
     note(fmt::format("RUN {}: runs beside this program", name), listing != nullptr);
-    if (!listing) return values_.forget_registers();
-    return forget(outlook_.effects(*listing, 0, listing->statements.size()));
+    if (!listing) {
+      if (!values_.take_effect("RUN " + written)) values_.forget_registers({{"RUN " + written}});
+      return;
+    }
+    return forget(outlook_.effects(*listing, 0, listing->statements.size()), {});
   }
-  if (!listing) return unread("CALL " + name);
+  if (!listing) return unread("CALL " + written);
   call(*listing, arguments_in(at));
 }
 
-/// What a program that nobody read may have done.
+/// What a program that nobody read may have done. The user may know: --value 'CALL NAME=nothing'.
 void FanucRun::unread(const std::string& what) {
-  note(what + ": not among the files read; registers may be others behind it", true);
-  values_.forget_registers();
+  if (values_.take_effect(what)) {
+    note(what + ": not among the files read; its registers are as --value says", true);
+  } else {
+    note(what + ": not among the files read; registers may be others behind it", true);
+    values_.forget_registers({{what}});
+  }
   last_.reset();
 }
 
@@ -208,9 +280,10 @@ void FanucRun::action(const std::string& text) {
   if (word == "call" || word == "run") return call_statement(std::string(at.rest()), word == "run");
   if (word == "wait") return wait(at);
   if (word == "monitor") {  // a list of WHEN condition, action
-    note(fmt::format("MONITOR {}: what it does may come at any time, and is left out", lower_case(at.name())),
-         true);
-    return values_.forget_registers();
+    const std::string name = "MONITOR " + std::string(at.name());
+    note(name + ": what it does may come at any time, and is left out", true);
+    if (!values_.take_effect(name)) values_.forget_registers({{name}});
+    return;
   }
   if (word == "abort") {
     note("ABORT: the program ends here");
@@ -220,6 +293,10 @@ void FanucRun::action(const std::string& text) {
     at.take("CONDITION");
     (word == "offset" ? offset_condition_ : tool_offset_condition_) = std::string(at.rest());
     return;
+  }
+  if (word == "skip" && at.take("CONDITION")) {
+    skip_condition_ = std::string(at.rest());
+    return note("SKIP: input, output or logic");
   }
   if (word == "spot") {
     Instruction weld;
@@ -270,7 +347,7 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
     FanucCursor arguments(std::string_view(text).substr(std::min(open, text.size())));
     return call(*macro, arguments_in(arguments));
   }
-  unread(fmt::format("'{}', a macro or an instruction that is not known", text.substr(0, 40)));
+  unread("MACRO " + text.substr(0, std::min<std::size_t>(text.find_first_of("('="), 40)));
 }
 
 /// Ends and middles of blocks that run.
@@ -283,9 +360,13 @@ void FanucRun::block(const std::string& word) {
 void FanucRun::jump(FanucCursor& at, bool certain) {
   if (!at.take("LBL")) return complain("jumps to no LBL[n]", "mend the statement");
   const auto label = values_.index(at);
-  if (!label || !label->number)
-    return whole_program_no_matter() ? void() : missing_value("jumps to a label by");
   const auto& labels = routine().listing->labels;
+  if (!label || !label->number) {
+    if (whole_program_no_matter()) return;
+    missing_value("jumps to a label by");
+    if (labels.empty()) throw Stop{};
+    return jump_to(std::next(labels.begin(), guess(static_cast<int>(labels.size())))->second, false);
+  }
   const auto found = labels.find(whole(*label->number));
   if (found == labels.end())
     return complain(fmt::format("jumps to LBL[{}], which is not there", *label->number), "mend the label");
@@ -295,7 +376,9 @@ void FanucRun::jump(FanucCursor& at, bool certain) {
 void FanucRun::jump_to(std::size_t target, bool certain) {
   const std::size_t here = routine().at;
   if (target <= here) last_jump_ = where();
-  if (certain && target <= here) {
+  const bool looking = exploration_.guessing();
+  if (looking && target <= here && !still_new(target)) throw Stop{};
+  if (certain && target <= here && !looking) {
     bool exit = false;  // some decision within may leave the loop: it is run until it does
     for (auto d = routine().decided.lower_bound(target); d != routine().decided.end() && *d <= here; ++d)
       exit |= outlook_.leads_out(*routine().listing, *d, target, here);
@@ -305,6 +388,15 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
     }
   }
   routine().at = target + 1;
+}
+
+/// Whether one of the last passes of a loop met something new, in a reading that only looks for questions.
+bool FanucRun::still_new(std::size_t label) {
+  constexpr int enough = 3;  // passes in a row without
+  Endless& loop = endless_[{routine().listing, label}];
+  loop.barren = loop.news == exploration_.news() ? loop.barren + 1 : 0;
+  loop.news = exploration_.news();
+  return loop.barren < enough;
 }
 
 /// Whether an endless loop that is back at its label runs once more: as often as the user wants, else until
@@ -348,7 +440,7 @@ void FanucRun::wait(FanucCursor& at) {
            found = text.find("R[", found + 1)) {
         FanucCursor name(std::string_view(text).substr(found + 1));
         if (const auto index = values_.index(name); index && index->number)
-          values_.forget_register(whole(*index->number));
+          values_.forget_register(whole(*index->number), {});
       }
     }
     return note("WAIT: input");
@@ -368,7 +460,7 @@ void FanucRun::assign_register(FanucCursor& at) {
   values_.forget_missing();
   const FanucNumber value = values_.expression(at);
   if (index && index->number) return values_.set_register(whole(*index->number), value);
-  values_.forget_registers();
+  values_.forget_registers(values_.causes());
   note("R: writes a register whose number is known only while the robot runs");
 }
 
@@ -378,17 +470,20 @@ void FanucRun::assign_position(FanucCursor& at) {
   at.skip_to('=');
   if (index && index->group != 1) return note("PR: of another group than the robot");
   if (!index || !index->number) {
-    values_.forget_registers();
+    values_.forget_registers(values_.causes());
     return note("PR: writes a position register whose number is known only while the robot runs");
   }
   const int number = whole(*index->number);
-  if (index->part) return values_.set_component(number, whole(*index->part), values_.expression(at));
+  values_.forget_missing();
+  if (index->part) {
+    const FanucNumber value = values_.expression(at);
+    return values_.set_component(number, whole(*index->part), value);
+  }
   const auto sum = position_sum(at);
   const bool told = values_.given(fmt::format("pr[{}]", number)).has_value();  // counts where this is unknown
-  if (sum && (sum->known() || !told))
-    values_.set_position(number, *sum);
-  else
-    values_.forget_position(number);
+  if (sum && sum->known())
+    return values_.set_position(number, *sum);
+  values_.forget_position(number, told ? FanucCauses{} : values_.causes());
 }
 
 std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
@@ -418,6 +513,9 @@ std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
     } else {
       at.move_to(begin);
       read = position(at);
+      if (FanucCursor written(at.from(begin)); read && !read->known() && written.take("PR"))
+        if (const auto index = values_.index(written); index && index->number)
+          values_.miss_position(whole(*index->number));
     }
     if (!read) return {};
     read->frame = read->tool = -1;
@@ -457,33 +555,47 @@ void FanucRun::set_frame(bool tool, int number, const std::optional<FanucPositio
 
 // ---- branches and loops ----------------------------------------------------------------------------------
 
-void FanucRun::ask(const std::string& what) {
-  const std::string missing = values_.missing();
-  problems_.add_decision(
-      missing.empty() ? line_name() : missing, where(),
-      fmt::format("{} {} is known only while the robot runs", what,
-                  missing.empty() ? "what" : missing + ", which"),
-      fmt::format("choose with --assume {}=then or =else (motion.assume in a job){}", line_name(),
-                  missing.empty() ? "" : fmt::format(", or give --value '{}=...'", missing)),
-      program_name());
+/// Which of its ways an undecided statement goes: asks, and goes on along one of them. By the value of one name where there is
+/// one, else by its line.
+int FanucRun::ask(const std::string& what, int ways, const std::string& answers) {
+  const FanucCauses& causes = values_.causes();
+  const std::string names = names_in(causes);
+  std::vector<Question> questions = questions_for(causes);
+  if (questions.size() != 1)
+    questions = {{Question::Kind::branch, line_name(), answers == then_or_else ? "then or else" : answers}};
+  missing(names.empty() ? line_name() : names,
+          fmt::format("{} {} is known only while the robot runs", what,
+                      names.empty() ? "what" : names + ", which"),
+          fmt::format("choose with --assume {}={} (motion.assume in a job){}", line_name(), answers,
+                      names.empty() ? "" : fmt::format(", or give {}", options_for(causes))),
+          questions, true);
+  return guess(ways);
+}
+
+int FanucRun::guess(int ways) {
+  if (!exploration_.guessing()) guessed_at_ = executed_;
+  return exploration_.choose(line_name(), ways);
 }
 
 /// Whether leaving statements out changes nothing but values, which are unknown from here on.
 bool FanucRun::no_matter(const FanucEffects& effects) {
-  if (effects.moves || effects.leaves) return false;
+  if (effects.moves || effects.leaves || exploration_.follows(line_name())) return false;
   if (effects.waits)
     note("IF, SELECT, FOR: waits for a time on what is known only while the robot runs; left out", true);
   else
     note("IF, SELECT, FOR: a branch on what is known only while the robot runs, without moves");
-  forget(effects);
+  FanucCauses why = values_.causes();
+  for (FanucCause& cause : why) cause.line = line_name();
+  if (why.empty()) why = {{"", line_name()}};
+  forget(effects, why);
   return true;
 }
 
 /// What may have been written is unknown from here on.
-void FanucRun::forget(const FanucEffects& effects) {
-  if (effects.any_register) values_.forget_registers();
-  for (int number : effects.registers) values_.forget_register(number);
-  for (int number : effects.positions) values_.forget_position(number);
+void FanucRun::forget(const FanucEffects& effects, const FanucCauses& why) {
+  if (effects.any_register) values_.forget_registers(why);
+  for (int number : effects.registers) values_.forget_register(number, why);
+  for (int number : effects.positions) values_.forget_position(number, why);
   for (const std::string& name : effects.named) {
     if (name.find('[') == std::string::npos) values_.set_named(name, {});
     FanucCursor at(name);
@@ -521,20 +633,20 @@ void FanucRun::if_statement(FanucCursor& at) {
   if (const auto told = assumed(s.line)) decision = told;
   if (lower_case(s.text).ends_with("then")) {
     if (!decision) {
-      if (!no_matter(outlook_.effects(*routine().listing, here + 1, s.end))) {
-        if (whole_program_no_matter()) return;
-        ask("branches on");
+      if (no_matter(outlook_.effects(*routine().listing, here + 1, s.end))) {
+        routine().at = s.end;
+        return;
       }
-      routine().at = s.end;
-    } else if (!*decision) {
-      routine().at = s.other + 1;
+      if (whole_program_no_matter()) return;
+      decision = ask("branches on", 2, then_or_else) == 0;
     }
+    if (!*decision) routine().at = s.other + 1;
     return;
   }
   const std::string rest = fanuc_action(s.text);
   if (rest.empty()) return complain("is no IF condition,action", "mend the statement");
-  if (!decision) return undecided(rest);
-  if (!*decision) return;
+  if (!decision) decision = undecided(rest);
+  if (!decision || !*decision) return;
   FanucCursor jumping(rest);
   if (jumping.take("JMP")) return jump(jumping, false);
   FanucCursor moving(rest);
@@ -543,10 +655,14 @@ void FanucRun::if_statement(FanucCursor& at) {
   action(rest);
 }
 
-/// IF ... ,action where nobody knows the condition.
-void FanucRun::undecided(const std::string& action) {
+/// IF ... ,action where nobody knows the condition. Absent: it is left out.
+std::optional<bool> FanucRun::undecided(const std::string& action) {
   const std::size_t here = routine().at;
   const FanucListing& listing = *routine().listing;
+  const auto asked = [&]() -> std::optional<bool> {
+    if (whole_program_no_matter()) return {};
+    return ask("branches on", 2, then_or_else) == 0;
+  };
   FanucCursor at(action);
   const std::string word = at.word();
   std::size_t target = word == "end" ? listing.statements.size() : here;
@@ -554,15 +670,19 @@ void FanucRun::undecided(const std::string& action) {
     const auto label = values_.index(at);
     const auto found =
         label && label->number ? listing.labels.find(whole(*label->number)) : listing.labels.end();
-    if (found == listing.labels.end()) return whole_program_no_matter() ? void() : ask("branches on");
+    if (found == listing.labels.end()) return asked();
     target = found->second;
   }
-  if (word == "abort") return note("ABORT: on a condition that is taken not to be met");
+  if (word == "abort") {
+    note("ABORT: on a condition that is taken not to be met");
+    return {};
+  }
   const FanucEffects effects = target == here  ? outlook_.effects(action)
                                : target > here ? outlook_.effects(listing, here + 1, target)
                                                : outlook_.effects(listing, target, here);
-  if (!no_matter(effects)) return whole_program_no_matter() ? void() : ask("branches on");
+  if (!no_matter(effects)) return asked();
   if (target > here) routine().at = target;
+  return {};
 }
 
 /// SELECT R[1]=1,JMP LBL[1] ; =2,CALL X ; ELSE,JMP LBL[3] : one decision.
@@ -587,10 +707,14 @@ void FanucRun::select() {
       break;
     }
   }
-  const auto which = chosen(cases, selected);
-  if (!which) return undecided_select(cases, behind);
-  routine().decided.insert(here);
-  last_decision_ = where();
+  auto which = chosen(cases, selected);
+  if (which) {
+    routine().decided.insert(here);
+    last_decision_ = where();
+  } else {
+    which = undecided_select(cases, behind);
+  }
+  if (!which) return;
   routine().at = behind;
   if (*which >= cases.size()) return;  // none of them
   routine().at = cases[*which].statement;
@@ -627,7 +751,8 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
   return value ? std::optional(cases.size()) : std::nullopt;
 }
 
-void FanucRun::undecided_select(const std::vector<Case>& cases, std::size_t behind) {
+/// Absent: it is left out.
+std::optional<std::size_t> FanucRun::undecided_select(const std::vector<Case>& cases, std::size_t behind) {
   const FanucListing& listing = *routine().listing;
   FanucEffects effects;
   std::vector<std::string> values;
@@ -644,14 +769,13 @@ void FanucRun::undecided_select(const std::vector<Case>& cases, std::size_t behi
     if (!jumps) effects.add(outlook_.effects(one.action));
   }
   effects.add(outlook_.effects(listing, behind, furthest));
-  if (!no_matter(effects)) {
-    if (whole_program_no_matter()) return;
-    const std::string name = values_.missing().empty() ? "what" : values_.missing() + ", which";
-    complain(fmt::format("selects by {} is known only while the robot runs", name),
-             fmt::format("choose with --assume {}=VALUE ({}; motion.assume in a job)", line_name(),
-                         fmt::join(values, ", ")));
+  if (no_matter(effects)) {
+    routine().at = furthest;
+    return {};
   }
-  routine().at = furthest;
+  if (whole_program_no_matter()) return {};
+  const int ways = static_cast<int>(cases.size()) + 1;
+  return static_cast<std::size_t>(ask("selects by", ways, fmt::format("VALUE ({})", fmt::join(values, ", "))));
 }
 
 void FanucRun::for_statement(FanucCursor& at) {
@@ -664,8 +788,14 @@ void FanucRun::for_statement(FanucCursor& at) {
   if (!down) at.take("TO");
   const FanucNumber to = values_.expression(at);
   if (!index || !index->number || !from || !to) {
-    if (!no_matter(outlook_.effects(*routine().listing, here + 1, end))) missing_value("counts by");
-    routine().at = end + 1;
+    const bool left_out = no_matter(outlook_.effects(*routine().listing, here + 1, end));
+    if (!left_out) missing_value("counts by");
+    if (left_out || guess(2) == 1 || !index || !index->number) {
+      routine().at = end + 1;
+      return;
+    }
+    values_.set_register(whole(*index->number), from.value_or(1));
+    routine().loops[here] = {whole(*index->number), from.value_or(1), 1.0};  // one pass, in search of further questions
     return;
   }
   const int number = whole(*index->number);

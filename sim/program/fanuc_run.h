@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/program/exploration.h"
 #include "sim/program/fanuc_effects.h"
 #include "sim/program/fanuc_values.h"
 
@@ -27,7 +28,7 @@ class FanucRun {
     const ImportOptions& options;
     const std::vector<NamedFrame>&tools, &work_objects;
   };
-  FanucRun(const Surroundings& around, Program& program, Problems& problems);
+  FanucRun(const Surroundings& around, Program& program, Problems& problems, Exploration& exploration);
 
   /// arguments: what AR[1], AR[2] ... are, as a call writes them: "1,'a',R[2]".
   void run(const FanucListing& listing, const std::string& arguments);
@@ -49,6 +50,8 @@ class FanucRun {
     std::set<std::string> states;
     std::size_t begin = 0;  // of the pass: number of instructions
     int passes = 0;
+    long news = -1;  // of the exploration at the last pass
+    int barren = 0;  // passes in a row that met nothing new
   };
   struct Case {  // of a SELECT
     std::size_t statement;
@@ -58,7 +61,7 @@ class FanucRun {
   };
 
   // ---- statements: fanuc_run.cpp
-  void call(const FanucListing& listing, std::vector<FanucNumber> arguments);
+  void call(const FanucListing& listing, std::vector<FanucValues::Argument> arguments);
   void execute(const FanucStatement& s);
   void action(const std::string& text);
   void assignment(const std::string& word, FanucCursor& at);
@@ -66,8 +69,9 @@ class FanucRun {
   void jump(FanucCursor& at, bool certain);
   void jump_to(std::size_t target, bool certain);
   bool goes_on(std::size_t label);  // an endless loop for another pass
+  bool still_new(std::size_t label);
   void call_statement(const std::string& text, bool beside);
-  std::vector<FanucNumber> arguments_in(FanucCursor& at);
+  std::vector<FanucValues::Argument> arguments_in(FanucCursor& at);
   void unread(const std::string& what);
   void wait(FanucCursor& at);
   void assign_register(FanucCursor& at);
@@ -76,14 +80,15 @@ class FanucRun {
   void assign_frame(const std::string& word, FanucCursor& at);
   void set_frame(bool tool, int number, const std::optional<FanucPosition>& read);
   void if_statement(FanucCursor& at);
-  void undecided(const std::string& action);
+  std::optional<bool> undecided(const std::string& action);
   bool no_matter(const FanucEffects& effects);
-  void forget(const FanucEffects& effects);
+  void forget(const FanucEffects& effects, const FanucCauses& why);
   bool whole_program_no_matter();
-  void ask(const std::string& what);
+  int ask(const std::string& what, int ways, const std::string& answers);
+  int guess(int ways);
   void select();
   std::optional<std::size_t> chosen(const std::vector<Case>& cases, FanucNumber selected);
-  void undecided_select(const std::vector<Case>& cases, std::size_t behind);
+  std::optional<std::size_t> undecided_select(const std::vector<Case>& cases, std::size_t behind);
   void for_statement(FanucCursor& at);
   void end_for();
 
@@ -93,11 +98,16 @@ class FanucRun {
     std::optional<FanucPosition> offset, tool_offset;
     bool remote = false, failed = false, skips = false, coordinated = false;
     std::string calls;  // programs that run before or behind the point
+    std::string jumps;  // "[1]": the label of Skip or SkipJump, where the move goes on there
   };
   bool read_options(FanucCursor& at, Instruction& move, Options& options);
   bool read_option(FanucCursor& at, Instruction& move, Options& options);
   FanucNumber needed(FanucCursor& at, const char* what);
   void offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const char* condition);
+  void offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& into);
+  bool skip_condition_comes(bool jumps);
+  void missing_position(const std::string& name, const char* what);
+  const NamedFrame* given_frame(bool tool, const std::string& name) const;
   std::optional<FanucPosition> position(FanucCursor& at);
   std::optional<FanucPosition> target_position(FanucCursor& at);
   bool place_joints(const FanucPosition& position, const Options& options, Instruction& move);
@@ -123,25 +133,29 @@ class FanucRun {
   std::optional<bool> assumed(int line) const;
   std::string program_name() const;
   void complain(const std::string& what, const std::string& remedy);
-  void missing(const std::string& name, const std::string& what, const std::string& remedy);
+  void missing(const std::string& name, const std::string& what, const std::string& remedy,
+               std::vector<Question> questions, bool decision = false);
   void missing_value(const std::string& what);  // the value that values_ misses
+  std::vector<Question> questions_for(const FanucCauses& causes);
   void note(const std::string& what, bool may_move = false);
   void charge(long steps = 1);
 
   const Surroundings around_;
   Program& program_;
   Problems& problems_;
+  Exploration& exploration_;
   FanucValues values_;
   FanucOutlook outlook_;
   std::vector<Routine> routines_;
   std::map<std::pair<bool, int>, std::optional<Frame>> frames_;  // (tool?, number) that the program assigned
   std::optional<FanucPosition> last_;                            // where the robot is: JPOS and LPOS
   std::string offset_condition_, tool_offset_condition_;         // PR[n] of OFFSET CONDITION
+  std::string skip_condition_;
   std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
   std::set<std::string> noted_;
   pipeline::Where last_jump_;  // back
   pipeline::Where last_decision_;
-  long executed_ = 0;
+  long executed_ = 0, guessed_at_ = 0;
 };
 
 }  // namespace dresslife::sim

@@ -54,6 +54,12 @@ FanucNumber number_in(const std::string& text) {
 
 }  // namespace
 
+void add_causes(FanucCauses& to, const FanucCauses& more) {
+  constexpr std::size_t most = 12;  // of one value
+  for (const FanucCause& cause : more)
+    if (to.size() < most && std::find(to.begin(), to.end(), cause) == to.end()) to.push_back(cause);
+}
+
 std::string plain_fanuc_name(std::string_view written) {
   std::string plain;
   bool comment = false;
@@ -81,7 +87,8 @@ void FanucValues::take(const std::string& name, const std::string& text, Problem
   FanucCursor at(name);
   const std::string word = at.word();
   const auto number = at.take_sign('[') ? at.number() : std::nullopt;
-  if (word == "pr" && number) {
+  const bool whole_position = word == "pr" && number && name.find(',') == std::string::npos;
+  if (whole_position) {
     if (const auto position = position_in(text))
       positions_[whole(*number)] = *position, taught_.insert(whole(*number));
     else
@@ -102,28 +109,46 @@ std::optional<std::string> FanucValues::given(const std::string& name) const {
   return found == given_.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::optional<FanucPosition> FanucValues::given_position(const std::string& name) const {
+  const auto text = given(plain_fanuc_name(name));
+  return text ? position_in(*text) : std::nullopt;
+}
+
 FanucNumber FanucValues::unknown(const std::string& name) {
   if (const auto text = given(plain_fanuc_name(name)))
     if (const auto number = number_in(*text)) return number;
-  if (missing_.empty()) missing_ = name;
+  add_causes(missing_, {{name}});
   return {};
 }
 
 void FanucValues::set_register(int number, FanucNumber value) {
-  if (value && std::isfinite(*value) && registers_.size() < ImportLimits::values)
+  if (written_.size() < ImportLimits::values) written_.insert(number);
+  if (value && std::isfinite(*value) && registers_.size() < ImportLimits::values) {
     registers_[number] = *value;
-  else
+    register_causes_.erase(number);
+  } else {
     registers_.erase(number);
+    if (register_causes_.size() < ImportLimits::values) register_causes_[number] = missing_;
+  }
+}
+
+void FanucValues::forget_register(int number, const FanucCauses& why) {
+  registers_.erase(number);
+  if (register_causes_.size() < ImportLimits::values) add_causes(register_causes_[number], why);
 }
 
 void FanucValues::set_position(int number, const FanucPosition& position) {
   taught_.erase(number);
+  position_causes_.erase(number);
+  component_causes_.erase(number);
   if (positions_.size() < ImportLimits::values) positions_[number] = position;
 }
 
-void FanucValues::forget_position(int number) {
+void FanucValues::forget_position(int number, const FanucCauses& why) {
   positions_.erase(number);
   taught_.erase(number);
+  component_causes_.erase(number);
+  if (position_causes_.size() < ImportLimits::values) position_causes_[number] = why;
 }
 
 void FanucValues::set_component(int number, int part, FanucNumber value) {
@@ -131,7 +156,45 @@ void FanucValues::set_component(int number, int part, FanucNumber value) {
   FanucPosition position = position_register(number);
   if (position.values.size() < 6) position.values.resize(6, NAN);
   if (part <= static_cast<int>(position.values.size())) position.values[part - 1] = value.value_or(NAN);
-  set_position(number, position);
+  taught_.erase(number);
+  if (positions_.size() < ImportLimits::values) positions_[number] = position;
+  component_causes_[number].erase(part);
+  if (!value) component_causes_[number][part] = missing_;
+}
+
+void FanucValues::miss_position(int number) {
+  const FanucPosition position = position_register(number);
+  const auto parts = component_causes_.find(number);
+  bool whole = position.values.empty();
+  for (std::size_t i = 0; i < position.values.size(); ++i) {
+    if (std::isfinite(position.values[i])) continue;
+    const int part = static_cast<int>(i) + 1;
+    if (parts != component_causes_.end() && parts->second.contains(part) && !parts->second.at(part).empty())
+      add_causes(missing_, parts->second.at(part));
+    else
+      whole = true;
+  }
+  if (!whole) return;
+  const auto known = position_causes_.find(number);
+  if (known != position_causes_.end() && !known->second.empty())
+    add_causes(missing_, known->second);
+  else
+    add_causes(missing_, {{fmt::format("PR[{}]", number)}});
+}
+
+bool FanucValues::take_effect(const std::string& call) {
+  const auto text = given(plain_fanuc_name(call));
+  if (!text) return false;
+  FanucCursor at(*text);
+  while (at.take("R")) {
+    const auto number = at.take_sign('[') ? at.number() : std::nullopt;
+    at.skip_to('=');
+    const auto value = at.number();
+    if (!number || !value) break;
+    set_register(whole(*number), value);
+    at.take_sign(',');
+  }
+  return true;
 }
 
 FanucPosition FanucValues::position_register(int number) const {
@@ -167,7 +230,11 @@ FanucNumber FanucValues::override_percent(const std::string& name) const {
   return text ? number_in(*text) : found == named_.end() ? FanucNumber(100) : FanucNumber{};
 }
 
-void FanucValues::forget_registers() {
+void FanucValues::forget_registers(const FanucCauses& why) {
+  for (const auto& [number, value] : registers_)
+    if (register_causes_.size() < ImportLimits::values) register_causes_[number] = {};
+  for (auto& [number, causes] : register_causes_) add_causes(causes, why);
+  add_causes(forgotten_by_, why);
   registers_.clear();
   std::erase_if(positions_, [&](const auto& entry) { return !taught_.contains(entry.first); });
   doubt_ = true;
@@ -216,6 +283,20 @@ FanucNumber FanucValues::function(const std::string& word, FanucNumber of) const
   return std::isfinite(result) ? FanucNumber(result) : FanucNumber{};
 }
 
+/// A value that the user gives counts, unless the program itself has set the register and a call that nobody read may have
+/// changed it since: then the call is asked for. A register that the program never sets is asked for itself.
+FanucNumber FanucValues::register_value(int number) {
+  if (const auto found = registers_.find(number); found != registers_.end()) return found->second;
+  const auto own = register_causes_.find(number);
+  const FanucCauses& causes = own != register_causes_.end() ? own->second : forgotten_by_;
+  const bool calls = std::any_of(causes.begin(), causes.end(),
+                                 [](const FanucCause& cause) { return cause.name.find(' ') != std::string::npos; });
+  if (causes.empty() || (calls ? !written_.contains(number) : given(fmt::format("r[{}]", number)).has_value()))
+    return unknown(fmt::format("R[{}]", number));
+  add_causes(missing_, causes);
+  return {};
+}
+
 /// A register or another name: R[5], PR[1,3], DI[3:part], AR[1], F[2], $MCR.$GENOVERRIDE, SIN[R[1]].
 FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   const std::size_t begin = at.offset();
@@ -245,15 +326,26 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
     const std::size_t part = static_cast<std::size_t>(whole(*read->part));
     if (part >= 1 && part <= position.values.size() && std::isfinite(position.values[part - 1]))
       return position.values[part - 1];
-    return unknown(fmt::format("PR[{},{}]", number, part));
+    const std::string name = fmt::format("PR[{},{}]", number, part);
+    const auto known = component_causes_.find(number);
+    const bool computed = known != component_causes_.end() && known->second.contains(static_cast<int>(part));
+    if (given(plain_fanuc_name(name)) || (!computed && !position_causes_.contains(number))) return unknown(name);
+    if (computed)
+      add_causes(missing_, known->second.at(static_cast<int>(part)));
+    else
+      miss_position(number);
+    return {};
   }
   if (word == "ar") {
     const bool there =
         !arguments_.empty() && number >= 1 && static_cast<std::size_t>(number) <= arguments_.back().size();
-    if (there && arguments_.back()[number - 1]) return arguments_.back()[number - 1];
+    if (there && arguments_.back()[number - 1].value) return arguments_.back()[number - 1].value;
+    if (there && !given(fmt::format("ar[{}]", number)) && !arguments_.back()[number - 1].causes.empty()) {
+      add_causes(missing_, arguments_.back()[number - 1].causes);
+      return {};
+    }
   }
-  if (word == "r")
-    if (const auto found = registers_.find(number); found != registers_.end()) return found->second;
+  if (word == "r") return register_value(number);
   return unknown(fmt::format("{}[{}]", name, number));
 }
 

@@ -1,20 +1,24 @@
 #include "sim/program/import.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "pipeline/base/program_files.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/backup.h"
 #include "sim/program/encoding.h"
 #include "sim/program/fanuc.h"
 #include "sim/program/fanuc_backup.h"
+#include "sim/program/inform.h"
 #include "sim/program/krl.h"
 #include "sim/program/rapid.h"
 #include "sim/program/rapid_types.h"
 #include "sim/program/request.h"
 #include "sim/program/tokens.h"
 #include "sim/program/trajectory.h"
+#include "sim/program/urscript.h"
 
 namespace dresslife::sim {
 namespace {
@@ -40,7 +44,7 @@ std::vector<pipeline::MotionFrame> frames_of(const std::vector<NamedFrame>& read
   return frames;
 }
 
-SourceFile source_of(const std::filesystem::path& file) {
+SourceFile source_of(const std::filesystem::path& file, const std::map<std::string, std::string>& instead) {
   std::error_code failure;
   if (const auto size = std::filesystem::file_size(file, failure);
       !failure && size > ImportLimits::file_bytes)
@@ -48,7 +52,9 @@ SourceFile source_of(const std::filesystem::path& file) {
                                fmt::format("has {} bytes (at most {})", size, ImportLimits::file_bytes),
                                "split the program");
   const std::filesystem::path shown = std::filesystem::proximate(file, failure);
-  return {failure || shown.empty() ? file.string() : shown.string(), decoded_text(pipeline::read_text(file))};
+  const std::string name = failure || shown.empty() ? file.string() : shown.string();
+  const auto other = instead.find(name);
+  return {name, decoded_text(other == instead.end() ? pipeline::read_text(file) : other->second)};
 }
 
 /// "sill.mod:34 main: MoveL p20, v500, z10, gun;"
@@ -68,6 +74,7 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
   }
   step.path = static_cast<pipeline::PathKind>(instruction.kind);
   step.joints = instruction.target.joints;
+  if (instruction.kind == Instruction::Kind::circular) step.circle_joints = instruction.target.circle_joints;
   if (step.joints.empty()) {
     step.position = numbers_of(instruction.target.pose.position);
     step.quaternion = numbers_of(instruction.target.pose.orientation);
@@ -79,10 +86,13 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
   if (instruction.tool >= 0) step.tool = program.tools[instruction.tool].name;
   if (instruction.work_object >= 0) step.work_object = program.work_objects[instruction.work_object].name;
   step.speed_percent = instruction.speed.axis_percent;
+  step.speed = instruction.speed.axis;
+  step.acceleration = instruction.speed.axis_acceleration;
+  step.tool_acceleration = instruction.speed.tool_acceleration;
   step.tool_speed = instruction.speed.tool;
   step.turn_speed = instruction.speed.orientation;
   step.duration = instruction.speed.duration;
-  if (step.duration) step.speed_percent = step.tool_speed = step.turn_speed = std::nullopt;
+  if (step.duration) step.speed_percent = step.speed = step.tool_speed = step.turn_speed = std::nullopt;
   if (instruction.acceleration_percent != 100) step.acceleration_percent = instruction.acceleration_percent;
   if (instruction.zone.percent > 0)
     step.stop_zone = instruction.zone.percent;
@@ -105,6 +115,10 @@ Language language_of(const std::filesystem::path& file) {
                                                           {".sub", Language::krl},
                                                           {".ls", Language::fanuc},
                                                           {".va", Language::fanuc},
+                                                          {".jbi", Language::inform},
+                                                          {".cnd", Language::inform},
+                                                          {".script", Language::urscript},
+                                                          {".urscript", Language::urscript},
                                                           {".csv", Language::joint_columns},
                                                           {".yaml", Language::ros_trajectory},
                                                           {".yml", Language::ros_trajectory},
@@ -114,19 +128,28 @@ Language language_of(const std::filesystem::path& file) {
     if (extension == end) return language;
   throw pipeline::InputError({file.string()},
                              fmt::format("is no robot program by its name ('{}')", extension),
-                             "give RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), joints "
-                             "(.csv), ROS (.yaml, .json), or "
+                             "give RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM (.jbi), URScript "
+                             "(.script), joints (.csv), ROS (.yaml, .json), or "
                              "the folder of a backup");
 }
 
 namespace {
+
+Grammar grammar_of(Language language) {
+  return language == Language::krl        ? Grammar::krl
+         : language == Language::urscript ? Grammar::urscript
+                                          : Grammar::rapid;
+}
 
 /// A mistake in a routine counts only if that runs, one outside of routines only if the program fails; but a
 /// file that is given up has lost routines and data that nobody would miss.
 void parse_files(Code& code, Language language, Problems& problems) {
   for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
     Problems found;
-    language == Language::rapid ? parse_rapid(code, file, found) : parse_krl(code, file, found);
+    language == Language::rapid ? parse_rapid(code, file, found)
+    : language == Language::krl    ? parse_krl(code, file, found)
+    : language == Language::inform ? parse_inform(code, file, found)
+                                   : parse_urscript(code, file, found);
     if (!found.full())
       code.sort_problems(file, found);
     else
@@ -162,6 +185,36 @@ void tell_nothing(const Program& program, const ImportOptions& options, Problems
       "--module");
 }
 
+/// External axes that move, with what a job's robot needs of them: programs give positions alone.
+void tell_external_axes(Program& program) {
+  struct Way {
+    double low = INFINITY, high = -INFINITY;
+  };
+  std::vector<Way> ways;
+  for (const Instruction& instruction : program.instructions)
+    for (std::size_t i = 0; i < instruction.target.external_axes.size(); ++i) {
+      if (ways.size() <= i) ways.resize(i + 1);
+      ways[i].low = std::min(ways[i].low, instruction.target.external_axes[i]);
+      ways[i].high = std::max(ways[i].high, instruction.target.external_axes[i]);
+    }
+  if (std::none_of(ways.begin(), ways.end(), [](const Way& way) { return way.high > way.low; })) return;
+  std::string moving, entries;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const Way& way = ways[i];
+    moving += fmt::format("{}{} from {:.6g} to {:.6g}", i ? ", " : "", i + 1, way.low, way.high);
+    entries += fmt::format(
+        "{}{{name: external_{}, kind: linear, carries: robot, axis: [1, 0, 0], lower_mm: {:.6g}, upper_mm: {:.6g}, "
+        "speed_mm_per_s: 1000, acceleration_mm_per_s2: 1000}}",
+        i ? ", " : "", i + 1, std::min(way.low, 0.0), std::max(way.high, way.low + 1));
+  }
+  program.skipped.push_back(
+      {program.start,
+       fmt::format("note: external axes move: {} (mm or deg). A job simulates them with robot: {{external_axes: [{}]}}. The "
+                   "direction, the speed and the acceleration are estimates: write those of the axis; kind: rotary for one "
+                   "that turns, carries: nothing for one that does not move the robot",
+                   moving, entries)});
+}
+
 bool moves_anywhere(const Program& program) {
   return std::any_of(program.instructions.begin(), program.instructions.end(),
                      [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
@@ -177,19 +230,29 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
   program.name = std::filesystem::path(files[0].name()).stem().string();
   switch (language) {
     case Language::rapid:
-    case Language::krl: {
+    case Language::krl:
+    case Language::inform:
+    case Language::urscript: {
       Code code;
       code.files = std::move(files);
       code.written_beside = options.written_beside;
-      language == Language::rapid ? add_rapid_types(code) : add_krl_types(code);
+      language == Language::rapid ? add_rapid_types(code)
+      : language == Language::krl    ? add_krl_types(code)
+      : language == Language::inform ? add_inform_types(code)
+                                     : add_urscript_types(code);
       parse_files(code, language, problems);
-      add_requests(code, options, language == Language::krl, problems);
+      add_requests(code, options, grammar_of(language), problems);
+      if (language == Language::inform) name_inform_values(code);
       code.index();
       if (!problems.empty()) return program;
       if (language == Language::rapid)
         run_rapid(code, options, tools, work_objects, program, problems);
-      else
+      else if (language == Language::krl)
         run_krl(code, options, tools, work_objects, program, problems);
+      else if (language == Language::inform)
+        run_inform(code, options, tools, work_objects, program, problems);
+      else
+        run_urscript(code, options, tools, program, problems);
       for (const Problem& unread : code.problems)  // they may be why
         if (problems.empty())
           program.skipped.push_back({unread.where, "not read: " + unread.what, true});
@@ -208,6 +271,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       break;
   }
   if (problems.empty() && !moves_anywhere(program)) tell_nothing(program, options, problems);
+  tell_external_axes(program);
   return program;
 }
 
@@ -217,12 +281,15 @@ ImportOptions options_of(const pipeline::Motion& motion) {
   options.spot_time = motion.spot_time;
   options.passes = motion.passes;
   for (const pipeline::BranchAssumption& assumption : motion.assume)
-    if (assumption.take == "then" || assumption.take == "else")
+    if (assumption.take.empty())
+      continue;  // an answer that nobody wrote
+    else if (assumption.take == "then" || assumption.take == "else")
       options.assume[assumption.line] =
           assumption.take == "then" ? Assumption::then_branch : Assumption::else_branch;
     else
       options.choose[assumption.line] = assumption.take;
-  for (const pipeline::ProgramValue& given : motion.values) options.values[given.name] = given.value;
+  for (const pipeline::ProgramValue& given : motion.values)
+    if (!given.value.empty()) options.values[given.name] = given.value;
   return options;
 }
 
@@ -234,9 +301,10 @@ std::vector<std::filesystem::path> add_all(std::vector<std::filesystem::path> li
   return list;
 }
 
-/// The modules, each once; a KRL program sees what lies beside it and beside its modules, as on the
+/// The modules, each once; a KRL or INFORM program sees what lies beside it and beside its modules, as on the
 /// controller.
-void add_modules(const pipeline::Motion& motion, bool beside, std::deque<SourceFile>& files) {
+void add_modules(const pipeline::Motion& motion, bool beside, const std::map<std::string, std::string>& instead,
+                 std::deque<SourceFile>& files) {
   std::vector<std::filesystem::path> wanted;
   for (const pipeline::ProgramFile& module : motion.modules) wanted.push_back(module.file);
   const std::size_t modules = wanted.size();
@@ -250,12 +318,16 @@ void add_modules(const pipeline::Motion& motion, bool beside, std::deque<SourceF
   known.insert(std::filesystem::weakly_canonical(motion.program, failure));
   for (const std::filesystem::path& file : wanted)
     if (known.insert(std::filesystem::weakly_canonical(file, failure)).second)
-      files.push_back(source_of(file));
+      files.push_back(source_of(file, instead));
 }
 
 }  // namespace
 
-Program read_program(const pipeline::Motion& motion) {
+Language language_of(const pipeline::Motion& motion) {
+  return is_backup(motion.program) ? backup_of(motion.program, motion.routine).language : language_of(motion.program);
+}
+
+Program read_program(const pipeline::Motion& motion, const std::map<std::string, std::string>& instead) {
   ImportOptions options = options_of(motion);
   Language language = Language::rapid;
   std::deque<SourceFile> files;
@@ -265,16 +337,17 @@ Program read_program(const pipeline::Motion& motion) {
     language = backup.language;
     options.routine = backup.routine;
     options.written_beside = backup.written_beside;
-    for (const std::filesystem::path& file : backup.files) files.push_back(source_of(file));
+    for (const std::filesystem::path& file : backup.files) files.push_back(source_of(file, instead));
     if (files.empty())
       throw pipeline::InputError({motion.program.string()}, "holds none of the files that its lists name",
                                  "name the folder or the file that holds the program");
     missing = backup.missing;
   } else {
     language = language_of(motion.program);
-    files.push_back(source_of(motion.program));
+    files.push_back(source_of(motion.program, instead));
   }
-  add_modules(motion, language == Language::krl && !is_backup(motion.program), files);
+  const bool sees_its_folder = language == Language::krl || language == Language::inform;
+  add_modules(motion, sees_its_folder && !is_backup(motion.program), instead, files);
   if (language == Language::fanuc &&
       !is_backup(motion.program))  // programs that it calls and the registers of its backup lie beside it
     for (const std::filesystem::path& beside : fanuc_files_beside(motion.program)) {
@@ -283,7 +356,7 @@ Program read_program(const pipeline::Motion& motion) {
         return std::filesystem::equivalent(m.file, beside, failure) ||
                lower_case(m.file.filename().string()) == lower_case(beside.filename().string());
       });
-      if (!listed) files.push_back(source_of(beside));
+      if (!listed) files.push_back(source_of(beside, instead));
     }
   Problems problems;
   Program program = read_program(language, std::move(files), options, frames_of(motion.tools),
@@ -312,11 +385,12 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   motion.left_out = moves_left_out(program);
   for (pipeline::Warning& warning : motion.left_out)  // wherever the program lies
     warning.where = std::filesystem::path(warning.where).filename().string();
-  for (const Instruction& instruction : program.instructions) {
-    const bool waits_at_start =
-        motion.steps.empty() && instruction.kind == Instruction::Kind::dwell;  // somewhere
-    if (!waits_at_start) motion.steps.push_back(step_of(instruction, program));
-  }
+  for (const Instruction& instruction : program.instructions)
+    motion.steps.push_back(step_of(instruction, program));
+  // A motion begins where its first move leads: the robot stands there while it waits before that move.
+  const auto first_move =
+      std::find_if(motion.steps.begin(), motion.steps.end(), [](const auto& step) { return step.is_move(); });
+  if (first_move != motion.steps.end()) std::rotate(motion.steps.begin(), first_move, first_move + 1);
   return motion;
 }
 
@@ -333,8 +407,6 @@ std::pair<std::string, std::string> name_and_reason(const std::string& what) {
                                     : std::pair(what.substr(0, colon), what.substr(colon + 2));
 }
 
-constexpr int listed_lines = 5;  // of one thing that is skipped; the rest is counted
-
 struct SkippedGroup {
   pipeline::Where first;
   std::string name, reason;
@@ -343,7 +415,7 @@ struct SkippedGroup {
 };
 
 void add_to_group(SkippedGroup& group, const Skipped& skipped) {
-  if (++group.more > listed_lines) return;
+  ++group.more;
   const std::string file = std::filesystem::path(skipped.where.file).filename().string();
   const bool same_file = skipped.where.file == group.first.file;
   group.lines +=
@@ -366,11 +438,18 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
   }
   std::vector<pipeline::Warning> warnings;
   for (const SkippedGroup& group : groups) {
-    const std::string more = fmt::format(" (and {} more: line {}{})", group.more, group.lines,
-                                         group.more > listed_lines ? ", ..." : "");
-    warnings.push_back({pipeline::WarningKind::program, group.first.text(),
-                        fmt::format("skipped: {}{}{}", group.name.empty() ? "" : group.name + ": ",
-                                    group.reason, group.more == 0 ? "" : more)});
+    const std::string more = fmt::format(" (and {} more: line {})", group.more, group.lines);
+    const std::string what = fmt::format("skipped: {}{}{}", group.name.empty() ? "" : fmt::format("{}: ", group.name),
+                                         group.reason, group.more == 0 ? "" : more);
+    if (what.find("--value") != std::string::npos) {  // it says what to do
+      warnings.push_back({pipeline::WarningKind::program, group.first.text(), what});
+      continue;
+    }
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::program, group.first.text(), what,
+        "an instruction that the importer does not run and that may move the robot",
+        "describe what it does by motion.values or motion.assume, or take it out of a copy of the program if it moves "
+        "nothing (dresslife import --explain lists every move)"));
   }
   return warnings;
 }
@@ -382,7 +461,7 @@ std::vector<std::string> skipped_lines(const Program& program) {
   for (const Skipped& skipped : program.skipped) {
     if (skipped.may_move) continue;
     const auto [name, reason] = name_and_reason(skipped.what);
-    if (name.empty())
+    if (name.empty() || name == "note")
       lines.push_back(fmt::format("{}: note: {}", skipped.where.text(), reason));
     else
       ++harmless[reason][name];

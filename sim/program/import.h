@@ -4,6 +4,8 @@
 
 #include <deque>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "pipeline/base/warnings.h"
@@ -13,7 +15,7 @@
 
 namespace dresslife::sim {
 
-enum class Language { rapid, krl, fanuc, joint_columns, ros_trajectory };
+enum class Language { rapid, krl, fanuc, inform, urscript, joint_columns, ros_trajectory };
 
 /// By extension. Errors: InputError for one that no reader knows.
 Language language_of(const std::filesystem::path& file);
@@ -24,9 +26,13 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
                      const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects,
                      Problems& problems);
 
-/// The program of a motion (`program`, `modules`, `routine`, `assume`, `tools`, `work_objects`).
+/// The program of a motion (`program`, `modules`, `routine`, `assume`, `tools`, `work_objects`). instead: contents of
+/// files other than they have, by the names in the program's places.
 /// Errors: one InputError with all problems. Precondition: motion.program is set.
-Program read_program(const pipeline::Motion& motion);
+Program read_program(const pipeline::Motion& motion, const std::map<std::string, std::string>& instead = {});
+
+/// The language of a motion's program. Precondition: motion.program is set.
+Language language_of(const pipeline::Motion& motion);
 
 /// The program as steps, one for each move and dwell; speeds and zones that the program leaves out are
 /// `defaults`'.

@@ -27,8 +27,13 @@ struct Interpreter::Deeper {
 };
 
 Interpreter::Interpreter(const Code& code, Dialect& dialect, const ImportOptions& options, Program& program,
-                         Problems& problems)
-    : code_(code), dialect_(dialect), options_(options), program_(program), problems_(problems) {}
+                         Problems& problems, Exploration& exploration)
+    : code_(code),
+      dialect_(dialect),
+      options_(options),
+      program_(program),
+      problems_(problems),
+      exploration_(exploration) {}
 
 void Interpreter::run(const Routine& routine) {
   try {
@@ -44,6 +49,7 @@ void Interpreter::run(const Routine& routine) {
   } catch (const Stop&) {
   } catch (const EndOfCycle&) {  // of what is not run again
   }
+  exploration_.spend(executed_);
   for (const auto& [line, assumption] : options_.assume)
     if (!used_assumptions_.contains(line))
       note(routine.place, fmt::format("--assume {}: no branch on that line was to be decided", line), true);
@@ -92,12 +98,36 @@ std::string Interpreter::routine_at(const Place& place) const {
 }
 
 void Interpreter::complain(const Place& place, const std::string& what, const std::string& remedy) {
-  problems_.add(where(place), what, remedy, routine_at(place));
+  if (quiet_ > 0 || exploration_.guessing())
+    ++dropped_;
+  else
+    problems_.add(where(place), what, remedy, routine_at(place));
 }
 
 void Interpreter::miss(const std::string& name, const Place& place, const std::string& what,
-                       const std::string& remedy) {
-  problems_.add_missing(name, where(place), what, remedy, routine_at(place));
+                       const std::string& remedy, std::vector<Question> questions) {
+  if (questions.empty() && exploration_.guessing()) {
+    ++dropped_;
+    return;
+  }
+  for (const Question& question : questions) exploration_.meet_question(question.name);
+  Problem problem{.where = where(place), .what = what, .remedy = remedy};
+  problem.about = name;
+  problem.routine = routine_at(place);
+  problem.questions = std::move(questions);
+  problem.certain = !exploration_.guessing();
+  problems_.add_use(std::move(problem));
+}
+
+void Interpreter::ask_for(const Value& unknown, const Place& place, const std::string& what,
+                          const std::string& remedy, const std::string& form) {
+  const std::vector<Question> questions = questions_for(unknown, form);
+  if (questions.empty())
+    return complain(place, what + because(unknown), remedy.empty() ? "write it as a constant" : remedy);
+  std::string names;
+  for (const Question& question : questions) names += question.name + " ";
+  miss(names, place, what + because(unknown),
+       fmt::format("{}{}give {} (motion.values)", remedy, remedy.empty() ? "" : ", or ", remedy_for(unknown)), questions);
 }
 
 void Interpreter::note(const Place& place, const std::string& what, bool may_move) {
@@ -112,6 +142,7 @@ void Interpreter::note(const Place& place, const std::string& what, bool may_mov
 
 void Interpreter::charge(std::size_t work) {
   executed_ += static_cast<long>(work);
+  if (guessed_at_ >= 0 && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
   if (executed_ <= ImportLimits::executed) return;
   // The loop that has gone round most often since it was entered runs away, not those around or within it.
   const auto longest = std::max_element(loops_.begin(), loops_.end(),
@@ -119,11 +150,12 @@ void Interpreter::charge(std::size_t work) {
   const Place place = longest != loops_.end() ? longest->place
                       : routines_.empty()     ? Place{}
                                               : routines_.back()->place;
-  complain(place,
-           fmt::format("has run {} statements without an end (a loop that input would end?)",
-                       ImportLimits::executed),
-           fmt::format("take one pass of the loop with --assume {0}=then, or leave it out with =else",
-                       short_place(place)));
+  miss(short_place(place), place,
+       fmt::format("has run {} statements without an end (a loop that input would end?)",
+                   ImportLimits::executed),
+       fmt::format("take one pass of the loop with --assume {0}=then, or leave it out with =else",
+                   short_place(place)),
+       {{Question::Kind::branch, short_place(place), "then or else"}});
   throw Stop{};
 }
 
@@ -133,21 +165,24 @@ std::string Interpreter::short_place(const Place& place) const {
 }
 
 int Interpreter::frame_index(std::vector<NamedFrame>& list, const NamedFrame& frame) {
-  const auto& m = frame.frame;
-  for (std::size_t i = list.size(); i-- > 0;)
-    if (list[i].name == frame.name && list[i].stationary == frame.stationary &&
-        list[i].frame.position == m.position && list[i].frame.orientation.coeffs() == m.orientation.coeffs())
-      return static_cast<int>(i);
-  NamedFrame added = frame;
-  int variants = 1;
-  const auto taken = [&] {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const NamedFrame& other) { return other.name == added.name; });
-  };
-  while (taken()) added.name = fmt::format("{} ({})", frame.name, ++variants);  // the program changed it
-  list.push_back(added);
-  charge(list.size());
-  return static_cast<int>(list.size()) - 1;
+  const Vector3& p = frame.frame.position;
+  const Quaternion& q = frame.frame.orientation;
+  const std::string name = fmt::format("{} {}", &list == &program_.tools ? "tool" : "object", frame.name);
+  const auto [known, is_new] = frames_.emplace(
+      fmt::format("{} {} {} {} {} {} {} {} {}", name, frame.stationary, p.x(), p.y(), p.z(), q.w(), q.x(),
+                  q.y(), q.z()),
+      static_cast<int>(list.size()));
+  if (!is_new) return known->second;
+  list.push_back(frame);
+  if (const int variant = ++frame_variants_[name]; variant > 1)  // the program changed it
+    list.back().name = fmt::format("{} ({})", frame.name, variant);
+  return known->second;
+}
+
+std::string Interpreter::name_of(const Expression& expression) {
+  if (expression.kind != Expression::Kind::name) return "";
+  const Variable* found = find(expression.text);
+  return found && !found->alias.empty() ? found->alias : expression.text;
 }
 
 void Interpreter::emit(Instruction instruction, const Statement& statement) {
@@ -175,6 +210,8 @@ Interpreter::Flow Interpreter::execute(const Statement& statement) {
   const Deeper deeper(*this, statement.place);
   charge(1);
   if (problems_.full()) throw Stop{};
+  exploration_.meet(&statement);
+  here_ = statement.place;
   switch (statement.kind) {
     case Kind::assign:
       assign(statement.arguments[0], evaluate(statement.arguments[1]));

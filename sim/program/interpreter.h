@@ -2,7 +2,7 @@
 // collects the moves. What comes from inputs, or from an instruction that is left out, is an unknown value
 // that remembers what made it so: it spreads through expressions, and where a branch hangs on it, the branch
 // is left out if nothing in it moves or changes the robot, and asked for otherwise (ImportOptions::assume,
-// values).
+// values). Behind such a question the run goes on along one of the ways (exploration.h).
 //
 // Names: those of the routine hide those of its module, which hide those of all modules. Data outside of
 // routines is worked out when it is first used. A name that two files give to different things is refused
@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "sim/program/code.h"
+#include "sim/program/exploration.h"
 #include "sim/program/passes.h"
 
 namespace dresslife::sim {
@@ -33,6 +34,11 @@ struct Cause {
   std::string why;     ///< "is read by TPReadNum (m.mod:9)", "is no name that a file declares"
   std::string line{};  ///< "m.mod:9" of an undecided branch that it hangs on
   std::shared_ptr<const Cause> behind = nullptr;  ///< why that branch is undecided; has itself none behind it
+  std::vector<std::shared_ptr<const Cause>> others{};  ///< further ones, of a value of several unknown ones
+  std::string form{};  ///< how its value is written; empty: it is not known
+
+  /// The name whose value would make it known; empty: there is none.
+  const std::string& asked() const { return behind ? behind->name : name; }
 };
 
 struct Value {
@@ -54,6 +60,7 @@ struct Value {
   std::size_t weight() const;                         ///< values in it
   int depth() const;                                  ///< levels of lists in it
   const Cause* first_cause() const;                   ///< of what is unknown in it; null: none
+  std::vector<const Cause*> causes() const;           ///< all of them, each asked() name once
   bool operator==(const Value& other) const;          ///< unknown ones are equal, whatever made them so
 };
 
@@ -61,8 +68,9 @@ Value number_value(double number);
 Value truth_value(bool truth);
 Value text_value(std::string text);
 Value list_value(std::vector<Value> items, const RecordType* type = nullptr);
-Value unknown_value(std::string name, std::string why);
-Value unknown_value(const Value& because);  ///< with the cause of that one
+Value unknown_value(std::string name, std::string why, std::string form = "");
+Value unknown_value(const Value& because);  ///< with the causes of that one
+Value unknown_value(const Value& because, const Value& and_because);
 /// The same lists with nothing known in them.
 Value forgotten(Value value, const std::shared_ptr<const Cause>& cause);
 
@@ -96,34 +104,60 @@ class Dialect {
     return false;
   }
   virtual const RecordType* type_of(const std::string& name) const = 0;
+  /// How a value of a type is written: "a number"; empty: as it is in the program.
+  virtual std::string form_of(const std::string& type) const = 0;
+  /// The number that a text of one letter stands for; absent: none in this language.
+  virtual std::optional<double> letter(const Value& text) const {
+    static_cast<void>(text);
+    return {};
+  }
   /// Value of a declared variable without one.
   virtual Value initial(const std::string& type) const = 0;
   /// Assigns a value to a variable or to a part of one.
   virtual void store(Value& place, Value value) const { place = std::move(value); }
+  /// Of a list, as programs write it.
+  virtual int first_index() const { return 1; }
   /// Whether a name that a module uses and no file read declares belongs to all modules, not to it alone.
   virtual bool shares(const std::string& name, int module) const {
     static_cast<void>(name);
     static_cast<void>(module);
     return true;
   }
+  /// Whether a name that a module does not share means something else in each module that uses it.
+  virtual bool is_of_module(const std::string& name) const {
+    static_cast<void>(name);
+    return false;
+  }
 };
 
 class Interpreter {
  public:
   Interpreter(const Code& code, Dialect& dialect, const ImportOptions& options, Program& program,
-              Problems& problems);
+              Problems& problems, Exploration& exploration);
 
   void run(const Routine& routine);
 
   // ---- for the dialects --------------------------------------------------------------------------------
   Value evaluate(const Expression& expression);
   std::optional<double> number(const Expression& expression);  ///< absent: unknown, or no number
+  /// The value of an argument. One that nothing else makes known is asked for by its line and text.
+  Value answered(const Expression& expression);
   /// The variable as it stands; null: not declared.
   const Value* variable(const std::string& name);
   /// What the user gives for a name or path; absent: nothing.
   std::optional<Value> given(const std::string& name);
+  /// The same for what stands in the line that runs: "cell.mod:12:cjointt", else "cjointt".
+  std::optional<Value> given_here(const std::string& what);
+  std::string name_here(const std::string& what) const;
+  /// The name by which the user gives a variable or a part of one: with its module or routine where others
+  /// have that name, too.
+  std::string answer_name(const std::string& path);
   /// Where the variable that an expression begins with was last written; line 0: not in the files.
   Place origin(const Expression& expression);
+  /// Name of the data that an expression is; of a parameter, of what the caller gave. Empty: it is no name.
+  std::string name_of(const Expression& expression);
+  /// Whether the program has written to the data that an expression begins with.
+  bool was_assigned(const Expression& expression) const;
   /// The expression as it stands in its file, up to the argument's end.
   std::string written(const Expression& expression) const;
   /// Runs a routine by its name, "name" or "module:name".
@@ -134,6 +168,8 @@ class Interpreter {
   void make_unknown(const Expression& target, Cause cause);
   /// The same for all that a call of a routine may write to, as it stands in a module.
   void forget_writes_of(const Statement& call, int module, const std::string& why);
+  /// Every number and text of all modules becomes unknown: what is not read may have written it. Lists stay.
+  void forget_numbers(const std::string& why);
   /// Of all modules, as it was written there.
   void set(const std::string& name, Value value, const Place& written = {});
   void forget(const std::string& name);
@@ -143,15 +179,20 @@ class Interpreter {
   void emit(Instruction instruction, const Statement& statement);
   void note(const Place& place, const std::string& what, bool may_move = false);
   void complain(const Place& place, const std::string& what, const std::string& remedy);
-  /// A name that is missing is told once, however often it is used.
-  void miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy);
+  /// What is missing is told once, however often it is used.
+  void miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy,
+            std::vector<Question> questions = {});
+  /// Asks for all that makes a value unknown. `remedy` goes before "--value ..."; `form`: how the value itself
+  /// is written.
+  void ask_for(const Value& unknown, const Place& place, const std::string& what, const std::string& remedy,
+               const std::string& form);
   /// ": k is read by TPReadNum (m.mod:9)", or nothing.
   std::string because(const Value& unknown) const;
-  /// "--value k=... ", or nothing: what would make it known.
+  /// "--value 'k=...' ", or nothing: what would make it known.
   std::string remedy_for(const Value& unknown) const;
-  /// The one question that decides it, for uses that are told once; empty: there is none.
-  std::string question_of(const Value& unknown) const;
-  std::size_t problem_count() const { return problems_.count(); }
+  std::vector<Question> questions_for(const Value& unknown, const std::string& form);
+  /// Problems so far, with those that count for nothing because they lie behind a guess.
+  std::size_t problem_count() const { return problems_.count() + dropped_; }
   pipeline::Where where(const Place& place) const;
   std::string short_place(const Place& place) const;  ///< "main.mod:12"
   std::string routine_at(const Place& place) const;
@@ -175,6 +216,8 @@ class Interpreter {
     Value value;
     Place written;          // where it was declared or last assigned; line 0: by no line
     bool assigned = false;  // since it was declared: part of the program's state
+    std::string alias{};    // of a parameter: the name that the caller gave
+    const Statement* declaration = nullptr;  // null: of a parameter, or made by an assignment
   };
   using Scope = std::map<std::string, Variable, std::less<>>;
   struct Deeper;
@@ -197,7 +240,6 @@ class Interpreter {
   Flow run_while(const Statement& statement);
   Flow run_until(const Statement& statement);
   Flow run_endless(const Statement& statement);
-  Flow run_both(const Statement& statement);
   Flow go_on(const Branch& way, const Value& unknown);
   Flow leave_out(const Statement& statement, const Value& unknown);
   void run_instruction(const Statement& statement);
@@ -210,9 +252,11 @@ class Interpreter {
   std::uint64_t state(bool with_locals = true) const;
   void call_within_itself(const Routine& routine);
   [[noreturn]] void end_within_itself(const Routine& routine);
-  void ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers,
-           const std::vector<Expression>& asked);
-  void unknown_names(const Expression& expression, std::vector<std::string>& names);
+  int ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers,
+          int ways, bool by_value, const std::string& form);
+  int guess(const Place& place, int ways);
+  std::string form_of(const std::string& name);
+  bool compares_known(const Expression& condition);
   template <class Answers>
   const typename Answers::mapped_type* answer(const Answers& answers, const Place& place);
   std::optional<bool> assumed(const Place& place);
@@ -233,6 +277,7 @@ class Interpreter {
                         const Place& place);
   bool holds_loop_exit(const std::vector<Statement>& body) const;
   bool jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const;
+  void end_where_it_repeats(Passes& passes, const Place& place);
 
   Value evaluate_inner(const Expression& expression);
   Value name_value(const Expression& expression);
@@ -240,21 +285,26 @@ class Interpreter {
   Value unknown_index(const Expression& expression);
   std::optional<Value> character_of(const Expression& expression);
   std::optional<Value> value_written_beside(const Expression& expression);
-  Value why_unknown(const Expression& expression);
+  Value why_unknown(const std::vector<Expression>& expressions);
   Value unary(const Expression& expression);
   Value binary(const Expression& expression);
   Value aggregate(const Expression& expression);
   void shape_elements(Value& value, const RecordType* type, std::size_t levels) const;
   Value* locate(const Expression& expression);
+  std::shared_ptr<const Cause> typed_cause(const Value& unknown, const RecordType* type) const;
+  Value* part_of_given(Value& whole, const Expression& part);
+  Value* given_part(const Expression& expression);
   Variable* find(const std::string& name);
   Scope& scope_of(const std::string& path);
   static const std::string& base_name(const Expression& expression);
   Variable* base_of(const Expression& expression);
+  static bool is_constant(const Variable& variable);
   Value* ready(Variable& variable);
   void assign_somewhere(const Expression& target);
   Value declared_value(const Statement& statement);
   void declare_parameter(const Statement& statement);
   void index_data();
+  void count_holders();
   std::optional<Value> given_for(const Datum& datum);
   bool same_declaration(const Datum& a, const Datum& b) const;
   void charge(std::size_t work);
@@ -268,7 +318,15 @@ class Interpreter {
   std::vector<Scope> module_data_;  // of LOCAL data
   std::deque<Scope> locals_;        // stay where they are while routines are called
   int module_ = -1;                 // whose names are seen
+  Exploration& exploration_;
   std::set<std::string> used_values_, used_assumptions_;
+  std::map<std::string, std::string> given_to_;  // a value without its module -> whose name it first was
+  std::map<std::string, int> holders_;           // name -> routines and modules that declare it
+  int modules_apart_ = 0;                        // modules that keep names which no file declares
+  std::size_t dropped_ = 0;                      // problems behind a guess
+  int quiet_ = 0;                                // above 0: nothing is told
+  long guessed_at_ = -1;                         // executed_ at the first guess; -1: there was none
+  Place here_;                                   // of the statement that runs
   std::map<const Routine*, bool> routine_moves_;
   struct Loop {
     Place place;
@@ -284,7 +342,8 @@ class Interpreter {
   const Statement* jump_ = nullptr;  // on its way to its label
   std::deque<RecordType> records_;   // of aggregates with names
   std::map<std::string, const RecordType*> record_of_;
-  std::map<std::string, int> frames_;
+  std::map<std::string, int> frames_;          // name and contents -> index in the program's list
+  std::map<std::string, int> frame_variants_;  // name -> how many contents it had
   long executed_ = 0;
   int depth_ = 0;
 };

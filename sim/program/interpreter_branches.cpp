@@ -29,22 +29,82 @@ std::optional<bool> Interpreter::assumed(const Place& place) {
   return found ? std::optional(*found == Assumption::then_branch) : std::nullopt;
 }
 
-void Interpreter::ask(const Place& place, const std::string& what, const Value& unknown,
-                      const std::string& answers, const std::vector<Expression>& asked) {
+/// Whether a condition compares what is unknown with what the program knows and changes: a counter.
+bool Interpreter::compares_known(const Expression& condition) {
+  if (condition.kind == Expression::Kind::name || condition.kind == Expression::Kind::element ||
+      condition.kind == Expression::Kind::field) {
+    const Variable* variable = base_of(condition);
+    return variable && !is_constant(*variable) && variable->assigned && evaluate(condition).known();
+  }
+  return condition.kind != Expression::Kind::call &&
+         std::any_of(condition.items.begin(), condition.items.end(),
+                     [&](const Expression& item) { return compares_known(item); });
+}
+
+namespace {
+
+/// How a value is written that stands in a condition: as what it is compared with. Empty: it is not told.
+std::string form_within(const Expression& condition) {
+  using Is = Expression::Kind;
+  const auto plain = [](const Expression& e) { return e.kind == Is::name || e.kind == Is::element || e.kind == Is::field; };
+  const bool joins = condition.text == "and" || condition.text == "or" || condition.text == "not";
+  if (plain(condition)) return "TRUE or FALSE";
+  if (condition.kind == Is::unary && joins) return form_within(condition.items[0]);
+  if (condition.kind != Is::binary) return "";
+  if (joins) {
+    const std::string first = form_within(condition.items[0]), second = form_within(condition.items[1]);
+    return first == second ? first : "";
+  }
+  for (const Expression& side : condition.items) {
+    if (side.kind == Is::truth) return "TRUE or FALSE";
+    if (side.kind == Is::text) return "a text in double quotes";
+    if (side.kind == Is::number) return "a number";
+  }
+  return "";
+}
+
+/// "one of 1, 2, 5".
+std::string form_of_cases(const Interpreter& run, const Statement& choice) {
   std::string values;
-  std::vector<std::string> names;
-  for (const Expression& expression : asked) unknown_names(expression, names);
-  if (names.empty()) names.push_back(question_of(unknown));
-  for (const std::string& name : names)
-    if (!name.empty()) values += fmt::format("{}--value '{}=...'", values.empty() ? "" : " ", name);
+  for (const Branch& branch : choice.branches)
+    for (const Expression& value : branch.conditions) values += (values.empty() ? "" : ", ") + run.written(value);
+  return values.empty() ? "" : "one of " + values;
+}
+
+}  // namespace
+
+/// Asks for the one name that decides it, or which way the statement goes; and goes on along one of the ways.
+int Interpreter::ask(const Place& place, const std::string& what, const Value& unknown,
+                     const std::string& answers, int ways, bool by_value, const std::string& form) {
+  const std::string line = short_place(place);
+  const std::vector<const Cause*> causes = unknown.causes();
+  std::string values;
+  for (const Cause* cause : causes)
+    if (!cause->asked().empty())
+      values += fmt::format("{}--value '{}=...'", values.empty() ? "" : " ", cause->asked());
   const std::string about = values.empty() ? where(place).text() : answers + values;
-  if (const Cause* cause = unknown.first_cause(); cause && cause->behind)
-    values += fmt::format(", or --assume {}=then or =else", cause->line);
-  problems_.add_decision(
-      about, where(place), what + because(unknown),
-      fmt::format("choose with --assume {}={} (motion.assume in a job){}", short_place(place), answers,
-                  values.empty() ? "" : fmt::format(", or give {} (motion.values)", values)),
-      routine_at(place));
+  for (const Cause* cause : causes)
+    if (cause->behind) values += fmt::format(", or --assume {}=then or =else", cause->line);
+  std::vector<Question> questions = questions_for(unknown, form);
+  if (questions.empty() || (questions.size() > 1 && ways == 2) || !by_value)
+    questions = {{Question::Kind::branch, line, ways == 2 ? "then or else" : form.empty() ? answers : form}};
+  for (const Question& question : questions) exploration_.meet_question(question.name);
+  Problem problem{.where = where(place),
+                  .what = what + because(unknown),
+                  .remedy = fmt::format("choose with --assume {}={} (motion.assume in a job){}", line, answers,
+                                        values.empty() ? "" : fmt::format(", or give {} (motion.values)", values))};
+  problem.about = about;
+  problem.decision = true;
+  problem.routine = routine_at(place);
+  problem.questions = std::move(questions);
+  problem.certain = !exploration_.guessing();
+  problems_.add_use(std::move(problem));
+  return guess(place, ways);
+}
+
+int Interpreter::guess(const Place& place, int ways) {
+  if (guessed_at_ < 0) guessed_at_ = executed_;
+  return exploration_.choose(fmt::format("{}:{}", place.file, place.line), ways);
 }
 
 Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
@@ -52,18 +112,19 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
     if (branch.conditions.empty()) return execute(branch.body);
     std::optional<bool> decision = assumed(branch.place);
     Value condition;
-    const std::size_t problems = problems_.count();
+    const std::size_t problems = problem_count();
     if (!decision) {
       condition = evaluate(branch.conditions[0]);
       if (condition.kind == Value::Kind::truth) decision = condition.number != 0;
     }
     if (!decision) {
-      if (!matters(statement)) return leave_out(statement, condition);
-      if (problems_.count() != problems) return run_both(statement);  // what makes it unknown is told
+      if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
+        return leave_out(statement, condition);
       if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
-      ask(branch.place, "branches on what is known only while the robot runs", condition, "then or =else",
-          branch.conditions);
-      return run_both(statement);
+      decision = problem_count() != problems  // what makes it unknown is told
+                     ? guess(branch.place, 2) == 0
+                     : ask(branch.place, "branches on what is known only while the robot runs", condition,
+                           "then or =else", 2, true, form_within(branch.conditions[0])) == 0;
     }
     if (*decision) return execute(branch.body);
   }
@@ -82,11 +143,13 @@ Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
       const Value value = evaluate(condition);
       if (!subject.known() || !value.known()) {
         const Value& unknown = subject.known() ? value : subject;
-        if (!matters(statement)) return leave_out(statement, unknown);
+        if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
+          return leave_out(statement, unknown);
         if (const Branch* way = waited_for(statement)) return go_on(*way, unknown);
-        ask(statement.place, "chooses by what is known only while the robot runs", unknown,
-            "VALUE, the value that it then has", statement.arguments);
-        return run_both(statement);
+        const int ways = static_cast<int>(statement.branches.size());
+        const int way = ask(statement.place, "chooses by what is known only while the robot runs", unknown,
+                            "VALUE, the value that it then has", ways + 1, true, form_of_cases(*this, statement));
+        return way < ways ? execute(statement.branches[way].body) : Flow::next;
       }
       if (value == subject) return execute(branch.body);
     }
@@ -98,19 +161,28 @@ Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
 Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value& unknown) {
   const std::string line = short_place(statement.place);
   const std::shared_ptr<const Cause> cause = unknown_value(unknown).cause;
+  ++quiet_;  // an index that the branch would not meet
   const bool waits = std::any_of(statement.branches.begin(), statement.branches.end(),
                                  [&](const Branch& branch) { return only_waits(branch.body); });
   note(statement.place,
        fmt::format("branch {}{}: known only while the robot runs", waits ? "that waits" : "without moves",
                    cause ? fmt::format(" on '{}'", cause->name) : ""));
-  Cause why{"", "hangs on the branch in " + line, line, cause && cause->behind ? cause->behind : cause};
+  // One name decides it, or the branch itself is asked for.
+  const bool alone = cause && cause->others.empty();
+  Cause why{"", "hangs on the branch in " + line, line,
+            alone && cause->behind ? cause->behind
+            : alone                ? cause
+                                   : nullptr};
   if (!why.behind || why.behind->name.empty()) why.behind = nullptr;
   std::set<const Routine*> done;
   for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
-  if (!leaves(statement, false)) return Flow::next;
+  const bool goes = leaves(statement, false);
   // What follows in the routine may run or not, and moves nothing either (see matters()).
-  forget_assigned(routines_.back()->body, why, done);
-  result_ = unknown_value(unknown);
+  if (goes) forget_assigned(routines_.back()->body, why, done);
+  --quiet_;
+  if (!goes) return Flow::next;
+  result_ = Value{};
+  result_.cause = std::make_shared<const Cause>(std::move(why));
   return Flow::give_back;
 }
 
@@ -140,12 +212,6 @@ Interpreter::Flow Interpreter::go_on(const Branch& way, const Value& unknown) {
   note(way.place, fmt::format("the robot waits{} (its loop makes no other move), and the way on is taken",
                               cause && !cause->name.empty() ? fmt::format(" for '{}'", cause->name) : ""));
   return execute(way.body);
-}
-
-/// The reading has failed; what else there is to ask or to mend in the arms is told as well.
-Interpreter::Flow Interpreter::run_both(const Statement& statement) {
-  for (const Branch& branch : statement.branches) execute(branch.body);
-  return Flow::next;
 }
 
 }  // namespace dresslife::sim

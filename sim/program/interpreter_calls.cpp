@@ -36,9 +36,8 @@ void Interpreter::run_instruction(const Statement& statement) {
 void Interpreter::run_late(const Statement& statement) {
   const Value name = evaluate(statement.arguments[0]);
   if (name.kind != Value::Kind::text) {
-    const std::string value = remedy_for(name);
-    complain(statement.place, "runs a routine whose name is known only while the robot runs" + because(name),
-             value.empty() ? "write its name" : "give " + value);
+    ask_for(name, statement.place, "runs a routine whose name is known only while the robot runs",
+            "write its name", "the routine's name, in quotes");
     return;
   }
   run_named(name.text, {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);
@@ -47,7 +46,11 @@ void Interpreter::run_late(const Statement& statement) {
 void Interpreter::run_named(const std::string& name, const std::vector<Expression>& arguments,
                             const Place& place) {
   const std::string lower = lower_case(name);
-  if (const Routine* routine = routine_named(lower.substr(lower.find(':') + 1), place)) {
+  const std::size_t colon = lower.find(':');
+  const Routine* routine = colon == std::string::npos
+                               ? routine_named(lower, place)
+                               : code_.find_in(lower.substr(0, colon), lower.substr(colon + 1));
+  if (routine) {
     call(*routine, arguments, place);
     return;
   }
@@ -84,12 +87,16 @@ const Routine* Interpreter::routine_named(const std::string& name, const Place& 
 }
 
 void Interpreter::declare(const Statement& statement) {
-  if (statement.arguments[0].kind == Expression::Kind::none)
-    for (const Parameter& parameter : routines_.back()->parameters)
-      if (parameter.name == statement.name) return declare_parameter(statement);
+  const bool valued = statement.arguments[0].kind != Expression::Kind::none;
+  for (const Parameter& parameter : routines_.back()->parameters) {
+    if (parameter.name != statement.name) continue;
+    if (!valued) return declare_parameter(statement);
+    if (locals_.back().contains(parameter.name)) return;  // URScript: the value of a call that gives none
+  }
   locals_.back().insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
                                                            .value = declared_value(statement),
-                                                           .written = statement.place});
+                                                           .written = statement.place,
+                                                           .declaration = &statement});
 }
 
 /// KRL declares its parameters' types inside the routine.
@@ -99,6 +106,7 @@ void Interpreter::declare_parameter(const Statement& statement) {
   Value typed = dialect_.initial(statement.text);
   dialect_.store(typed, std::move(given->second.value));
   given->second.value = std::move(typed);
+  given->second.declaration = &statement;
 }
 
 Value Interpreter::declared_value(const Statement& statement) {
@@ -129,7 +137,7 @@ Value Interpreter::declared_value(const Statement& statement) {
   }
   if (!statement.elsewhere) return value;
   static const std::string why = "is a PERS without a value here: another task's module gives it";
-  return forgotten(std::move(value), std::make_shared<const Cause>(Cause{statement.name, why}));
+  return forgotten(std::move(value), std::make_shared<const Cause>(Cause{answer_name(statement.name), why}));
 }
 
 /// Of an array: a list of so many levels.
@@ -180,8 +188,10 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
     variable.state = Variable::State::ready;
     variable.value = argument.kind == Expression::Kind::none ? truth_value(true) : evaluate(argument);
     variable.written = origin(argument);
+    variable.alias = name_of(argument);
     if (parameter->given_back) given.emplace_back(parameter, &argument);
   }
+  const Place here = here_;
   const int module = std::exchange(module_, routine.module);
   routines_.push_back(&routine);
   locals_.push_back(std::move(variables));
@@ -196,6 +206,7 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
   locals_.pop_back();
   routines_.pop_back();
   module_ = module;
+  here_ = here;
   for (const auto& [parameter, argument] : given)
     if (argument->kind == Expression::Kind::name || argument->kind == Expression::Kind::field ||
         argument->kind == Expression::Kind::element)

@@ -32,6 +32,28 @@ struct Interpreter::Round {
   std::size_t at_;
 };
 
+namespace {
+
+/// Passes that only look for further questions: their end.
+class Barren {
+ public:
+  explicit Barren(const Exploration& exploration) : exploration_(exploration), news_(exploration.news()) {}
+  /// Whether enough passes in a row met nothing new.
+  bool again() {
+    constexpr int enough = 3;
+    count_ = exploration_.news() == news_ ? count_ + 1 : 0;
+    news_ = exploration_.news();
+    return count_ >= enough;
+  }
+
+ private:
+  const Exploration& exploration_;
+  long news_;
+  int count_ = 0;
+};
+
+}  // namespace
+
 /// A body that runs again and again, as long as this lives.
 struct Interpreter::Again {
   Again(Interpreter& run, const std::vector<Statement>& body) : run_(run), at_(run.endless_.size()) {
@@ -44,8 +66,10 @@ struct Interpreter::Again {
 };
 
 Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
-  std::optional<Round> round;  // of jumps back
+  std::optional<Round> round;            // of jumps back
+  std::map<std::size_t, Passes> passes;  // from each label back to it
   for (std::size_t i = 0; i < body.size(); ++i) {
+    if (body[i].kind == Kind::label) passes.try_emplace(i, program_.instructions);
     const Flow flow = execute(body[i]);
     if (flow == Flow::next) continue;
     if (flow != Flow::jump) return flow;
@@ -56,16 +80,29 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
     const auto target = static_cast<std::size_t>(label - body.begin());
     if (target <= i) {
       if (!round) round.emplace(*this, jump_->place);
-      const long passes = round->again();
-      if (jumps_for_ever(body, target, i) && passes >= std::max(1, options_.passes)) {
-        note(jump_->place, "an endless loop, of which the motion is " + passes_text(passes));
+      const long count = round->again();
+      if (jumps_for_ever(body, target, i) && count >= std::max(1, options_.passes)) {
+        note(jump_->place, "an endless loop, of which the motion is " + passes_text(count));
         throw Stop{};
       }
+      end_where_it_repeats(passes.try_emplace(target, program_.instructions).first->second, jump_->place);
     }
     charge(1);
     i = target;
   }
   return Flow::next;
+}
+
+/// At a jump back: with the data of an earlier one everything repeats for ever.
+void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
+  if (passes.count() >= searched_passes) return;
+  passes.add(state());
+  const auto wanted = static_cast<std::size_t>(options_.passes);
+  if (!passes.repeats() || passes.count() < wanted) return;
+  const std::size_t kept = passes.kept(wanted);
+  program_.instructions.resize(passes.end(kept));
+  note(place, "an endless loop, of which the motion is " + passes_text(static_cast<long>(kept)));
+  throw Stop{};
 }
 
 /// The jump stands in `body` itself, and nothing between it and its label leaves the way round.
@@ -86,7 +123,7 @@ Expression Interpreter::counter_of(const Statement& statement) {
 }
 
 Interpreter::Flow Interpreter::run_count(const Statement& statement) {
-  const std::optional<bool> decision = assumed(statement.place);
+  std::optional<bool> decision = assumed(statement.place);
   if (decision && !*decision) return Flow::next;
   const auto from = number(statement.arguments[0]), to = number(statement.arguments[1]);
   const Expression& written_step = statement.arguments[2];
@@ -94,12 +131,13 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   if (written_step.kind != Expression::Kind::none) step = number(written_step);
   if (!decision && (!from || !to || !step || *step == 0)) {
     Value unknown;
-    for (const Expression& bound : statement.arguments)
-      if (unknown.cause == nullptr) unknown = unknown_value(evaluate(bound));
-    if (!matters(statement)) return leave_out(statement, unknown);
-    ask(statement.place, "counts to what is known only while the robot runs (then: one pass, else: none)",
-        unknown, "then or =else", statement.arguments);
-    return Flow::next;
+    for (const Expression& bound : statement.arguments) unknown = unknown_value(unknown, evaluate(bound));
+    if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
+      return leave_out(statement, unknown);
+    decision = ask(statement.place,
+                   "counts to what is known only while the robot runs (then: one pass, else: none)", unknown,
+                   "then or =else", 2, true, "a number") == 0;
+    if (!*decision) return Flow::next;
   }
   const double first = from.value_or(1), last = decision ? first : *to, by = decision ? 1 : *step;
   Scope& variables = locals_.back();
@@ -127,7 +165,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     const Value counter = evaluate(counter_of(statement));  // the body may have changed it
     if (!counter.is_number()) {
       ask(statement.place, "counts with a variable that is known only while the robot runs", counter,
-          "then or =else", {});
+          "then or =else", 2, true, "a number");
       break;
     }
     value = counter.number + by;
@@ -143,7 +181,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
 }
 
 Interpreter::Flow Interpreter::run_while(const Statement& statement) {
-  const std::optional<bool> decision = assumed(statement.place);
+  std::optional<bool> decision = assumed(statement.place);
   const Expression& condition = statement.arguments[0];
   if (!decision && condition.kind == Expression::Kind::truth && condition.number != 0)
     return run_endless(statement);
@@ -154,14 +192,16 @@ Interpreter::Flow Interpreter::run_while(const Statement& statement) {
     if (!decision) {
       const Value go_on = evaluate(condition);
       if (!go_on.known()) {
-        if (!matters(statement)) return leave_out(statement, go_on);
-        ask(statement.place,
-            "repeats while something holds that is known only while the robot runs (then: one pass, else: "
-            "none)",
-            go_on, "then or =else", {condition});
-        return run_both(statement);
+        if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
+          return leave_out(statement, go_on);
+        decision = ask(statement.place,
+                       "repeats while something holds that is known only while the robot runs (then: one "
+                       "pass, else: none)",
+                       go_on, "then or =else", 2, compares_known(condition), "") == 0;
+        if (!*decision) break;
+      } else if (go_on.number == 0) {
+        break;
       }
-      if (go_on.number == 0) break;
     }
     const long passes = round.again();
     flow = execute(statement.branches[0].body);
@@ -227,18 +267,23 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   Round round(*this, statement.place);
   const Again again(*this, statement.branches[0].body);
   Passes passes(program_.instructions);
+  const std::size_t problems = problems_.count();
+  bool hinted = false;
+  Barren barren(exploration_);
   while (true) {
-    const std::size_t problems = problems_.count();
     const Flow flow = execute(statement.branches[0].body);
     if (flow != Flow::next) return flow == Flow::leave_loop ? Flow::next : flow;
     passes.add(state());
     round.again();
-    if (problems_.count() > problems) {
-      if (passes.count() > 1)
+    if (problems_.count() > problems || exploration_.guessing()) {  // what further passes ask counts, too
+      if (passes.count() > 1 && !hinted)
         problems_.hint(problems,
                        fmt::format("in pass {} of the loop in {}: --passes {} ends before", passes.count(),
                                    short_place(statement.place), passes.count() - 1));
-      throw Stop{};
+      hinted = true;
+      const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
+      if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) throw Stop{};
+      continue;
     }
     if (passes.count() == wanted || (!wanted && passes.repeats())) break;
     const bool searched = passes.count() >= searched_passes || executed_ - work_before > searched_work ||
@@ -306,15 +351,19 @@ void Interpreter::run_cycles(const Routine& routine) {
   const long work_before = executed_;
   const Again again(*this, routine.body);
   Passes passes(program_.instructions);
+  Barren barren(exploration_);
+  bool asking = false;
   while (true) {
     const Problems told = problems_;
     const bool ended = ends_within(routine);
     constexpr std::size_t few_moves = 2;  // make no motion
     const bool one_cycle = passes.count() > 0 && passes.end(passes.count()) >= few_moves;
-    if (problems_.count() > told.count() && one_cycle && !passes.only_lines_of_the_first())
-      return problems_.hint(told.count(), fmt::format("in pass {} of {}: --passes {} ends before",
-                                                      passes.count() + 1, routine.written, passes.count()));
-    if (problems_.count() > told.count() && one_cycle) {
+    if (!asking && problems_.count() > told.count() && one_cycle && !passes.only_lines_of_the_first()) {
+      problems_.hint(told.count(), fmt::format("in pass {} of {}: --passes {} ends before",
+                                               passes.count() + 1, routine.written, passes.count()));
+      asking = true;
+    }
+    if (!asking && problems_.count() > told.count() && one_cycle) {
       const Problem& first = problems_.list()[told.count()];
       const std::string why = fmt::format("{} ({})", first.what, first.where.text());
       problems_ = told;
@@ -325,8 +374,14 @@ void Interpreter::run_cycles(const Routine& routine) {
                               routine.written, why, passes_text(static_cast<long>(kept))),
                   true);
     }
-    if (ended || problems_.count() > told.count()) return;
+    asking |= problems_.count() > told.count() || exploration_.guessing();
+    if (ended) return;
     passes.add(state());
+    if (asking) {  // what later cycles ask counts, too
+      const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
+      if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) return;
+      continue;
+    }
     if (passes.count() == 1 && wanted <= 1 && state() == state_before) return;
     if (passes.count() == wanted || (!wanted && passes.repeats())) break;
     if (!wanted && (passes.count() >= searched_passes || executed_ - work_before > searched_work ||

@@ -31,6 +31,9 @@ bool has(const Statement& statement, const char* word) {
 /// A distance of SAPO_PTP that stands for "the percentage counts alone" [mm].
 constexpr double no_distance = 1e5;
 
+constexpr const char* target_form =
+    "{X .., Y .., Z .., A .., B .., C .., S .., T ..} in mm and deg, or {A1 .., A2 .., A3 .., A4 .., A5 .., A6 ..}";
+
 constexpr double most_angle = 3600;  // of CA [deg]
 
 }  // namespace
@@ -65,26 +68,30 @@ std::optional<Value> Krl::constant(const std::string& name) {
         store(const_cast<Value&>(*part), number_value(*external_[i]));
     return place;
   }
-  if (std::optional<Value> given = run_->given(name)) return given;
-  return unknown_value(name, "is where the robot stands");
+  if (std::optional<Value> given = run_->given_here(name)) return given;
+  return place_here(axes, *run_);
 }
 
 // ---- targets ----------------------------------------------------------------------------------------------
 
 void Krl::ask_for_target(const Expression& written, const Value& value, Interpreter& run) {
-  const std::string path = run.path_of(written);
+  const std::string path = run.path_of(written), answer = path.empty() ? "" : run.answer_name(path);
   const std::string name = path.empty() ? std::string("a position") : fmt::format("'{}'", path);
   const Cause* cause = value.first_cause();
+  std::vector<Question> questions;
+  if (!path.empty()) questions = {{Question::Kind::value, answer, target_form}};
   if (is_unset(value)) {
-    run.miss(
-        name, written.place, fmt::format("moves to {}, which has no value yet", name),
-        fmt::format(
-            "assign it before the move, give the file that holds its value (.dat), or --value '{}={{X ...}}'",
-            path.empty() ? "NAME" : path));
-  } else if (!path.empty() && cause && cause->name == path) {
-    run.miss(name, written.place, fmt::format("moves to {}, which no file read declares", name),
-             fmt::format("give the .dat file that declares it, write the target as a constant, or {}",
-                         fmt::format("--value '{}={{X ...}}'", path)));
+    run.miss(answer.empty() ? name : answer, written.place, fmt::format("moves to {}, which has no value yet", name),
+             fmt::format("assign it before the move, give the file that holds its value (.dat), or --value "
+                         "'{}={{X ...}}'",
+                         path.empty() ? "NAME" : answer),
+             questions);
+  } else if (!path.empty() && cause && cause->name == answer) {
+    run.miss(answer, written.place, fmt::format("moves to {}, which no file read declares", name),
+             fmt::format("give the .dat file that declares it, write the target as a constant, or --value "
+                         "'{}={{X ...}}'",
+                         answer),
+             questions);
   } else {
     Coordinates none;
     none.unknown = value;
@@ -94,18 +101,31 @@ void Krl::ask_for_target(const Expression& written, const Value& value, Interpre
 
 /// All that the target lacks in one line: it is answered in one round.
 void Krl::ask_for_part(const Expression& written, const Coordinates& read, Interpreter& run) {
-  std::string remedy = run.remedy_for(read.unknown);
-  const std::string question = run.question_of(read.unknown);
-  std::set<std::string> named{question};
-  for (const std::string& name : read.more)
-    if (!remedy.empty() && named.insert(name).second)
-      remedy += fmt::format("{}'{}=...'", named.size() == 2 ? ", likewise " : ", ", name);
-  const std::string what =
-      "moves to a place that is known only while the robot runs" + run.because(read.unknown);
-  if (remedy.empty())
-    run.complain(written.place, what, "write the target as a constant");
-  else
-    run.miss(fmt::format("{}", fmt::join(named, " ")), written.place, what, "give it with " + remedy);
+  const Value value = run.evaluate(written);
+  const bool whole = value.kind == Value::Kind::unknown;
+  run.ask_for(read.unknown, written.place, "moves to a place that is known only while the robot runs", "",
+              whole ? target_form : "a number");
+}
+
+/// Numbers of where the robot stands that the user gives: "cell.src:12:$pos_act".
+std::optional<std::array<double, 6>> Krl::given_place(bool axes, Interpreter& run) {
+  const auto value = run.given_here(axes ? "$axis_act" : "$pos_act");
+  const Coordinates read = value ? axes ? coordinates(*value, axis_names) : coordinates(*value, frame_names) : Coordinates{};
+  return read.all() ? std::optional(read.numbers) : std::nullopt;
+}
+
+/// What a target leaves out stays as it was where the robot stands.
+void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter& run) {
+  run.ask_for(place_here(axes, run), written.place,
+              "gives some coordinates only (the others of the place before are not known)", "write all six", "");
+}
+
+/// Where the robot stands is unknown: what the last move's target hangs on is asked for too, but that may be given in the other
+/// form.
+Value Krl::place_here(bool axes, Interpreter& run) const {
+  const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"), "is where the robot stands",
+                                   form_of(axes ? "axis" : "frame"));
+  return lost_.cause ? unknown_value(lost_, here) : here;
 }
 
 /// The numbers of the last target, in other frames where they have changed since.
@@ -164,10 +184,11 @@ bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instr
     read.unknown.known() ? ask_for_target(via, value, run) : ask_for_part(via, read, run);
     return false;
   }
-  const auto numbers = moved(read, from, place_before(frames));
+  auto before = place_before(frames);
+  if (!before) before = given_place(false, run);
+  const auto numbers = moved(read, from, before);
   if (!numbers) {
-    run.complain(via.place, "gives some coordinates only (the others of the place before are not known)",
-                 "write all six");
+    ask_for_place_before(via, false, run);
     return false;
   }
   move.via = frame_from(*numbers);
@@ -191,7 +212,18 @@ bool Krl::keeps_orientation(const Place& place, bool unknown, Interpreter& run) 
 
 bool Krl::read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
                       Interpreter& run) {
-  const Value value = run.evaluate(written);
+  if (read_known_target(written, from, frames, move, run)) {
+    lost_ = {};
+    return true;
+  }
+  numbers_.reset(), axes_.reset();
+  lost_ = unknown_value(run.evaluate(written));
+  return false;
+}
+
+bool Krl::read_known_target(const Expression& written, From from, const Frames& frames, Instruction& move,
+                            Interpreter& run) {
+  const Value value = run.answered(written);
   const Coordinates axes = coordinates(value, axis_names), frame = coordinates(value, frame_names);
   for (const Coordinates* read : {&axes, &frame})
     if (!read->unknown.known()) {
@@ -214,13 +246,14 @@ bool Krl::read_target(const Expression& written, From from, const Frames& frames
                  "write the target's angles, or #TOOL");
     return false;
   }
-  const auto before = place_before(frames);
-  auto numbers = joint ? moved(axes, from, axes_) : moved(frame, from, before);
+  const auto before = joint ? axes_ : place_before(frames);
+  const Coordinates& read = joint ? axes : frame;
+  auto numbers = moved(read, from, before);
+  if (!numbers) numbers = moved(read, from, given_place(joint, run));
   if (numbers && move.kind != Instruction::Kind::joint && keeps_orientation(written.place, !before, run))
     std::copy(before->begin() + 3, before->end(), numbers->begin() + 3);
   if (!numbers) {
-    run.complain(written.place, "gives some coordinates only (the others of the place before are not known)",
-                 "write all six");
+    ask_for_place_before(written, joint, run);
     return false;
   }
   if (!read_external(written, value, from != From::origin, move, run)) return false;
@@ -259,14 +292,11 @@ bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpr
       const Value& value = values->items[axis];
       if (is_unset(value)) continue;
       if (!value.is_number() || !(value.number > 0)) {
-        const std::string remedy = run.remedy_for(value);
-        const Cause* cause = value.first_cause();
-        run.miss(cause ? cause->name : list, statement.place,
-                 fmt::format("moves with {}[{}] that is not a known number above 0{}", list, axis + 1,
-                             run.because(value)),
-                 remedy.empty()
-                     ? "assign a constant"
-                     : "give the file that holds it (PDEFAULT and its like: $CONFIG.DAT), or " + remedy);
+        run.ask_for(value, statement.place,
+                    fmt::format("moves with {}[{}] that is not a known number above 0", list, axis + 1),
+                    value.causes().empty() ? "assign a constant"
+                                           : "give the file that holds it (PDEFAULT and its like: $CONFIG.DAT)",
+                    "a number in %");
         return {};
       }
       percent = std::min(percent, value.number);
@@ -282,18 +312,22 @@ bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpr
 
 bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpreter& run) {
   const Value* velocity = run.variable("$vel");
-  const Value* speed = velocity ? velocity->field("cp") : nullptr;
-  if (!speed || is_unset(*speed)) {
+  const Value* held = velocity ? velocity->field("cp") : nullptr;
+  std::optional<Value> speed;
+  if (held && !is_unset(*held))
+    speed = *held;
+  else
+    speed = run.given("$vel.cp");
+  if (!speed) {
     run.miss("$vel.cp", statement.place,
              "moves along a path before $VEL.CP is assigned (its value lies in the controller)",
-             "assign $VEL.CP in m/s");
+             "assign $VEL.CP in m/s, or give --value '$VEL.CP=...'",
+             {{Question::Kind::value, "$vel.cp", "a speed in m/s"}});
     return false;
   }
   if (!speed->is_number() || !(speed->number > 0)) {
-    const std::string remedy = run.remedy_for(*speed);
-    run.miss("$vel.cp", statement.place,
-             "moves along a path at a $VEL.CP that is not a known number above 0" + run.because(*speed),
-             remedy.empty() ? "assign a constant in m/s" : "give $config.dat, or " + remedy + " in m/s");
+    run.ask_for(*speed, statement.place, "moves along a path at a $VEL.CP that is not a known number above 0",
+                "assign a constant in m/s, give $config.dat", "a speed in m/s");
     return false;
   }
   move.speed.tool = speed->number;
@@ -311,9 +345,8 @@ bool Krl::read_override(const Statement& statement, Instruction& move, Interpret
   const Value* value = run.variable("$ov_pro");
   if (!value || is_unset(*value)) return true;
   if (!value->is_number() || !(value->number > 0)) {
-    run.miss("$ov_pro", statement.place,
-             "moves at an override $OV_PRO that is not a known number above 0" + run.because(*value),
-             "assign a constant in %");
+    run.ask_for(*value, statement.place, "moves at an override $OV_PRO that is not a known number above 0",
+                "assign a constant in %", "a number in %");
     return false;
   }
   const double share = std::min(value->number, 100.0) / 100;
@@ -330,10 +363,14 @@ bool Krl::read_speed(const Statement& statement, Instruction& move, Interpreter&
 
 void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& run) {
   const auto known = [&](const char* field, const char* written) {
-    const auto number = setting("$apo", field, run);
+    auto number = setting("$apo", field, run);
+    if (const auto given = number ? std::nullopt : run.given(lower_case(written)); given && given->is_number())
+      number = given->number;
     if (!number)
       run.note(statement.place,
-               fmt::format("approximates without a known {}: the robot stops at the target", written), true);
+               fmt::format("approximates without a known {0}: the robot stops at the target (give --value '{0}=...')",
+                           written),
+               true);
     return number;
   };
   if (has(statement, "in_spline") && !has(statement, "last")) {
@@ -415,17 +452,17 @@ void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interp
       cause && (cause->name.starts_with("TOOL_DATA[") || cause->name.starts_with("BASE_DATA["));
   if (listed) {
     const bool tool = cause->name[0] == 'T';
+    const auto kind = tool ? Question::Kind::tool : Question::Kind::work_object;
     run.miss(cause->name, statement.place,
              fmt::format("moves with {}, which no file read declares", cause->name),
              fmt::format(
                  "give the file that declares it ($config.dat), or --frames FILE.yaml (motion.{} in a job) "
                  "with the name '{}'",
-                 tool ? "tools" : "work_objects", cause->name));
+                 tool ? "tools" : "work_objects", cause->name),
+             {{kind, cause->name, ""}});
   } else {
-    const std::string remedy = run.remedy_for(unknown);
-    run.miss(cause ? cause->name : "frame", statement.place,
-             "moves with a $TOOL or $BASE that is known only while the robot runs" + run.because(unknown),
-             remedy.empty() ? "assign a constant frame" : "assign a constant frame, or give " + remedy);
+    run.ask_for(unknown, statement.place, "moves with a $TOOL or $BASE that is known only while the robot runs",
+                "assign a constant frame", "{X .., Y .., Z .., A .., B .., C ..} in mm and deg");
   }
 }
 
@@ -439,13 +476,12 @@ void Krl::go_round(const Statement& statement, const Expression* whole_angle,
     run.note(statement.place, "turns the tool with the way ($CIRC_TYPE #PATH): it is turned evenly", true);
   if (!whole_angle && !turning) return run.emit(move, statement);
   const Value given = whole_angle ? run.evaluate(*whole_angle) : number_value(0);
-  if (!given.is_number() || !start) {
-    run.complain(statement.place,
-                 start ? "goes round by a CA that is known only while the robot runs" + run.because(given)
-                       : "goes round by CA from a place that is not known",
-                 "write a constant, and a LIN before");
-    return;
-  }
+  if (!given.is_number())
+    return run.ask_for(given, statement.place, "goes round by a CA that is known only while the robot runs",
+                       "write a constant", "an angle in deg");
+  if (!start)
+    return run.complain(statement.place, "goes round by CA from a place that is not known", "write a LIN before");
+
   const Frame from = frame_from(*start), to = move.target.pose;
   const auto arc = arc_through(from.position, move.via.position, to.position);
   constexpr double taught_alike = 0.1 * degree;  // as well as points are taught
@@ -496,9 +532,10 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
     return;
   }
   const Frames frames = current_frames(run);
-  if (kind == Instruction::Kind::circular && !read_via(*via, from, frames, move, run)) return;
   const auto start = place_before(frames);
-  const bool whole = read_target(*target, from, frames, move, run);
+  bool whole = kind != Instruction::Kind::circular || read_via(*via, from, frames, move, run);
+  whole &= read_target(*target, from, frames, move, run);
+  if (!whole) ask_for_frames(frames, statement, run);  // a place needs them
   if (!read_speed(statement, move, run) || !whole) return;
   read_zone(statement, move, run);
   // Axis angles need no frames, unless the tool's way decides where blending begins.
@@ -600,12 +637,10 @@ bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& 
 }
 
 bool Krl::wait(const Statement& statement, Interpreter& run) {
-  const Value time = run.evaluate(statement.arguments[0]);
+  const Value time = run.answered(statement.arguments[0]);
   if (!time.is_number()) {
-    const std::string remedy = run.remedy_for(time);
-    run.complain(
-        statement.place, "waits for a time that is known only while the robot runs" + run.because(time),
-        remedy.empty() ? "write it as a constant" : "write it as a constant, or give it with " + remedy);
+    run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
+                "write it as a constant", "a time in s");
   } else if (time.number > 0) {  // the controller does not wait for 0 and less
     Instruction wait;
     wait.kind = Instruction::Kind::dwell;
@@ -628,6 +663,7 @@ bool Krl::instruction(const Statement& statement, Interpreter& run) {
   }
   if (statement.name == "rsi_movecorr") {
     numbers_.reset(), axes_.reset();
+    lost_ = {};
     run.note(statement.place, "RSI_MOVECORR: a sensor leads the robot", true);
     return true;
   }
@@ -704,12 +740,16 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
         names.empty() ? "give the .src file too" : fmt::format("name one of: {}", fmt::join(names, ", ")));
     return;
   }
-  Krl krl(code, tools, work_objects);
-  Interpreter interpreter(code, krl, options, program, problems);
-  krl.attach(interpreter);
-  interpreter.run(*routine);
-  bend_splines(krl.spline_points(), program);
-  leave_out_unused_axes(program);
+  explore(
+      [&](Exploration& exploration, Program& made, Problems& found) {
+        Krl krl(code, tools, work_objects);
+        Interpreter interpreter(code, krl, options, made, found, exploration);
+        krl.attach(interpreter);
+        interpreter.run(*routine);
+        bend_splines(krl.spline_points(), made);
+        leave_out_unused_axes(made);
+      },
+      program, problems);
 }
 
 }  // namespace dresslife::sim

@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t listed_programs = 20;
-
 std::string stem_of(const fs::path& file) { return lower_case(file.stem().string()); }
 bool is_program(const fs::path& file) { return lower_case(file.extension().string()) == ".src"; }
 
@@ -37,12 +35,6 @@ fs::path robot_of(const fs::path& file) {
     if (lower_case(at.filename().string()) == "r1") return at;
   return {};
 }
-
-struct Calls {
-  std::string name;             ///< of the file's first routine
-  std::set<std::string> names;  ///< words before an opening bracket
-  bool moves = false;
-};
 
 Calls calls_of(const fs::path& file) {
   static const std::set<std::string> moves{"ptp",   "lin",    "circ",    "sptp",   "slin",
@@ -61,48 +53,15 @@ Calls calls_of(const fs::path& file) {
   return calls;
 }
 
-using Graph = std::map<std::string, Calls>;  // by the programs' names
-
-/// Programs that a program calls, itself or through others.
-std::set<std::string> reached_from(const std::string& program, const Graph& graph) {
-  std::set<std::string> reached;
-  std::vector<std::string> open{program};
-  while (!open.empty()) {
-    const auto at = graph.find(open.back());
-    open.pop_back();
-    if (at == graph.end()) continue;
-    for (const std::string& name : at->second.names)
-      if (graph.contains(name) && reached.insert(name).second) open.push_back(name);
-  }
-  return reached;
-}
-
-bool moves(const std::string& program, const Graph& graph) {
-  std::set<std::string> reached = reached_from(program, graph);
-  reached.insert(program);
-  return std::any_of(reached.begin(), reached.end(),
-                     [&](const std::string& name) { return graph.at(name).moves; });
-}
-
-/// Programs that could be meant: those that CELL calls by their numbers, else those that nobody calls, of
-/// which one may have the name that mains have.
-std::vector<std::string> starts(const Graph& graph) {
+/// Programs that could be meant: those that CELL calls by their numbers, else those that nobody calls.
+std::vector<std::string> starts(CallGraph graph) {
   std::vector<std::string> found;
-  if (const auto cell = graph.find("cell"); cell != graph.end())
+  if (const auto cell = graph.find("cell"); cell != graph.end()) {
     for (const std::string& name : cell->second.names)
       if (name != "cell" && graph.contains(name) && moves(name, graph)) found.push_back(name);
-  if (!found.empty()) return found;
-  std::set<std::string> called;
-  for (const auto& [name, calls] : graph)
-    for (const std::string& other : calls.names)
-      if (other != name) called.insert(other);
-  std::vector<std::string> mains;
-  for (const auto& [name, calls] : graph) {
-    if (name == "cell" || called.contains(name) || !moves(name, graph)) continue;
-    found.push_back(name);
-    if (name.starts_with("main")) mains.push_back(name);
+    graph.erase(cell);
   }
-  return mains.size() == 1 ? mains : found;
+  return found.empty() ? uncalled_programs(graph) : found;
 }
 
 void check_one_robot(const fs::path& folder, const std::vector<fs::path>& files) {
@@ -125,7 +84,7 @@ Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, co
   Backup backup;
   backup.language = Language::krl;
   backup.routine = routine;
-  Graph graph;
+  CallGraph graph;
   std::map<std::string, fs::path> file_of;
   for (const fs::path& file : files) {
     const std::string end = lower_case(file.extension().string());
@@ -146,20 +105,8 @@ Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, co
     put_first(lower_case(routine.substr(0, routine.find_first_of("( "))));
     return backup;
   }
-  std::vector<std::string> choices = starts(graph);
-  if (choices.empty())
-    throw pipeline::InputError({folder.string()}, "holds no KUKA program that moves the robot",
-                               "name the routine to run with --routine (motion.routine in a job)");
-  if (choices.size() > 1) {
-    const std::size_t more = choices.size() - std::min(choices.size(), listed_programs);
-    choices.resize(choices.size() - more);
-    throw pipeline::InputError(
-        {folder.string()}, "holds several programs, and none that calls them",
-        fmt::format("name one with --routine (motion.routine in a job): {}{}", fmt::join(choices, ", "),
-                    more ? fmt::format(" and {} more", more) : ""));
-  }
-  backup.routine = choices[0];
-  put_first(choices[0]);
+  backup.routine = only_start(folder, starts(graph), "KUKA program");
+  put_first(backup.routine);
   return backup;
 }
 

@@ -150,14 +150,47 @@ void Krl::store(Value& place, Value value) const {
     const Value::Numeric numeric = place.numeric;
     place = std::move(value);
     if (numeric == Value::Numeric::any) return;
+    if (const auto code = letter(place)) place = number_value(*code);
     place.numeric = numeric;
     if (place.is_number() && numeric == Value::Numeric::integer) place.number = std::round(place.number);
   }
 }
 
+/// A CHAR is the number of its letter.
+std::optional<double> Krl::letter(const Value& text) const {
+  if (text.kind != Value::Kind::text || text.text.size() != 1) return {};
+  return static_cast<unsigned char>(text.text[0]);
+}
+
+std::string Krl::form_of(const std::string& type) const {
+  if (type == "int" || type == "real") return "a number";
+  if (type == "bool") return "TRUE or FALSE";
+  if (type == "char") return "a letter in double quotes";
+  if (type == "frame") return "{X .., Y .., Z .., A .., B .., C ..} in mm and deg";
+  if (type == "pos" || type == "e3pos" || type == "e6pos")
+    return "{X .., Y .., Z .., A .., B .., C .., S .., T ..} in mm and deg";
+  if (type == "pdat") return "{VEL .., ACC .., APO_DIST ..} in % and mm";
+  if (type == "ldat") return "{VEL .., ACC .., APO_DIST ..} in m/s, % and mm";
+  if (type == "fdat") return "{TOOL_NO .., BASE_NO .., IPO_FRAME #BASE}";
+  if (type == "axis" || type == "e3axis" || type == "e6axis")
+    return "{A1 .., A2 .., A3 .., A4 .., A5 .., A6 ..} in deg";
+  return "";
+}
+
 /// A name that its module does not declare is in the data list that is not there, or in $CONFIG.DAT.
 bool Krl::shares(const std::string& name, int module) const {
   return name.starts_with("$") || code_.modules[module].whole;
+}
+
+/// What the editor of inline forms puts into the data list of the program; other names that no file declares are taken to be
+/// those of $CONFIG.DAT.
+bool Krl::is_of_module(const std::string& name) const {
+  static const std::set<std::string> of_all{"fhome", "xhome", "xhome1", "xhome2", "xhome3", "xhome4", "xhome5"};
+  const auto numbered = [&](const char* beginning) {
+    return name.starts_with(beginning) && !name.empty() && name.back() >= '0' && name.back() <= '9';
+  };
+  return !of_all.contains(name) && (name.starts_with("x") || name.starts_with("f") || numbered("ppdat") || numbered("lcpdat") ||
+                                    numbered("cpdat") || numbered("pdat") || numbered("ldat"));
 }
 
 // ---- frames -----------------------------------------------------------------------------------------------
@@ -190,7 +223,7 @@ std::optional<Value> Krl::named_frame(const std::string& path) {
   if (list && index >= 1 && index <= list->items.size() && !is_unset(list->items[index - 1])) return {};
   for (const NamedFrame& frame : tool ? tools_ : work_objects_)
     if (lower_case(frame.name) == path) return frame_value(frame.frame);
-  if (run_->given(path)) return run_->given(path);
+  if (std::optional<Value> given = run_->given(path)) return given;
   return unknown_value(fmt::format("{}[{}]", tool ? "TOOL_DATA" : "BASE_DATA", index), "is in no file read");
 }
 

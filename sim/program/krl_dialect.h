@@ -31,7 +31,10 @@ class Krl final : public Dialect {
   const RecordType* type_of(const std::string& name) const override;
   Value initial(const std::string& type) const override;
   void store(Value& place, Value value) const override;
+  std::string form_of(const std::string& type) const override;
+  std::optional<double> letter(const Value& text) const override;
   bool shares(const std::string& name, int module) const override;
+  bool is_of_module(const std::string& name) const override;
 
   /// Indices of the instructions that are SPL points of spline blocks.
   const std::set<std::size_t>& spline_points() const { return spline_points_; }
@@ -69,6 +72,11 @@ class Krl final : public Dialect {
   bool read_via(const Expression& via, From from, const Frames& frames, Instruction& move, Interpreter& run);
   bool read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
                    Interpreter& run);
+  bool read_known_target(const Expression& written, From from, const Frames& frames, Instruction& move,
+                         Interpreter& run);
+  static std::optional<std::array<double, 6>> given_place(bool axes, Interpreter& run);
+  Value place_here(bool axes, Interpreter& run) const;
+  void ask_for_place_before(const Expression& written, bool axes, Interpreter& run);
   void ask_for_target(const Expression& written, const Value& value, Interpreter& run);
   void ask_for_part(const Expression& written, const krl::Coordinates& read, Interpreter& run);
   bool read_external(const Expression& written, const Value& value, bool relative, Instruction& move,
@@ -135,6 +143,7 @@ class Krl final : public Dialect {
   // Where the robot stands: axes after a move to axes, else a pose and the frames in which it is given.
   std::optional<std::array<double, 6>> axes_, numbers_;
   Frames numbers_in_;
+  Value lost_;  // why it is not known where the last move led
   std::array<std::optional<double>, 6> external_;
 };
 

@@ -28,10 +28,9 @@ Coordinates coordinates(const Value& record, const char* const (&names)[6]) {
     if (part->is_number()) {
       read.numbers[i] = part->number;
       read.given[i] = true;
-    } else if (read.unknown.known()) {
-      read.unknown = part->known() ? unknown_value("", "is no number") : *part;
-    } else if (const Cause* cause = part->first_cause()) {
-      read.more.push_back(cause->behind ? cause->behind->name : cause->name);
+    } else {
+      const Value why = part->known() ? unknown_value("", "is no number") : *part;
+      read.unknown = read.unknown.known() ? why : unknown_value(read.unknown, why);
     }
   }
   return read;

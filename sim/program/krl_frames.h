@@ -25,8 +25,7 @@ constexpr const char* external_names[] = {"e1", "e2", "e3", "e4", "e5", "e6"};
 struct Coordinates {
   std::array<double, 6> numbers{};
   std::array<bool, 6> given{};
-  Value unknown;                  ///< the first that is known only while the robot runs; known: there is none
-  std::vector<std::string> more;  ///< names of the further ones
+  Value unknown;  ///< what is known only while the robot runs, with its causes; known: there is none
   bool any() const {
     return std::any_of(given.begin(), given.end(), [](bool g) { return g; });
   }

@@ -27,7 +27,7 @@ constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$i
 class KrlParser : StatementParser {
  public:
   KrlParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
-      : StatementParser(code, file, tokens, problems, true) {}
+      : StatementParser(code, file, tokens, problems, Grammar::krl) {}
 
   void run() {
     module_ = module_of_file();
@@ -41,7 +41,8 @@ class KrlParser : StatementParser {
  private:
   int module_ = -1;
   bool shared_ = false;  ///< in a data list of the system, whose names are everybody's
-  bool global_ = false;  ///< the declaration at hand says GLOBAL
+  bool global_ = false;    ///< the declaration at hand says GLOBAL
+  bool constant_ = false;  ///< it says CONST
   bool first_ = true;    ///< no routine of this file was read: the next one is everybody's
 
   /// A program and the data list of its name are one module; where names repeat, the folder decides.
@@ -197,10 +198,11 @@ class KrlParser : StatementParser {
     Statement s;
     s.place = at_.place();
     s.text = std::string(at_.peek().text);
-    global_ = false;
+    global_ = constant_ = false;
     if (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
       while (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
         global_ |= at_.at_word("global");
+        constant_ |= at_.at_word("const");
         at_.next();
       }
       if (at_.at_word("enum")) return skip_line();
@@ -349,6 +351,7 @@ class KrlParser : StatementParser {
     do {
       Statement s;
       s.kind = Kind::declare;
+      s.constant = constant_;
       s.text = type;
       s.place = at_.place();
       s.name = at_.word("a name");

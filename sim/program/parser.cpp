@@ -10,7 +10,7 @@ using Kind = Expression::Kind;
 constexpr int precedence_of_signs = 6;  // of - and + before a value
 
 /// Precedence of a binary operator; 0: not one.
-int precedence(const Token& token) {
+int precedence(const Token& token, Grammar grammar) {
   static constexpr std::pair<std::string_view, int> table[] = {
       {"or", 1}, {"xor", 1}, {"exor", 1}, {"b_or", 1}, {"b_exor", 1}, {"and", 2}, {"b_and", 2},
       {"=", 3},  {"==", 3},  {"<>", 3},   {"<", 3},    {">", 3},      {"<=", 3},  {">=", 3},
@@ -18,7 +18,25 @@ int precedence(const Token& token) {
   if (token.kind != Token::Kind::sign && token.kind != Token::Kind::word) return 0;
   for (const auto& [name, level] : table)
     if (same_word(token.text, name)) return level;
+  if (grammar == Grammar::urscript && (token.text == "%" || token.text == "!=")) return token.text == "%" ? 5 : 3;
   return 0;
+}
+
+/// i + 1
+Expression counted_from_one(Expression index) {
+  if (index.kind == Kind::number) {
+    index.number += 1;
+    return index;
+  }
+  Expression one, sum;
+  one.kind = Kind::number;
+  one.number = 1;
+  sum.kind = Kind::binary;
+  sum.text = "+";
+  one.place = sum.place = index.place;
+  sum.depth = index.depth + 1;
+  sum.items = {std::move(index), std::move(one)};
+  return sum;
 }
 
 }  // namespace
@@ -108,12 +126,13 @@ Expression Cursor::expression(int lowest) {
   const Deeper deeper(*this);
   Expression left = unary(lowest);
   while (true) {
-    const int level = precedence(peek());
+    const int level = precedence(peek(), grammar_);
     if (level < lowest || level == 0 || (at_sign(":") && !krl_)) return left;
     Expression both;
     both.kind = Kind::binary;
     both.place = place();
     both.text = lower_case(next().text);
+    if (both.text == "%" || both.text == "!=") both.text = both.text == "%" ? "mod" : "<>";
     both.items.push_back(std::move(left));
     both.items.push_back(expression(level + 1));
     left = finished(std::move(both));
@@ -129,7 +148,8 @@ Expression Cursor::unary(int lowest) {
   e.kind = Kind::unary;
   e.place = place();
   e.text = lower_case(next().text);
-  e.items.push_back(negation && !krl_ ? expression(lowest <= 1 ? 2 : 3) : unary(precedence_of_signs));
+  const int operand = grammar_ == Grammar::rapid && lowest <= 1 ? 2 : 3;
+  e.items.push_back(negation && !krl_ ? expression(operand) : unary(precedence_of_signs));
   return finished(std::move(e));
 }
 
@@ -157,7 +177,7 @@ Expression Cursor::primary() {
       if (krl_ && token.text == "#" && peek(1).kind == Token::Kind::word) {  // # State: #State
         next();
         e.kind = Kind::name;
-        e.text = "#" + lower_case(next().text);
+        e.text = fmt::format("#{}", lower_case(next().text));
         return e;
       }
       return reference();
@@ -215,7 +235,13 @@ Expression Cursor::reference() {
   e.place = place();
   e.kind = Kind::name;
   e.text = word("a name");
-  const std::string_view open = krl_ ? "[" : "{", close = krl_ ? "]" : "}";
+  const bool rapid = grammar_ == Grammar::rapid;
+  const std::string_view open = rapid ? "{" : "[", close = rapid ? "}" : "]";
+  if (grammar_ == Grammar::urscript && e.text == "p" && at_sign("[")) {
+    e.kind = Kind::call;
+    e.items = aggregate_in_order().items;
+    return finished(std::move(e));
+  }
   while (true) {
     Expression outer;
     outer.place = place();
@@ -233,7 +259,7 @@ Expression Cursor::reference() {
         if (at_sign("*"))
           next();  // the open dimension of a parameter
         else
-          outer.items.push_back(expression());
+          outer.items.push_back(grammar_ == Grammar::urscript ? counted_from_one(expression()) : expression());
         if (!take_sign(",")) break;
       }
       need_sign(close);
@@ -241,6 +267,13 @@ Expression Cursor::reference() {
         e = Expression(std::move(outer.items[0]));
         continue;
       }
+    } else if (at_sign("(") && grammar_ == Grammar::urscript && e.kind == Kind::field) {  // object.method(...)
+      next();
+      outer.kind = Kind::call;
+      outer.text = fmt::format("{}.{}", e.items[0].text, e.text);
+      outer.place = e.place;
+      outer.items = arguments(")");
+      need_sign(")");
     } else if (at_sign("(") && e.kind == Kind::name) {
       next();
       outer.kind = Kind::call;
@@ -280,6 +313,14 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
     }
     if (!comma)
       fail(fmt::format("has {} where ',' or the end of the statement is expected", seen()), "mend the line");
+    if (grammar_ == Grammar::urscript && peek().kind == Token::Kind::word && at_sign("=", 1)) {  // a=1.2
+      const std::string option = word("the name of an argument");
+      next();
+      list.push_back(expression());
+      list.back().option = option;
+      comma = false;
+      continue;
+    }
     if (!krl_ && peek().kind == Token::Kind::word && at_sign(":=", 1)) {  // Tool:=gun: in its place anyway
       word("the name of an argument");
       next();

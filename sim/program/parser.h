@@ -1,4 +1,4 @@
-// What the parsers of RAPID and KRL share: a cursor over tokens, and expressions by precedence climbing:
+// What the parsers of RAPID, KRL and URScript share: a cursor over tokens, and expressions by precedence climbing:
 //   or, xor < and < comparisons < + - < * / div mod < : (KRL's product of frames)
 // A syntax error is a thrown SyntaxError inside; the statement's reader makes a problem of it and goes on
 // behind it.
@@ -14,10 +14,14 @@ struct SyntaxError {
   std::string what, remedy;
 };
 
+enum class Grammar { rapid, krl, urscript };
+
 class Cursor {
  public:
-  /// krl: [ ] are indices and { } aggregates with names; else { } are indices and [ ] aggregates in order.
-  Cursor(const std::vector<Token>& tokens, int file, bool krl) : tokens_(tokens), file_(file), krl_(krl) {}
+  /// krl: [ ] are indices and { } aggregates with names. rapid: { } are indices and [ ] aggregates in order.
+  /// urscript: [ ] are both; indices count from 0, and the tree's from 1; p[...] is a call of p.
+  Cursor(const std::vector<Token>& tokens, int file, Grammar grammar)
+      : tokens_(tokens), file_(file), grammar_(grammar), krl_(grammar == Grammar::krl) {}
 
   const Token& peek(int ahead = 0) const;
   Token next();
@@ -52,14 +56,15 @@ class Cursor {
   const std::vector<Token>& tokens_;
   std::size_t at_ = 0;
   int file_, nesting_ = 0;
+  Grammar grammar_;
   bool krl_;
 };
 
 /// What the statements of both languages are read with: blocks, nesting, and problems instead of errors.
 class StatementParser {
  protected:
-  StatementParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems, bool krl)
-      : code_(code), file_(file), at_(tokens, file, krl), problems_(problems) {}
+  StatementParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems, Grammar grammar)
+      : code_(code), file_(file), at_(tokens, file, grammar), problems_(problems) {}
 
   bool at_any(const std::vector<const char*>& words) const;
 

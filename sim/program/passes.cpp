@@ -14,8 +14,9 @@ bool alike(const Instruction& a, const Instruction& b) {
     return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
   };
   const auto settings = [](const Instruction& i) {
-    return std::tie(i.kind, i.target.joints, i.target.configuration, i.target.external_axes, i.tool,
-                    i.work_object, i.speed.axis_percent, i.speed.tool, i.speed.orientation, i.speed.duration,
+    return std::tie(i.kind, i.target.joints, i.target.circle_joints, i.target.configuration, i.target.external_axes, i.tool,
+                    i.work_object, i.speed.axis_percent, i.speed.axis, i.speed.tool, i.speed.orientation,
+                    i.speed.duration, i.speed.axis_acceleration, i.speed.tool_acceleration,
                     i.zone.distance, i.zone.percent, i.acceleration_percent, i.dwell);
   };
   return settings(a) == settings(b) && same_pose(a.target.pose, b.target.pose) && same_pose(a.via, b.via);

@@ -11,6 +11,7 @@ namespace dresslife::sim {
 namespace {
 
 constexpr std::size_t listed_problems = 50;
+constexpr std::size_t most_questions = 300;  // nobody answers more in one round
 
 }  // namespace
 
@@ -22,6 +23,10 @@ std::string ArmConfiguration::text() const {
       return fmt::format("abb {}", fmt::join(numbers, " "));
     case Kind::kuka:
       return fmt::format("kuka {}", fmt::join(numbers, " "));
+    case Kind::motoman:
+      return fmt::format("motoman {}", fmt::join(numbers, " "));
+    case Kind::near:
+      return fmt::format("near {}", fmt::join(numbers, " "));
     case Kind::fanuc:
       break;
   }
@@ -53,8 +58,10 @@ std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
   const std::size_t count = read.numbers.size();
   if (kind == "abb") read.kind = ArmConfiguration::Kind::abb;
   if (kind == "kuka") read.kind = ArmConfiguration::Kind::kuka;
-  const bool whole =
-      (kind == "abb" && count == 4) || (kind == "kuka" && count == 2) || (kind == "fanuc" && count == 6);
+  if (kind == "motoman") read.kind = ArmConfiguration::Kind::motoman;
+  if (kind == "near") read.kind = ArmConfiguration::Kind::near;
+  const bool six = kind == "fanuc" || kind == "motoman" || kind == "near";
+  const bool whole = (kind == "abb" && count == 4) || (kind == "kuka" && count == 2) || (six && count == 6);
   return whole ? std::optional(read) : std::nullopt;
 }
 
@@ -69,40 +76,78 @@ void Problems::add(const pipeline::Where& where, const std::string& what, const 
   problems_.push_back({.where = where, .what = what, .remedy = remedy, .routine = routine});
 }
 
-/// Whether it is told already; then its line is counted.
-bool Problems::counted(const std::string& about, bool decision, const pipeline::Where& where) {
-  for (Problem& problem : problems_) {
-    const bool same_line = problem.where.line == where.line && problem.where.file == where.file;
-    if (problem.decision != decision || (problem.about != about && !(decision && same_line))) continue;
-    if (!same_line) problem.more_uses.emplace(where.file, where.line);
+/// Whether it is told already; then its line is counted, and what else it asks for is added.
+bool Problems::counted(const Problem& problem) {
+  for (Problem& known : problems_) {
+    const bool same_line = known.where.line == problem.where.line && known.where.file == problem.where.file;
+    if (known.about.empty() || known.decision != problem.decision ||
+        (known.about != problem.about && !(known.decision && same_line)))
+      continue;
+    if (!same_line) known.more_uses.emplace(problem.where.file, problem.where.line);
+    known.more_uses.insert(problem.more_uses.begin(), problem.more_uses.end());
+    known.certain |= problem.certain;
+    for (const Question& question : problem.questions)
+      if (std::none_of(known.questions.begin(), known.questions.end(), [&](const Question& asked) {
+            return asked.kind == question.kind && asked.name == question.name;
+          }))
+        known.questions.push_back(question);
     return true;
   }
   return false;
 }
 
-void Problems::add_missing(const std::string& name, const pipeline::Where& where, const std::string& what,
-                           const std::string& remedy, const std::string& routine) {
-  if (counted(name, false, where)) return;
-  const std::size_t before = problems_.size();
-  add(where, what, remedy, routine);
-  if (problems_.size() > before) problems_.back().about = name;
+void Problems::add_use(Problem problem) {
+  if (!full() && !counted(problem)) problems_.push_back(std::move(problem));
 }
 
-void Problems::add_decision(const std::string& about, const pipeline::Where& where, const std::string& what,
-                            const std::string& remedy, const std::string& routine) {
-  if (counted(about, true, where)) return;
-  const std::size_t before = problems_.size();
-  add(where, what, remedy, routine);
-  if (problems_.size() == before) return;
-  problems_.back().about = about;
-  problems_.back().decision = true;
+namespace {
+
+/// How an answer is written is seen where the value itself is used, not where others hang on it.
+void tell_forms(std::vector<Problem>& problems, const Problem& by) {
+  for (const Question& told : by.questions)
+    for (Problem& problem : problems)
+      for (Question& question : problem.questions)
+        if (question.form.empty() && question.kind == told.kind && question.name == told.name) question.form = told.form;
+}
+
+/// Whether a branch hangs on nothing but what other problems ask for.
+bool asked_already(const std::vector<Problem>& problems, const Problem& branch) {
+  const auto asked = [&](const Question& question) {
+    return std::any_of(problems.begin(), problems.end(), [&](const Problem& known) {
+      return known.certain >= branch.certain && std::any_of(known.questions.begin(), known.questions.end(), [&](const Question& q) {
+               return q.kind == question.kind && q.name == question.name;
+             });
+    });
+  };
+  return branch.decision && !branch.questions.empty() && std::all_of(branch.questions.begin(), branch.questions.end(), asked);
+}
+
+}  // namespace
+
+void Problems::add_all(const Problems& others) {
+  for (const Problem& problem : others.list()) {
+    tell_forms(problems_, problem);
+    if (problem.about.empty())
+      add(problem.where, problem.what, problem.remedy, problem.routine);
+    else if (!asked_already(problems_, problem))
+      add_use(problem);
+  }
 }
 
 void Problems::hint(std::size_t from, const std::string& more) {
   for (std::size_t i = from; i < problems_.size(); ++i) problems_[i].remedy += fmt::format(" ({})", more);
 }
 
-bool Problems::full() const { return problems_.size() >= listed_problems; }
+std::size_t Problems::mistakes() const {
+  return static_cast<std::size_t>(std::count_if(
+      problems_.begin(), problems_.end(), [](const Problem& problem) { return problem.questions.empty(); }));
+}
+
+bool Problems::asks() const { return mistakes() < problems_.size(); }
+
+bool Problems::full() const {
+  return mistakes() >= listed_problems || problems_.size() - mistakes() >= most_questions;
+}
 
 namespace {
 
@@ -124,22 +169,29 @@ std::string further_uses(const Problem& problem) {
 
 }  // namespace
 
-void Problems::throw_if_any() const {
-  if (problems_.empty()) return;
+std::vector<Problem> Problems::sorted() const {
   std::vector<Problem> sorted = problems_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
     return std::tie(a.where.file, a.where.line, a.where.column) <
            std::tie(b.where.file, b.where.line, b.where.column);
   });
-  for (Problem& problem : sorted)
+  return sorted;
+}
+
+void Problems::throw_if_any() const {
+  if (problems_.empty()) return;
+  std::vector<Problem> all = sorted();
+  std::string rest;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Problem& problem = all[i];
     problem.what =
         (problem.routine.empty() ? "" : problem.routine + " ") + problem.what + further_uses(problem);
-  std::string rest;
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-    rest +=
-        std::string("\n") + pipeline::InputError(sorted[i].where, sorted[i].what, sorted[i].remedy).what();
-  if (full()) rest += fmt::format("\n({} problems are listed; there may be more)", listed_problems);
-  throw pipeline::InputError(sorted[0].where, sorted[0].what, sorted[0].remedy + rest);
+    if (i > 0 && i < listed_problems)
+      rest += std::string("\n") + pipeline::InputError(problem.where, problem.what, problem.remedy).what();
+  }
+  if (all.size() > listed_problems)
+    rest += fmt::format("\n({} more are not listed here)", all.size() - listed_problems);
+  throw Unread(all, rest);
 }
 
 SourceFile::SourceFile(std::string name, std::string text)

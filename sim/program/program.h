@@ -26,13 +26,16 @@ namespace dresslife::sim {
 
 /// Which of the arms that reach a pose is meant, in the words of its controller.
 struct ArmConfiguration {
-  enum class Kind { any, abb, kuka, fanuc };
+  enum class Kind { any, abb, kuka, fanuc, motoman, near };
   Kind kind = Kind::any;
   /// abb: quadrants of axes 1, 4, 6 and cfx. kuka: status, turn. fanuc: wrist flipped, arm up, arm in front
-  /// (1 or 0), then the turns of axes 1, 4 and 6.
+  /// (1 or 0), then the turns of axes 1, 4 and 6. motoman: the first six of RCONF: wrist (0, 1: axis R within
+  /// 90 deg of its zero or not; 2, 3: axis B at 0 or above, or below), arm lower, behind, and whether axes R, T
+  /// and S stand 180 deg or more from zero. near: the arm nearest to these angles of the axes [deg].
   std::vector<int> numbers;
 
-  /// "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0"; empty for any.
+  /// "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 1 0 0 0 0 0", "near 0 -90 90 0 90 0"; empty for
+  /// any.
   std::string text() const;
   bool operator==(const ArmConfiguration&) const = default;
 };
@@ -46,6 +49,7 @@ struct Target {
   Frame pose;                         ///< of the tool in the work object
   ArmConfiguration configuration;     ///< of a pose
   std::vector<double> external_axes;  ///< as programmed, mm or deg as the axis is; empty: none
+  std::vector<double> circle_joints;  ///< of a circular move to joint angles: a point of its circle beyond its way [rad]
 };
 
 struct NamedFrame {
@@ -56,9 +60,12 @@ struct NamedFrame {
 
 struct MoveSpeed {
   std::optional<double> axis_percent;  ///< of each axis' largest speed [%]
+  std::optional<double> axis;          ///< largest of the fastest axis [rad/s]
   std::optional<double> tool;          ///< largest of the tool's origin [m/s]
   std::optional<double> orientation;   ///< largest of the tool's rotation [rad/s]
   std::optional<double> duration;      ///< of the whole move [s]
+  std::optional<double> axis_acceleration;  ///< largest of the fastest axis [rad/s2]
+  std::optional<double> tool_acceleration;  ///< largest of the tool's origin along its path [m/s2]
 };
 
 struct MoveZone {
@@ -105,6 +112,15 @@ struct Program {
   pipeline::Where start;  ///< the routine that was run
 };
 
+/// Something that a program does not say and its user knows.
+struct Question {
+  enum class Kind { value, branch, tool, work_object };
+  Kind kind = Kind::value;
+  std::string name;  ///< under which the answer is given: "di1", "cell:p10", "UTOOL[1]"; of a branch its line
+  std::string form;  ///< how an answer is written: "then or else", "a number"; empty: as in the program
+  std::string preset = {};  ///< an answer that is safe; empty: there is none
+};
+
 struct Problem {
   pipeline::Where where;
   std::string what, remedy;
@@ -112,6 +128,8 @@ struct Problem {
   std::set<std::pair<std::string, int>> more_uses = {};  ///< files and lines
   bool decision = false;                                 ///< how a branch goes that hangs on `about`
   std::string routine = {};                              ///< that holds the line
+  std::vector<Question> questions = {};  ///< that solve it together; empty: the files must be mended
+  bool certain = true;                   ///< false: only some ways through the program meet it
 };
 
 class Problems {
@@ -119,26 +137,42 @@ class Problems {
   /// `what` says what the routine, or the file, does wrong: "moves to 'p9', which no file read declares".
   void add(const pipeline::Where& where, const std::string& what, const std::string& remedy,
            const std::string& routine = "");
-  /// The same, but for further uses of a name that is missing: these are counted behind the first.
-  void add_missing(const std::string& name, const pipeline::Where& where, const std::string& what,
-                   const std::string& remedy, const std::string& routine = "");
-  /// A branch that hangs on what is not known: those on the same values and with the same answers are one
-  /// question.
-  void add_decision(const std::string& about, const pipeline::Where& where, const std::string& what,
-                    const std::string& remedy, const std::string& routine = "");
+  /// One with `about`: what is missing, or what a branch hangs on. Further uses of the same are counted behind
+  /// the first one.
+  void add_use(Problem problem);
+  /// Those of another reading of the same program.
+  void add_all(const Problems& others);
   bool empty() const { return problems_.empty(); }
   bool full() const;  ///< more would not help anybody
+  bool asks() const;  ///< one of them has a question
+  std::size_t mistakes() const;  ///< those that have none
   const std::vector<Problem>& list() const { return problems_; }
   std::size_t count() const { return problems_.size(); }
   /// Adds to the remedies of those from the given one on.
   void hint(std::size_t from, const std::string& more);
-  /// Throws one InputError that words every problem on a line of its own, in the order of the files' lines.
+  /// In the order of the files' lines.
+  std::vector<Problem> sorted() const;
+  /// Throws one Unread that words every problem on a line of its own, in that order.
   void throw_if_any() const;
 
  private:
-  bool counted(const std::string& about, bool decision, const pipeline::Where& where);
+  bool counted(const Problem& problem);
 
   std::vector<Problem> problems_;
+};
+
+/// A program that cannot be read before its files are mended or its questions are answered.
+class Unread : public pipeline::InputError {
+ public:
+  /// lines: of the problems behind the first, each begins with a line end.
+  Unread(const std::vector<Problem>& all, const std::string& lines)
+      : InputError(all[0].where, all[0].what, all[0].remedy + lines), problems(all), lines_(lines) {}
+  /// The same with a line more at the end.
+  Unread with(const std::string& line) const { return {problems, lines_ + "\n" + line}; }
+  std::vector<Problem> problems;  ///< at least one, in the order of the files' lines
+
+ private:
+  std::string lines_;
 };
 
 enum class Assumption { then_branch, else_branch };
@@ -164,6 +198,7 @@ struct ImportLimits {
   static constexpr int nesting = 60;           ///< of expressions and of blocks
   static constexpr int calls = 60;             ///< routines that call routines
   static constexpr long executed = 3'000'000;  ///< statements and values
+  static constexpr long guessed = 200'000;     ///< of them behind a guess, where nothing counts but questions
   static constexpr std::size_t instructions = 100'000;
   static constexpr std::size_t skipped = 20'000;
   static constexpr std::size_t values = 100'000;  ///< numbers of one variable, and variables

@@ -70,6 +70,28 @@ bool Rapid::writes(const std::string& name, int position, const Expression& argu
 
 Value Rapid::initial(const std::string& type) const { return rapid_initial(code_, type); }
 
+std::string Rapid::form_of(const std::string& type) const {
+  static const std::map<std::string, const char*> forms{
+      {"num", "a number"},
+      {"dnum", "a number"},
+      {"byte", "a number"},
+      {"bool", "TRUE or FALSE"},
+      {"string", "a text in double quotes"},
+      {"pos", "[x, y, z] in mm"},
+      {"orient", "[q1, q2, q3, q4]"},
+      {"pose", "[[x, y, z], [q1, q2, q3, q4]] in mm"},
+      {"robtarget",
+       "[[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in mm"},
+      {"jointtarget", "[[a1, a2, a3, a4, a5, a6], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in deg"},
+      {"tooldata", "[TRUE, [[x, y, z], [q1, q2, q3, q4]], [1, [0, 0, 1], [1, 0, 0, 0], 0, 0, 0]] in mm"},
+      {"wobjdata", "[FALSE, TRUE, \"\", [[x, y, z], [q1, q2, q3, q4]], [[0, 0, 0], [1, 0, 0, 0]]] in mm"},
+      {"speeddata", "a speed's name (v100), or [mm/s, deg/s, 5000, 1000]"},
+      {"zonedata", "a zone's name (z10, fine)"},
+      {"extjoint", "[a, b, c, d, e, f] in mm or deg, 9E9 for axes that are not there"}};
+  const auto found = forms.find(type);
+  return found == forms.end() ? "" : found->second;
+}
+
 Value Rapid::tool_value(const NamedFrame& tool) const {
   Value value = rapid_initial(code_, "tooldata");
   value.items[0] = truth_value(!tool.stationary);
@@ -92,17 +114,14 @@ Value Rapid::work_object_value(const NamedFrame& object) const {
 void Rapid::settings(const Statement& statement, Interpreter& run) {
   std::vector<Value> values;
   for (const Expression& argument : statement.arguments)
-    if (argument.option.empty()) values.push_back(run.evaluate(argument));
+    if (argument.option.empty()) values.push_back(run.answered(argument));
   const auto needed = [&](std::size_t i, double low, double high) {
     if (i < values.size() && values[i].is_number() && values[i].number >= low && values[i].number <= high)
       return values[i].number;
-    const Value none;
-    const Value& value = i < values.size() ? values[i] : none;
-    const std::string remedy = run.remedy_for(value);
-    run.complain(statement.place,
-                 fmt::format("gives {} no number in {} .. {} as argument {}{}", statement.text, low, high,
-                             i + 1, run.because(value)),
-                 remedy.empty() ? "write it as a constant" : "give " + remedy);
+    const Value value = i < values.size() ? values[i] : Value{};
+    run.ask_for(value, statement.place,
+                fmt::format("gives {} no number in {} .. {} as argument {}", statement.text, low, high, i + 1),
+                "write it as a constant", fmt::format("a number in {} .. {}", low, high));
     return high;
   };
   if (statement.name == "accset") acceleration_percent_ = std::max(20.0, needed(0, 0, 100));
@@ -122,13 +141,11 @@ void Rapid::settings(const Statement& statement, Interpreter& run) {
 void Rapid::wait(const Statement& statement, Interpreter& run) {
   Value time;
   for (const Expression& argument : statement.arguments)
-    if (argument.option.empty()) time = run.evaluate(argument);
-  if (!time.is_number() || !(time.number >= 0)) {
-    const std::string remedy = run.remedy_for(time);
-    run.complain(statement.place,
-                 "waits for a time that is known only while the robot runs" + run.because(time),
-                 remedy.empty() ? "write it as a constant" : fmt::format("give {} (motion.values)", remedy));
-  } else if (time.number > 0) {
+    if (argument.option.empty()) time = run.answered(argument);
+  if (!time.is_number() || !(time.number >= 0))
+    run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
+                "write it as a constant", "a time in s");
+  else if (time.number > 0) {
     Instruction instruction;
     instruction.kind = Instruction::Kind::dwell;
     instruction.dwell = time.number;
@@ -230,9 +247,9 @@ bool Rapid::instruction(const Statement& statement, Interpreter& run) {
     const Value routine = run.evaluate(statement.arguments[0]);
     const Value number = run.evaluate(statement.arguments[1]);
     if (routine.kind != Value::Kind::text || !number.is_number())
-      run.complain(statement.place,
-                   "runs a routine whose name is known only while the robot runs" + run.because(number),
-                   number.known() ? "write its name" : "give " + run.remedy_for(number));
+      run.ask_for(unknown_value(routine, number), statement.place,
+                  "runs a routine whose name is known only while the robot runs", "write its name",
+                  "the number behind the routine's name");
     else
       run.run_named(routine.text + fmt::format("{:g}", number.number), {}, statement.place);
   } else if (const char* effect = rapid_told_effect(name)) {
@@ -255,11 +272,17 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   Value target = run.evaluate(call.items[0]);
   if (!target.type && target.kind == Value::Kind::list) run.shape(target, code_.record("robtarget"));
   double by[3], turn[3] = {0, 0, 0};
-  if (!target.known()) return unknown_value(target);
+  Value unknown = target.known() ? Value{} : unknown_value(target);
+  std::vector<Value> numbers;
+  for (std::size_t i = 1; i < call.items.size(); ++i) {
+    numbers.push_back(run.evaluate(call.items[i]));
+    if (!numbers.back().known()) unknown = unknown_value(unknown, numbers.back());
+  }
+  if (unknown.cause || !target.known()) return unknown;
   if (target.type != code_.record("robtarget")) return {};
   int k = 0;
   for (std::size_t i = 1; i < call.items.size(); ++i) {
-    const Value given = run.evaluate(call.items[i]);
+    const Value& given = numbers[i - 1];
     if (!given.is_number()) return unknown_value(given);
     const double number = given.number;
     const std::string& option = call.items[i].option;
@@ -271,7 +294,7 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   if (k < 3) return {};
   const auto q = rapid_orientation(target.items[1]);
   if (!q)
-    return unknown_value(run.path_of(call.items[0]), target == rapid_initial(code_, "robtarget")
+    return unknown_value(run.answer_name(run.path_of(call.items[0])), target == rapid_initial(code_, "robtarget")
                                                          ? "was never given a value (all of it is 0)"
                                                          : "has a quaternion whose length is not 1");
   Vector3 shift(by[0], by[1], by[2]);
@@ -346,8 +369,12 @@ void run_rapid(const Code& code, const ImportOptions& options, const std::vector
             : fmt::format("name one with --routine (motion.routine in a job): {}", fmt::join(names, ", ")));
     return;
   }
-  Rapid rapid(code, tools, work_objects);
-  Interpreter(code, rapid, options, program, problems).run(*routine);
+  explore(
+      [&](Exploration& exploration, Program& made, Problems& found) {
+        Rapid rapid(code, tools, work_objects);
+        Interpreter(code, rapid, options, made, found, exploration).run(*routine);
+      },
+      program, problems);
 }
 
 }  // namespace dresslife::sim

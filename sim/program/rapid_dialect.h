@@ -36,6 +36,7 @@ class Rapid final : public Dialect {
   bool writes(const std::string& name, int position, const Expression& argument) const override;
   const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
   Value initial(const std::string& type) const override;
+  std::string form_of(const std::string& type) const override;
 
  private:
   // ---- rapid_moves.cpp
@@ -50,7 +51,7 @@ class Rapid final : public Dialect {
   std::optional<NamedFrame> tool_of(const Expression& written, Interpreter& run);
   std::optional<NamedFrame> work_object_of(const Expression& written, Interpreter& run);
   bool read_options(const Statement& statement, Instruction& move, Interpreter& run);
-  void tell_weave(const Statement& statement, Interpreter& run);
+  static void tell_options(const Statement& statement, Interpreter& run);
   std::optional<Value> typed(const Expression& written, const char* type, const char* what, Interpreter& run);
   void displace(const Statement& statement, Interpreter& run);
   std::optional<Value> position_with(const Expression* tool, const Expression* work_object, Interpreter& run);
@@ -87,6 +88,8 @@ class Rapid final : public Dialect {
     NamedFrame tool, work_object;  // of it
   };
   std::optional<Reached> reached_;
+  Value lost_;                   // why it is not known where the last move led
+  bool lost_by_joints_ = false;  // that was a move to axis angles
 };
 
 }  // namespace dresslife::sim

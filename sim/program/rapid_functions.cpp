@@ -101,6 +101,15 @@ std::optional<Value> of_text(const std::string& name, const std::vector<const Va
     if (!(from >= 1 && count >= 0 && from - 1 + count <= static_cast<double>(text.size()))) return Value{};
     return text_value(text.substr(static_cast<std::size_t>(from) - 1, static_cast<std::size_t>(count)));
   }
+  if ((name == "strfind" || name == "strfind not") && v.size() == 3 && v[1]->is_number() &&
+      v[2]->kind == Value::Kind::text) {
+    const double from = v[1]->number;
+    if (!(from >= 1 && from <= static_cast<double>(text.size()) + 1)) return Value{};
+    const auto begin = static_cast<std::size_t>(from) - 1;
+    const std::size_t found =
+        name == "strfind" ? text.find_first_of(v[2]->text, begin) : text.find_first_not_of(v[2]->text, begin);
+    return number_value(static_cast<double>((found == std::string::npos ? text.size() : found) + 1));
+  }
   if (name == "strmatch" && v.size() == 3 && v[1]->is_number() && v[2]->kind == Value::Kind::text) {
     const double from = v[1]->number;
     if (!(from >= 1 && from <= static_cast<double>(text.size()) + 1)) return Value{};
@@ -252,11 +261,14 @@ std::optional<Value> rapid_function(const Code& code, const std::string& name,
                                     const std::vector<RapidArgument>& arguments) {
   std::vector<const Value*> v;
   double decimals = 0;
+  bool outside = false;  // StrFind: the first letter that is not in the set
   for (const RapidArgument& argument : arguments) {
     if (argument.option.empty())
       v.push_back(&argument.value);
     else if (argument.option == "dec")
       decimals = argument.value.number;
+    else if (argument.option == "notinset")
+      outside = true;
   }
   if (!v.empty() && v[0]->is_number()) {
     if (v.size() == 1)
@@ -267,7 +279,7 @@ std::optional<Value> rapid_function(const Code& code, const std::string& name,
   if (!v.empty() && v[0]->kind == Value::Kind::truth && name == "valtostr")
     return text_value(v[0]->number != 0 ? "TRUE" : "FALSE");
   if (!v.empty() && v[0]->kind == Value::Kind::text)
-    if (auto result = of_text(name, v)) return result;
+    if (auto result = of_text(outside ? name + " not" : name, v)) return result;
   if (name == "orientzyx") {
     for (const Value* value : v)
       if (!value->is_number()) return Value{};

@@ -77,25 +77,29 @@ const Signature* rapid_move(const std::string& instruction) {
 std::optional<Value> Rapid::typed(const Expression& written, const char* type, const char* what,
                                   Interpreter& run) {
   const std::size_t problems = run.problem_count();
-  Value value = run.evaluate(written);
+  Value value = run.answered(written);
   if (!value.known() && run.problem_count() != problems) return {};  // what makes it unknown is told
   if (!value.known()) {
-    const std::string remedy = run.remedy_for(value);
-    if (written.kind == Expression::Kind::name && !run.variable(written.text))
-      run.miss(
-          written.text, written.place,
-          fmt::format("names {} '{}' that no module read declares", what, written.text),
-          fmt::format("give the module that declares it too (--module, motion.modules), or {}",
-                      is_frame(type) ? "its frame in --frames FILE.yaml (motion.tools, motion.work_objects)"
-                                     : remedy + " (motion.values)"));
-    else if (remedy.empty())
-      run.complain(written.place,
-                   fmt::format("has {} that is known only while the robot runs", what) + run.because(value),
-                   fmt::format("write {} as a constant", what));
-    else
-      run.miss(run.question_of(value), written.place,
-               fmt::format("has {} that is known only while the robot runs", what) + run.because(value),
-               fmt::format("give {} (motion.values)", remedy));
+    const std::vector<const Cause*> causes = value.causes();
+    const std::string name = causes.size() == 1 && causes[0]->line.empty() ? causes[0]->asked() : "";
+    if (is_frame(type) && !name.empty() && name.find(':') == std::string::npos && !run.variable(name)) {
+      const auto kind = type == std::string("tooldata") ? Question::Kind::tool : Question::Kind::work_object;
+      run.miss(name, written.place, fmt::format("names {} '{}' that no module read declares", what, name),
+               "give the module that declares it too (--module, motion.modules), or its frame in --frames "
+               "FILE.yaml (motion.tools, motion.work_objects)",
+               {{kind, name, ""}});
+    } else if (written.kind == Expression::Kind::name && !run.variable(written.text)) {
+      run.miss(written.text, written.place,
+               fmt::format("names {} '{}' that no module read declares", what, written.text),
+               fmt::format("give the module that declares it too (--module, motion.modules), or {} (motion.values)",
+                           run.remedy_for(value)),
+               run.questions_for(value, form_of(type)));
+    } else {
+      // What else it hangs on is written in another way than the argument itself.
+      const bool itself = name == run.answer_name(run.path_of(written)) || name == run.name_here(run.written(written));
+      run.ask_for(value, written.place, fmt::format("has {} that is known only while the robot runs", what), "",
+                  itself ? form_of(type) : "");
+    }
     return {};
   }
   const RecordType* record = code_.record(type);
@@ -107,7 +111,12 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
 
 bool Rapid::read_target(const Expression& written, bool joints, Instruction& move, Interpreter& run) {
   const auto value = typed(written, joints ? "jointtarget" : "robtarget", "a target", run);
-  if (!value) return false;
+  if (!value) {
+    reached_.reset();
+    lost_ = unknown_value(run.evaluate(written));
+    lost_by_joints_ = joints;
+    return false;
+  }
   remember(move, "target", written, run);
   reached_ = Reached{*value, joints, displacement_, {}, {}};
   if (joints) {
@@ -119,10 +128,16 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
   const auto q = rapid_orientation(value->items[1]);
   if (!q) {
     const bool unset = *value == rapid_initial(code_, "robtarget");
-    run.complain(written.place,
-                 unset ? "has a target that was never given a value (all of it is 0)"
-                       : "has a target whose quaternion has not the length 1",
-                 unset ? "give it one, in the program or with --value" : "mend its orientation");
+    // One that the program itself has set to zeros is no question: the controller stops here.
+    const std::string path = unset && !run.was_assigned(written) ? run.answer_name(run.path_of(written)) : "";
+    if (path.empty())
+      run.complain(written.place,
+                   unset ? "has a target that the program set to zeros" : "has a target whose quaternion has not the length 1",
+                   "mend its orientation");
+    else
+      run.miss(path, written.place, "has a target that was never given a value (all of it is 0)",
+               fmt::format("give it one, in the program or with --value '{}=...'", path),
+               {{Question::Kind::value, path, form_of("robtarget")}});
     return false;
   }
   move.target.pose = displacement_ * Frame{rapid_position(value->items[0]), *q};
@@ -194,8 +209,8 @@ std::optional<NamedFrame> Rapid::tool_of(const Expression& written, Interpreter&
     run.complain(written.place, "has a tool whose quaternion has not the length 1", "mend its tframe");
     return {};
   }
-  const std::string name = written.kind == Expression::Kind::name ? written.text : "tool";
-  return NamedFrame{name, *frame, value->items[0].number == 0};
+  const std::string name = run.name_of(written);
+  return NamedFrame{name.empty() ? "tool" : name, *frame, value->items[0].number == 0};
 }
 
 bool Rapid::read_tool(const Expression& written, Instruction& move, Interpreter& run) {
@@ -220,8 +235,8 @@ std::optional<NamedFrame> Rapid::work_object_of(const Expression& written, Inter
              fmt::format("work object {}: another mechanical unit moves it, but it is taken to stand still",
                          run.written(written)),
              true);
-  const std::string name = written.kind == Expression::Kind::name ? written.text : "work object";
-  return NamedFrame{name, *user * *object, value->items[0].number != 0};
+  const std::string name = run.name_of(written);
+  return NamedFrame{name.empty() ? "work object" : name, *user * *object, value->items[0].number != 0};
 }
 
 bool Rapid::read_work_object(const Expression& written, Instruction& move, Interpreter& run) {
@@ -240,28 +255,34 @@ bool Rapid::read_options(const Statement& statement, Instruction& move, Interpre
     if (option == "wobj" && !(argument.if_present && !run.present(argument)))
       whole &= read_work_object(argument, move, run);
     if (option != "t" && option != "v" && option != "z") continue;
-    const auto number = run.number(argument);
-    if (!number || !(*number >= 0) || (*number == 0 && option != "z")) {
-      run.complain(argument.place, fmt::format("has no number above 0 after \\{}", option),
-                   "write it as a constant");
+    const Value given = run.answered(argument);
+    const double number = given.is_number() ? given.number : -1;
+    if (!(number >= 0) || (number == 0 && option != "z")) {
+      run.ask_for(given, argument.place, fmt::format("has no number above 0 after \\{}", option),
+                  "write it as a constant", option == "t" ? "a time in s" : option == "v" ? "mm/s" : "mm");
       whole = false;
       continue;
     }
-    if (option == "t") move.speed.duration = *number;
+    if (option == "t") move.speed.duration = number;
     if (option == "v")
-      move.speed.tool = std::min(*number * millimetre * speed_factor_ * override_, speed_limit_);
-    if (option == "z") move.zone.distance = *number * millimetre;
+      move.speed.tool = std::min(number * millimetre * speed_factor_ * override_, speed_limit_);
+    if (option == "z") move.zone.distance = number * millimetre;
   }
   return whole;
 }
 
-void Rapid::tell_weave(const Statement& statement, Interpreter& run) {
-  for (const Expression& argument : statement.arguments)
+/// What an option adds to a move and is not read.
+void Rapid::tell_options(const Statement& statement, Interpreter& run) {
+  for (const Expression& argument : statement.arguments) {
+    if (argument.option == "id")
+      run.note(argument.place,
+               "\\ID: another robot or a positioner moves at the same time (MultiMove), only this one is read", true);
     if (argument.option == "weave")
       run.note(argument.place,
                fmt::format("\\Weave:={}: the torch swings about its line, which is followed without it",
                            run.written(argument)),
                true);
+  }
 }
 
 bool Rapid::move(const Signature& signature, const Statement& statement, Interpreter& run) {
@@ -300,7 +321,7 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   whole &= read_options(statement, move, run);
   if (is_weld(statement.name)) read_weld_speed(statement, move, run);
   if (!whole || run.problem_count() != problems) return true;
-  tell_weave(statement, run);
+  tell_options(statement, run);
   if (statement.name.starts_with("search")) {
     run.note(statement.place, statement.text + ": the search goes to its end point", true);
     run.assign(*given[1], reached_->target);
@@ -348,16 +369,18 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
     if (argument.option == "tool") tool = &argument;
     if (argument.option == "wobj") work_object = &argument;
   }
-  if (call.text == "cjointt") {
+  const bool joints = call.text == "cjointt", lost = !reached_ && lost_.cause;
+  if (lost && lost_by_joints_ == joints) return lost_;  // where the last move went is asked for already
+  const std::string name = run.name_here(call.text), form = form_of(joints ? "jointtarget" : "robtarget");
+  if (joints) {
     if (reached_ && reached_->by_joints) return reached_->target;
-    return unknown_value("", reached_ ? "CJointT asks for the axes at a target that is a pose"
-                                      : "CJointT asks where the robot stands at the start");
+    return unknown_value(name, reached_ || lost ? "asks for the axes at a target that is a pose"
+                                                : "asks where the robot stands at the start", form);
   }
   const auto position = position_with(tool, work_object, run);
   if (!position)
-    return unknown_value("", reached_
-                                 ? fmt::format("{} asks for the pose at axis angles", call.text)
-                                 : fmt::format("{} asks where the robot stands at the start", call.text));
+    return unknown_value(name, reached_ || lost ? "asks for the pose at axis angles"
+                                                : "asks where the robot stands at the start", form);
   return call.text == "cpos" ? position->items[0] : *position;
 }
 
@@ -391,11 +414,14 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
   std::optional<Value> from = typed(*programmed, "robtarget", "a programmed point", run);
   std::optional<Value> to = executed ? typed(*executed, "robtarget", "a point that was reached", run)
                                      : position_with(tool, work_object ? work_object : &world, run);
+  if (!executed && !to) to = run.given_here("crobt");
+  if (to && to->type == nullptr && !run.shape(*to, code_.record("robtarget"))) to.reset();
   if (!executed && !to)
-    run.complain(statement.place,
-                 "displaces by where the robot stands, which is known only with the robot "
-                 "(axis angles, or the start)",
-                 "give the point as \\ExeP, or write the displacement with PDispSet");
+    run.ask_for(reached_ || !lost_.cause ? unknown_value(run.name_here("crobt"), "is where the robot stands") : lost_,
+                statement.place,
+                "displaces by where the robot stands, which is known only with the robot "
+                "(axis angles, or the start)",
+                "give the point as \\ExeP, write the displacement with PDispSet", form_of("robtarget"));
   const auto q = from ? rapid_orientation(from->items[1]) : std::nullopt;
   const auto p = to ? rapid_orientation(to->items[1]) : std::nullopt;
   if (!q || !p) return;
@@ -430,7 +456,7 @@ void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
   const auto reached = executed   ? target(*executed)
                        : reached_ ? std::optional(reached_->target)
                                   : std::nullopt;
-  if (programmed && !reached)
+  if (programmed && !reached && !lost_.cause)
     run.complain(statement.place,
                  "shifts external axes (EOffsOn) by where the external axes stand at the start",
                  "give the point as \\ExeP, or write the offset with EOffsSet");

@@ -11,7 +11,7 @@ using Kind = Statement::Kind;
 class RapidParser : StatementParser {
  public:
   RapidParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems)
-      : StatementParser(code, file, tokens, problems, false) {}
+      : StatementParser(code, file, tokens, problems, Grammar::rapid) {}
 
   void run() {
     while (!at_.at_end() && !at_.at_word("module")) at_.next();  // %%% VERSION and LANGUAGE %%%
@@ -93,6 +93,7 @@ class RapidParser : StatementParser {
     Statement statement;
     statement.kind = Kind::declare;
     const bool persistent = at_.at_word("pers");
+    statement.constant = at_.at_word("const");
     at_.next();  // CONST, VAR, PERS
     statement.text = at_.word("a type");
     statement.place = at_.place();
@@ -159,10 +160,16 @@ class RapidParser : StatementParser {
   }
 
   void parameters(Routine& routine) {
+    bool alternative = false;  // of the optional parameter before: \switch a|switch b
     while (!at_.take_sign(")")) {
-      if (at_.take_sign(",") || at_.take_sign("|")) continue;
+      if (at_.take_sign(",")) continue;
+      if (at_.take_sign("|")) {
+        alternative = true;
+        continue;
+      }
       Parameter parameter;
-      parameter.option = at_.take_sign("\\");
+      parameter.option = at_.take_sign("\\") || alternative;
+      alternative = false;
       parameter.given_back = at_.take_word("inout") || at_.take_word("var") || at_.take_word("pers");
       if (!at_.take_word("switch")) at_.word("a type");
       parameter.name = at_.word("a parameter");
@@ -187,6 +194,7 @@ class RapidParser : StatementParser {
 
   void statement(std::vector<Statement>& into) {
     if (at_.take_sign(";")) return;
+    if (at_.at_sign("<") && at_.at_word("smt", 1) && at_.at_sign(">", 2)) return placeholder(into);
     if (at_.peek().kind == Token::Kind::word && at_.at_sign(":", 1)) {
       into.push_back(labelled(Kind::label));
       at_.next();
@@ -221,6 +229,18 @@ class RapidParser : StatementParser {
       late_call(s);
     else
       assignment_or_call(s);
+    into.push_back(std::move(s));
+  }
+
+  /// <SMT>: a statement that the editor offered and nobody wrote. The controller stops when it gets there.
+  void placeholder(std::vector<Statement>& into) {
+    Statement s;
+    s.place = at_.place();
+    for (int k = 0; k < 3; ++k) at_.next();
+    at_.take_sign(";");
+    s.name = s.text = unwritten_statement;
+    into.push_back(s);
+    s.kind = Kind::finish;
     into.push_back(std::move(s));
   }
 
@@ -331,7 +351,9 @@ class RapidParser : StatementParser {
     at_.next();
     Expression name = at_.expression();
     at_.need_sign("%");
-    s.name = name.kind == Expression::Kind::text ? lower_case(name.text) : late_binding;
+    const bool constant =
+        name.kind == Expression::Kind::text && name.text.find(':') == std::string::npos;  // "module:routine"
+    s.name = constant ? lower_case(name.text) : late_binding;
     s.text = name.text;
     s.arguments = at_.arguments(";");
     if (s.name == late_binding) s.arguments.insert(s.arguments.begin(), std::move(name));

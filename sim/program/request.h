@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/program/code.h"
+#include "sim/program/parser.h"
 
 namespace dresslife::sim {
 
@@ -10,7 +11,7 @@ namespace dresslife::sim {
 std::string value_key(const std::string& name);
 
 /// Fills code.values, choices, start and start_arguments; what cannot be read becomes a problem.
-void add_requests(Code& code, const ImportOptions& options, bool krl, Problems& problems);
+void add_requests(Code& code, const ImportOptions& options, Grammar grammar, Problems& problems);
 
 /// "name(a, b)" or "name a, b" as name and arguments, both as written.
 std::pair<std::string, std::string> routine_and_arguments(const std::string& written);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace dresslife::sim {
 namespace {
@@ -96,7 +97,22 @@ class Cutter {
     add(Token::Kind::word, begin, at_);
   }
 
+  /// RAPID: 0x1F, 0b101, 0o17.
+  bool prefixed_number() {
+    const char letter = lower(peek(1));
+    const int base = letter == 'x' ? 16 : letter == 'b' ? 2 : letter == 'o' ? 8 : 0;
+    if (rules_.based_numbers || peek() != '0' || base == 0) return false;
+    unsigned long value = 0;
+    const char* first = text_.data() + at_ + 2;
+    const auto [end, failure] = std::from_chars(first, text_.data() + text_.size(), value, base);
+    if (failure != std::errc()) return false;
+    const std::size_t begin = std::exchange(at_, static_cast<std::size_t>(end - text_.data()));
+    add(Token::Kind::number, begin, at_).number = static_cast<double>(value);
+    return true;
+  }
+
   void number() {
+    if (prefixed_number()) return;
     const std::size_t begin = at_;
     double value = 0;
     const auto [end, failure] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
@@ -148,7 +164,7 @@ class Cutter {
   }
 
   void sign() {
-    static constexpr std::string_view pairs[] = {":=", "<>", "<=", ">=", "=="};
+    static constexpr std::string_view pairs[] = {":=", "<>", "<=", ">=", "==", "!="};
     for (std::string_view pair : pairs)
       if (text_.substr(at_, 2) == pair) {
         add(Token::Kind::sign, at_, at_ + 2);

@@ -1,10 +1,10 @@
 #include "sim/program/trajectory.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/axis_names.h"
 #include "sim/program/tokens.h"
@@ -15,18 +15,9 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr std::size_t most_axes = 12;
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && static_cast<unsigned char>(text.front()) <= ' ') text.remove_prefix(1);
-  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
-  return text;
-}
-
 std::optional<double> number_in(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
+  const std::optional<double> value = pipeline::number_in(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// Rows of angles into moves: the first without a time, the others as long as the rows are apart.
@@ -75,20 +66,6 @@ class Rows {
   std::optional<double> last_time_;
 };
 
-std::vector<std::string_view> cells_of(std::string_view line, char separator) {
-  constexpr std::size_t most = 200;  // columns, of which the most are left out
-  std::vector<std::string_view> cells;
-  while (cells.size() <= most) {
-    const std::size_t end = line.find(separator);
-    std::string_view cell = trimmed(line.substr(0, end));
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-    cells.push_back(cell);
-    if (end == std::string_view::npos) break;
-    line.remove_prefix(end + 1);
-  }
-  return cells;
-}
-
 std::string answer(const ImportOptions& options, const char* name) {
   const auto found = options.values.find(name);
   return found == options.values.end() ? "" : found->second;
@@ -101,14 +78,11 @@ class Columns {
       : file_(file), options_(options), program_(program), problems_(problems) {}
 
   void run() {
-    const std::string_view all = file_.text();
-    for (std::size_t begin = 0; begin < all.size() && !problems_.full() && !stopped_;) {
-      const std::size_t end = std::min(all.find('\n', begin), all.size());
-      const std::string_view line = trimmed(all.substr(begin, end - begin));
-      begin = end + 1;
-      ++number_;
-      if (line.empty() || line.front() == '#') continue;
-      names_.empty() ? header(line) : row(line);
+    pipeline::CsvReader reader(std::string(file_.text()), file_.name());
+    for (pipeline::CsvRow cells = reader.next(); !cells.empty() && !problems_.full() && !stopped_;
+         cells = reader.next()) {
+      number_ = reader.line();
+      names_.empty() ? header(cells) : row(cells);
     }
     if (names_.empty() && !stopped_)
       problems_.add({file_.name(), 1, 1}, "is empty", "give a line of names, then one row per pose");
@@ -127,14 +101,12 @@ class Columns {
     stopped_ = true;
   }
 
-  void header(std::string_view line) {
+  void header(const pipeline::CsvRow& cells) {
     header_ = number_;
-    for (char candidate : {',', ';', '\t'})
-      if (line.find(candidate) != std::string_view::npos) separator_ = candidate;
     std::vector<std::string> axes;
     std::vector<std::size_t> at;
     bool points = false;
-    for (std::string_view name : cells_of(line, separator_)) {
+    for (const auto& [name, line, column] : cells) {
       if (number_in(name))
         return refuse("begins with numbers", "put a line of names first: time, axis 1, axis 2, ...");
       const ColumnName read = column_name(name);
@@ -185,19 +157,18 @@ class Columns {
             {where(), fmt::format("column '{}': none of the axes asked for", axes[i])});
   }
 
-  void row(std::string_view line) {
-    const std::vector<std::string_view> cells = cells_of(line, separator_);
+  void row(const pipeline::CsvRow& cells) {
     if (cells.size() != names_.size())
       return problems_.add(where(),
                            fmt::format("has {} cells (there are {} names)", cells.size(), names_.size()),
                            "give one number per name");
-    if (std::none_of(cells.begin(), cells.end(), [](std::string_view cell) { return number_in(cell); }))
+    if (std::none_of(cells.begin(), cells.end(), [](const auto& cell) { return number_in(cell.text); }))
       return problems_.add(where(), "has no numbers",
                            "put one line of names first, then a row of joint angles per line");
     Row made{number_, {}, {}};
     bool whole = true;
     const auto number = [&](std::size_t column) {
-      const auto value = number_in(cells[column]);
+      const auto value = number_in(cells[column].text);
       if (!value)
         problems_.add(where(), fmt::format("has no number in cell {} ({})", column + 1, names_[column]),
                       "write a finite number");
@@ -238,8 +209,11 @@ class Columns {
     const std::vector<double> factor = factors();
     if (factor.empty()) {
       number_ = header_;
-      return refuse("gives angles without a unit (none is too large for radians)",
-                    "end the names in deg or rad (joint_1_rad), or give --value unit=deg or unit=rad");
+      return problems_.add_use({.where = {file_.name(), number_, 1},
+                                .what = "gives angles without a unit (none is too large for radians)",
+                                .remedy = "end the names in deg or rad (joint_1_rad), or give --value unit=deg or unit=rad",
+                                .about = "unit",
+                                .questions = {{Question::Kind::value, "unit", "deg or rad"}}});
     }
     Rows rows(program_, problems_);
     for (Row& row : rows_) {
@@ -260,7 +234,6 @@ class Columns {
   double seconds_ = 1;
   bool clock_ = false;  // the unit of the time is told by the times
   std::vector<Row> rows_;
-  char separator_ = ',';
   int number_ = 0, header_ = 0;
   bool stopped_ = false;
 };

@@ -35,23 +35,75 @@ const Cause* Value::first_cause() const {
   return nullptr;
 }
 
+std::vector<const Cause*> Value::causes() const {
+  std::vector<const Cause*> found;
+  const auto add = [&](const Cause& one) {
+    constexpr std::size_t most = 12;  // of one value: a position has six numbers
+    const auto same = [&](const Cause* known) {
+      return known->asked() == one.asked() && known->line == one.line;
+    };
+    if (found.size() < most && std::none_of(found.begin(), found.end(), same)) found.push_back(&one);
+  };
+  if (kind == Kind::unknown && cause) {
+    add(*cause);
+    for (const auto& other : cause->others) add(*other);
+  }
+  for (const Value& item : items) {
+    if (item.kind != Kind::unknown && item.items.empty()) continue;
+    for (const Cause* inner : item.causes()) add(*inner);
+  }
+  return found;
+}
+
 bool Value::operator==(const Value& other) const {
   return kind == other.kind && (kind == Kind::unknown || kind == Kind::list || number == other.number) &&
          text == other.text && items == other.items;
 }
 
-Value unknown_value(std::string name, std::string why) {
+Value unknown_value(std::string name, std::string why, std::string form) {
   Value value;
-  value.cause = std::make_shared<const Cause>(Cause{std::move(name), std::move(why)});
+  Cause cause{std::move(name), std::move(why)};
+  cause.form = std::move(form);
+  value.cause = std::make_shared<const Cause>(std::move(cause));
   return value;
 }
 
-Value unknown_value(const Value& because) {
+namespace {
+
+Value unknown_value(const std::vector<const Cause*>& causes) {
   Value value;
-  if (because.kind == Value::Kind::unknown) value.cause = because.cause;
-  for (const Value& item : because.items)
-    if (!value.cause) value.cause = unknown_value(item).cause;
+  if (causes.empty()) return value;
+  Cause all = *causes[0];
+  all.others.clear();
+  for (std::size_t i = 1; i < causes.size(); ++i) {
+    Cause other = *causes[i];
+    other.others.clear();
+    all.others.push_back(std::make_shared<const Cause>(std::move(other)));
+  }
+  value.cause = std::make_shared<const Cause>(std::move(all));
   return value;
+}
+
+}  // namespace
+
+Value unknown_value(const Value& because) {
+  if (because.kind != Value::Kind::unknown) return unknown_value(because.causes());
+  Value value;
+  value.cause = because.cause;
+  return value;
+}
+
+Value unknown_value(const Value& because, const Value& and_because) {
+  std::vector<const Cause*> causes = because.causes();
+  const std::vector<const Cause*> more = and_because.causes();
+  if (more.empty()) return unknown_value(because);
+  if (causes.empty()) return unknown_value(and_because);
+  for (const Cause* cause : more)
+    if (std::none_of(causes.begin(), causes.end(), [&](const Cause* known) {
+          return known->asked() == cause->asked() && known->line == cause->line;
+        }))
+      causes.push_back(cause);
+  return causes.size() == 1 ? unknown_value(because) : unknown_value(causes);
 }
 
 Value forgotten(Value value, const std::shared_ptr<const Cause>& cause) {

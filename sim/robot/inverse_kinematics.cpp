@@ -60,7 +60,7 @@ InverseKinematics::InverseKinematics(const pipeline::Robot& robot)
   std::vector<Frame> frames(static_cast<std::size_t>(kinematics_.links()));
   kinematics_.link_frames({zero.data(), static_cast<std::size_t>(zero.size())}, frames);
   base_ = frames[0];
-  to_program_ = inverse(base_ * Frame{robot.program_base, Quaternion::Identity()});
+  to_program_ = inverse(base_ * Frame{robot.program_base, from_roll_pitch_yaw(robot.program_orientation)});
   zero_ = flange(zero);
   check_geometry();
 }
@@ -209,6 +209,15 @@ ArmConfiguration InverseKinematics::configuration(const VectorXd& joints, ArmCon
   switch (kind) {
     case ArmConfiguration::Kind::any:
       break;
+    case ArmConfiguration::Kind::near:
+      for (int axis = 0; axis < 6; ++axis)
+        made.numbers.push_back(static_cast<int>(std::lround(joints[axis] * 180 / pi)));
+      break;
+    case ArmConfiguration::Kind::motoman: {
+      const auto far = [&](int axis) { return std::abs(joints[axis]) > pi; };
+      made.numbers = {std::cos(joints[3]) < 0, !side.front_of_arm, !side.front_of_axis, far(3), far(5), far(0)};
+      break;
+    }
     case ArmConfiguration::Kind::abb:
       made.numbers = {quadrant(0), quadrant(3), quadrant(5),
                       4 * !side.front_of_axis + 2 * !side.front_of_arm + !side.wrist_positive};
@@ -242,6 +251,38 @@ std::vector<VectorXd> InverseKinematics::with_turns(const VectorXd& arm) const {
   return list;
 }
 
+/// "joint_4 at 361.2 deg, 11.2 deg above its 350"; turns: by how many an axis may be turned to get nearer to its limits.
+/// most: gets the largest excess [rad].
+std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, double* most) const {
+  std::string words;
+  for (long axis = 0; axis < 6; ++axis) {
+    const pipeline::Joint& joint = robot_.joints[axis];
+    const auto excess = [&](double angle) { return std::max(joint.lower - angle, angle - joint.upper); };
+    double best = arm[axis];
+    for (int k = -turns; k <= turns; ++k)
+      if (const double angle = arm[axis] + 2 * pi * k; excess(angle) < excess(best)) best = angle;
+    if (excess(best) <= limit_rounding) continue;
+    if (most) *most = std::max(*most, excess(best));
+    const bool above = best > joint.upper;
+    words += fmt::format("{}{} at {:.1f} deg, {:.1f} deg {} its {:.6g}", words.empty() ? "" : "; ", joint.name, best * 180 / pi,
+                         excess(best) * 180 / pi, above ? "above" : "below",
+                         (above ? joint.upper : joint.lower) * 180 / pi);
+  }
+  return words;
+}
+
+/// Of the arm that needs least.
+std::string InverseKinematics::least_beyond(const std::vector<VectorXd>& arms) const {
+  std::string words;
+  double least = INFINITY;
+  for (const VectorXd& arm : arms) {
+    double most = 0;
+    const std::string own = beyond_limits(arm, 3, &most);
+    if (most < least) least = most, words = own;
+  }
+  return words;
+}
+
 /// Angles near a boundary of a quadrant or a sign may be meant on either side of it: written with few digits.
 bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& wanted,
                                 bool with_sides) const {
@@ -256,7 +297,17 @@ bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& 
   };
   switch (wanted.kind) {
     case ArmConfiguration::Kind::any:
+    case ArmConfiguration::Kind::near:
       return true;
+    case ArmConfiguration::Kind::motoman: {
+      const auto within = [&](int axis, bool far) {
+        return far ? std::abs(joints[axis]) > pi - blur : std::abs(joints[axis]) < pi + blur;
+      };
+      const double turned = std::cos(joints[3]);
+      const bool wrist = n[0] >= 2 ? negative(4, n[0] == 3) : n[0] == 1 ? turned < blur : turned > -blur;
+      return wrist && (!with_sides || (side.front_of_arm == !n[1] && side.front_of_axis == !n[2])) &&
+             within(3, n[3]) && within(5, n[4]) && within(0, n[5]);
+    }
     case ArmConfiguration::Kind::abb:
       if (!in_quadrant(0, n[0]) || !in_quadrant(3, n[1]) || !in_quadrant(5, n[2])) return false;
       return !with_sides ||
@@ -300,12 +351,10 @@ std::optional<VectorXd> InverseKinematics::follow(const Frame& flange, const Vec
     reason = "is out of reach";
     return {};
   }
-  for (int i = 0; i < 6; ++i)
-    if ((*arm)[i] < robot_.joints[i].lower - limit_rounding ||
-        (*arm)[i] > robot_.joints[i].upper + limit_rounding) {
-      reason = "is reached only outside the joint limits";
-      return {};
-    }
+  if (const std::string beyond = beyond_limits(*arm, 0); !beyond.empty()) {
+    reason = "is reached only outside the joint limits: " + beyond;
+    return {};
+  }
   return whole(*arm, near);
 }
 
@@ -316,6 +365,10 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
     return {};
   }
   const std::vector<VectorXd> reaching = arms(on_tracks(flange, near), near);
+  const bool chosen = configuration.kind == ArmConfiguration::Kind::near;
+  const auto from = [&](long axis) {
+    return chosen ? configuration.numbers[axis] * pi / 180 : near.size() >= 6 ? near[axis] : 0.0;
+  };
   std::optional<VectorXd> best;
   double least = INFINITY;
   std::vector<std::string> others;
@@ -337,7 +390,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
         constexpr double share_of_others = 1e-3;
         double time = 0, sum = 0;
         for (long axis = 0; axis < 6; ++axis) {
-          const double way = std::abs(joints[axis] - (near.size() >= 6 ? near[axis] : 0.0));
+          const double way = std::abs(joints[axis] - from(axis));
           time = std::max(time, way / robot_.joints[axis].speed);
           sum += way / robot_.joints[axis].speed;
         }
@@ -349,7 +402,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
       }
       different += fits;
     }
-    if (different > 1 && !open_.empty() && configuration.kind != ArmConfiguration::Kind::any) {
+    if (different > 1 && !open_.empty() && !chosen && configuration.kind != ArmConfiguration::Kind::any) {
       reason =
           fmt::format("is reached by {} arms of configuration {}: {}, and only joint angles tell them apart",
                       different, configuration.text(), open_);
@@ -363,7 +416,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
   if (reaching.empty())
     reason = "is out of reach";
   else if (!within_limits)
-    reason = "is reached only outside the joint limits";
+    reason = "is reached only outside the joint limits: " + least_beyond(reaching);
   else
     reason = fmt::format("is not reached in configuration {} (but in {})", configuration.text(),
                          fmt::join(others, "; "));

@@ -24,6 +24,9 @@
 //   KUKA   S = behind(1) + 2 front(2) + 4 (q5 < 0); bit i of T is q_i < 0.
 //   Fanuc  N where q5 <= 0, U where front(2), T where front(1); turns of axes 1, 4, 6 counted from 0 at
 //          +-180 deg.
+//   Motoman  behind(1), lower arm = behind(2), axes R, T, S 180 deg or more from zero; of the wrist, axis R within
+//          90 deg of zero or the sign of q5: controllers differ (sim/program/inform.cpp).
+//   near   the arm nearest to six angles by the time that its axes take (UR's qnear).
 // Sources of the words: RAPID data types (confdata); KUKA System Software (status and turn); FANUC operator's
 // manual.
 #pragma once
@@ -88,6 +91,8 @@ class InverseKinematics {
   void add_wrists(const Frame& flange, double q1, double q2, double q3, const Eigen::VectorXd& near,
                   std::vector<Eigen::VectorXd>& found) const;
   std::vector<Eigen::VectorXd> with_turns(const Eigen::VectorXd& arm) const;
+  std::string beyond_limits(const Eigen::VectorXd& arm, int turns, double* most = nullptr) const;
+  std::string least_beyond(const std::vector<Eigen::VectorXd>& arms) const;
   bool matches(const Eigen::VectorXd& joints, const ArmConfiguration& wanted, bool with_sides) const;
 
   const pipeline::Robot robot_;

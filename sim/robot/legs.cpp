@@ -149,8 +149,11 @@ class Layout {
   }
 
   bool refuse(const MotionStep& step, int line, const std::string& reason) {
+    const bool lacks = step.external_axes.size() > axes_.size() - robot_.axes();
     problems_.add(step.where, fmt::format("target of '{}' {}", made_.texts[line], reason),
-                  "check target, tool, work object, configuration and where the robot stands");
+                  lacks ? "check target, tool, work object and configuration; the step also names external axes that "
+                          "robot.external_axes does not have: without them the robot stands elsewhere"
+                        : "check target, tool, work object, configuration and where the robot stands");
     return false;
   }
 
@@ -196,11 +199,16 @@ class Layout {
     if (!step.joints.empty()) {
       move.to = joined(Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size())),
                        external);
-      if (leads_tool(step.path) && place_.size() > 0)
+      if (leads_tool(step.path) && place_.size() > 0) {
         move.path = ToolPath(tooling, tooling.pose(arm_.flange(place_)), tooling.pose(arm_.flange(move.to)));
+        if (!step.via_position.empty())
+          move.path->bend({step.via_position[0], step.via_position[1], step.via_position[2]});
+        if (!step.circle_joints.empty()) move.path->bend_beside(circle_point(step, tooling, external));
+      }
     } else if (!reach(step, line, external, move)) {
       return;
     }
+    made_.targets.push_back(move.to);
     if (place_.size() == 0) {  // the robot starts here
       place_ = move.to;
       return;
@@ -211,6 +219,14 @@ class Layout {
     }
     place_ = move.to;
     moves_.push_back(std::move(move));
+  }
+
+  /// Where the tool is at a step's circle_joints, with the external axes as at the move's end.
+  Vector3 circle_point(const MotionStep& step, const Tooling& tooling, const VectorXd& external) const {
+    const auto& angles = step.circle_joints;
+    return tooling
+        .pose(arm_.flange(joined(Eigen::Map<const VectorXd>(angles.data(), static_cast<long>(angles.size())), external)))
+        .position;
   }
 
   /// The end of a move to a pose; false: not reached.
@@ -388,6 +404,9 @@ class Layout {
     leg.cruise = axis_limit(leg.direction, speeds(step));
     leg.acceleration = axis_limit(leg.direction, accelerations_) *
                        std::min(1.0, step.acceleration_percent.value_or(100) / 100);
+    if (step.acceleration) leg.acceleration = std::min(leg.acceleration, *step.acceleration);
+    if (step.tool_acceleration && distance > 0)
+      leg.acceleration = std::min(leg.acceleration, length * *step.tool_acceleration / distance);
     if (step.speed) leg.cruise = std::min(leg.cruise, *step.speed);
     if (step.tool_speed && distance > 0)
       leg.cruise = std::min(leg.cruise, length * *step.tool_speed / distance);

@@ -43,6 +43,7 @@ struct Legs {
   std::vector<Leg> legs;
   std::vector<std::string> texts;  ///< of the program's lines, which Leg::step counts
   Eigen::VectorXd place;           ///< where the robot ends
+  std::vector<Eigen::VectorXd> targets;  ///< (move, as run) all axes at its target [rad; external ones rad or m]
 };
 
 /// accelerations: A_i of (M2) [rad/s2]. Errors: InputError at the lines of the program, all of them at once:

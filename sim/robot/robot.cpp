@@ -81,9 +81,12 @@ std::optional<LimitFault> limit_fault(const pipeline::Robot& robot, std::span<co
   for (size_t k = 0; k < joints.size(); ++k) {
     const Axis& axis = axes[k];
     if (joints[k] >= axis.lower - limit_rounding && joints[k] <= axis.upper + limit_rounding) continue;
+    const bool above = joints[k] > axis.upper;
     return LimitFault{fmt::format("{} turns {} to {:.6g} deg (must be within {:.6g} .. {:.6g} deg)", what,
                                   axis.name, joints[k] * degrees, axis.lower * degrees, axis.upper * degrees),
-                      fmt::format("move it inside the limits of {}", robot.name)};
+                      fmt::format("turn it {:.4g} deg {}, inside the limits of {}",
+                                  degrees * (above ? joints[k] - axis.upper : axis.lower - joints[k]),
+                                  above ? "less" : "more", robot.name)};
   }
   return {};
 }

@@ -36,20 +36,10 @@ class ToolPath {
   }
 
   /// Makes it the arc through `via`; a point on the line leaves it straight.
-  void bend(const Vector3& via) {
-    // The centre m of the circle through 0, a, b: 2 a.m = |a|^2, 2 b.m = |b|^2 and (a x b).m = 0, hence
-    // m = (|a|^2 b - |b|^2 a) x (a x b) / (2 |a x b|^2).
-    const Vector3 a = via - from_.position, b = to_.position - from_.position, n = a.cross(b);
-    constexpr double straight = 1e-9;  // sine of the angle between a and b
-    if (n.norm() <= straight * a.norm() * b.norm() || a.norm() == 0) return;
-    centre_ = from_.position + (a.squaredNorm() * b - b.squaredNorm() * a).cross(n) / (2 * n.squaredNorm());
-    axis_ = n.normalized();
-    const Vector3 first = from_.position - centre_, last = to_.position - centre_;
-    angle_ = std::atan2(axis_.dot(first.cross(last)), first.dot(last));
-    if (angle_ <= 0)
-      angle_ += 2 * std::acos(-1.0);  // via lies on the way that turns about n by less than a full turn
-    length_ = angle_ * first.norm();
-  }
+  void bend(const Vector3& via) { bend_round(via, to_.position); }
+
+  /// Likewise the arc of the circle through `other`, a point before the start or behind the end: it is not passed.
+  void bend_beside(const Vector3& other) { bend_round(to_.position, other); }
 
   double length() const { return length_; }  ///< of the tool's way [m]
   double turn() const { return turn_; }      ///< of its orientation [rad]
@@ -73,6 +63,21 @@ class ToolPath {
   }
 
  private:
+  /// The arc to the end on the circle that leads from the start to p, then on to q.
+  void bend_round(const Vector3& p, const Vector3& q) {
+    // The centre m of the circle through 0, a, b: 2 a.m = |a|^2, 2 b.m = |b|^2 and (a x b).m = 0, hence
+    // m = (|a|^2 b - |b|^2 a) x (a x b) / (2 |a x b|^2).
+    const Vector3 a = p - from_.position, b = q - from_.position, n = a.cross(b);
+    constexpr double straight = 1e-9;  // sine of the angle between a and b
+    if (n.norm() <= straight * a.norm() * b.norm() || a.norm() == 0) return;
+    centre_ = from_.position + (a.squaredNorm() * b - b.squaredNorm() * a).cross(n) / (2 * n.squaredNorm());
+    axis_ = n.normalized();
+    const Vector3 first = from_.position - centre_, last = to_.position - centre_;
+    angle_ = std::atan2(axis_.dot(first.cross(last)), first.dot(last));
+    if (angle_ <= 0) angle_ += 2 * std::acos(-1.0);  // p, then q: less than a full turn about n
+    length_ = angle_ * first.norm();
+  }
+
   Tooling tooling_;
   Frame from_, to_;
   double length_, turn_ = 0, angle_ = 0;

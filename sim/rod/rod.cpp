@@ -733,18 +733,4 @@ void RodSolver::finish(RodState& state) {
   state.clamp_angular_velocity = s.angular_velocity;
 }
 
-bool advance_rod(const Rod& rod, RodSolver& solver, RodState& state, const ClampFrames& end, double h,
-                 std::span<const Load> loads) {
-  if (!solver.solve(state, end, h, loads)) return false;
-  const std::span<const Twist6> change = solver.velocity_change();
-  for (int i = 0; i < rod.segments(); ++i) {
-    state.velocity[i] += change[i].linear();
-    state.angular_velocity[i] += change[i].angular();
-    state.position[i] += h * state.velocity[i];
-    state.orientation[i] = (rotation(h * state.angular_velocity[i]) * state.orientation[i]).normalized();
-  }
-  solver.finish(state);
-  return true;
-}
-
 }  // namespace dresslife::sim

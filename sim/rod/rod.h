@@ -246,8 +246,4 @@ class RodSolver {
   std::unique_ptr<RodSystem> system_;
 };
 
-/// solve(), v += dv, x += h v, finish() without ODE: for closed forms and for relaxation. False as solve().
-bool advance_rod(const Rod& rod, RodSolver& solver, RodState& state, const ClampFrames& end, double h,
-                 std::span<const Load> loads = {});
-
 }  // namespace dresslife::sim

@@ -9,7 +9,8 @@
 
 #include "pipeline/job/setup.h"
 #include "sim/rod/start_curve.h"
-#include "sim/run/equilibrium.h"
+#include "sim/route/quick_checks.h"
+#include "sim/run/cures.h"
 #include "sim/run/routing.h"
 #include "sim/run/simulate.h"
 
@@ -62,6 +63,7 @@ class Previewer {
     write_spans(file);
     write_scan(file);
     write_refusal(file);
+    file.attribute("warnings", pipeline::warnings_text(quick_warnings(setup_)));
   }
 
  private:
@@ -214,23 +216,6 @@ class Previewer {
     return poses;
   }
 
-  /// Of the dresspack at rest: as long as that between two clamps, turning freely in the second. 0: no rest
-  /// is found.
-  double bend_radius(const Rod& rod, const Pose& pose, std::size_t span, const MotionLimits& limits) const {
-    const ClampFrames clamps{pose.clamps.end(static_cast<int>(2 * span)),
-                             pose.clamps.end(static_cast<int>(2 * span) + 1)};
-    EquilibriumSettings settings;
-    settings.iterations = 100;  // most take 20; what takes longer is slack and light
-    settings.tolerance = 1e-4;  // of the forces: a picture's worth
-    const Equilibrium found = find_equilibrium(rod, clamps, settings);
-    if (found.status != EquilibriumStatus::converged) return 0;
-    MotionChecks checks(rod, {limits});
-    checks.see(found.state, {}, 0);
-    double curvature = 0;
-    for (const Extreme& link : checks.curvature()) curvature = std::max(curvature, link.value);
-    return 1 / std::max(curvature, 1e-9);
-  }
-
   void write_scan(pipeline::FileWriter& file) const {
     constexpr int segments = 32;  // enough for a bend radius within a few percent
     std::vector<std::int32_t> spans;
@@ -241,7 +226,6 @@ class Previewer {
         return ring.span == static_cast<int>(span);
       });
       if (is_free(span) || ringed || properties(span).slider || !(longest_[span].way > 0)) continue;
-      const MotionLimits limits = limits_of(setup_.dresspacks[rod_.spans()[span].dresspack].dresspack);
       const WorkingLength range = working_length(std::max(longest_[span].way, way(0, span)));
       const std::vector<Pose> poses = poses_to_try(span);
       for (int k = 0; k < tried_lengths; ++k) {
@@ -249,13 +233,13 @@ class Previewer {
         of.segments = std::min(of.segments, segments);
         of.length =
             range.least * std::pow(range.most / range.least, static_cast<double>(k) / (tried_lengths - 1));
-        of.tool_end = End::swivel;
-        const Rod rod(of);
-        double least = std::numeric_limits<double>::infinity();
-        for (const Pose& pose : poses) least = std::min(least, bend_radius(rod, pose, span, limits));
+        double most = 0;
+        for (const Pose& pose : poses)
+          most = std::max(most, curvature_at_rest(of, {pose.clamps.end(static_cast<int>(2 * span)),
+                                                       pose.clamps.end(static_cast<int>(2 * span) + 1)}));
         spans.push_back(static_cast<std::int32_t>(span));
         lengths.push_back(of.length);
-        radii.push_back(least);
+        radii.push_back(1 / most);  // 0: no rest is found
       }
     }
     if (spans.empty()) return;
@@ -297,10 +281,6 @@ class Previewer {
 };
 
 }  // namespace
-
-WorkingLength working_length(double longest_way) {
-  return {longest_way / (1 - least_slack_share), longest_way / (1 - most_slack_share)};
-}
 
 void write_preview(const pipeline::Setup& setup, pipeline::FileWriter& file) { Previewer(setup).write(file); }
 

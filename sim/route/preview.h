@@ -10,13 +10,6 @@ struct Setup;
 
 namespace dresslife::sim {
 
-/// Lengths with slack as the checks ask for (checks.h): at least least_slack_share of the length L where the
-/// way w is longest, at most most_slack_share there: w / (1 - least) <= L <= w / (1 - most).
-struct WorkingLength {
-  double least = 0, most = 0;  ///< [m]
-};
-WorkingLength working_length(double longest_way);
-
 /// Writes all of preview_format() but the stamp. The first sample stands at -1 s in the mounting pose where
 /// that is not the program's first. Errors: InputError for a motion that the robot cannot run; what the
 /// simulation itself refuses stands in the file.

@@ -23,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "sim/rod/rotation.h"
 
 namespace dresslife::pipeline {
@@ -34,21 +35,9 @@ namespace dresslife::sim {
 enum class ScreenedLimit { too_short, too_long, bend, twist, overlap, tension };
 inline constexpr int screened_limits = 6;
 constexpr std::string_view word(ScreenedLimit value) {
-  switch (value) {
-    case ScreenedLimit::too_short:
-      return "too short";
-    case ScreenedLimit::too_long:
-      return "too long";
-    case ScreenedLimit::bend:
-      return "bent too tightly";
-    case ScreenedLimit::twist:
-      return "twisted too far";
-    case ScreenedLimit::overlap:
-      return "in the robot";
-    case ScreenedLimit::tension:
-      return "pulled too hard";
-  }
-  return {};
+  return pipeline::word_at(
+      {"too short", "too long", "bent too tightly", "twisted too far", "in the robot", "pulled too hard"},
+      value);
 }
 
 /// What is further beyond than this cannot work: by so much the curve may err that knows no weight and no

@@ -32,6 +32,10 @@ const Extreme& largest_by_size(Places places) {
 
 }  // namespace
 
+WorkingLength working_length(double longest_way) {
+  return {longest_way / (1 - least_slack_share), longest_way / (1 - most_slack_share)};
+}
+
 void Extreme::see(double candidate, bool larger, double when, int where) {
   if (seen && !larger) return;
   value = candidate;
@@ -90,7 +94,9 @@ void MotionChecks::see_links(const RodState& state, double time) {
   for (Whole& whole : whole_) {
     whole.most_net_twist.see(whole.net_twist,
                              std::abs(whole.net_twist) > std::abs(whole.most_net_twist.value), time, -1);
-    if (!begun_) whole.net_twist_at_begin = whole.net_twist;
+    if (!begun_) whole.net_twist_at_begin = whole.lowest = whole.highest = whole.net_twist;
+    whole.lowest = std::min(whole.lowest, whole.net_twist);
+    whole.highest = std::max(whole.highest, whole.net_twist);
   }
 }
 
@@ -144,7 +150,7 @@ void MotionChecks::add_lines(int dresspack, std::vector<Check>& checks) const {
       {WarningKind::twist, check_name::twist, "rad/m", twist.value, limits.most_twist, std::abs(twist.value) > limits.most_twist,
        twist.time, link(twist)},
       {{}, check_name::net_twist, "rad", whole.most_net_twist.value, unlimited, false, whole.most_net_twist.time,
-       -1},
+       -1, dresspack, (whole.lowest + whole.highest) / 2},
       {{}, check_name::twist_left, "rad", whole.net_twist - whole.net_twist_at_begin, unlimited, false,
        end_, -1},
       {WarningKind::tension, check_name::tension, "N", pull.value, limits.most_tension, pull.value > limits.most_tension, pull.time,

@@ -29,6 +29,13 @@ inline constexpr double least_bend_diameters = 10;
 inline constexpr double most_twist = EIGEN_PI;  // [rad/m]
 inline constexpr double least_slack_share = 0.02, most_slack_share = 1.0 / 3;
 
+/// Lengths with slack as the checks ask for : at least least_slack_share of the length L where the
+/// way w is longest, at most most_slack_share there: w / (1 - least) <= L <= w / (1 - most).
+struct WorkingLength {
+  double least = 0, most = 0;  ///< [m]
+};
+WorkingLength working_length(double longest_way);
+
 /// An extreme value and the moment and place at which it stood.
 struct Extreme {
   double value = 0;
@@ -47,6 +54,7 @@ struct Check {
   double time = 0;       ///< [s]
   double position = -1;  ///< from the base clamp along the dresspack [m]; -1: of the whole
   int dresspack = 0;
+  double centre = 0;  ///< of net twist: the middle between its extremes [rad]
 };
 
 /// What this dresspack allows in motion.
@@ -78,7 +86,7 @@ class MotionChecks {
   /// Of one dresspack.
   struct Whole {
     Extreme most_net_twist, depth, force;
-    double net_twist = 0, net_twist_at_begin = 0;
+    double net_twist = 0, net_twist_at_begin = 0, lowest = 0, highest = 0;
   };
   void see_links(const RodState& state, double time);
   void see_spans(const RodState& state, double time, const std::vector<double>& ways);

@@ -1,7 +1,9 @@
 #include "sim/run/clamp_path.h"
 
+#include <algorithm>
 #include <cassert>
 
+#include "pipeline/base/warning_words.h"
 #include "pipeline/job/setup.h"
 #include "sim/program/import.h"
 
@@ -18,6 +20,39 @@ Frame clamp_frame(const pipeline::Clamp& clamp) {
   return rolled({clamp.position, Quaternion(axes)}, clamp.roll.value_or(0));
 }
 
+namespace {
+
+/// Where the steps move external axes, in their order: lowest and highest [mm or deg].
+void add_ways(const std::vector<pipeline::MotionStep>& steps, std::vector<std::pair<double, double>>& ways) {
+  for (const pipeline::MotionStep& step : steps) {
+    for (std::size_t i = 0; i < step.external_axes.size(); ++i) {
+      const double at = step.external_axes[i];
+      if (i >= ways.size()) ways.resize(i + 1, {at, at});
+      ways[i] = {std::min(ways[i].first, at), std::max(ways[i].second, at)};
+    }
+    add_ways(step.steps, ways);
+  }
+}
+
+/// External axes that the motion moves and the robot does not have: they are taken to stand.
+std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& motion,
+                                                     const pipeline::Robot& robot) {
+  std::vector<std::pair<double, double>> ways;
+  add_ways(motion.steps, ways);
+  std::vector<pipeline::Warning> warnings;
+  for (std::size_t i = robot.external_axes.size(); i < ways.size(); ++i)
+    if (ways[i].second > ways[i].first)
+      warnings.push_back(pipeline::warning_of(
+          pipeline::WarningKind::program, "",
+          fmt::format("the program moves external axis {} from {:.6g} to {:.6g} (mm or deg), and it stands still here", i + 1,
+                      ways[i].first, ways[i].second),
+          fmt::format("robot.external_axes has {} of them", robot.external_axes.size()),
+          "add the entry that dresslife import proposes to robot.external_axes"));
+  return warnings;
+}
+
+}  // namespace
+
 std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
   if (!setup.motion.clamp_poses.empty()) return std::make_unique<RecordedPath>(setup.motion.clamp_poses);
   return std::make_unique<RobotPath>(setup);
@@ -28,7 +63,7 @@ RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, resolved_m
 RobotPath::RobotPath(const pipeline::Setup& setup, const pipeline::Motion& motion)
     : kinematics_(setup.robot),
       motion_(motion, setup.robot),
-      left_out_(motion.left_out),
+      left_out_(pipeline::joined(motion.left_out, missing_external_axes(motion, setup.robot))),
       mounting_pose_(motion_.position(0)) {
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;

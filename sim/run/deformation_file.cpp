@@ -7,10 +7,13 @@
 #include <cmath>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/plain_file.h"
 
 namespace dresslife::sim {
 namespace {
 
+using pipeline::CsvCell;
+using pipeline::CsvRow;
 using pipeline::InputError;
 
 enum Quantity { time, position, curvature1, curvature2, twist, elongation, quantities };
@@ -37,14 +40,12 @@ class Reader {
         length_(setup.dresspacks.front().routing.free_length),
         segment_(length_ / setup.simulation.segments),
         stiffness_(axial_stiffness(setup.dresspacks.front().dresspack)) {
-    line_ =
-        read_csv(setup.motion.deformation, "deformation", [&](const std::vector<CsvCell>& cells, int line) {
-          line_ = line;
-          if (columns_.empty())
-            read_header(cells);
-          else
-            read_row(cells);
-        });
+    pipeline::CsvReader reader(pipeline::read_text(setup.motion.deformation), file_, ",");
+    for (CsvRow cells = reader.next(); !cells.empty(); cells = reader.next()) {
+      line_ = reader.line();
+      columns_.empty() ? read_header(cells) : read_row(cells);
+    }
+    line_ = reader.line();
     if (result_.times.empty())
       fail(0, "deformation holds no row", "write a header (t_s, kappa_1_1_per_m, ...) and a row per time");
     finish_time();
@@ -59,7 +60,7 @@ class Reader {
     throw InputError({file_, line_, column}, what, remedy);
   }
 
-  void read_header(const std::vector<CsvCell>& cells) {
+  void read_header(const CsvRow& cells) {
     std::array<std::string_view, quantities> names{};
     for (const CsvCell& cell : cells) {
       const auto* column = std::find_if(std::begin(known), std::end(known),
@@ -85,7 +86,7 @@ class Reader {
     has_places_ = !names[position].empty();
   }
 
-  void read_row(const std::vector<CsvCell>& cells) {
+  void read_row(const CsvRow& cells) {
     if (cells.size() != columns_.size())
       fail(cells.back().column,
            fmt::format("row has {} cells (its header has {})", cells.size(), columns_.size()),
@@ -94,7 +95,7 @@ class Reader {
     std::array<int, quantities> at{};
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const Column& column = *columns_[c];
-      const std::optional<double> number = number_in(cells[c].text);
+      const std::optional<double> number = pipeline::number_in(cells[c].text);
       if (!number || !std::isfinite(*number))
         fail(cells[c].column, fmt::format("'{}' is not a finite number ({})", cells[c].text, column.name),
              "write a decimal number");

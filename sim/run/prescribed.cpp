@@ -5,6 +5,7 @@
 
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/files/check_names.h"
+#include "sim/run/cures.h"
 #include "sim/run/deformation_file.h"
 #include "sim/run/motion_file.h"
 #include "sim/run/rig_deformation.h"
@@ -216,10 +217,11 @@ std::vector<pipeline::Warning> write_prescribed(const pipeline::Setup& setup, pi
     return deformation.steps[std::min<std::size_t>(sample - deformation.times.begin(), samples - 1)];
   };
   motion.finish(summary, step_at);
-  return check_warnings(setup, summary.checks, [&](double time) {
+  const auto moment = [&](double time) {
     const auto step = static_cast<std::size_t>(step_at(time));
     return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, deformation.step_texts.at(step));
-  });
+  };
+  return check_warnings({setup, moment}, summary.checks);
 }
 
 }  // namespace dresslife::sim

@@ -2,11 +2,14 @@
 #include <algorithm>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/plain_file.h"
 #include "sim/run/clamp_path.h"
 
 namespace dresslife::sim {
 namespace {
 
+using pipeline::CsvCell;
+using pipeline::CsvRow;
 using pipeline::InputError;
 using pipeline::Where;
 
@@ -34,10 +37,12 @@ constexpr double smallest_dot = 0.5;
 class Rows {
  public:
   explicit Rows(const std::filesystem::path& file) : where_{file.string(), 0, 0} {
-    where_.line = read_csv(file, "clamp_poses", [&](const std::vector<CsvCell>& cells, int line) {
-      where_.line = line;
+    pipeline::CsvReader reader(pipeline::read_text(file), file.string(), ",");
+    for (CsvRow cells = reader.next(); !cells.empty(); cells = reader.next()) {
+      where_.line = reader.line();
       add(cells);
-    });
+    }
+    where_.line = reader.line();
     if (times.empty()) throw InputError(where_, "clamp_poses holds no row", "write t and 14 numbers per row");
   }
 
@@ -49,10 +54,11 @@ class Rows {
     throw InputError({where_.file, where_.line, column}, what, remedy);
   }
 
-  void add(const std::vector<CsvCell>& cells) {
-    const bool header = times.empty() && !header_seen_ &&
-                        std::none_of(cells.begin(), cells.end(),
-                                     [](const CsvCell& cell) { return number_in(cell.text).has_value(); });
+  void add(const CsvRow& cells) {
+    const bool header =
+        times.empty() && !header_seen_ && std::none_of(cells.begin(), cells.end(), [](const CsvCell& cell) {
+          return pipeline::number_in(cell.text).has_value();
+        });
     if (header) {
       header_seen_ = true;
       return;
@@ -71,7 +77,7 @@ class Rows {
   }
 
   double value_of(const CsvCell& cell, int column) const {
-    const std::optional<double> value = number_in(cell.text);
+    const std::optional<double> value = pipeline::number_in(cell.text);
     if (!value || !std::isfinite(*value))
       fail(cell.column, fmt::format("'{}' is not a finite number ({})", cell.text, column_names[column]),
            "write a decimal number");

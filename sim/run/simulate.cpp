@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/warning_words.h"
+#include "sim/run/cures.h"
 #include "sim/run/mounting.h"
 #include "sim/run/periodic.h"
 #include "sim/run/routing.h"
@@ -285,48 +287,22 @@ void Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks) c
   }
 }
 
-// ---- what a person should be told -------------------------------------------------------------------------
-
-namespace {
-
-std::string in_words(double value, const std::string& unit) {
-  if (unit == "m") return fmt::format("{:.1f} mm", 1e3 * value);
-  if (unit == "rad/m") return fmt::format("{:.4g} deg/m", value * 180 / EIGEN_PI);
-  return fmt::format("{:.3g} {}", value, unit);
-}
-
-std::string check_words(const pipeline::Setup& setup, const Check& check) {
-  const std::string name = pipeline::name_among(setup, check.dresspack);
-  return name.empty() ? check.name : fmt::format("{}, {}", name, check.name);
-}
-
-}  // namespace
-
-std::vector<pipeline::Warning> check_warnings(const pipeline::Setup& setup, const std::vector<Check>& checks,
-                                              const std::function<std::string(double)>& moment) {
-  std::vector<pipeline::Warning> warnings;
-  for (const Check& check : checks)
-    if (check.warning)
-      warnings.push_back(
-          {*check.kind, "",
-           fmt::format("{}: {} (limit {}) {}", check_words(setup, check), in_words(check.value, check.unit),
-                       in_words(check.limit, check.unit), moment(check.time))});
-  return warnings;
-}
-
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {
   std::vector<pipeline::Warning> warnings = simulation.left_out();
+  const pipeline::Simulation& settings = simulation.setup().simulation;
   if (summary.returns && !summary.periodic)
-    warnings.push_back(
-        {pipeline::WarningKind::periodic, "",
-         fmt::format(
-             "after {} repeats the motion still begins {:.1f} mm from where it began the repeat before "
-             "(simulation.periodic_tolerance_mm is {:.3g}): friction leaves the dresspack several places; the "
-             "last repeat is evaluated",
-             summary.repeats, 1e3 * summary.distance,
-             1e3 * simulation.setup().simulation.periodic_tolerance)});
-  return pipeline::joined(warnings, check_warnings(simulation.setup(), summary.checks,
-                                                   [&](double time) { return simulation.moment(time); }));
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::periodic, "",
+        fmt::format("after {} repeats the motion still begins {:.1f} mm from where it began the repeat before (limit "
+                    "simulation.periodic_tolerance_mm {:.3g}); the last repeat is evaluated",
+                    summary.repeats, 1e3 * summary.distance, 1e3 * settings.periodic_tolerance),
+        "friction and contact leave the dresspack several resting places",
+        fmt::format("simulation.most_repeats: {}, or simulation.periodic_tolerance_mm: {:.2g} if repeats may differ so",
+                    std::min(1000, 2 * settings.most_repeats), std::ceil(2e4 * summary.distance) / 10)));
+  return pipeline::joined(
+      warnings, check_warnings({simulation.setup(), [&](double time) { return simulation.moment(time); },
+                                &simulation.rod(), &simulation.path()},
+                               summary.checks));
 }
 
 std::string repeats_note(const RunSummary& summary) {

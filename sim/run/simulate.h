@@ -74,10 +74,6 @@ struct RunSummary {
 /// every check whose limit is broken.
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary);
 
-/// Of checks whose limits are broken. moment: "at 1.2 s, program step 3 'text'".
-std::vector<pipeline::Warning> check_warnings(const pipeline::Setup& setup, const std::vector<Check>& checks,
-                                              const std::function<std::string(double)>& moment);
-
 /// How many repeats it took; empty where there was one.
 std::string repeats_note(const RunSummary& summary);
 

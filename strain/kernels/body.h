@@ -1,4 +1,4 @@
-// The hot loops, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of which names it
+// The hot loops, for one instruction set: included by portable.cpp, avx2.cpp, .. , each of which names it
 // (pipeline/base/simd.h).
 #include "pipeline/base/simd.h"
 // simd.h declares what the templates below are used with

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/instruction_set.h"
 #include "pipeline/cable/helix.h"
 #include "strain/kernels/sizes.h"
 #include "strain/kernels/turning_list.h"
@@ -275,9 +276,8 @@ struct Kernels {
 
 /// The widest this machine can run, or the one that the environment variable DRESSLIFE_KERNELS names.
 const Kernels& kernels();
-/// Errors: InputError when this machine has none of that name.
-const Kernels& kernels_named(const std::string& name);
-std::vector<const Kernels*> kernels_of_this_machine();  ///< all it can run, plain one first
+/// Precondition: this machine can run them.
+const Kernels& kernels_for(pipeline::InstructionSet instructions);
 
 inline BundlePointers pointers(const BundleNesting& nesting) {
   return {nesting.steps.data(),

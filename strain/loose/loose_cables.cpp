@@ -12,20 +12,18 @@ constexpr int feeding_rounds = 100;  // in which 1 % of slack in 2 m grows by 0.
 constexpr int most_rounds = 200;     // after that, until all lie still: 8 s at 25 Hz
 constexpr double settled = 1e-7;     // change of strain in a round: 0.1 N of a cable of 1 MN
 
-/// Radius in which a cable can wind: by its play about its place, or with its whole ring, or alone, about the
-/// hose's axis [m].
-double room_of(const LooseCable& cable) {
+}  // namespace
+
+double winding_radius(const LooseCable& cable) {
   return std::min(cable.play,
                   cable.ring == no_ring ? cable.farthest : std::hypot(cable.place[0], cable.place[1]));
 }
-
-}  // namespace
 
 std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double length) {
   constexpr double least = 64, missed = 0.005;
   double piece = length / least;
   for (const LooseCable& cable : cables)
-    if (const double room = room_of(cable); room > 0)
+    if (const double room = winding_radius(cable); room > 0)
       piece = std::min(
           piece, std::sqrt(12 * missed) / (std::sqrt(2 * cable.slack) / room + std::abs(cable.lay_rate)));
   return static_cast<std::size_t>(std::ceil(length / piece));

@@ -21,6 +21,10 @@ struct LooseSettings {
   bool operator==(const LooseSettings&) const = default;
 };
 
+/// Radius in which a cable can wind: by its play about its place, or with its whole ring, or alone, about the hose's
+/// axis [m].
+double winding_radius(const LooseCable& cable);
+
 /// Pieces into which cables as fit_in_hose() leaves them are to be cut for their waves to be seen. What is
 /// too long by a share s winds in a room of radius c with k c = sqrt(2 s), about a place that its lay turns,
 /// and second differences miss (k h)^2/12 of its curvature: 0.5 % at most, so that waves half as long,
@@ -36,6 +40,7 @@ class LooseCables {
 
   std::size_t nodes() const { return hose_.nodes(); }
   std::size_t cables() const { return lines_.count(); }
+  double length() const { return settings_.length; }  ///< of the hose's axis [m]
   const LooseCable& cable(std::size_t k) const { return lines_.cable(k); }
   double laid_in(std::size_t k) const { return lines_.laid_in(k); }  ///< see CableLines
 

@@ -1,9 +1,6 @@
 // What stops cables that lie around the axis of a hose: its wall, its core, and each other.
 //
-// Cables whose distances from the axis overlap form a ring. Its neighbours keep their order: a ring can turn
-// as a whole, and each cable in it can move along it by half of what is free between it and its nearest
-// neighbour, so that no two ever overlap. Toward and away from the axis a cable reaches what fills the middle
-// or the next ring inside, and the wall or the next ring outside.
+// How far each can go is geometry (pipeline/cable/room.h).
 //
 // It is a reduced model on purpose: see README W35 for what contact between all discs gives instead.
 #pragma once

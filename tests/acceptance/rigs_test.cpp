@@ -1,11 +1,11 @@
 // Prescribed deformations and test rigs from the job to the wire: what is given must be found again, and what
 // has a closed form must come out of the whole chain.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife;

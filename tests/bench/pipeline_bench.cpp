@@ -22,7 +22,7 @@
 #include <cstdlib>
 
 #include "pipeline/base/whole_file.h"
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/study/known_study.h"
 #include "pipeline/study/ranking.h"
 #include "tests/pipeline/sample_job.h"

@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
-
 #include "pipeline/report/page_shell.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 namespace dresslife::tests {

@@ -1,7 +1,8 @@
 // scripts/build in a copy of a checkout. The project is a small stand-in, the script is ours.
-#include <catch2/catch.hpp>
 
 #include "tests/cli/process.h"
+
+#include "tests/catch.h"
 
 using namespace dresslife::tests;
 

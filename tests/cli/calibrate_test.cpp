@@ -1,12 +1,12 @@
 // `dresslife calibrate`, and jobs that name what it wrote, as a user runs them.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
@@ -64,12 +64,12 @@ TEST_CASE("calibrate: wires that lived longer than foretold lengthen what a job 
   REQUIRE(outcome.status == 0);
   CHECK(outcome.out.find("friction_inside") != std::string::npos);
   CHECK(outcome.out.find("no test hangs on it") != std::string::npos);
-  const std::string file = content(scratch / "runs/calibrate_o/calibration.yaml");
+  const std::string file = unmarked_content(scratch / "runs/calibrate_o/calibration.yaml");
   CHECK(file.starts_with("format: dresslife-calibration\nformat_version: 1\n"));
   CHECK(learned(file, "strength", "value") > 1.05);
   CHECK(learned(file, "model", "value") > 1.05);
   CHECK(file.find("name: slack") == std::string::npos);
-  CHECK(content(scratch / "runs/calibrate_o/calibration.svg").starts_with("<svg "));
+  CHECK(unmarked_content(scratch / "runs/calibrate_o/calibration.svg").starts_with("<svg "));
   // Most of the tenfold: 0.37 decades of strength and 0.3 of the model's factor against 0.2 of scatter.
   const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
   CHECK(after > 4 * before);
@@ -107,9 +107,8 @@ TEST_CASE("calibrate: run-outs that were foretold teach hardly anything, and non
 }
 
 TEST_CASE(
-    "calibrate: a bending test with 5 % of noise tells the friction, at ten times the shipped pressures") {
-  // The shipped cable's stiffness of 0.2 N m2 asks for 10.4 times its pressures (strain/README.md, W29); here
-  // they are another 1.6 times as high. Thirty weights on a first bend and the way back.
+    "calibrate: a bending test with 5 % of noise tells the friction, at 1.6 times the shipped pressures") {
+  // Thirty weights on a first bend and the way back.
   Scratch scratch;
   const std::string cable =
       "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]";
@@ -162,11 +161,6 @@ TEST_CASE(
   CHECK(learned(swung, "friction_inside", "value_p10") < 1.6);
   CHECK(learned(swung, "friction_inside", "value_p90") > 1.6);
 
-  scratch.write("o.yaml", "observations:\n" + row("bend", "    stiffness_Nm2: 0.2\n", wire_job));
-  const Outcome wire = run(scratch, "dresslife", "calibrate o.yaml --quiet");
-  CHECK(wire.status == 1);
-  CHECK(wire.err.find("o.yaml:2:5: error: 'bend': nothing is told of how its cable bends") !=
-        std::string::npos);
   CHECK(run(scratch, "dresslife", "validate o.yaml").err.find("holds no observed lives") !=
         std::string::npos);
 }

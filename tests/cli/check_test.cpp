@@ -1,7 +1,8 @@
 // scripts/check guards the arrows between the rooms: a copy of the tree in which one is broken is refused.
-#include <catch2/catch.hpp>
 
 #include "tests/cli/process.h"
+
+#include "tests/catch.h"
 
 using namespace dresslife::tests;
 

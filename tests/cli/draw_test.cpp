@@ -1,8 +1,7 @@
 // dresslife draw: a dresspack as a list and as a picture.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
-
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
@@ -19,7 +18,7 @@ std::size_t count_of(const std::string& text, const std::string& words) {
 
 TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlaps") {
   Scratch scratch;
-  const Outcome drawn = run(scratch, "dresslife", "draw spot_welding -o hose.svg");
+  const Outcome drawn = run(scratch, "dresslife", "draw thesis_welding -o hose.svg");
   INFO(drawn.err);
   REQUIRE(drawn.status == 0);
   // 10 cables of 7 conductors of 92 wires of 0.15 mm.
@@ -31,10 +30,15 @@ TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlap
   CHECK(drawn.err.find("the 7 parts 'conductor' are 2.254 mm apart") != std::string::npos);
 
   // Each layer is drawn once and shown as often as it has parts; overlapping ones in the colour of a warning.
-  const std::string picture = content(scratch / "hose.svg");
+  const std::string picture = unmarked_content(scratch / "hose.svg");
   CHECK(picture.rfind("<svg", 0) == 0);
   CHECK(count_of(picture, "<use ") == 10 + 7 + 31 + 25 + 18 + 12 + 6);
   CHECK(count_of(picture, "class=\"over\"") == 1);
+
+  const Outcome built = run(scratch, "dresslife", "draw spot_welding -o hose.svg");  // the default one can be built
+  CHECK(built.status == 0);
+  CHECK(built.err.empty());
+  CHECK(count_of(content(scratch / "hose.svg"), "class=\"over\"") == 0);
 }
 
 TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has no life here") {
@@ -100,7 +104,7 @@ TEST_CASE("draw replaces pictures and nothing else") {
   scratch.write("mine.yaml", "keep: me\n");
   const Outcome refused = run(scratch, "dresslife", "draw control_cable -o mine.yaml");
   CHECK(refused.status == 1);
-  CHECK(refused.err.find("mine.yaml: error: is there already and no picture; name another file") == 0);
+  CHECK(refused.err.find("mine.yaml: error: is there already and was not written by dresslife") == 0);
   CHECK(content(scratch / "mine.yaml") == "keep: me\n");
   REQUIRE(run(scratch, "dresslife", "draw control_cable -o cable.svg").status == 0);
   CHECK(run(scratch, "dresslife", "draw sensor_cable -o cable.svg").status == 0);

@@ -1,9 +1,9 @@
 // Two dresspacks on one robot, from a job file to the ranking and the report.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <sstream>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife;

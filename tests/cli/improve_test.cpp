@@ -1,7 +1,7 @@
 // dresslife improve: jobs that live longer, and a search that is killed.
-#include <catch2/catch.hpp>
 #include <map>
 
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
@@ -55,7 +55,7 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   REQUIRE(told.status == 0);
   CHECK(told.out.find("As it is: ") == 0);
   CHECK(told.out.find("    --set 'routing.free_length_m=0.9") != std::string::npos);
-  CHECK(told.out.find(" % of draws\n") != std::string::npos);
+  CHECK(told.out.find(" of 100 samples\n") != std::string::npos);
   const std::string table = content(scratch / "runs/better_improve/improve.csv");
   CHECK(lines_of(table) == 11);  // and its header
   CHECK(table.find("\n0,1,") != std::string::npos);
@@ -191,9 +191,52 @@ simulation: {segments: 20, sample_rate_Hz: 25}
   INFO(ways.out << ways.err);
   REQUIRE(ways.status == 0);
   const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");
-  CHECK(table.find("lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets\n") == 0);
-  CHECK(table.find("\"all lines\",\"wrist over: ") != std::string::npos);
-  CHECK(table.find("\"short.yaml:") != std::string::npos);
+  CHECK(table.find("lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch\n") == 0);
+  CHECK(table.find("\nall lines,") != std::string::npos);
+  CHECK(table.find("wrist over: ") != std::string::npos);
+  CHECK(table.find("\nshort.yaml:") != std::string::npos);
   CHECK(table.find("at 50 % of its speed") != std::string::npos);
   CHECK(ways.out.find("Ways: runs/job_reprogram/as_it_is.csv\n") != std::string::npos);
+}
+
+TEST_CASE("reprogram takes a program with places of the tool, leaves it alone, and patches it in its own language") {
+  Scratch scratch;
+  scratch.write("short.mod", R"(MODULE short
+  PERS tooldata gun:=[TRUE,[[180,0,550],[1,0,0,0]],[140,[120,0,320],[1,0,0,0],9,12,7]];
+  PERS wobjdata panel:=[FALSE,TRUE,"",[[1600,-400,500],[0.7071068,0,0,0.7071068]],[[0,0,0],[1,0,0,0]]];
+  CONST robtarget above:=[[1893.17,-78.66,35.30],[0.2648630,0.2827270,0.9214859,-0.0278697],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget at:=[[1804.91,69.53,-241.87],[0.1706843,0.2897467,0.9400796,0.0562504],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveAbsJ [[0,-10,10,0,40,290],[9E9,9E9,9E9,9E9,9E9,9E9]],v2000,fine,gun;
+    MoveJ above,v1500,z50,gun\WObj:=panel;
+    MoveL at,v500,fine,gun\WObj:=panel;
+    MoveL above,v500,z50,gun\WObj:=panel;
+  ENDPROC
+ENDMODULE
+)");
+  scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
+motion: {program: short.mod}
+dresspack: thesis_welding
+routing:
+  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
+  tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
+  free_length_m: 2.5
+simulation: {segments: 20, sample_rate_Hz: 25}
+)");
+  const std::string program = content(scratch / "short.mod");
+  const Outcome ways = run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 2 --set dresspack.least_bend_radius_mm=100");
+  INFO(ways.out << ways.err);
+  REQUIRE(ways.status == 0);
+  CHECK(content(scratch / "short.mod") == program);
+  const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");
+  INFO(table);
+  CHECK(table.find("\nshort.mod:8,at 50 % of its speed,") != std::string::npos);
+  const fs::path patch = scratch / "runs/job_reprogram/as_it_is_01.patch";
+  REQUIRE(fs::exists(patch));
+  CHECK(content(patch).find("\n--- a/short.mod\n+++ b/short.mod\n@@ ") != std::string::npos);
+  // The patch fits the program, and what it makes is a program again.
+  REQUIRE(run_shell(scratch, "patch -s -o changed.mod short.mod runs/job_reprogram/as_it_is_01.patch").status == 0);
+  const Outcome read = run(scratch, "dresslife-import", "changed.mod -o changed.yaml");
+  INFO(read.out << read.err);
+  CHECK(read.status == 0);
 }

@@ -1,7 +1,8 @@
 // An installation works wherever it is put: nothing in it points back at the sources or the build.
-#include <catch2/catch.hpp>
 
 #include "tests/cli/process.h"
+
+#include "tests/catch.h"
 
 using namespace dresslife::tests;
 

@@ -1,9 +1,9 @@
 // What a user can do wrong at the command line: one line with place, reason and remedy, exit status 1,
 // nothing left behind. (Every message of the job reader is checked in tests/pipeline.)
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
@@ -105,6 +105,16 @@ TEST_CASE("the later stages refuse files that are not theirs, cut off or damaged
   check_refused(scratch, run(scratch, "dresslife-strain", "none.h5 -o strain.h5"),
                 "none.h5: error: is not there", "strain.h5");
   check_refused(scratch, run(scratch, "dresslife-strain", "motion.h5 -o motion.h5"),
-                "motion.h5: error: is the input itself", "strain.h5");
+                "motion.h5: error: is one of the files that are read", "strain.h5");
   CHECK(content(scratch / "motion.h5") == whole);
+}
+
+TEST_CASE("a command that does not exist is answered with the nearest one") {
+  const Scratch scratch;
+  const Outcome near = run(scratch, "dresslife", "improv job.yaml");
+  CHECK(near.status == 2);
+  CHECK(near.err.find("'improv' is no command of dresslife; did you mean 'improve'?\n") == 0);
+  const Outcome far = run(scratch, "dresslife", "xylophone");
+  CHECK(far.status == 2);
+  CHECK(far.err.find("did you mean") == std::string::npos);
 }

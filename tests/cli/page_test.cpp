@@ -1,10 +1,11 @@
 // The page of a job: written with its results, and in a browser, where one is installed.
-#include <catch2/catch.hpp>
 
+#include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/report.h"
 #include "pipeline/settings/units.h"
+#include "tests/catch.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
 
@@ -98,7 +99,10 @@ TEST_CASE(
 
   // A page of a last result says so, and what changed; back at its settings it is as before.
   const auto mark = [&](const std::string& length) {
-    run(scratch, "dresslife", "report job.yaml --set routing.free_length_m=" + length);
+    const std::string job = content(scratch / "job.yaml"), key = "free_length_m: ";
+    const std::size_t value = job.find(key) + key.size(), end = job.find('\n', value);
+    scratch.write("job.yaml", job.substr(0, value) + length + job.substr(end));
+    run(scratch, "dresslife", "report job.yaml");
     const std::string text = content(page), open = "<p class=\"failed\" id=\"stale\">";
     const std::size_t at = text.find(open);
     CHECK(text.find(open, at + 1) == std::string::npos);
@@ -181,9 +185,10 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
     const FileReader life(scratch / "runs/lengths" / job / "life.h5", dresslife::pipeline::life_format());
     const std::string page = content(scratch / "runs/lengths" / job / "page.html");
     const double hours = life.number_attribute("life_hours_p10");
-    holds(page, fmt::format("<p><b>{}</b>", printed_hours(hours)));
-    holds(page, fmt::format("{} until half have", printed_hours(life.number_attribute("life_hours_p50"))));
-    holds(page, fmt::format("worst wire's own median is {} h", printed(life.number_attribute("life_hours"))));
+    // Its parts stick to each other: cables pull with forces that none bears.
+    holds(page, fmt::format("<p><b>Do not plan with {}: ", dresslife::pipeline::hours_text(hours)));
+    holds(page, fmt::format("Half have failed after {}, ", printed_hours(life.number_attribute("life_hours_p50"))));
+    holds(page, fmt::format("The median of the worst wire is {} h.", printed(life.number_attribute("life_hours"))));
     holds(report, fmt::format("data-value=\"{}\"><b>{}</b>", dresslife::pipeline::shortest_text(hours),
                               printed(hours)));
     // Shares of what clamps and layers have of the damage.
@@ -195,7 +200,7 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
     for (const double damage : layers)
       if (damage > 0) holds(page, fmt::format("<td class=\"number\">{}</td>", printed(damage)));
   }
-  // The best job's share of draws, as the table has it.
+  // The best job's share of samples, as the table has it.
   const std::size_t header = table.find("outlives_next"), line = table.find('\n') + 1;
   REQUIRE(header != std::string::npos);
   const auto column = std::count(table.begin(), table.begin() + static_cast<std::ptrdiff_t>(header), ',');
@@ -206,7 +211,7 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
     cell.clear();
     for (char c = 0; cells.get(c) && (c != ',' || quoted); cell += c) quoted ^= c == '"';
   }
-  holds(report, fmt::format("outlives the next in {:.0f} % of draws", 100 * std::stod(cell)));
+  holds(report, fmt::format("Lives longer than the next job in {:.0f} of 100 samples", 100 * std::stod(cell)));
 }
 
 TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by side with what differs") {

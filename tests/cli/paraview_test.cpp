@@ -1,9 +1,9 @@
 // dresslife export: what ParaView reads of a job, moment by moment, is what its files hold.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <sstream>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife;

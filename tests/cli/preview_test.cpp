@@ -1,7 +1,7 @@
 // dresslife preview: a job before its run, also one that the simulation refuses.
-#include <catch2/catch.hpp>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
 
@@ -30,7 +30,7 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   const Outcome over = run(scratch, "dresslife", "preview job.yaml -o job.yaml");
   CHECK(over.status == 1);
   CHECK(over.err ==
-        "job.yaml: error: is there already and no page of dresslife's; name another file after -o\n");
+        "job.yaml: error: is one of the files that are read; name another place with -o\n");
   const Outcome wrong = run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=-1");
   CHECK(wrong.status == 1);
   CHECK(wrong.err.find("routing.free_length_m is -1") != std::string::npos);
@@ -88,6 +88,49 @@ routing:
   INFO(seen);
   CHECK(std::stod(result_of(seen)) == Approx(place).margin(1.9 / 30));  // a segment
   CHECK(seen.find(" here\"") != std::string::npos);
+}
+
+TEST_CASE("a click on a link shows a clamp there, and a clamp that is dragged tells its length and clearance") {
+  Scratch scratch;
+  const Outcome told = run(scratch, "dresslife", "preview irb6640_spot_welding");
+  INFO(told.err);
+  REQUIRE(told.status == 0);
+  // The first clamp as it is; a click in the middle of link_2's shapes; a drag from the clamp to there.
+  const std::string seen = in_browser(scratch, "irb6640_spot_welding_preview.html", R"(
+    const yaml = () => evaluate('document.getElementById("clamp-yaml").textContent');
+    const words = () => evaluate('document.getElementById("clamp-words").textContent');
+    const mouse = (type, [x, y]) => send('Input.dispatchMouseEvent', {type, x, y, button: 'left', buttons: 1, clickCount: 1});
+    // Places on the page [px] where `hits`, a function of a place in the view, finds something, near an object's origin.
+    const near = (object, hits) => evaluate(`(() => {
+      const viewer = dresslife.viewer(), clamps = dresslife.clamps(), at = new viewer.camera.position.constructor();
+      const size = viewer.canvas.getBoundingClientRect();
+      (${object}).getWorldPosition(at).project(viewer.camera);
+      const x = (at.x + 1) / 2 * size.width, y = (1 - at.y) / 2 * size.height;
+      for (let far = 0; far < 60; far += 2)
+        for (let turn = 0; turn < 16; ++turn) {
+          const [u, v] = [x + far * Math.cos(turn * Math.PI / 8), y + far * Math.sin(turn * Math.PI / 8)];
+          if ((${hits})(clamps, u, v)) return [size.left + u, size.top + v];
+        }
+      return null; })()`);
+    const before = [await yaml(), await words()];
+    await evaluate('window.scrollTo(0, 0)');
+    const link = await near('viewer.links[2].children.find(part => part.userData.shape)',
+        '(clamps, x, y) => clamps.surfaceAt(x, y)?.link === 2 && viewer.segmentAt(x, y) < 0');
+    await press(...link);
+    const clicked = await yaml();
+    const off = await evaluate(`(() => { const clamp = dresslife.clamps().clamps[0]; return clamp.bracket - clamp.radius; })()`);
+    await mouse('mousePressed', await near('clamps.clamps[1].group', '(clamps, x, y) => clamps.clampAt(x, y) === 1'));
+    await mouse('mouseMoved', await near('viewer.links[5]', '(clamps, x, y) => clamps.surfaceAt(x, y)?.link === 5'));
+    await mouse('mouseReleased', await near('viewer.links[5]', '(clamps, x, y) => clamps.surfaceAt(x, y)?.link === 5'));
+    await sleep(500);
+    return [...before, clicked, Math.abs(off) < 1e-3, await yaml(), await words()].join(' | ');)");
+  if (seen.empty()) return;
+  INFO(seen);
+  CHECK(seen.find("\"problems\":[]") != std::string::npos);
+  CHECK_THAT(seen, Catch::Contains("base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [0.912, 0, 0.41]}") &&
+                       Catch::Contains("m apart, farthest at ") && Catch::Contains("2.035 m is long enough") &&
+                       Catch::Contains("base_clamp: {link: link_2, position_m: [") && Catch::Contains(" | true | ") &&
+                       Catch::Contains("tool_clamp: {link: link_5, position_m: [") && Catch::Contains("clearance "));
 }
 
 TEST_CASE("a run shows the jobs that the simulation refuses, until they are mended") {

@@ -1,7 +1,7 @@
 // Pages on paper and on a phone: nothing is cut, torn or squeezed.
-#include <catch2/catch.hpp>
 
 #include "pipeline/report/improvement_page.h"
+#include "tests/catch.h"
 #include "tests/cli/browser.h"
 #include "tests/cli/process.h"
 

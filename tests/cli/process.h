@@ -12,6 +12,8 @@
 #include <sstream>
 #include <string>
 
+#include "pipeline/base/ownership.h"
+
 namespace dresslife::tests {
 
 namespace fs = std::filesystem;
@@ -70,6 +72,11 @@ inline Outcome run(const Scratch& scratch, const std::string& program, const std
 inline int rounds(int times) {
   const char* const factor = std::getenv("DRESSLIFE_FAULTS");
   return times * (factor ? std::max(1, std::atoi(factor)) : 1);
+}
+
+/// A file's text behind the line that says who wrote it.
+inline std::string unmarked_content(const fs::path& file) {
+  return std::string(pipeline::without_mark(content(file)));
 }
 
 /// Runs a line of shell in the scratch folder.

@@ -1,9 +1,9 @@
 // What one hour of a program does beside the test in which its cable is rated, as a user runs it.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>
 
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

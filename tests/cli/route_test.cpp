@@ -1,7 +1,7 @@
 // dresslife route: a job from a robot and a hose.
-#include <catch2/catch.hpp>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
@@ -47,6 +47,11 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   CHECK(told.out.find("Job: found.yaml\nPreview: found_preview.html\n") != std::string::npos);
   CHECK(content(scratch / "found_preview.html").find("The simulation takes this job.") != std::string::npos);
   const std::string job = content(scratch / "found.yaml");
+  CHECK(job.find("dresspack: ./hose.yaml\n") != std::string::npos);  // a reference stays one
+  std::size_t runs = 0;
+  for (const auto& entry : fs::directory_iterator(scratch / "runs/abb_irb2600_12_165_route"))
+    runs += fs::exists(entry.path() / "life.h5");
+  CHECK(runs == 1);  // the winner's
   const Outcome ran = run(scratch, "dresslife-sim", "found.yaml -o motion.h5 --quiet");
   INFO(ran.err);
   CHECK(ran.status == 0);
@@ -57,14 +62,14 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   const Outcome over = run(scratch, "dresslife", "route abb_irb2600_12_165 --job hose.yaml");
   CHECK(over.status == 1);
   CHECK(over.err ==
-        "hose.yaml: error: is there already and was not proposed by dresslife route; name another file after "
-        "--job\n");
+        "hose.yaml: error: is there already and was not written by dresslife, or was changed since; move it away, "
+        "name another place with -o, or replace it with --force\n");
 }
 
 TEST_CASE("route finds clamps for a shipped hose that keep all limits in the whole chain") {
   Scratch scratch;
   const Outcome told = run(scratch, "dresslife",
-                           "route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40 --quiet "
+                           "route abb_irb4600_60_205 --dresspack thesis_welding --scale 0.5 --tried 100 --rehearsals 40 --quiet "
                            "--set simulation.segments=20 --set strain.surface_fibres=0");
   INFO(told.err + told.out);
   CHECK(told.status == 0);
@@ -127,5 +132,5 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   CHECK(refused[0].empty());
   CHECK(refused[1].find("too short") != std::string::npos);
   CHECK(run(scratch, "dresslife-sim", "job.yaml --screen job.yaml -o screening.h5 --quiet").status == 1);
-  CHECK(run(scratch, "dresslife-sim", "job.yaml --propose none -o screening.h5 --quiet").status == 1);
+  CHECK(run(scratch, "dresslife-sim", "job.yaml --propose none -o screening.h5 --quiet").status == 2);
 }

@@ -1,7 +1,7 @@
 // Studies: what runs, what does not run again, what a failed job does to the others.
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;
@@ -60,11 +60,16 @@ TEST_CASE("a study runs every job, and again only what changed") {
   CHECK(count("<line class=\"hose\"") == 2 * 2 * 11);
 
   CHECK(stages_ran(run_study()) == "0");
+  CHECK(run_study("-n").out == "0 of 2 jobs to make; nothing was run\n");
   const std::string ranking = content(scratch / "runs/study/ranking.csv");
 
   // Settings of the last stage: only that stage.
   const std::string job = content(scratch / "job.yaml");
   scratch.write("job.yaml", job + "fatigue: {stress: elastic}\n");
+  const Outcome dry = run_study("--dry-run");
+  CHECK(dry.status == 0);
+  CHECK(dry.out.find("fatigue.stress") != std::string::npos);
+  CHECK(dry.out.find("2 of 2 jobs to make; nothing was run\n") != std::string::npos);
   CHECK(stages_ran(run_study()) == "2");
   CHECK(content(scratch / "runs/study/ranking.csv") != ranking);
   // Settings of the middle stage: that and the last.
@@ -78,6 +83,16 @@ TEST_CASE("a study runs every job, and again only what changed") {
   CHECK(stages_ran(run_study()) == "0");
   scratch.write("poses.csv", replaced(content(scratch / "poses.csv"), "0.8,", "0.801,"));
   CHECK(stages_ran(run_study()) == "6");
+}
+
+TEST_CASE("a dry run of a new study makes nothing") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", study_text);
+  const Outcome dry = run(scratch, "dresslife", "run -n study.yaml");
+  CHECK(dry.status == 0);
+  CHECK(dry.out.find("2 of 2 jobs to make; nothing was run\n") != std::string::npos);
+  CHECK_FALSE(fs::exists(scratch / "runs"));
 }
 
 TEST_CASE("a lost result is made again, the others stay") {

@@ -1,6 +1,5 @@
 // The shipped materials of copper wire: that they follow from what their `source:` says, and how far they lie
 // from what was measured. Nothing is tuned to the measurements; fatigue/measurements.md shows the misses.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -10,6 +9,7 @@
 #include "fatigue/stress_path.h"
 #include "pipeline/job/material.h"
 #include "pipeline/settings/fields.h"
+#include "tests/catch.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

@@ -1,13 +1,13 @@
 // Damage of whole histories: published blocks, tables against the exact evaluation, placing in time.
 #include "fatigue/damage.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
 
 #include "fatigue/stress_path.h"
+#include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

@@ -1,10 +1,10 @@
 // Strain with shear: closed forms of single loads, and what turning the axes must not change.
 #include "fatigue/multiaxial.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;
@@ -26,17 +26,20 @@ double damage_of_history(const std::vector<double>& history, const pipeline::Mat
   return sum_of_damage(evaluate_cycles(find_reversals(history), m, {}));
 }
 
-}  // namespace
-
-TEST_CASE("equivalent strain: its two parts alone, together, and its sign") {
-  const std::vector<double> strain{0.01, -0.01, 0, 0.003, -0.003}, shear{0, 0, 0.01, 0.004, 0.004};
-  const auto equivalent = equivalent_strain(strain, shear);
-  CHECK(equivalent[0] == 0.01);
-  CHECK(equivalent[1] == -0.01);
-  CHECK(equivalent[2] == Approx(0.01 / std::sqrt(3)).epsilon(rounding));
-  CHECK(equivalent[3] == Approx(std::sqrt(9e-6 + 16e-6 / 3)).epsilon(rounding));
-  CHECK(equivalent[4] == -equivalent[3]);
+/// Of planes equally spaced over half a turn, the worst by exact lives: the stage counts with tables.
+CriticalPlane critical_plane(const std::vector<double>& strain, const std::vector<double>& shear,
+                             const pipeline::Material& m, const pipeline::Fatigue& settings, int planes = 36) {
+  CriticalPlane worst;
+  for (int plane = 0; plane < planes; ++plane) {
+    const double theta = pi * (double(plane) / planes - 0.5);
+    const auto history = plane_strain(strain, shear, m.poisson_ratio, theta);
+    const double damage = sum_of_damage(evaluate_cycles(find_reversals(history), m, settings));
+    if (damage > worst.damage) worst = {theta, damage};
+  }
+  return worst;
 }
+
+}  // namespace
 
 TEST_CASE("critical plane: pure strain breaks across the axis, as without planes") {
   auto m = copper();

@@ -3,12 +3,12 @@
 #include "fatigue/places.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "fatigue/conductors.h"
+#include "tests/catch.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

@@ -2,7 +2,6 @@
 #include "fatigue/rainflow.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -12,6 +11,8 @@
 #include <sstream>
 
 #include "pipeline/base/errors.h"
+#include "tests/catch.h"
+#include "tests/fatigue/four_point.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

@@ -3,7 +3,6 @@
 #include "fatigue/relaxation.h"
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -12,6 +11,7 @@
 #include "fatigue/damage.h"
 #include "fatigue/stress_path.h"
 #include "pipeline/base/instruction_set.h"
+#include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;

@@ -2,12 +2,13 @@
 #include "fatigue/scatter.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "fatigue/conductors.h"
+#include "tests/catch.h"
+#include "tests/fatigue/wire_lives.h"
 
 using namespace dresslife;
 using namespace dresslife::fatigue;

@@ -1,9 +1,10 @@
 // Stress spectra, residue rules and classes against published numbers.
 #include "fatigue/spectrum.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+
+#include "tests/catch.h"
 
 using namespace dresslife::fatigue;
 

@@ -1,11 +1,11 @@
 // Lives from the strain-life curves: published numbers, round trips, limits, and the thesis' own orders.
 #include "fatigue/strain_life.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "fatigue/stress_path.h"
+#include "tests/catch.h"
 #include "tests/fatigue/materials.h"
 
 using namespace dresslife;
@@ -39,10 +39,9 @@ TEST_CASE("Coffin-Manson: amplitudes of published constants, both ways") {
     CHECK(life.reversals({amplitude, 0, 0}) == Approx(reversals).epsilon(published));
     CHECK(life.damage({amplitude, 0, 0}) == Approx(2 / reversals).epsilon(published));
   }
-  CHECK(life.transition_reversals() == Approx(8347.73449211416).epsilon(published));
 }
 
-TEST_CASE("Morrow, modified Morrow and SWT lives of published constants") {
+TEST_CASE("Morrow and SWT lives of published constants") {
   const StrainLife morrow(lcf_steel, MeanStress::morrow);
   for (const auto& [amplitude, reversals] :
        {std::pair{0.002, 101850.469774385}, {0.004, 8958.30094430476}, {0.01, 1043.11826123657}}) {
@@ -51,10 +50,6 @@ TEST_CASE("Morrow, modified Morrow and SWT lives of published constants") {
   for (const auto& [amplitude, reversals] :
        {std::pair{0.002, 426386.300194293}, {0.004, 14752.4095232958}, {0.01, 1238.23569872552}}) {
     CHECK(morrow.reversals({amplitude, 0, -150}) == Approx(reversals).epsilon(published));
-  }
-  for (const auto& [amplitude, reversals] :
-       {std::pair{0.002, 32555.623491946}, {0.004, 1869.2963672631}, {0.01, 186.511640657697}}) {
-    CHECK(morrow.modified_morrow_reversals(amplitude, 150) == Approx(reversals).epsilon(published));
   }
   const StrainLife swt(lcf_steel, MeanStress::swt);
   for (const auto& [parameter, reversals] : {std::pair{0.3, 7296780.92600749},

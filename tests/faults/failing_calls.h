@@ -18,16 +18,27 @@ inline Outcome run_with(const Scratch& scratch, const std::string& before, const
   return run_shell(scratch, "sh ./call.sh");
 }
 
-/// Runs a program, of which the `at`-th `call` (write, sync, close, cut, rename) on a file that is being
-/// written fails; at 0 none does. Programs that it starts are left alone.
-inline Outcome run_failing(const Scratch& scratch, const std::string& call, int at,
-                           const std::string& program, const std::string& arguments) {
+/// What fails in a program; see tests/faults/shim/failing_calls.cpp.
+struct Fault {
+  std::string call;
+  int at = 0;  ///< the first that fails, from 1; 0: none
+  std::string mode{}, path{}, more = "0";
+};
+
+/// Runs a program with such a fault. Programs that it starts are left alone.
+inline Outcome run_failing(const Scratch& scratch, const Fault& fault, const std::string& program,
+                           const std::string& arguments) {
   return run_with(scratch,
                   // so that a sanitized program lets a library be preloaded
-                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + call +
-                      " FAULT_AT=" + std::to_string(at) + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
+                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + fault.call +
+                      " FAULT_AT=" + std::to_string(fault.at) + " FAULT_MODE=" + fault.mode + " FAULT_PATH='" +
+                      fault.path + "' FAULT_MORE=" + fault.more + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
                       (scratch / "count").string() + "' LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' ",
                   program, arguments);
+}
+inline Outcome run_failing(const Scratch& scratch, const std::string& call, int at,
+                           const std::string& program, const std::string& arguments) {
+  return run_failing(scratch, Fault{call, at}, program, arguments);
 }
 
 /// How many such calls the last of these programs made.
@@ -42,6 +53,19 @@ inline std::vector<int> some_of(int total, int count, std::mt19937& random) {
   std::swap(all[static_cast<std::size_t>(count) - 1], all.back());
   all.resize(static_cast<std::size_t>(count));
   return all;
+}
+
+/// Whether a folder, with those in it, holds a file that was not finished.
+inline bool holds_parts(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".part") return true;
+  return false;
+}
+
+/// Whether words are one line that begins as an error of ours does and has a remedy.
+inline bool is_one_error(const std::string& words) {
+  return std::count(words.begin(), words.end(), '\n') == 1 && words.find(": error: ") != std::string::npos &&
+         words.find("; ") != std::string::npos;
 }
 
 }  // namespace dresslife::tests

@@ -1,11 +1,11 @@
 // What a stage says that its job will take, against what it takes, and what becomes of jobs that do not fit.
 #include <sys/resource.h>
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <iostream>
 
 #include "pipeline/stage/memory.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 
 using namespace dresslife::tests;

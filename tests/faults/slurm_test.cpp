@@ -1,6 +1,6 @@
 // Studies in a queue: a real Slurm on one node, started here.
-#include <catch2/catch.hpp>
 
+#include "tests/catch.h"
 #include "tests/faults/slurm.h"
 #include "tests/pipeline/sample_job.h"
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -15,6 +14,7 @@
 #include <thread>
 
 #include "pipeline/study/ranking.h"
+#include "tests/catch.h"
 #include "tests/cli/process.h"
 #include "tests/faults/failing_calls.h"
 
@@ -43,6 +43,7 @@ pid_t start(const Scratch& scratch, const std::string& program, const std::vecto
   const pid_t process = ::fork();
   if (process != 0) return process;
   ::chdir(scratch.folder().c_str());
+  ::signal(SIGINT, SIG_DFL);  // ignored where tests run in the background of a script
   const int quiet = ::open("/dev/null", O_RDWR);
   for (int stream = 0; stream < 3; ++stream) ::dup2(quiet, stream);
   const std::string path = DRESSLIFE_BIN_DIR "/" + program;
@@ -98,10 +99,14 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
     // The runner, Ninja or a stage; by a signal that can be heard or not.
     const std::vector<pid_t> all = descendants(runner);
     const std::size_t victim = std::min<std::size_t>(random() % 3, all.size() - 1);
-    ::kill(all[victim], std::array{SIGKILL, SIGTERM, SIGHUP}[random() % 3]);
+    const int signal = std::array{SIGKILL, SIGTERM, SIGHUP, SIGINT}[random() % 4];
+    ::kill(all[victim], signal);
     ::waitpid(runner, nullptr, 0);
     ++killed[victim == 0 ? "runner" : victim == 1 ? "ninja" : "stage"];
+    INFO("seed " << seed << " round " << round << " victim " << victim << " signal " << signal);
+    if (signal != SIGKILL && fs::exists(scratch / "runs")) REQUIRE_FALSE(holds_parts(scratch / "runs"));
     const Outcome resumed = run_study(scratch);
+    REQUIRE_FALSE(holds_parts(scratch / "runs"));
     INFO("seed " << seed << " round " << round << " victim " << victim << ": " << resumed.out << resumed.err);
     REQUIRE(resumed.status == 0);
     auto again = results(scratch / "runs/study");
@@ -276,16 +281,22 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   scratch.write("study.yaml", study_text);
   REQUIRE(run_study(scratch).status == 0);
   const auto before = results(scratch / "runs/study");
-  // Other settings: the files keep the last results, marked.
+  // Settings of this look alone: the files stay those of the study.
   const Outcome changed = run(scratch, "dresslife", "report study.yaml --set fatigue.stress=elastic");
   CHECK(changed.status == 1);
   CHECK(changed.out.find("stale") != std::string::npos);
-  const std::string marked = content(scratch / "runs/study/ranking.csv");
-  CHECK(marked.find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") !=
-        std::string::npos);
+  CHECK(changed.err.find("ranking.csv and report.html stay as the last run left them (of 3 jobs there are no results "
+                         "with these --set)") != std::string::npos);
+  CHECK(results(scratch / "runs/study") == before);
   CHECK(run(scratch, "dresslife", "status study.yaml --set fatigue.stress=elastic")
             .out.find("0 of 3 jobs done") != std::string::npos);
-  CHECK(content(scratch / "runs/study/ranking.csv") == marked);
+  // Other settings of the study: the files keep the last results, marked.
+  const std::string job = content(scratch / "job.yaml");
+  scratch.write("job.yaml", job + "fatigue: {stress: elastic}\n");
+  CHECK(run(scratch, "dresslife", "report study.yaml").status == 1);
+  CHECK(content(scratch / "runs/study/ranking.csv")
+            .find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") != std::string::npos);
+  scratch.write("job.yaml", job);
   CHECK(run(scratch, "dresslife", "report study.yaml").status == 0);
   CHECK(results(scratch / "runs/study") == before);
   CHECK(run_study(scratch).err.find("nothing to do") != std::string::npos);
@@ -396,4 +407,72 @@ TEST_CASE("absurd values are refused where they are read, by their keys") {
   // As long as the keys allow, and longer than anybody can hold.
   scratch.write("long.csv", "0,0,0,1,1,0,0,0,0.8,0,1,1,0,0,0\n9e9,0,0,1,1,0,0,0,0.8,0,1,1,0,0,0\n");
   refused("motion.clamp_poses=long.csv", "(at most 1e+08)");
+}
+
+TEST_CASE("a run that finds nothing to do leaves every file as it is, whatever the study varies") {
+  const std::map<std::string, std::string> studies{
+      {"one key", "vary: {dresspack.bending_stiffness_Nm2: [2, 3]}\n"},
+      {"two keys", "vary: {routing.free_length_m: [0.9, 0.95], strain.gate: [0.0005, 0.001]}\n"},
+      {"jobs and a key", "jobs: {soft: {dresspack.bending_stiffness_Nm2: 1}, as_it_is: {}}\n"
+                         "vary: {strain.gate: [0.0005, 0.001]}\n"},
+      {"draws", "sample: {jobs: 2, seed: 1, keys: {routing.free_length_m: !normal {mean: 0.92, deviation: 0.01}}}\n"}};
+  for (const auto& [what, text] : studies) {
+    Scratch scratch;
+    write_small_job(scratch);
+    scratch.write("study.yaml", "base: job.yaml\n" + text);
+    REQUIRE(run_study(scratch).status == 0);
+    const auto first = results(scratch / "runs/study");
+    for (const std::string again : {"run study.yaml", "report study.yaml", "run study.yaml"}) {
+      const Outcome outcome = run(scratch, "dresslife", again);
+      INFO(what << ": " << again << ": " << outcome.err);
+      CHECK(outcome.status == 0);
+      CHECK(results(scratch / "runs/study") == first);
+    }
+  }
+}
+
+TEST_CASE("a study that is moved with its files stays up to date, whatever stands beside its program") {
+  Scratch scratch;
+  fs::create_directories(scratch / "plant/cell");
+  write_small_job(scratch);
+  fs::rename(scratch / "poses.csv", scratch / "plant/cell/poses.csv");
+  std::string job = content(scratch / "job.yaml");
+  job.replace(job.find("poses.csv"), 9, "cell/poses.csv");
+  scratch.write("plant/job.yaml", job);
+  scratch.write("plant/study.yaml", "base: job.yaml\n");
+  const auto dresslife = [&](const std::string& folder, const std::string& command) {
+    return run_shell(scratch, "cd " + folder + " && '" DRESSLIFE_BIN_DIR "/dresslife' " + command);
+  };
+  REQUIRE(dresslife("plant", "run study.yaml").status == 0);
+  for (const auto& entry : fs::recursive_directory_iterator(scratch / "plant/runs")) {
+    INFO(entry.path());
+    const bool is_of_this_machine = entry.path().filename() == "study";  // what was looked at, and where
+    if (entry.is_regular_file() && !is_of_this_machine)
+      CHECK(content(entry.path()).find(scratch.folder().string()) == std::string::npos);
+  }
+  const auto before = results(scratch / "plant/runs/study");
+  fs::rename(scratch / "plant", scratch / "moved");
+  const Outcome moved = dresslife("moved", "run study.yaml");
+  INFO(moved.err);
+  CHECK(moved.err.find("nothing to do") != std::string::npos);
+  CHECK(results(scratch / "moved/runs/study") == before);
+  CHECK(run(scratch, "dresslife", "run moved/study.yaml -o moved/runs").err.find("nothing to do") !=
+        std::string::npos);  // from another folder
+  fs::create_directory_symlink(scratch / "moved", scratch / "link");
+  CHECK(run(scratch, "dresslife", "run link/study.yaml -o link/runs").err.find("nothing to do") != std::string::npos);
+  const std::string poses = content(scratch / "moved/cell/poses.csv");
+  scratch.write("moved/cell/poses.csv", poses + "\n");
+  CHECK(dresslife("moved", "status study.yaml").out.find("cell/poses.csv has changed") != std::string::npos);
+}
+
+TEST_CASE("a job whose name is too long for a folder fails, and the others run") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", "base: job.yaml\njobs: {short: {}, " + std::string(300, 'n') + ": {}}\n");
+  const Outcome outcome = run_study(scratch);
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK(outcome.out.find("a job's name has 300 letters (at most 200 fit a folder)") != std::string::npos);
+  CHECK(outcome.err.find("1 of 2 jobs failed") != std::string::npos);
+  CHECK(content(scratch / "runs/study/ranking.csv").find("\nshort,") != std::string::npos);
 }

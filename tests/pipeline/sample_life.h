@@ -183,9 +183,19 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
            {std::pair{"p10", 2.0}, std::pair{"p50", 2.5}, std::pair{"p90", 3.0}})
         writer.attribute(std::string("scatter_life_hours_") + percentile, factor * sample.planned_hours);
       writer.attribute("life_response", sample.life_response);
-      writer.attribute("life_shares", "friction_inside 53 %; strength 29 %");
+      writer.attribute("life_shares", "friction_inside 53 %; strength 29 %; other 18 %");
+      writer.attribute("best_test", "friction_inside");
+      writer.attribute("best_test_life_hours_p10", 1.1 * sample.planned_hours);
+      writer.attribute("best_test_life_hours_p90", 1.7 * sample.planned_hours);
       writer.attribute("measure_next", "friction_inside");
       writer.attribute("measure_next_share", 0.53);
+    }
+    writer.attribute("failing_mode", "wires of signal cable");
+    writer.attribute("failing_mode_share", 0.75);
+    for (const auto& [percentile, factor] :
+         {std::pair{"p10", 1.0}, std::pair{"p50", 1.5}, std::pair{"p90", 2.5}}) {
+      writer.attribute(std::string("life_hours_") + percentile + "_all_glued", factor * sample.planned_hours / 10);
+      writer.attribute(std::string("life_hours_") + percentile + "_all_free", factor * sample.planned_hours * 10);
     }
     writer.attribute("life_months_p10", sample.planned_hours / 80 * 7 * 12 / 365.25);
     writer.attribute("failing_conductor", "signal cable 3/conductor 2");

@@ -1,8 +1,8 @@
 // The thesis' bending test (its figures 13 to 15) in numbers: a single signal cable bent more and more.
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "strain/evaluation.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

@@ -1,5 +1,4 @@
 // The bounds hold the wires that live shortest, not only those with the largest range.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -7,6 +6,7 @@
 
 #include "fatigue/damage.h"
 #include "strain/evaluation.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

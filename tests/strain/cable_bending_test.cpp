@@ -1,10 +1,10 @@
 #include "pipeline/cable/cable_bending.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "strain/construction.h"
 #include "strain/strand_bending.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;
@@ -105,13 +105,13 @@ TEST_CASE("a cable of wires alone is the strand that its sliders make") {
     cable.components[0].jacket_stiffness = jacket;
     const CableBending bending(dresspack, cable);
     Strand strand{
-        {{12, 75e-6, youngs_modulus, 0.0003, 10 * degree, 20, jacket}}, 0, 0.3, Strand::Cap::even, true};
+        {{12, 75e-6, youngs_modulus, 0.0003, 10 * degree, 20, jacket}}, 0, 0.3, true};
     StrandBending sliders(strand);
     for (const double curvature : {0.01, 1.0, 5.0, 20.0}) {
       const double held = bending.moment(curvature, 1) - bending.moment(curvature, 0);
       const double of_strand = sliders.moment(curvature) - sliders.slipped_stiffness() * curvature;
       const double elastic = (bending.free_stiffness() - sliders.slipped_stiffness()) * curvature;
-      // 36 phases and 360 of a curve with kinks; their own bending differs by sin^2 of the lay angle
+      // 360 phases of a curve with kinks; their own bending differs by sin^2 of the lay angle
       CHECK(held + (jacket > 0 ? elastic : 0) ==
             Approx(of_strand).epsilon(3e-3).margin(0.1 * sliders.slipped_stiffness() * curvature));
     }

@@ -1,12 +1,14 @@
 // Cables between two clamps: what is held against what (W10) says, loose ones without play against those, the
 // onset of tension with slack, lays from straight to steep, memory, forces and moments.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
+#include "pipeline/cable/excess.h"
 #include "pipeline/cable/plain_properties.h"
 #include "strain/cable_paths.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;
@@ -218,6 +220,7 @@ TEST_CASE("tension begins where slack no longer covers what turning asks less wh
   Dresspack dresspack = thesis_hose();
   const double c = 5e-3, kappa = 0.8;
   dresspack.components[0].laying.play = c;
+  double asked = -1;  // slack for which path_gain() asks [%]
   const auto tension = [&](double slack_percent) {
     dresspack.components[0].laying.slack = slack_percent;
     const Construction construction(dresspack, Kinematics::exact);
@@ -229,6 +232,10 @@ TEST_CASE("tension begins where slack no longer covers what turning asks less wh
                      std::vector<double>(segments, length / segments), Run::centres(), 40);
     paths.add({history});
     paths.finish();
+    for (std::size_t k = 0; k < paths.cables(); ++k) {
+      asked = std::max(asked, 100 * paths.path_gain(k)[1]);
+      CHECK(paths.room(k) == c);
+    }
     const CablePulls pulls = pulls_of(paths);
     double most = 0;
     for (const std::vector<double>& of_cable : pulls.tension) most = std::max(most, of_cable.back());
@@ -238,6 +245,33 @@ TEST_CASE("tension begins where slack no longer covers what turning asks less wh
   const double onset = 100 * (0.01845 * std::sin(72 * pi / 180) - c) * kappa;
   CHECK(tension(onset + 0.1) < 25);   // N: bending it into place and its weight, no stretch
   CHECK(tension(onset - 0.1) > 500);  // 0.1 % of 0.98 MN, less what the wall gives
+  CHECK(asked == Approx(onset).epsilon(1e-3));
+}
+
+TEST_CASE("a slack between the gains of a cable's path makes no force, one outside of them does") {
+  Dresspack dresspack = thesis_hose();
+  dresspack.components[0].count = 1;  // in the middle, with 4 mm of room
+  dresspack.components[0].helix_radius = 0;
+  dresspack.components[0].laying.position = Position::loose;
+  dresspack.components[0].laying.play = 4e-3;
+  dresspack.core_diameter = 0;
+  const auto with = [&](double slack) {
+    dresspack.components[0].laying.slack = 100 * slack;
+    Run run(dresspack, Slip::free, 40, 20);
+    double most = 0;
+    const CablePulls pulls = pulls_of(run.paths);
+    for (const double tension : pulls.tension[0]) most = std::max(most, std::abs(tension));
+    return std::tuple{run.paths.path_gain(0), most, run.paths.room(0), run.paths.pulled(0).force};
+  };
+  const auto [gain, force, room, cable] = with(0);
+  CHECK(room == 4e-3);
+  CHECK(gain[0] > gain[1]);  // room on both sides: a window
+  const double limit = 0.2 * cable.strength();
+  // What a helix keeps beyond the gain of the path, and compression, at that force (pipeline/cable/excess.h).
+  const double fits = gain[0] + dresslife::pipeline::excess_at_force(cable, limit, room);
+  CHECK(std::get<1>(with(std::max(0.0, gain[1]) / 2 + gain[0] / 2)) < limit);
+  CHECK(std::get<1>(with(0.8 * fits)) < limit);
+  CHECK(std::get<1>(with(1.5 * fits)) > limit);
 }
 
 TEST_CASE("strains change smoothly with the lay from straight to ten degrees") {

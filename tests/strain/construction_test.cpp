@@ -1,11 +1,11 @@
 #include "strain/construction.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/base/errors.h"
 #include "strain/slip.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

@@ -1,10 +1,11 @@
 #include "strain/deformation.h"
 
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <functional>
 #include <numbers>
 #include <optional>
+
+#include "tests/catch.h"
 
 using namespace dresslife::strain;
 using dresslife::pipeline::DeformationMeasure;

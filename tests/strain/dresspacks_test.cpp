@@ -1,6 +1,5 @@
 // Two dresspacks in one file: strain and life of each are those of a file of its own.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "fatigue/life_file.h"
@@ -8,6 +7,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
 #include "strain/strain_file.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
@@ -116,7 +116,7 @@ std::string routing_of(const Hose& hose) {
 const std::string thin_block =
     "dresspack:\n  name: cable\n  source: made for the tests\n  diameter_mm: 20\n  mass_kg_per_m: 0.3\n"
     "  bending_stiffness_Nm2: 0.2\n  torsional_stiffness_Nm2: 0.2\n  axial_stiffness_N: 1e5\n"
-    "  damping_time_ms: 10\n  damping_source: guessed\n  hose_material: hose_polyamide\n"
+    "  damping_time_ms: 10\n  damping_source: guessed\n  hose_material: hose_polyamide\n  inner_diameter_mm: 17\n"
     "  components: [{name: core, count: 4, radius_mm: 0.3, helix_radius_mm: 3, lay_angle_deg: 15, material: "
     "copper}]\n";
 

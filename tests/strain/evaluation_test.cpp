@@ -1,12 +1,13 @@
 #include "strain/evaluation.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <random>
 
 #include "pipeline/base/errors.h"
+#include "tests/catch.h"
+#include "tests/strain/all_kernels.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;
@@ -398,10 +399,13 @@ TEST_CASE("every instruction set of this machine gives the same strains") {
 }
 
 TEST_CASE("an instruction set can be asked for by name") {
-  for (const Kernels* set : kernels_of_this_machine()) CHECK(&kernels_named(set->machine) == set);
-  CHECK_THROWS_WITH(kernels_named("mmx"),
+  for (const dresslife::pipeline::InstructionSet set : dresslife::pipeline::instruction_sets()) {
+    CHECK(dresslife::pipeline::instruction_set_named(name_of(set)) == set);
+    CHECK(kernels_for(set).machine == std::string(name_of(set)));
+  }
+  CHECK_THROWS_WITH(dresslife::pipeline::instruction_set_named("mmx"),
                     Catch::StartsWith("DRESSLIFE_KERNELS: error: is 'mmx' (this machine can run "
-                                      "baseline"));
+                                      "portable"));
 }
 
 namespace {

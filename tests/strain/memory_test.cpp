@@ -1,7 +1,6 @@
 #include "strain/memory.h"
 
-#include <catch2/catch.hpp>
-
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife;

@@ -1,10 +1,12 @@
 #include "strain/reversals.h"
+#include "tests/strain/all_kernels.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "tests/catch.h"
 
 using namespace dresslife::strain;
 

@@ -1,12 +1,13 @@
 #include "strain/sliding_layer.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "strain/history.h"
 #include "strain/nesting.h"
+#include "tests/catch.h"
+#include "tests/strain/all_kernels.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

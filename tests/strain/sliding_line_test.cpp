@@ -1,12 +1,12 @@
 // A part that slides along its path with friction and grips, against the conditions that hold at its
 // solution, closed forms, and energy.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <random>
 
 #include "strain/sliding_line.h"
+#include "tests/catch.h"
 
 using namespace dresslife::strain;
 

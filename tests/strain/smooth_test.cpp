@@ -1,12 +1,12 @@
 // What a user tells of cables moves strains of their wires smoothly: no jump between neighbouring values of
 // any key, whatever another one is at. Wires of two cables of two conductors, through the whole evaluation.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "strain/evaluation.h"
+#include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
 
 using namespace dresslife::strain;

@@ -1,7 +1,6 @@
 // Motions with a clamp between the ends, and dresspacks delivered bent: what slides and what is free of
 // strain.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 
@@ -9,6 +8,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
 #include "strain/strain_file.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

@@ -59,9 +59,17 @@ class RoundEmulation {
   RoundEmulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
                  const std::vector<RankingRow>& rows, const StudyPlaces& places)
       : round_(round), rows_(round.study(), rows), places_(places) {
-    for (std::size_t t = 0; t < tests.size(); ++t)
-      made_.tests.push_back(tests[t].observation.is_life() ? EmulatedTest{life_of(tests[t], round.runs()[t])}
-                                                           : bending_of(tests[t], round.runs()[t]));
+    for (std::size_t t = 0; t < tests.size(); ++t) {
+      const std::vector<RoundOfJobs::Runs>& runs = round.runs()[t];
+      if (!tests[t].observation.is_life()) {
+        made_.tests.push_back(bending_of(tests[t], runs));
+        continue;
+      }
+      made_.tests.push_back({life_of(tests[t], runs)});
+      const RankingRow& row = row_of(tests[t], runs.front().centre);
+      if (!row.failing_mode.empty())
+        made_.tests.back().fails_first = fmt::format("{}, {:.0f} %", row.failing_mode, 100 * row.failing_mode_share);
+    }
   }
 
   const Emulation& made() const { return made_; }

@@ -21,6 +21,7 @@ struct EmulatedTest {
   std::vector<Measurement> bending{};  ///< (variant), of the same numbers
   std::size_t shown = 0;               ///< number that is told
   double per_shown = 1;                ///< by which it is divided: a stiffness by its curvature
+  std::string fails_first{};           ///< of a life, at the centre: "wires of signal cable, 100 %"
 
   double log_likelihood_at(const Eigen::VectorXd& z) const;
 };

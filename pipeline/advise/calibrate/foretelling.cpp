@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/base/normal_numbers.h"
+#include "pipeline/base/random.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -20,7 +20,7 @@ Foretold quantiles(const std::vector<double>& numbers) {
 /// A specimen's life in each draw of z: a variant by how likely it makes the observation there (`weighed`) or
 /// any, and its scatter.
 Foretold foretold(const ObservedLife& life, const Eigen::MatrixXd& draws, bool weighed) {
-  NormalNumbers numbers(7);
+  RandomNumbers numbers(7);
   std::vector<double> lives;
   for (Index k = 0; k < draws.rows(); ++k) {
     const VectorXd z = draws.row(k).transpose();
@@ -38,7 +38,7 @@ Foretold foretold(const ObservedLife& life, const Eigen::MatrixXd& draws, bool w
     while (chosen + 1 < weight.size() && left > weight[chosen]) left -= weight[chosen++];
     const LifeVariant& variant = life.variants[chosen];
     const double spread = std::hypot(std::exp(variant.log_spread(z)), life.unshared_spread);
-    lives.push_back(variant.log_life(z) + spread * numbers.next());
+    lives.push_back(variant.log_life(z) + spread * numbers.normal());
   }
   Foretold told = quantiles(lives);
   for (double& one : told) one = one >= endless_log_life - 3 ? HUGE_VAL : std::exp(one);
@@ -59,9 +59,9 @@ Foretold foretold(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool w
 }
 
 Eigen::MatrixXd prior_draws() {
-  NormalNumbers numbers(5);
+  RandomNumbers numbers(5);
   Eigen::MatrixXd draws(told_draws, static_cast<Index>(uncertain_count));
-  for (Index k = 0; k < draws.rows(); ++k) draws.row(k) = numbers.vector(draws.cols()).transpose();
+  for (Index k = 0; k < draws.rows(); ++k) draws.row(k) = numbers.normals(VectorXd(draws.cols())).transpose();
   return draws;
 }
 

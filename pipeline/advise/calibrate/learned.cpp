@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/base/readable.h"
@@ -63,7 +64,7 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
 }
 
 std::string words_of(const Foretold& told) {
-  return fmt::format("{} ({} .. {})", life_text(told[1], 2), life_text(told[0], 2), life_text(told[2], 2));
+  return fmt::format("{} ({}, {})", life_text(told[0], 2), life_text(told[1], 2), life_text(told[2], 2));
 }
 
 void add_doubts(Learned& learned, const Axes& axes) {
@@ -71,7 +72,7 @@ void add_doubts(Learned& learned, const Axes& axes) {
   for (const LearnedTest& test : learned.tests)
     if (const double off = surprise(test); off > surprising)
       learned.notes.push_back(fmt::format(
-          "'{}' lies {:.1f} deviations from what was foretold: look at its construction and at what was "
+          "'{}' lies {:.1f} deviations from what was predicted: look at its construction and at what was "
           "done to it before what it teaches is believed",
           test.observation.name, off));
   const Posterior& posterior = learned.posterior;
@@ -93,16 +94,18 @@ std::string learned_table(const Learned& learned) {
                                             : readable(test.measured, 3) + " N m";
   };
   std::string text = parameter_lines(learned);
-  text += fmt::format("\n{:<22} {:>20} {:>34} {:>34}\n", "observation", "observed", "foretold before",
-                      "foretold after");
+  std::size_t name = 22;
+  for (const LearnedTest& test : learned.tests) name = std::max(name, columns_of(test.observation.name));
+  text += fmt::format("\n{:<{}} {:>20} {:>34} {:>34}  {}\n", "observation", name, "observed", "predicted before",
+                      "predicted after", "fails first");
   for (const LearnedTest& test : learned.tests)
-    text += fmt::format("{:<22} {:>20} {:>34} {:>34}\n", shortened(test.observation.name, 22), seen(test),
-                        words_of(test.before), words_of(test.after));
+    text += fmt::format("{:<{}} {:>20} {:>34} {:>34}  {}\n", test.observation.name, name, seen(test),
+                        words_of(test.before), words_of(test.after), test.fails_first);
   text +=
-      "\nparameters: factors of the job's keys (slope: added to b), median and 80 % of what is likely. "
-      "Foretold: the life of "
-      "one specimen, median and\n80 %, over parameters, what is not known of the test, and scatter; of a "
-      "bending test its largest moment.\n";
+      "\nParameters: factors of the job's keys (slope: added to b), median and 80 % of what is likely.\nPredicted: the "
+      "life by which 10 % of such specimens have failed (half, 90 %), over the parameters, what is not known of the test, "
+      "and\nscatter; of a bending test its largest moment.\n"
+      "Fails first: in which share of the samples.\n";
   if (!learned.settled)
     text += fmt::format("warning: after {} rounds the centre still moves; the draws rest on runs beside it\n",
                         learned.rounds);

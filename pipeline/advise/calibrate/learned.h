@@ -20,6 +20,7 @@ struct LearnedTest {
   Observation observation;
   Foretold before{}, after{};  ///< over all variants, over each as likely as it then is
   double measured = 0;         ///< the same as it was measured; 0 for a life
+  std::string fails_first{};   ///< EmulatedTest
 };
 
 struct Learned {
@@ -37,7 +38,7 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
 /// Notes of what a user should look at before what was learned is believed.
 void add_doubts(Learned& learned, const Axes& axes);
 
-/// "no damage", "4.1e+03 (120 .. 1.2e+05)".
+/// "120 (4,100, 120,000)": 10 %, half, 90 % have failed.
 std::string words_of(const Foretold& told);
 
 /// For a terminal: parameters before and after, each row foretold before and after beside what was seen.

@@ -43,6 +43,7 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       const EmulatedTest& emulated = emulation.tests[t];
       if (learned.rounds == 1) learned.tests[t].before = foretold(emulated, prior_draws(), false);
       learned.tests[t].after = foretold(emulated, posterior_draws(learned.posterior, axes), true);
+      learned.tests[t].fails_first = emulated.fails_first;
       if (!emulated.life)
         learned.tests[t].measured = emulated.bending[0].numbers[emulated.shown].value / emulated.per_shown;
     }

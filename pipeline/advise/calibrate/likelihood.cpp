@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/base/statistics.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -21,7 +23,7 @@ double log_all_within(double margin, double common, double own, int specimens) {
   std::vector<double> terms;
   for (int i = 0; i <= steps; ++i) {
     const double y = i * width - reach;
-    terms.push_back(specimens * log_normal_probability((margin + common * y) / own) - y * y / 2);
+    terms.push_back(specimens * log_normal_share((margin + common * y) / own) - y * y / 2);
   }
   return log_mean(terms) + std::log((steps + 1) * width) - std::log(2 * std::numbers::pi) / 2;
 }
@@ -33,7 +35,7 @@ double log_likelihood(const ObservedLife& observed, const LifeVariant& variant, 
   const int n = observed.specimens;
   if (observed.end == LifeEnd::broken) return log_density(margin, std::hypot(common, own / std::sqrt(n)));
   const double within = observed.end == LifeEnd::at_least ? margin : -margin;
-  if (n == 1 || own < 1e-3 * common) return log_normal_probability(within / all);
+  if (n == 1 || own < 1e-3 * common) return log_normal_share(within / all);
   return log_all_within(within, common, own, n);
 }
 
@@ -45,13 +47,6 @@ double log_mean(const std::vector<double>& terms) {
   double sum = 0;
   for (const double term : terms) sum += std::exp(term - most);
   return most + std::log(sum / static_cast<double>(terms.size()));
-}
-
-// Below -6 by the continued fraction of Mills' ratio, whose fourth term leaves 1e-5 of ln there.
-double log_normal_probability(double x) {
-  if (x > -6) return std::log(std::erfc(-x / std::numbers::sqrt2) / 2);
-  const double mills = -x + 1 / (-x + 2 / (-x + 3 / (-x + 4 / -x)));
-  return -x * x / 2 - std::log(2 * std::numbers::pi) / 2 - std::log(mills);
 }
 
 double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z) {

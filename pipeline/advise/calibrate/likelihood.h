@@ -65,7 +65,4 @@ double log_likelihood(const Measurement& measurement, const Eigen::VectorXd& z);
 /// ln of the mean of exp(terms). Precondition: at least one.
 double log_mean(const std::vector<double>& terms);
 
-/// ln Phi(x), down to any x.
-double log_normal_probability(double x);
-
 }  // namespace dresslife::pipeline

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/base/words.h"
 #include "pipeline/settings/document.h"
 #include "pipeline/study/ranking.h"
 #include "pipeline/study/study.h"
@@ -30,53 +31,19 @@ class Fields;
 /// its maker promises so much.
 enum class ObservedEnd { broken, broken_by, run_out, rating };
 constexpr std::string_view word(ObservedEnd value) {
-  switch (value) {
-    case ObservedEnd::broken:
-      return "broken";
-    case ObservedEnd::broken_by:
-      return "broken_by";
-    case ObservedEnd::run_out:
-      return "run_out";
-    case ObservedEnd::rating:
-      return "rating";
-  }
-  return {};
+  return word_at({"broken", "broken_by", "run_out", "rating"}, value);
 }
 /// Whether the true life is known not to be longer, and known not to be shorter.
 constexpr bool bounds_above(ObservedEnd value) {
-  switch (value) {
-    case ObservedEnd::broken:
-    case ObservedEnd::broken_by:
-      return true;
-    case ObservedEnd::run_out:
-    case ObservedEnd::rating:
-      return false;
-  }
-  return false;
+  return value == ObservedEnd::broken || value == ObservedEnd::broken_by;
 }
-constexpr bool bounds_below(ObservedEnd value) {
-  switch (value) {
-    case ObservedEnd::broken:
-    case ObservedEnd::run_out:
-    case ObservedEnd::rating:
-      return true;
-    case ObservedEnd::broken_by:
-      return false;
-  }
-  return false;
-}
+constexpr bool bounds_below(ObservedEnd value) { return value != ObservedEnd::broken_by; }
 
 /// What had to happen for it to count as failed: a wire, or a share of a conductor's
 /// (fatigue.failed_wires_percent).
 enum class FailureCriterion { first_wire, conductor };
 constexpr std::string_view word(FailureCriterion value) {
-  switch (value) {
-    case FailureCriterion::first_wire:
-      return "first_wire";
-    case FailureCriterion::conductor:
-      return "conductor";
-  }
-  return {};
+  return word_at({"first_wire", "conductor"}, value);
 }
 
 struct Observation {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/base/normal_numbers.h"
+#include "pipeline/base/random.h"
+#include "pipeline/base/statistics.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -68,7 +69,7 @@ class Chain {
   /// draws (draw, axis): filled.
   void walk(Eigen::Ref<MatrixXd> draws) {
     for (Index k = 0; k < draws.rows(); ++k) {
-      const VectorXd there = at_ + step_ * numbers_.vector(at_.size());
+      const VectorXd there = at_ + step_ * numbers_.normals(VectorXd(at_.size()));
       const double value = log_posterior(terms_, there);
       if (std::log(numbers_.uniform()) < value - value_) at_ = there, value_ = value;
       draws.row(k) = at_.transpose();
@@ -98,7 +99,7 @@ class Chain {
   const std::vector<LogLikelihood>& terms_;
   VectorXd at_;
   double value_;
-  NormalNumbers numbers_;
+  RandomNumbers numbers_;
   MatrixXd step_;
 };
 
@@ -197,8 +198,8 @@ Posterior posterior_of(const std::vector<LogLikelihood>& terms, const VectorXd& 
     posterior.draws.resize(chains * draws, axes);
     const MatrixXd spread = posterior.laplace.covariance.llt().matrixL();
     for (int c = 0; c < chains; ++c) {
-      NormalNumbers sides(settings.seed * 1000 + static_cast<std::uint64_t>(c));
-      const VectorXd from = posterior.laplace.most_likely + 1.5 * spread * sides.vector(axes);
+      RandomNumbers sides(settings.seed * 1000 + static_cast<std::uint64_t>(c));
+      const VectorXd from = posterior.laplace.most_likely + 1.5 * spread * sides.normals(VectorXd(axes));
       Chain chain(terms, from, posterior.laplace.covariance,
                   settings.seed * 1000 + 100 + static_cast<std::uint64_t>(c));
       chain.warm_up(draws / 3);
@@ -211,14 +212,8 @@ Posterior posterior_of(const std::vector<LogLikelihood>& terms, const VectorXd& 
 }
 
 double quantile(std::vector<double> numbers, double share) {
-  const double place = share * static_cast<double>(numbers.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(below), numbers.end());
-  const double first = numbers[below];
-  if (below + 1 >= numbers.size()) return first;
-  const double next =
-      *std::min_element(numbers.begin() + static_cast<std::ptrdiff_t>(below) + 1, numbers.end());
-  return first + (place - static_cast<double>(below)) * (next - first);
+  std::sort(numbers.begin(), numbers.end());
+  return number_at(numbers, share * static_cast<double>(numbers.size() - 1));
 }
 
 }  // namespace dresslife::pipeline

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"

@@ -20,9 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view command_line = "command line";
 
 bool is_shipped(const char* shelf, const Node& entry) {
-  std::error_code failure;
   return entry.is_scalar() && entry.text.find('/') == std::string::npos &&
-         fs::is_regular_file(shipped_catalogue() / shelf / (entry.text + ".yaml"), failure);
+         kind_of(shipped_catalogue() / shelf / (entry.text + ".yaml")) == FileKind::file;
 }
 
 Node named(const std::string& text) {
@@ -42,9 +41,8 @@ Node job_named(const std::string& of) {
     Node document = read_document(of);
     return document.find("joints") ? Node{} : document;
   }
-  std::error_code failure;
   const fs::path shipped = shipped_catalogue() / "jobs" / (of + ".yaml");
-  return fs::is_regular_file(shipped, failure) ? read_document(fs::proximate(shipped)) : Node{};
+  return kind_of(shipped) == FileKind::file ? read_document(fs::proximate(shipped)) : Node{};
 }
 
 Robot robot_of(const Node& document) {
@@ -96,6 +94,16 @@ Node links_only(const RouteRequest& request, const Robot& robot, const Node* giv
   return routing;
 }
 
+/// A file that an entry names, as it is named from another folder; a null node: it names none.
+Node reference(const Node& entry, const std::optional<fs::path>& folder) {
+  if (!folder || !entry.is_scalar() || !is_yaml_file(entry.text)) return {};
+  const fs::path beside = entry.where.file == command_line ? fs::path() : fs::path(entry.where.file).parent_path();
+  if (kind_of(beside / entry.text) != FileKind::file) return {};
+  Node named = scalar((fs::path(".") / as_seen_from(*folder, beside / entry.text)).string());
+  place_at(named, entry.where);
+  return named;
+}
+
 std::string fit_for_a_file(std::string name) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
@@ -133,18 +141,25 @@ Draft draft_of(const RouteRequest& request) {
   return draft;
 }
 
-Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor) {
+Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor,
+            const std::optional<fs::path>& folder) {
   Node document = draft.document;
   const Node resolved = parse_yaml(job_text(draft.job), std::string(command_line));
-  if (!is_shipped("robots", *document.find("robot"))) document["robot"] = *resolved.find("robot");
+  const auto replace = [&](const char* shelf, const char* key) {
+    const Node& entry = *document.find(key);
+    if (is_shipped(shelf, entry)) return;
+    const Node named = reference(entry, folder);
+    document[key] = named.is_scalar() ? named : *resolved.find(key);
+  };
+  replace("robots", "robot");
   if (draft.exercise)
     document["motion"] = parse_yaml(motion, std::string(command_line));
-  else if (!is_shipped("programs", *document.find("motion")))
-    document["motion"] = *resolved.find("motion");
+  else
+    replace("programs", "motion");
   if (factor != 1)
     document["dresspack"] = echo_fields(scaled(draft.job.dresspacks.front().dresspack, factor));
-  else if (!is_shipped("dresspacks", *document.find("dresspack")))
-    document["dresspack"] = *resolved.find("dresspack");
+  else
+    replace("dresspacks", "dresspack");
   if (document.find("cell")) document["cell"] = *resolved.find("cell");
   const Node* pose = document.find("routing") ? document.find("routing")->find("mounting_pose_deg") : nullptr;
   Node found = parse_yaml(routing, std::string(command_line));

@@ -1,6 +1,8 @@
 // A job without a routing that counts: from a robot's name, or a job of which all but the routing is kept.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +30,10 @@ struct Draft {
 /// Errors: InputError: neither job nor robot; links that the robot has not; more than one dresspack.
 Draft draft_of(const RouteRequest& request);
 
-/// The draft with a routing, and what else is given, as a document that reads back from any folder: entries
-/// of the shipped catalogue stay names, others are written out. routing, motion: YAML; motion may be empty.
-/// factor: of the dresspack's size, 1: as it is.
-Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor);
+/// The draft with a routing, and what else is given. routing, motion: YAML; motion may be empty. factor: of the
+/// dresspack's size, 1: as it is. folder: the document reads back from there; absent: from any folder. Entries of the
+/// shipped catalogue stay names. Where a folder is given, files stay references; all else is written out.
+Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor,
+            const std::optional<std::filesystem::path>& folder = {});
 
 }  // namespace dresslife::pipeline

@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t finalists = 6;  // whose lives are told over what is not known, too
+constexpr std::size_t finalists = 6;  // that have pages
 
 /// The best of what was tried; the front of two aims whole, but for the jobs as they are, which are told
 /// anyhow.

@@ -1,4 +1,4 @@
-// The best of what a search tried, run once more over all that is not known, beside the jobs as they are.
+// The best of what a search tried, run once more with all their files kept, beside the jobs as they are.
 #pragma once
 
 #include <functional>

@@ -313,9 +313,8 @@ class Reader {
     if (written_.items.empty()) refuse("may be one of nothing");
     std::vector<Node> values = written_.items;
     for (Node& value : values) {
-      std::error_code failure;
       const std::filesystem::path file = folder_of(value.where) / value.text;
-      if (value.is_scalar() && std::filesystem::is_regular_file(file, failure))
+      if (value.is_scalar() && kind_of(file) == FileKind::file)
         value.text = std::filesystem::absolute(file).lexically_normal().string();
     }
     return std::make_unique<Choice>(std::move(values));

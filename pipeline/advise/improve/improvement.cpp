@@ -11,6 +11,7 @@
 #include "pipeline/advise/improve/obstacle.h"
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
@@ -228,7 +229,7 @@ class Improver {
       Trial& trial = trials[k];
       trial.sets = sets[k];
       const std::vector<StudyJob> jobs =
-          trial_jobs(request_, sets[k], fmt::format("trial_{:04}", done_.trials.size() + k));
+          changed_jobs(request_, sets[k], fmt::format("trial_{:04}", done_.trials.size() + k));
       trial.hose_length = longest_hose(jobs);
       trial.outcomes.resize(jobs.size());
       for (std::size_t j = 0; j < jobs.size(); ++j) {
@@ -288,13 +289,6 @@ class Improver {
   Improvement done_;
 };
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 std::optional<std::size_t> Improvement::best() const {
@@ -314,18 +308,12 @@ std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vec
   return jobs;
 }
 
-std::vector<StudyJob> trial_jobs(const ImproveRequest& request, std::vector<std::string> sets,
-                                 const std::string& prefix) {
-  sets.push_back("uncertainty.enabled=false");
-  return changed_jobs(request, sets, prefix);
-}
-
 Improvement improve(const ImproveRequest& request, const StudyPlaces& places, const TrialMakers& makers) {
   return Improver(request, places, makers).run();
 }
 
 std::string improvement_csv(const Improvement& improvement) {
-  std::string text = "trial,feasible,scatter_life_hours_p10,beyond,free_length_m,cycle_s";
+  std::string text = "trial,feasible,life_hours_p10,beyond,free_length_m,cycle_s";
   for (const std::string& freed : improvement.freed) text += "," + csv_cell(freed);
   text += "\n";
   for (std::size_t k = 0; k < improvement.trials.size(); ++k) {

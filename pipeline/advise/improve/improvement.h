@@ -16,33 +16,18 @@
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/advise/search/search.h"
+#include "pipeline/base/words.h"
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {
 
 enum class SearchMethod { surrogate, random };
-constexpr std::string_view word(SearchMethod value) {
-  switch (value) {
-    case SearchMethod::surrogate:
-      return "surrogate";
-    case SearchMethod::random:
-      return "random";
-  }
-  return {};
-}
+constexpr std::string_view word(SearchMethod value) { return word_at({"surrogate", "random"}, value); }
 
 /// What else is to be small, besides that the life is to be long.
 enum class SecondAim { none, hose_length, cycle_time };
 constexpr std::string_view word(SecondAim value) {
-  switch (value) {
-    case SecondAim::none:
-      return "none";
-    case SecondAim::hose_length:
-      return "hose_length";
-    case SecondAim::cycle_time:
-      return "cycle_time";
-  }
-  return {};
+  return word_at({"none", "hose_length", "cycle_time"}, value);
 }
 
 struct ImproveRequest {
@@ -98,10 +83,6 @@ Improvement improve(const ImproveRequest& request, const StudyPlaces& places, co
 /// The study's jobs with changes, named PREFIX, or PREFIX_JOB of several.
 std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vector<std::string>& sets,
                                    const std::string& prefix);
-
-/// The same without draws over what is not known, which are for the few that are told at length.
-std::vector<StudyJob> trial_jobs(const ImproveRequest& request, std::vector<std::string> sets,
-                                 const std::string& prefix);
 
 /// improve.csv: a row per trial: number, feasible, life of the worst job, what is passed, and the value of
 /// each free key.

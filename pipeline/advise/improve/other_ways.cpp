@@ -52,13 +52,6 @@ void add_lines(std::vector<Line>& lines, const std::vector<MotionStep>& steps, c
   }
 }
 
-/// Other joint angles for those of a target; absent: there are none.
-using Turn = std::function<std::optional<std::vector<double>>(const std::vector<double>&)>;
-struct NamedTurn {
-  std::string name;
-  Turn turn;
-};
-
 bool within_limits(const Robot& robot, const std::vector<double>& joints) {
   for (std::size_t k = 0; k < joints.size(); ++k)
     if (joints[k] < robot.joints[k].lower || joints[k] > robot.joints[k].upper) return false;
@@ -103,11 +96,11 @@ std::string joints_set(const Line& line, const std::vector<double>& joints) {
 }
 
 /// Absent: a line has no such way.
-std::optional<std::vector<std::string>> turned(const std::vector<Line>& lines, const Turn& turn) {
+std::optional<std::vector<std::string>> turned(const std::vector<Line>& lines, const NamedTurn& named) {
   std::vector<std::string> sets;
   for (const Line& line : lines) {
     if (line.step->joints.size() != 6) continue;
-    const std::optional<std::vector<double>> joints = turn(line.step->joints);
+    const std::optional<std::vector<double>> joints = named.turn(line.step->joints);
     if (!joints) return std::nullopt;
     sets.push_back(joints_set(line, *joints));
   }
@@ -166,6 +159,13 @@ std::vector<double> cost_of_moves(const std::vector<Line>& lines, const std::vec
 
 }  // namespace
 
+std::vector<NamedTurn> other_turns(const Robot& robot) {
+  if (!has_wrist(robot)) return {};
+  std::vector<NamedTurn> turns = turns_of_wrist(robot);
+  for (NamedTurn& turn : configurations_of_arm(robot)) turns.push_back(std::move(turn));
+  return turns;
+}
+
 std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage,
                                  std::size_t most_lines) {
   std::vector<Line> lines;
@@ -178,18 +178,14 @@ std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line
   std::iota(costly.begin(), costly.end(), 0);
   std::stable_sort(costly.begin(), costly.end(), [&](auto a, auto b) { return cost[a] > cost[b]; });
   std::vector<OtherWay> ways;
-  std::vector<NamedTurn> turns;
-  if (has_wrist(job.robot)) {
-    turns = turns_of_wrist(job.robot);
-    for (NamedTurn& turn : configurations_of_arm(job.robot)) turns.push_back(std::move(turn));
-  }
+  const std::vector<NamedTurn> turns = other_turns(job.robot);
   for (const NamedTurn& turn : turns)
-    if (const auto sets = turned(lines, turn.turn)) ways.push_back({turn.name, {}, *sets});
+    if (const auto sets = turned(lines, turn)) ways.push_back({turn.name, {}, *sets});
   for (std::size_t k = 0; k < std::min(costly.size(), most_lines); ++k) {
     const Line& line = lines[costly[k]];
     if (!(cost[costly[k]] > 0)) break;
     for (const NamedTurn& turn : turns)
-      if (const auto sets = turned({line}, turn.turn)) ways.push_back({turn.name, {line.name}, *sets});
+      if (const auto sets = turned({line}, turn)) ways.push_back({turn.name, {line.name}, *sets});
     for (OtherWay& way : by_a_point(job.robot, line)) ways.push_back(std::move(way));
     for (const double factor : {0.7, 0.5})
       if (const auto set = slower(job, line, factor))

@@ -12,9 +12,12 @@
 // programs of steps with joint targets only: targets of the tool take the nearest turn.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "pipeline/job/robot.h"
 #include "pipeline/resolve/job_text.h"
 
 namespace dresslife::pipeline {
@@ -24,6 +27,15 @@ struct OtherWay {
   std::vector<std::string> lines;  ///< "hard.yaml:13 'round: gun out to the left'"; empty: all
   std::vector<std::string> sets;   ///< "motion.steps.2.steps.1.joints_deg=[...]"
 };
+
+/// Other joint angles for those of a target [rad]; absent: there are none within the axes' limits.
+struct NamedTurn {
+  std::string name;
+  std::function<std::optional<std::vector<double>>(const std::vector<double>&)> turn;
+};
+
+/// The turns of wrist and arm above, of a robot that must outlive them; empty: its wrist is another.
+std::vector<NamedTurn> other_turns(const Robot& robot);
 
 /// line_damage: (line) what each costs, as read_life() tells; what a dwell costs counts to the move before.
 /// most_lines: of those that cost most. Targets beyond the axes' limits are left out. Errors: InputError for

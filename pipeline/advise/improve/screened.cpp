@@ -51,8 +51,8 @@ ScreenedList read_screening(const std::filesystem::path& path) {
 ScreenedList screening_of(const Job& job, const std::string& candidates, ScreenedBy by,
                           const std::filesystem::path& folder) {
   const std::filesystem::path draft = folder / "screened.yaml", list = folder / "candidates.yaml";
-  write_text_if_changed(draft, job_text(job), Sync::never);
-  write_text_if_changed(list, candidates, Sync::never);
+  write_text_if_changed(draft, with_mark(job_text(job), Mark::yaml), Sync::never);
+  write_text_if_changed(list, with_mark(candidates, Mark::yaml), Sync::never);
   const PassingFile told("screening.h5");
   std::vector<std::string> arguments{draft.string(), "--screen",           list.string(),
                                      "-o",           told.path().string(), "--quiet"};

@@ -9,6 +9,7 @@
 
 #include "pipeline/advise/improve/nudges.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -20,14 +21,14 @@ std::vector<ImprovementStory::Nudge> nudged(const Improvement& found, std::size_
   std::vector<ImprovementStory::Nudge> told;
   if (off == 0) return told;
   const std::vector<std::string>& sets = found.trials[trial].sets;
-  const std::vector<Nudge> nudges = nudges_of(trial_jobs(request, sets, "place"), off);
+  const std::vector<Nudge> nudges = nudges_of(changed_jobs(request, sets, "place"), off);
   Study study{found.name, {}, found.keep_trials};
   std::vector<std::vector<std::string>> jobs;
   for (std::size_t k = 0; k < nudges.size(); ++k) {
     std::vector<std::string> all = sets;
     all.insert(all.end(), nudges[k].sets.begin(), nudges[k].sets.end());
     jobs.emplace_back();
-    for (StudyJob& job : trial_jobs(request, all, fmt::format("off_{:02}", k + 1))) {
+    for (StudyJob& job : changed_jobs(request, all, fmt::format("off_{:02}", k + 1))) {
       jobs.back().push_back(job.name);
       study.jobs.push_back(std::move(job));
     }
@@ -49,8 +50,7 @@ ImprovementStory::Lives lives_of(const Finals& finals, const Final& of, const Ou
                                  const StudyPlaces& places) {
   ImprovementStory::Lives lives{"", outcome.feasible() ? "all kept" : outcome.words()};
   if (const RankingRow* row = finals.worst_row(of)) {
-    std::error_code failure;
-    if (std::filesystem::exists(places.job(row->job) / "page.html", failure))
+    if (kind_of(places.job(row->job) / "page.html") != FileKind::absent)
       lives.page = row->job + "/page.html";
     const std::array<double, 3> hours =
         row->planned() ? row->planned_hours : std::array{row->life_hours, row->life_hours, row->life_hours};
@@ -141,10 +141,14 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   const Final& best = *finals.best();
   text += fmt::format("Trial {} of {}: {}, all limits kept", best.trial, found.trials.size(),
                       hours_text(best.hours));
-  if (story.longer_in) text += fmt::format("; it lives longer in {:.0f} % of draws", 100 * *story.longer_in);
-  text += "\n" + change_lines(found.trials[best.trial]) + forgives_words(story.nudges, off);
+  if (story.longer_in) text += fmt::format("; it lives longer in {:.0f} of 100 samples", 100 * *story.longer_in);
+  text += "\n";
+  if (const RankingRow* const row = finals.worst_row(best))
+    for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row), hose_words(*row)})
+      text += words + (words.empty() ? "" : "\n");
+  text += change_lines(found.trials[best.trial]) + forgives_words(story.nudges, off);
   if (best.hours <= finals.of.front().hours && was.feasible())
-    text += "Nothing that was tried lives longer over all that is not known.\n";
+    text += "Nothing that was tried lives longer.\n";
   for (const std::string& job : best.jobs)
     text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
   return text;

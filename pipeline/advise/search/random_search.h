@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pipeline/advise/search/search.h"
-#include "pipeline/base/normal_numbers.h"
+#include "pipeline/base/random.h"
 
 namespace dresslife::pipeline {
 
@@ -17,7 +17,7 @@ class RandomSearch : public Search {
   Eigen::VectorXd drawn();
 
   Eigen::Index variables_;
-  NormalNumbers numbers_;
+  RandomNumbers numbers_;
   Screen screen_;
 };
 

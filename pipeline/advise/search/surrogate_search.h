@@ -8,7 +8,7 @@
 #include "pipeline/advise/search/look_models.h"
 #include "pipeline/advise/search/minimise.h"
 #include "pipeline/advise/search/search.h"
-#include "pipeline/base/normal_numbers.h"
+#include "pipeline/base/random.h"
 
 namespace dresslife::pipeline {
 
@@ -71,7 +71,7 @@ class SurrogateSearch : public Search {
   SurrogateSettings settings_;
   Screen screen_;
   Rehearse rehearse_;
-  NormalNumbers numbers_;
+  RandomNumbers numbers_;
   std::vector<Look> looks_;  // told
   std::vector<Look> rehearsals_;
   std::vector<Eigen::VectorXd> pending_;        // asked for, not yet told

@@ -1,5 +1,6 @@
 // The hot loops of loose cables for AVX-512.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#include "pipeline/base/instruction_set.h"
+#ifdef DRESSLIFE_WIDE_KERNELS
 #define DRESSLIFE_MACHINE avx512
 #define DRESSLIFE_MACHINE_KERNELS avx512_loose
 #define DRESSLIFE_MACHINE_NAME "avx512"

@@ -1,4 +1,4 @@
-// The hot loops of loose cables, for one instruction set: included by baseline.cpp, sse4.cpp, .. , each of
+// The hot loops of loose cables, for one instruction set: included by portable.cpp, avx2.cpp, .. , each of
 // which names it (pipeline/base/simd.h).
 //
 // The loops along a cable wait for one node before they go on to the next; two packs of cables at a time fill

@@ -8,13 +8,10 @@ namespace dresslife::strain {
 
 using pipeline::InstructionSet;
 
-namespace baseline_loose {
+namespace portable_loose {
 extern const LooseKernels set;
 }
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-namespace sse4_loose {
-extern const LooseKernels set;
-}
+#ifdef DRESSLIFE_WIDE_KERNELS
 namespace avx2_loose {
 extern const LooseKernels set;
 }
@@ -26,13 +23,12 @@ extern const LooseKernels set;
 namespace {
 
 const LooseKernels& kernels_for(InstructionSet instructions) {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#ifdef DRESSLIFE_WIDE_KERNELS
   if (instructions == InstructionSet::avx512) return avx512_loose::set;
   if (instructions == InstructionSet::avx2) return avx2_loose::set;
-  if (instructions == InstructionSet::sse4) return sse4_loose::set;
 #endif
-  assert(instructions == InstructionSet::baseline);
-  return baseline_loose::set;
+  assert(instructions == InstructionSet::portable);
+  return portable_loose::set;
 }
 
 }  // namespace

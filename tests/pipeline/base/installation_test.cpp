@@ -1,9 +1,9 @@
 #include "pipeline/base/installation.h"
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
 
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
@@ -78,7 +78,7 @@ TEST_CASE("installation: a DRESSLIFE_CONFIG that is no folder is refused, and do
 TEST_CASE("installation: the version comes first, then what the program was built from") {
   const std::string text = version_text("dresslife-sample");
   CHECK(text.rfind(std::string("dresslife-sample ") + version() + "\n", 0) == 0);
-  for (const char* fact : {"\nbuilt as ", "\nthis machine runs the hot loops with: baseline",
+  for (const char* fact : {"\nbuilt as ", "\nthis machine runs the hot loops with: portable",
                            "\nlibraries: ODE 0.", "Eigen 3.", "HDF5 1.", "\ncatalogue: "})
     CHECK(text.find(fact) != std::string::npos);
 }

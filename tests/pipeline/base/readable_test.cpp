@@ -1,8 +1,9 @@
 // Numbers and texts as people read them.
 #include "pipeline/base/readable.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
+
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 

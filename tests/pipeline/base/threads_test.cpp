@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/base/errors.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

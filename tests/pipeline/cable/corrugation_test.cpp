@@ -1,9 +1,10 @@
 // The strain of a corrugated wall: closed forms, the makers' formula, and a beam integrated numerically.
 #include "pipeline/cable/corrugation.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "tests/catch.h"
 
 using namespace dresslife;
 using namespace dresslife::pipeline;

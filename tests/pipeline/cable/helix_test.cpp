@@ -1,9 +1,9 @@
 #include "pipeline/cable/helix.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 
+#include "tests/catch.h"
 #include "tests/pipeline/cable/space_curve.h"
 
 using namespace dresslife::helices;

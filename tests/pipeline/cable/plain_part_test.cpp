@@ -1,7 +1,6 @@
 // Parts without wires: a tube's closed forms, what they add to a hose, and what is refused.
 #include "pipeline/job/plain_part.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -10,10 +9,11 @@
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 
 using namespace dresslife::pipeline;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
@@ -103,13 +103,13 @@ TEST_CASE("the middle of a hose is told once: by the core's keys or by a compone
   const std::string middle = with("{name: x, radius_mm: 6, helix_radius_mm: 0, without_wires: {kind: hose}}");
   CHECK_THAT(refusal({free_cables, hose, middle}), Contains("nothing refused"));
   CHECK_THAT(refusal({free_cables, hose, middle, "dresspack.core_diameter_mm=12"}),
-             Contains("'x' lies in the middle, and the keys core_.. tell of something that does too"));
+             Contains("'x' lies in the middle, and the keys core_.. describe something else that does"));
   CHECK_THAT(refusal({free_cables, hose, middle, "dresspack.core_bending_stiffness_Nm2=2"}),
-             Contains("leave them out"));
+             Contains("leave out the keys core_.."));
   const std::string beside =
       with("{name: x, radius_mm: 4, helix_radius_mm: 10, without_wires: {kind: filler}}");
   CHECK_THAT(refusal({free_cables, hose, beside, "dresspack.core_diameter_mm=12"}),
              Contains("nothing refused"));
   CHECK_THAT(refusal({free_cables, hose, beside, "dresspack.core_diameter_mm=14"}),
-             Contains("'x' begins 6 mm from the axis (core_diameter_mm is 14)"));
+             Contains("'x' begins 6 mm from the axis, 1 mm inside the core (core_diameter_mm is 14)"));
 }

@@ -1,9 +1,9 @@
 // What a receipt tells of a motion's checks.
 #include "pipeline/files/checks.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
+#include "tests/catch.h"
 #include "tests/pipeline/files/still_motion.h"
 #include "tests/pipeline/scratch.h"
 

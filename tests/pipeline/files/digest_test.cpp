@@ -1,7 +1,6 @@
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
 
-#include <catch2/catch.hpp>
-
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
@@ -32,9 +31,9 @@ TEST_CASE("digest: a file's is that of its bytes, also beyond one block") {
 TEST_CASE("digest: what cannot be read has none") {
   const Scratch scratch;
   CHECK(message_of([&] { sha256_of_file(scratch / "absent"); }) ==
-        (scratch / "absent").string() + ": error: cannot be read; check the path");
+        (scratch / "absent").string() + ": error: cannot be read (No such file or directory); check the path");
   CHECK(message_of([&] { sha256_of_file(scratch / "."); }) ==
-        (scratch / ".").string() + ": error: cannot be read; check the path");
+        (scratch / ".").string() + ": error: is a folder, not a file; name a file");
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "pipeline/files/files.h"
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "tests/catch.h"
 #include "tests/pipeline/files/library.h"
 #include "tests/pipeline/scratch.h"
 
@@ -409,7 +409,7 @@ TEST_CASE("files: what is absent, foreign or cut off is refused in one line with
         (scratch / "absent.h5").string() +
             ": error: is not there; check the path, or make it with dresslife-maker");
   CHECK(error(scratch / ".") ==
-        (scratch / ".").string() + ": error: is not there; check the path, or make it with dresslife-maker");
+        (scratch / ".").string() + ": error: is a folder, not a file; name a file");
   const std::string remedy = "; make the file anew with dresslife-maker";
   const fs::path text = scratch.write("text.h5", "time,strain\n0,1\n");
   CHECK(error(text) == text.string() + ": error: is not an HDF5 file, or is cut off" + remedy);

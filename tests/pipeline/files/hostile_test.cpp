@@ -2,7 +2,6 @@
 // file is read.
 #include <hdf5.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -10,6 +9,7 @@
 
 #include "pipeline/files/files.h"
 #include "pipeline/files/list_deflate.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;

@@ -3,10 +3,11 @@
 
 #include <hdf5.h>
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 

@@ -1,10 +1,10 @@
 #include "pipeline/files/list_deflate.h"
 
-#include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/pipeline/files/library.h"
 #include "tests/pipeline/scratch.h"
 

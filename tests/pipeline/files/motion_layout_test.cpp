@@ -1,8 +1,7 @@
 // Which segments and clamps of a motion file belong to which span and dresspack.
 #include "pipeline/files/motion_layout.h"
 
-#include <catch2/catch.hpp>
-
+#include "tests/catch.h"
 #include "tests/pipeline/files/still_motion.h"
 #include "tests/pipeline/scratch.h"
 

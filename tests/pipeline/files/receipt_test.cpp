@@ -2,9 +2,8 @@
 // else worked out.
 #include "pipeline/files/receipt.h"
 
-#include <catch2/catch.hpp>
-
-#include "pipeline/files/digest.h"
+#include "pipeline/base/digest.h"
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 namespace fs = std::filesystem;

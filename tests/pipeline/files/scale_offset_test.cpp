@@ -1,9 +1,10 @@
 #include "pipeline/files/scale_offset.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -1,7 +1,6 @@
 #include "pipeline/job/cluster.h"
 
-#include <catch2/catch.hpp>
-
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

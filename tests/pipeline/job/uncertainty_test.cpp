@@ -1,11 +1,11 @@
 #include "pipeline/job/uncertainty.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

@@ -1,7 +1,6 @@
 #include "pipeline/report/job_page.h"
 
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -14,6 +13,7 @@
 #include "pipeline/report/scene_data.h"
 #include "pipeline/report/simple_mesh.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 
@@ -23,11 +23,20 @@ namespace {
 constexpr std::size_t most_bytes = 5'000'000;  // of a page of three minutes
 
 TEST_CASE("json: texts stay inside their element, numbers read back") {
-  CHECK(json("a\"b\\c\n</script>&") == R"("a\"b\\c\u000a\u003c/script\u003e\u0026")");
-  CHECK(json(0.1) == "0.1");
-  CHECK(std::stod(json(1.0 / 3)) == 1.0 / 3);
-  CHECK(json(std::numeric_limits<double>::infinity()) == "null");
-  CHECK(json(std::vector<double>{1, 2.5}) == "[1,2.5]");
+  CHECK(Json("a\"b\\c\n</script>&").text == R"("a\"b\\c\u000a\u003c/script\u003e\u0026")");
+  CHECK(Json(0.1).text == "0.1");
+  CHECK(std::stod(Json(1.0 / 3).text) == 1.0 / 3);
+  CHECK(Json(std::numeric_limits<double>::infinity()).text == "null");
+  CHECK(Json(std::vector<double>{1, 2.5}).text == "[1,2.5]");
+}
+
+TEST_CASE("json: objects hold values of all kinds, and grow") {
+  CHECK(Json({}).text == "{}");
+  const Json inner{{"a", 1}, {"b", "x"}};
+  CHECK(inner.text == R"({"a":1,"b":"x"})");
+  CHECK(Json({}).add("c", inner).add("d", false).text == R"({"c":{"a":1,"b":"x"},"d":false})");
+  CHECK(Json{{"e", std::vector<Json>{inner, 2}}}.add(inner).add(Json({})).text ==
+        R"({"e":[{"a":1,"b":"x"},2],"a":1,"b":"x"})");
 }
 
 TEST_CASE("json: base64 as RFC 4648 has it") {
@@ -135,7 +144,7 @@ TEST_CASE("scene data: shapes in their frames, and a mesh that is lost is told")
   link.meshes.push_back({scratch / "gun.obj", 1e-3, Vector3d::Zero(), Vector3d::Zero()});
   setup.robot.links = {link};
   std::vector<std::string> notes;
-  std::string text = scene_data(setup, notes);
+  const std::string text = scene_data(setup, notes).text;
   CHECK(notes.empty());
   CHECK(text.find("</script>") == std::string::npos);
   CHECK(text.find(R"("kind":"capsule","from":[0,0,0],"to":[0,0,1],"radius":0.2)") != std::string::npos);
@@ -145,7 +154,7 @@ TEST_CASE("scene data: shapes in their frames, and a mesh that is lost is told")
   CHECK(text.find(R"("low":0,"step":1.5259021896696422e-05,"triangles":"AAAAAAAA//8AAAAAAAAAgAAA")") !=
         std::string::npos);
   std::filesystem::remove(scratch / "gun.obj");
-  text = scene_data(setup, notes);
+  scene_data(setup, notes);
   REQUIRE(notes.size() == 1);
   CHECK(notes[0].find("gun.obj: error: cannot be read") != std::string::npos);
 }
@@ -161,7 +170,8 @@ TEST_CASE("job page: a life alone makes a page, whatever its names are") {
   const JobFolder files{"</title><b>job & \"co\"", folder};
   const std::string page = job_page(files);
   CHECK(page.size() < most_bytes);
-  CHECK(page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">\n<!-- dresslife page made from "));
+  CHECK(page.starts_with("<!DOCTYPE html>\n<!-- Written by dresslife; "));
+  CHECK(page.find(" -->\n<html lang=\"en\">\n<!-- dresslife page made from ") != std::string::npos);
   for (const char* hostile : {"<img", "onerror=alert(1)>", "<script>alert", "</title><b>", "<!--<script>"}) {
     INFO(hostile);
     CHECK(page.find(hostile) == std::string::npos);

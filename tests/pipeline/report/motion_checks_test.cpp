@@ -1,9 +1,9 @@
 #include "pipeline/report/motion_checks.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

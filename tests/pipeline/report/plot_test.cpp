@@ -1,11 +1,12 @@
 #include "pipeline/report/plot.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <utility>
 #include <vector>
+
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -132,7 +133,7 @@ TEST_CASE("plot: a thinned history keeps every extreme within its column") {
 TEST_CASE("plot: text is harmless in a page") {
   CHECK(escaped("<a href=\"x\">R&D's</a>") == "&lt;a href=&quot;x&quot;&gt;R&amp;D&#39;s&lt;/a&gt;");
   CHECK(escaped("Käfig 5 µm") == "Käfig 5 µm");
-  CHECK(escaped(std::string("a\0b\x1b", 4)) == "a b ");
+  CHECK(escaped(std::string("a\0b\x1b", 4)) == "a\\x00b\\x1b");
 }
 
 TEST_CASE("plot: numbers are printed with powers of ten") {

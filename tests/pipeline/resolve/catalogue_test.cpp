@@ -1,11 +1,11 @@
 // Names of the catalogue, `from: NAME`, and --set.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
 #include <numbers>
 
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

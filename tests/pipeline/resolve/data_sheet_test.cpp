@@ -1,6 +1,6 @@
 #include "pipeline/resolve/data_sheet.h"
 
-#include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -10,6 +10,7 @@
 #include "pipeline/cable/overlap.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/settings/fields.h"
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 
@@ -173,10 +174,58 @@ TEST_CASE("a sheet's line is what its keys are") {
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, wires 0.1 mm"),
              Catch::Contains("tells wire_diameter_mm a second time"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"),
-             Catch::Contains("outer_diameter_mm is missing"));
+             Catch::Contains("data_sheet has no outer_diameter_mm; give it, or conductor_class"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 1.2.3 mm, jacket 1 mm"), Catch::Contains("sheet:1:1: error: "));
   CHECK_THAT(refusal("7 x 0.5 mm2, "),
-             Catch::Contains("'' of a data sheet is not understood") || Catch::Contains("missing"));
+             Catch::Contains("neither wire_diameter_mm nor conductor_class"));
+}
+
+TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the source says so") {
+  struct Strand {
+    int conductor_class;
+    double section;
+    int wires;
+    double wire;  // [mm]
+  };
+  // As makers list their strands by IEC 60228 (and VDE 0812 below 0.5 mm2).
+  const Strand strands[] = {{5, 0.5, 16, 0.20},  {5, 0.75, 24, 0.20}, {5, 1, 32, 0.20},    {5, 1.5, 30, 0.25}, {5, 2.5, 50, 0.25},
+                            {5, 4, 56, 0.30},    {5, 6, 84, 0.30},    {5, 10, 80, 0.40},   {5, 16, 128, 0.40}, {5, 25, 200, 0.40},
+                            {6, 0.14, 18, 0.10}, {6, 0.5, 28, 0.15},  {6, 0.75, 42, 0.15}, {6, 1, 56, 0.15},   {6, 1.5, 84, 0.15},
+                            {6, 2.5, 140, 0.15}, {6, 4, 224, 0.15},   {6, 6, 192, 0.20},   {6, 10, 320, 0.20}};
+  for (const Strand& strand : strands) {
+    CAPTURE(strand.conductor_class, strand.section);
+    const Component cable = cable_of(fmt::format("cores: 3, cross_section_mm2: {}, conductor_class: {}", strand.section,
+                                                 strand.conductor_class));
+    const Component& wires = cable.components[0].components[0];
+    CHECK(wires.radius == Approx(strand.wire / 2e3));
+    int count = 0;
+    for (const Component& layer : cable.components[0].components) count += layer.count;
+    CHECK(count == Approx(strand.wires).epsilon(0.03).margin(1));  // makers round to what their machines strand
+  }
+  // From the inside outwards: H05VV5-F 3 x 1.5 has cores of 3.1 mm (1.7 and 2 x 0.7) and is some 8.2 .. 9.3 mm wide.
+  const Component control = cable_of("cores: 3, cross_section_mm2: 1.5, conductor_class: 5");
+  CHECK(2e3 * control.components[0].radius == Approx(3.1).epsilon(0.05));
+  CHECK(2e3 * control.radius == Approx(8.8).epsilon(0.07));
+  // From the outside inwards: the jacket of the shipped control cable is 1.1 mm.
+  const Component known = cable_of("cores: 7, cross_section_mm2: 0.5, conductor_class: 6, outer_diameter_mm: 8.2");
+  CHECK(1e3 * (known.radius - known.components[0].helix_radius - known.components[0].radius) == Approx(1.2).epsilon(0.05));
+
+  Node dresspack = parse_yaml(
+      "name: p\nsource: mine\ncomponents:\n  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, class 6'}\n"
+      "  - {name: other, helix_radius_mm: 9, data_sheet: {" + seven + "}}\n",
+      "pack.yaml");
+  expand_data_sheets(dresspack);
+  const std::string& source = dresspack.find("source")->text;
+  CHECK_THAT(source, Catch::StartsWith("mine ESTIMATE by rules: lead wire 0.15 mm, core ") &&
+                         Catch::Contains("jacket ") && Catch::Contains("outer diameter ") && !Catch::Contains("other"));
+  CHECK_THAT(refusal_of("cores: 3, cross_section_mm2: 0.5, conductor_class: 2, outer_diameter_mm: 8"),
+             Catch::Contains("classes 1 to 4 of IEC 60228 are for cables that lie still"));
+  CHECK_THAT(refusal_of("cores: 3, cross_section_mm2: 0.5, conductor_class: 7"), Catch::Contains("conductor_class is 7"));
+  CHECK_THAT(refusal_of("cores: 1, cross_section_mm2: 400, conductor_class: 6"), Catch::Contains("no conductor of class 6 so large"));
+  CHECK_THAT(refusal_of("cores: 3, cross_section_mm2: 0.5, conductor_class: 6, wire_diameter_mm: 0.2, outer_diameter_mm: 8"),
+             Catch::Contains("class 6 has wires of 0.16 mm at most at 0.5 mm2"));
+  CHECK_THAT(refusal_of("cores: 3, cross_section_mm2: 0.5, outer_diameter_mm: 8, jacket_thickness_mm: 1"),
+             Catch::Contains("neither wire_diameter_mm nor conductor_class"));
 }
 
 TEST_CASE("sheets that cannot be are refused with what does not fit") {

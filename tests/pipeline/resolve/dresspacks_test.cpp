@@ -1,9 +1,9 @@
 // A job with a list of dresspacks: read, checked, changed and written out.
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

@@ -1,8 +1,8 @@
 // How cables are laid into a hose: what is loose by itself, and what is refused.
-#include <catch2/catch.hpp>
 
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 
 using namespace dresslife::pipeline;

@@ -2,9 +2,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <catch2/catch.hpp>
 #include <random>
 
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

@@ -1,9 +1,8 @@
 #include "pipeline/settings/problems.h"
 
-#include <catch2/catch.hpp>
-
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -11,6 +10,7 @@
 #include <random>
 
 #include "pipeline/base/readable.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -1,8 +1,7 @@
 #include "pipeline/study/changes.h"
 
-#include <catch2/catch.hpp>
-
 #include "pipeline/settings/document.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

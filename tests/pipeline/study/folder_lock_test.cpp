@@ -2,9 +2,8 @@
 
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
-
 #include "pipeline/settings/document.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

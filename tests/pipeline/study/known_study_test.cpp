@@ -1,10 +1,10 @@
 // What is remembered of a study, and by what it is forgotten.
 #include "pipeline/study/known_study.h"
 
-#include <catch2/catch.hpp>
 #include <functional>
 
 #include "pipeline/study/ranking.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 

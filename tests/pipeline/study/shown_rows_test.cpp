@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
+
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -29,6 +30,7 @@ TEST_CASE("shown rows: a short ranking is shown whole") {
 
 TEST_CASE("shown rows: of a long ranking the best, the worst, the failed and the warned of") {
   std::vector<RankingRow> rows = ranking(1900, 100);
+  for (std::size_t k = 0; k < 1900; ++k) rows[k].rank = k + 1;
   for (std::size_t k = 500; k < 550; ++k) rows[k].largest_force_share = 3;  // of what a cable bears
   const ShownRows shown = shown_rows(rows);
   std::vector<std::size_t> wanted{0, 1, 2};

@@ -19,6 +19,22 @@ namespace {
 
 constexpr double deepest = 1e-3;  // [m] at steps of 5 ms: less than the wall of a real hose gives
 
+// The twelve triangles of a box centred on `frame`.
+std::vector<Triangle> box_triangles(const Frame& frame, const Vector3& sides) {
+  const auto corner = [&](int k) {
+    const Vector3 sign(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    return frame.point(0.5 * sign.cwiseProduct(sides));
+  };
+  constexpr int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                               {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  std::vector<Triangle> triangles;
+  for (const auto& f : faces) {
+    triangles.push_back({corner(f[0]), corner(f[1]), corner(f[2])});
+    triangles.push_back({corner(f[0]), corner(f[2]), corner(f[3])});
+  }
+  return triangles;
+}
+
 // A cylinder along y, of n faces whose planes are at `radius` in the mean.
 std::vector<Triangle> cylinder(double radius, double half, int n) {
   std::vector<Triangle> triangles;

@@ -1,9 +1,8 @@
 // Rubbing work and largest forces against the work that a dragged block does.
 #include "sim/contact/touch.h"
 
-#include <catch2/catch.hpp>
-
 #include "sim/contact/world.h"
+#include "tests/catch.h"
 #include "tests/sim/rod/rod_problems.h"
 
 using namespace dresslife::sim;

@@ -1,7 +1,6 @@
 #include "sim/program/encoding.h"
 
-#include <catch2/catch.hpp>
-
+#include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife::sim;

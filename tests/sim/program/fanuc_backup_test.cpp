@@ -2,11 +2,11 @@
 
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <fstream>
 
 #include "pipeline/job/motion.h"
 #include "sim/program/backup.h"
+#include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;

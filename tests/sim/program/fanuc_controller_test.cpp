@@ -1,7 +1,7 @@
 // What a Fanuc controller does with listings as they lie on it, each with its reason.
-#include <catch2/catch.hpp>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
@@ -161,9 +161,9 @@ TEST_CASE("fanuc lines: German listings are the same program") {
 TEST_CASE("fanuc positions: what is not taught matters only where a move needs it") {
   CHECK(stops(run("   1:J P[1] 100% FINE ;\n")) == std::vector<int>{1});
   const Reading untaught = run("   1:J P[5] 100% FINE ;\n   2:J P[5] 10% FINE ;\n   3:J P[9] 5% FINE ;\n");
-  REQUIRE(untaught.problems.size() == 2);  // one for each position
+  REQUIRE(untaught.problems.size() == 4);  // one for each position, and the frames that a pose would need
   CHECK(untaught.problems[0].what == "moves to P[5], which is not taught");
-  CHECK(untaught.problems[1].what == "moves to P[9], which is not listed");
+  CHECK(untaught.problems[3].what == "moves to P[9], which is not listed");
   // Only a positioner turns.
   const Reading positioner = run("   1:J P[1] 100% FINE ;\n   2:J P[6] 100% FINE ;\n");
   CHECK(stops(positioner) == std::vector<int>{1});
@@ -200,13 +200,15 @@ TEST_CASE("fanuc values: KAREL programs and macros may write registers") {
           "ENDFOR ;\n");
   REQUIRE(asked.problems.size() == 1);
   CHECK(asked.problem() ==
-        "cell.ls:6:6: error: counts by R[1], which is known only while the robot runs; give it with --value "
-        "'R[1]=...' (motion.values), or numreg.va of the backup");
-  const Reading told =
-      run("   1:  R[1]=3 ;\n   2:  CALL GETCOUNT(1) ;\n   3:  FOR R[2]=1 TO R[1] ;\n   4:J P[1] 100% FINE "
-          ";\n   5:  ENDFOR ;\n",
-          {.values = {{"R[1]", "2"}}});
-  CHECK(stops(told) == std::vector<int>{1, 1});
+        "cell.ls:6:6: error: counts by a register behind CALL GETCOUNT, which is known only while the robot runs; give it "
+        "with --value 'CALL GETCOUNT=...' (motion.values)");
+  for (const auto& [answer, moves] : {std::pair{"R[1]=2", 2}, {"nothing", 3}}) {
+    const Reading told =
+        run("   1:  R[1]=3 ;\n   2:  CALL GETCOUNT(1) ;\n   3:  FOR R[2]=1 TO R[1] ;\n   4:J P[1] 100% FINE "
+            ";\n   5:  ENDFOR ;\n",
+            {.values = {{"CALL GETCOUNT", answer}}});
+    CHECK(stops(told) == std::vector<int>(static_cast<std::size_t>(moves), 1));
+  }
   CHECK(run("   1:  R[1]=30 ;\n   2:  OPEN GRIPPER ;\n   3:J P[1] R[1]% FINE ;\n").problems.size() == 1);
   CHECK(run("   1:  R[1]=30 ;\n   2:  DO[1]=ON ;\n   3:J P[1] R[1]% FINE ;\n").problems.empty());
 }
@@ -291,7 +293,7 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
   // What the arms may write is unknown behind them.
   CHECK(
       run("   1:  R[5]=20 ;\n   2:  IF (DI[9])R[5]=(1) ;\n   3:J P[1] R[5]% FINE ;\n").problems.at(0).what ==
-      "has a speed by R[5], which is known only while the robot runs");
+      "has a speed by DI[9], which is known only while the robot runs");
 
   // A called program without moves, whose jumps hang on arguments, ends one way or the other.
   const std::string told =
@@ -304,7 +306,7 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
   CHECK(text.problem() == "no such problem");
   CHECK(stops(text) == std::vector<int>{1, 2});
   CHECK_THAT(run(main + "R[5]% FINE ;\n", {}, {{"text.ls", listing("TEXT", told)}}).problem(),
-             Catch::Contains("has a speed by R[5]"));
+             Catch::Contains("has a speed by SO[4]"));
   for (const char* more : {"   8:J P[1] 50% FINE ;\n", "   8:  ABORT ;\n", "   8:  WAIT   2.00(sec) ;\n"})
     CHECK_THAT(run(main + "20% FINE ;\n", {}, {{"text.ls", listing("TEXT", told + more)}}).problem(),
                Catch::Contains("SO[4], which is known only while the robot runs") ||
@@ -321,7 +323,7 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
   REQUIRE(asked.problems.size() == 1);
   CHECK(asked.problem() ==
         "cell.ls:5:6: error: selects by R[1], which is known only while the robot runs; choose with --assume "
-        "cell.ls:5=VALUE (1, 2, else; motion.assume in a job)");
+        "cell.ls:5=VALUE (1, 2, else) (motion.assume in a job), or give --value 'R[1]=...'");
   CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "1"}}})) == std::vector<int>{1, 2});
   CHECK(stops(run(choice, {.choose = {{"5", "2"}}})) == std::vector<int>{1, 1});
   CHECK(stops(run(choice, {.assume = {{"cell.ls:5", Assumption::else_branch}}})) == std::vector<int>{1});

@@ -1,6 +1,7 @@
-#include <catch2/catch.hpp>
+#include <algorithm>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
@@ -90,12 +91,12 @@ TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
   const Reading r =
       run(" 1: IF DI[3]=ON,JMP LBL[1] ;\n 2:J P[1] R[9]% FINE ;\n 3: LBL[1] ;\n 4: UTOOL_NUM=2 ;\n 5: CALL "
           "OTHER ;\n 6: DO[1]=ON ;\n 7:J P[7] 5% FINE ;\n");
-  REQUIRE(r.problems.size() == 3);
+  REQUIRE(r.problems.size() == 5);  // with the frames that P[7] would need
   CHECK(r.problem(0) ==
         "cell.ls:5:4: error: branches on DI[3], which is known only while the robot runs; choose with "
         "--assume cell.ls:5=then or =else (motion.assume in a job), or give --value 'DI[3]=...'");
-  CHECK(r.problems[1].what == "has a speed by R[9], which is known only while the robot runs");
-  CHECK(r.problems[2].what == "moves to P[7], which is not listed");
+  for (const char* what : {"has a speed by R[9], which is known only while the robot runs", "moves to P[7], which is not listed"})
+    CHECK(std::any_of(r.problems.begin(), r.problems.end(), [&](const Problem& problem) { return problem.what == what; }));
   REQUIRE(r.program.skipped.size() == 2);
   CHECK(r.program.skipped[0].may_move);
   CHECK_FALSE(r.program.skipped[1].may_move);

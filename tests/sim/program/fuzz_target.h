@@ -23,6 +23,10 @@ inline const char* name_of(sim::Language language) {
       return "p.src";
     case sim::Language::fanuc:
       return "p.ls";
+    case sim::Language::inform:
+      return "p.jbi";
+    case sim::Language::urscript:
+      return "p.script";
     case sim::Language::joint_columns:
       return "p.csv";
     case sim::Language::ros_trajectory:
@@ -36,7 +40,12 @@ inline std::string fault_of_reading(sim::Language language, const std::string& t
   std::deque<sim::SourceFile> files;
   files.emplace_back(name_of(language), text);
   if (language == sim::Language::fanuc) files.emplace_back("p.va", text);  // also as the backup's variables
+  if (language == sim::Language::inform) {  // likewise
+    files.emplace_back("p.cnd", text);
+    files.emplace_back("var.dat", text);
+  }
   sim::ImportOptions options;
+  if (language == sim::Language::inform) options.values["pulses_per_degree"] = "[1,2,3,4,5,6]";
   options.assume["3"] = sim::Assumption::then_branch;
   sim::Problems problems;
   const sim::Program program = sim::read_program(language, std::move(files), options, {}, {}, problems);

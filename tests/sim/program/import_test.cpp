@@ -1,8 +1,9 @@
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 
 #include "pipeline/job/motion.h"
+#include "pipeline/settings/fields.h"
+#include "tests/catch.h"
 #include "tests/sim/program/fuzz_target.h"
 #include "tests/sim/program/reading.h"
 #include "tests/sim/program/samples.h"
@@ -50,14 +51,24 @@ std::string mutated(const std::string& seed, std::mt19937& random) {
 
 }  // namespace
 
+namespace {
+
+std::string sample(Language language) {
+  for (const auto& [of, text] : samples())
+    if (of == language) return text;
+  return "";
+}
+
+}  // namespace
+
 TEST_CASE("import: joint columns and ROS trajectories") {
-  const Reading columns = Reader{Language::joint_columns}({{"j.csv", samples()[3].second}});
+  const Reading columns = Reader{Language::joint_columns}({{"j.csv", sample(Language::joint_columns)}});
   REQUIRE(columns.problems.empty());
   REQUIRE(columns.program.instructions.size() == 3);
   CHECK(columns.move(1).target.joints[0] == Approx(1.5 * std::numbers::pi / 180).epsilon(rounding));
   CHECK(columns.move(1).speed.duration.value() == 0.5);
   CHECK(columns.move(2).where.line == 5);
-  const Reading ros = Reader{Language::ros_trajectory}({{"j.json", samples()[4].second}});
+  const Reading ros = Reader{Language::ros_trajectory}({{"j.json", sample(Language::ros_trajectory)}});
   REQUIRE(ros.problems.empty());
   REQUIRE(ros.program.instructions.size() == 2);
   CHECK(ros.move(1).target.joints[0] == 0.5);
@@ -84,6 +95,44 @@ TEST_CASE("import: a program becomes a motion that reads back as it was written"
   const std::string text = pipeline::motion_text(motion);
   const pipeline::Motion again = pipeline::motion_from(pipeline::parse_yaml(text, "again.yaml"));
   CHECK(pipeline::motion_text(again) == text);
+}
+
+TEST_CASE("import: waits before the first move are kept, where the robot stands then") {
+  const std::string target = "[[10,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
+  const Reading reading = Reader{Language::rapid}(
+      {{"m.mod", "MODULE m\nPROC main()\nWaitTime 3;\nWaitTime 4;\nMoveAbsJ " + target + "WaitTime 2;\nMoveAbsJ " + target +
+                     "ENDPROC\nENDMODULE\n"}});
+  const pipeline::Motion motion = motion_of(reading.program, {});
+  REQUIRE(motion.steps.size() == 5);
+  CHECK(motion.steps[0].is_move());
+  double waits = 0;
+  for (const pipeline::MotionStep& step : motion.steps) waits += step.dwell;
+  CHECK(waits == 9);
+  CHECK(motion.steps[1].dwell == 3);
+  CHECK(motion.steps[2].dwell == 4);
+}
+
+TEST_CASE("import: external axes that move are named with the entry that a job's robot needs") {
+  const auto module = [](double to) {
+    return fmt::format(
+        "MODULE m\nPROC main()\nMoveAbsJ [[0,0,0,0,30,0],[0,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nMoveAbsJ "
+        "[[0,0,0,0,30,0],[{},9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nENDPROC\nENDMODULE\n",
+        to);
+  };
+  const auto lines = skipped_lines(Reader{Language::rapid}({{"m.mod", module(500)}}).program);
+  REQUIRE(lines.size() == 1);
+  CHECK_THAT(lines[0], Catch::Contains("note: external axes move: 1 from 0 to 500") &&
+                           Catch::Contains("external_axes: [{name: external_1, kind: linear, carries: robot") &&
+                           Catch::Contains("lower_mm: 0, upper_mm: 500"));
+  CHECK(skipped_lines(Reader{Language::rapid}({{"m.mod", module(0)}}).program).empty());
+  // The proposed entry is one that a robot takes.
+  const std::size_t open = lines[0].find("external_axes: ["), close = lines[0].find("]}.", open);
+  pipeline::Robot robot;
+  pipeline::Node axis = *pipeline::parse_yaml("{" + lines[0].substr(open, close + 1 - open) + "}", "entry.yaml").find("external_axes");
+  pipeline::ExternalAxis read;
+  pipeline::read_fields(axis.items.at(0), read);
+  CHECK(read.upper == Approx(0.5));
+  CHECK(read.axis.isApprox(pipeline::Vector3d::UnitX(), rounding));
 }
 
 TEST_CASE("import: all problems come in one message, in the order of the lines") {
@@ -135,9 +184,10 @@ TEST_CASE("import: a damaged URDF becomes a robot or a message") {
 TEST_CASE("import: the example programs read without a problem") {
   const std::string folder = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/";
   // Home twice, two approaches, sixteen spots with their welds, two ways out; start, four times eight, end;
-  // start, twice four, a wait, end.
+  // start, twice four, a wait, end; home, twice eight moves, two waits and a circle of five, home; home, four times
+  // five with a wait, home.
   const std::pair<const char*, std::size_t> examples[] = {
-      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}};
+      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}, {"door_handling.jbi", 32}, {"tray_filling.script", 26}};
   for (const auto& [name, count] : examples) {
     pipeline::Motion motion;
     motion.program = folder + name;

@@ -1,7 +1,7 @@
 // KUKA backups: which programs and lists are read, and where the robot begins.
-#include <catch2/catch.hpp>
 
 #include "sim/program/import.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife;

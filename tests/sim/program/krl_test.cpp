@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
@@ -149,7 +149,7 @@ TEST_CASE("krl: problems name what is missing and where") {
   REQUIRE(r.problems.size() == 4);
   CHECK(r.problem(0) ==
         "cell.src:3:5: error: moves to 'xp7', which no file read declares; give the .dat file that declares "
-        "it, write the target as a constant, or --value 'xp7={X ...}'");
+        "it, write the target as a constant, or --value 'cell:xp7={X ...}'");
   CHECK(r.problems[1].what ==
         "moves along a path before $VEL.CP is assigned (its value lies in the controller)");
   CHECK(r.problems[2].what == "moves with TOOL_DATA[3], which no file read declares");

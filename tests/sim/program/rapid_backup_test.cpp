@@ -1,8 +1,8 @@
 // ABB backups: which modules are read, and of which task.
-#include <catch2/catch.hpp>
 #include <numbers>
 
 #include "sim/program/import.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife;

@@ -1,7 +1,7 @@
 // What an ABB controller makes of modules as they lie on it: each case says what it does and why.
-#include <catch2/catch.hpp>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/sim/program/reading.h"
 
 using namespace dresslife;
@@ -264,10 +264,12 @@ TEST_CASE("rapid controller: a refusal names the routine and all that its condit
   REQUIRE(r.problems.size() == 1);
   CHECK_THAT(r.problem(), Catch::Contains("--value 'di1=...' --value 'di2=...'"));
   Problems problems;
-  for (const Problem& p : r.problems) problems.add_decision(p.about, p.where, p.what, p.remedy, p.routine);
-  problems.add_decision(r.problems[0].about, {"m.mod", 9, 1}, "", "", "step");
+  for (const Problem& p : r.problems) problems.add_use(p);
+  Problem again = r.problems[0];
+  again.where.line = 90;
+  problems.add_use(again);
   CHECK_THROWS_WITH(problems.throw_if_any(),
-                    Catch::Contains("error: step branches on") && Catch::Contains("(here and in m.mod:9)"));
+                    Catch::Contains("error: step branches on") && Catch::Contains("m.mod:90)"));
 }
 
 TEST_CASE("rapid controller: an offset of a target without a value asks for the target") {
@@ -280,8 +282,81 @@ TEST_CASE("rapid controller: an offset of a target without a value asks for the 
 
 TEST_CASE("rapid controller: a mistake counts where it runs") {
   CHECK(first_axes(run(go(1), "PROC unused()\n<SMT>\nENDPROC\n")) == Angles{1});
-  CHECK_THAT(run(go(1) + "unused;\n", "PROC unused()\n<SMT>\nENDPROC\n").problem(),
-             Catch::Contains("m.mod:"));
+  CHECK_THAT(run(go(1) + "unused;\n", "PROC unused()\nx:=;\nENDPROC\n").problem(), Catch::Contains("m.mod:"));
+}
+
+TEST_CASE("rapid controller: a statement that nobody wrote stops the program where it stands") {
+  const Reading called = run(go(1) + "unused;\n" + go(2), "PROC unused()\n<SMT>\nENDPROC\n");
+  CHECK(first_axes(called) == Angles{1});
+  CHECK(warns(called, "<SMT>: nobody wrote a statement"));
+  const Reading behind = run(go(1) + go(2) + "<SMT>\n");
+  CHECK(first_axes(behind) == Angles{1, 2});
+  CHECK(warns(behind, "<SMT>"));
+  CHECK_FALSE(warns(run(go(1) + "EXIT;\n<SMT>\n"), "<SMT>"));
+}
+
+TEST_CASE("rapid controller: numbers may be written with the base 16, 8 or 2") {
+  for (const auto& [written, value] : {std::pair{"0x1F", 31}, {"0Xff", 255}, {"0b101", 5}, {"0o17", 15}, {"0", 0}, {"10", 10}})
+    CHECK(first_axes(run(fmt::format("VAR num n:={};\nMoveAbsJ [[n,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n",
+                                     written))) == Angles{static_cast<double>(value)});
+}
+
+TEST_CASE("rapid controller: a routine is called late by its name, or by its module and its name") {
+  const std::string step = "PROC step()\n" + go(1) + "ENDPROC\n";
+  CHECK(first_axes(run("%\"step\"%;\n%\"m:step\"%;\n%\"m\"+\":step\"%;\n", step)) == Angles{1, 1, 1});
+  const Reading two = Reader{Language::rapid}(
+      {{"a.mod", "MODULE a\nPROC main()\n%\"b:step\"%;\n%\"a:step\"%;\nENDPROC\nLOCAL PROC step()\n" + go(1) +
+                     "ENDPROC\nENDMODULE\n"},
+       {"b.mod", "MODULE b\nLOCAL PROC step()\n" + go(2) + "ENDPROC\nENDMODULE\n"}});
+  CHECK(first_axes(two) == Angles{2, 1});
+  CHECK(warns(run("%\"other:step\"%;\n" + go(3), step), "other:step: not a routine"));
+}
+
+TEST_CASE("rapid controller: a frame that a routine takes as an argument is one frame, however often it is called") {
+  const std::string data =
+      "PERS tooldata A:=[TRUE,[[0,0,500],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nPERS tooldata "
+      "B:=[TRUE,[[0,0,900],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nPERS wobjdata "
+      "W:=[FALSE,TRUE,\"\",[[500,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n";
+  const Reading calls = run("FOR i FROM 1 TO 3000 DO\ngo A,W;\ngo B,W;\nENDFOR\nEXIT;\n",
+                            pose + data + "PROC go(PERS tooldata t,PERS wobjdata o)\nMoveJ p,v100,fine,t\\WObj:=o;\nENDPROC\n");
+  REQUIRE(calls.problem() == "no such problem");
+  CHECK(calls.program.instructions.size() == 6000);
+  REQUIRE(calls.program.tools.size() == 2);
+  CHECK(calls.program.tools[0].name == "a");
+  CHECK(calls.program.tools[1].name == "b");
+  REQUIRE(calls.program.work_objects.size() == 1);
+  CHECK(calls.program.work_objects[0].name == "w");
+}
+
+TEST_CASE("rapid controller: values of records and lists are compared with all that is in them") {
+  const std::string data =
+      "CONST pos a:=[1,2,3];\nVAR pos b;\nCONST pose q:=[[1,2,3],[1,0,0,0]];\nVAR pose r;\nVAR robtarget t;\nVAR num "
+      "l{2}:=[1,2];\nVAR num k{2}:=[1,3];\n";
+  const std::string body = "b:=a;\nr:=q;\nt:=p;\nIF b=a THEN\n" + go(1) + "ENDIF\nIF r=q THEN\n" + go(2) + "ENDIF\nIF t=p THEN\n" +
+                           go(3) + "ENDIF\nIF l=k THEN\n" + go(4) + "ENDIF\nk{2}:=2;\nIF l=k THEN\n" + go(5) +
+                           "ENDIF\nb.z:=4;\nIF b<>a THEN\n" + go(6) + "ENDIF\nr.trans:=b;\nIF r=q THEN\n" + go(7) + "ENDIF\nEXIT;\n";
+  CHECK(first_axes(run(body, data + pose)) == Angles{1, 2, 3, 5, 6});
+  // What differs in a known part is different, whatever the unknown parts are.
+  CHECK(first_axes(run("VAR pos u;\nu:=[gi1,2,3];\nIF u=[9,9,9] THEN\n" + go(1) + "ENDIF\n" + go(2))) == Angles{2});
+  CHECK_THAT(run("VAR pos u;\nu:=[gi1,2,3];\nIF u=[9,2,3] THEN\n" + go(1) + "ENDIF\n" + go(2)).problem(),
+             Catch::Contains("'gi1'"));
+}
+
+TEST_CASE("rapid controller: switches that exclude each other are all optional") {
+  const std::string q = "PROC q(\\switch first|switch second)\nIF Present(first) THEN\n" + go(1) +
+                        "ENDIF\nIF Present(second) THEN\n" + go(2) + "ENDIF\n" + go(3) + "ENDPROC\n";
+  CHECK(first_axes(run("q;\nq\\first;\nq\\second;\n", q)) == Angles{3, 1, 3, 2, 3});
+  Reader lone{Language::rapid};
+  lone.options.routine = "q";
+  CHECK(first_axes(lone({{"m.mod", "MODULE m\n" + q + "ENDMODULE\n"}})) == Angles{3});
+}
+
+TEST_CASE("rapid controller: moves of several robots together are named") {
+  const Reading together = run("SyncMoveOn s1,tasks;\nMoveL p\\ID:=10,v100,fine,tool0;\nSyncMoveOff s2;\n", pose);
+  CHECK(together.program.instructions.size() == 1);
+  CHECK(warns(together, "SyncMoveOn: several robots or positioners"));
+  CHECK(warns(together, "\\ID: another robot"));
+  CHECK_FALSE(warns(run("MoveL p,v100,fine,tool0;\n", pose), "robot"));
 }
 
 TEST_CASE("rapid controller: optional arguments are handed on, arguments may have names") {

@@ -39,6 +39,25 @@ inline const std::vector<std::pair<sim::Language, std::string>>& samples() {
        "LBL[1] ;\n/POS\nP[1]{\n GP1:\n UF : 0, UT : 0,\n J1= 1 deg, J2= 2 deg, J3= 3 deg, J4= 4 deg, J5= 5 "
        "deg, J6= 6 deg\n};\nP[2]{\n GP1:\n UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n X = 1 mm, "
        "Y = 2 mm, Z = 3 mm,\n W = 4 deg, P = 5 deg, R = 6 deg\n};\n/END\n"},
+      {Language::inform,
+       "/JOB\n//NAME M\n//POS\n///NPOS 3,0,1,1,0,0\n///TOOL 1\n///POSTYPE PULSE\n///PULSE\nC00000=1,2,3,4,5,6\n"
+       "EC00000=7\n///USER 1\n///POSTYPE USER\n///RECTAN\n///RCONF 1,0,0,0,0,0,0,0\nC00001=1,2,3,180,0,0\n"
+       "C00002=1,3,4,180,0,0\nP00001=0,0,9,0,0,0\n//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nSPEED VJ=9.0 V=9.0\n"
+       "MOVJ C00000 VJ=5.0 PL=1 +MOVJ EC00000 VJ=1\n*L\nSET B000 EXPRESS B000 + 1\nSET P002 P001\nADD P002 P001\n"
+       "SETE P002 (3) 500\nSFTON P002 UF#(1)\nMOVL C00001 V=I001 CR=2 //x\nSFTOF\nMOVC C00001\nMOVC C00002 FPT\n"
+       "MOVC P001\nIMOV P001 V=1 TF\nIFTHENEXP B000>3 ANDEXP IN#(2)=ON\nTIMER T=0.5\nELSE\nCALL JOB:M ARGF1 IF "
+       "B[0]=9\nENDIF\nFOR I000 START= 1 TO 3\nWHILE I000<2\nINC I000\nENDWHILE\nNEXT I000\nSWITCH B000 CASE 1\n"
+       "PAUSE\nDEFAULT\nDOUT OT#(1) ON\nENDSWITCH\nMFRAME UF#(1) P001 P002 P003\nSETTOOL TL#(1) P001\nJUMP *L IF "
+       "B000<3\nEND\n//TOOL 1\n0,0,9,0,0,0\n//UFRAME 1\n////BUSER 1,2,3,4,5,6\n//VAR\n///B\n1,2\n"},
+      {Language::urscript,
+       "def m():\n  set_tcp(p[0,0,.1,0,0,0])\n  global w_p=p[.4,-.2,.3,0,3.14,0]\n  global w_q=[0,-1.5,1.5,-1.5,-1.5,0]\n"
+       "  thread t():\n    while True:\n      n = n + 1\n      sync()\n    end\n  end\n  h = run t()\n  def f(a, b=2):\n"
+       "    local c = a[0] + b % 2\n    if not c != 1 and True:\n      return c\n    elif c > 2:\n      a[1] = 3\n    else:\n"
+       "      pass\n    end\n    return -c\n  end\n  i = 0\n  while i < 3:\n    $ 3 \"W\"\n    movej(get_inverse_kin(w_p, "
+       "qnear=w_q), a=1.4, v=1.05)\n    i = i + 1\n    if i == 2:\n      continue\n    end\n    "
+       "movel(pose_trans(w_p,p[0,0,-.1,0,0,0]),v=.2,r=0.01)\n  end\n  movec(w_p, pose_add(w_p,p[.1,0,0,0,0,0]), "
+       "a=1,\n    v=.1)\n  movej(w_q, t=2)\n  x = f(w_q)\n  sleep(0.5)\n  if get_standard_digital_in(0):\n    "
+       "textmsg('a', x)\n    halt\n  end\n  servoj([0,0,0,0,0,0],t=.1)\n  movep(get_forward_kin(w_q))\nend\n"},
       {Language::joint_columns, "time, axis 1 deg, axis 2 deg\n0, 1, 2\n0.5, 1.5, 2.5\n# note\n1, 2, 3\n"},
       {Language::ros_trajectory,
        R"({"joint_names": ["joint_1", "joint_2"], "points": [{"positions": [0, 1], "time_from_start": {"sec": 0, "nanosec": 0}}, {"positions": [0.5, 1], "time_from_start": 1.5}]})"}};

@@ -1,10 +1,11 @@
 #include "sim/robot/inverse_kinematics.h"
 
-#include <catch2/catch.hpp>
+#include <Eigen/Geometry>
 #include <numbers>
 #include <random>
 
 #include "pipeline/job/robot.h"
+#include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {
@@ -110,7 +111,7 @@ TEST_CASE("inverse kinematics: a configuration brings back the very angles, turn
   std::mt19937 random(5);
   using Kind = ArmConfiguration::Kind;
   const std::pair<pipeline::Robot, Kind> cases[] = {
-      {irb6640(), Kind::abb}, {kr16(), Kind::kuka}, {m20ia(), Kind::fanuc}};
+      {irb6640(), Kind::abb}, {kr16(), Kind::kuka}, {m20ia(), Kind::fanuc}, {m20ia(), Kind::motoman}};
   for (const auto& [robot, kind] : cases) {
     const InverseKinematics arm(robot);
     const VectorXd elsewhere = VectorXd::Zero(6);
@@ -156,8 +157,35 @@ TEST_CASE("inverse kinematics: the words of the controllers at poses that can be
         "fanuc NUT 0 0 0");
   CHECK(fanuc.configuration(at({0, 0, 0, 190, 90, -200}), ArmConfiguration::Kind::fanuc).text() ==
         "fanuc FUT 0 1 -1");
+  // The axes of a Motoman turn as Fanuc's do.
+  CHECK(fanuc.configuration(at({0, 0, 0, 0, -90, 0}), ArmConfiguration::Kind::motoman).text() ==
+        "motoman 0 0 0 0 0 0");
+  CHECK(fanuc.configuration(at({0, 0, 0, 185, 90, -200}), ArmConfiguration::Kind::motoman).text() ==
+        "motoman 1 0 0 1 1 0");
   const Frame down = fanuc.flange(at({0, 0, 0, 0, -90, 0}));
   CHECK((down.orientation * z + z).norm() < pose_rounding);
+}
+
+TEST_CASE("inverse kinematics: a Motoman's wrist is told by axis R or by the sign of axis B, and any arm by its angles") {
+  std::mt19937 random(23);
+  const InverseKinematics arm(m20ia());
+  const VectorXd elsewhere = VectorXd::Zero(6);
+  for (int round = 0; round < 200; ++round) {
+    const VectorXd joints = random_joints(m20ia(), random);
+    if (std::abs(joints[2]) > pi || std::abs(joints[4]) < 0.05) continue;
+    std::string reason;
+    ArmConfiguration by_sign = arm.configuration(joints, ArmConfiguration::Kind::motoman);
+    by_sign.numbers[0] = joints[4] < 0 ? 3 : 2;
+    const auto found = arm.solve(arm.flange(joints), by_sign, elsewhere, reason);
+    REQUIRE(found.has_value());
+    CHECK((*found - joints).cwiseAbs().maxCoeff() < 1e-5);
+    by_sign.numbers[0] = 5 - by_sign.numbers[0];  // the other wrist
+    const auto other = arm.solve(arm.flange(joints), by_sign, elsewhere, reason);
+    if (other) CHECK((*other)[4] * joints[4] < 0);
+    const auto near = arm.solve(arm.flange(joints), arm.configuration(joints, ArmConfiguration::Kind::near), elsewhere, reason);
+    REQUIRE(near.has_value());
+    CHECK((*near - joints).cwiseAbs().maxCoeff() < 1e-5);
+  }
 }
 
 TEST_CASE("inverse kinematics: out of reach, out of limits and wrong geometry are told") {
@@ -236,6 +264,32 @@ TEST_CASE(
     CHECK((*near - joints).cwiseAbs().maxCoeff() < 1e-5);
   }
   CHECK(own >= rounds - 5);  // starts may miss an arm in a narrow corner (numerical_inverse.h)
+}
+
+TEST_CASE("inverse kinematics: a UR arm from ROS has the poses of its controller, whose base is turned by 180 degrees") {
+  pipeline::Robot robot = ur10();
+  robot.program_orientation = {0, 0, pi};
+  robot.flange_position = {0, .0922, 0};
+  robot.flange_orientation = {-pi / 2, pi, 0};
+  const InverseKinematics arm(robot);
+  // Denavit-Hartenberg as the maker publishes it: turn q and shift d along z, shift a and turn along x.
+  const double d[] = {.1273, 0, 0, .163941, .1157, .0922}, a[] = {0, -.612, -.5723, 0, 0, 0},
+               alpha[] = {pi / 2, 0, 0, pi / 2, -pi / 2, 0};
+  std::mt19937 random(29);
+  for (int round = 0; round < 50; ++round) {
+    const VectorXd joints = random_joints(robot, random);
+    Eigen::Isometry3d expected = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < 6; ++i)
+      expected = expected * Eigen::AngleAxisd(joints[i], z) * Eigen::Translation3d(a[i], 0, d[i]) *
+                 Eigen::AngleAxisd(alpha[i], x);
+    const Frame found = arm.flange(joints);
+    CHECK((found.position - expected.translation()).norm() < 1e-12);  // a dozen roundings of a metre
+    CHECK((found.orientation.toRotationMatrix() - expected.linear()).norm() < 1e-12);
+    std::string reason;
+    const auto near = arm.solve(found, {}, joints, reason);
+    REQUIRE(near.has_value());
+    CHECK((*near - joints).cwiseAbs().maxCoeff() < 1e-5);
+  }
 }
 
 TEST_CASE("inverse kinematics: the iteration finds the arms that the closed form finds") {

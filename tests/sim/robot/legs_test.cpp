@@ -1,11 +1,11 @@
 #include "sim/robot/legs.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/motion.h"
 #include "sim/robot/tool_path.h"
+#include "tests/catch.h"
 #include "tests/sim/robot/small_arm.h"
 
 namespace dresslife::sim {
@@ -64,6 +64,78 @@ TEST_CASE("tool path: the circle through three points") {
   ToolPath straight({}, {{1, 0, 0}, Quaternion::Identity()}, {{3, 0, 0}, Quaternion::Identity()});
   straight.bend({2, 0, 0});
   CHECK(straight.length() == Approx(2).epsilon(rounding));
+}
+
+TEST_CASE("tool path: the arc beside a point of its circle") {
+  const Frame from{{1, 0, 0}, Quaternion::Identity()}, to{{0, 1, 0}, Quaternion::Identity()};
+  for (const Vector3& other : {Vector3(-1, 0, 0), Vector3(0, -1, 0)}) {  // behind its end, before its start
+    ToolPath path({}, from, to);
+    path.bend_beside(other);
+    CHECK(path.length() == Approx(0.5 * pi).epsilon(rounding));
+    CHECK((path.pose(0.5).position - Vector3(1, 1, 0) / std::sqrt(2)).norm() < rounding);
+  }
+  ToolPath far({}, from, to);
+  const double h = std::sqrt(0.5);
+  far.bend_beside({h, h, 0});  // between them: the other way round
+  CHECK(far.length() == Approx(1.5 * pi).epsilon(rounding));
+}
+
+TEST_CASE("legs: circles by joint angles are those through the tool's places there") {
+  const pipeline::Robot robot = arm();
+  const InverseKinematics kinematics(robot);
+  const Vector3 centre(1.2, 0, 1.2);
+  constexpr double radius = 0.2;
+  VectorXd near = VectorXd::Zero(6);
+  std::vector<std::vector<double>> taught;
+  for (int k = 0; k < 4; ++k) {
+    const pipeline::MotionStep step =
+        to(PathKind::joint, centre + radius * Vector3(0, std::cos(k * pi / 2), std::sin(k * pi / 2)), 1, 0);
+    std::string reason;
+    const auto joints = kinematics.solve({Vector3(step.position[0], step.position[1], step.position[2]),
+                                          Quaternion(step.quaternion[0], step.quaternion[1], step.quaternion[2],
+                                                     step.quaternion[3])},
+                                         {}, near, reason);
+    REQUIRE(joints.has_value());
+    near = *joints;
+    taught.emplace_back(joints->data(), joints->data() + 6);
+  }
+  std::vector<pipeline::MotionStep> steps(4);
+  for (int k = 0; k < 4; ++k) {
+    steps[k].joints = taught[k];
+    steps[k].path = k == 0 ? PathKind::joint : PathKind::circular;
+    if (k > 0) steps[k].circle_joints = taught[k == 1 ? 2 : k - 2];
+    steps[k].tool_speed = 0.3;
+    steps[k].tool_zone = 0;
+  }
+  const JointMotion run(motion(steps), robot);
+  double off = 0, leftmost = 0;
+  for (double t = 0; t < run.duration(); t += 0.002) {
+    const Vector3 here = kinematics.flange(run.position(t)).position - centre;
+    off = std::max({off, std::abs(here.norm() - radius), std::abs(here.x())});
+    leftmost = std::min(leftmost, here.y());
+  }
+  CHECK(off < 1e-4);  // points 10 mm apart on 200 mm: h^2/(8 r) = 63 um
+  CHECK(leftmost == Approx(-radius).epsilon(1e-3));  // over the top, round to the bottom: three quarters
+  CHECK((kinematics.flange(run.position(run.duration())).position - centre - Vector3(0, 0, -radius)).norm() < 1e-9);
+}
+
+TEST_CASE("legs: a step's own acceleration counts below those of the axes") {
+  const pipeline::Robot robot = arm();
+  pipeline::MotionStep line = to(PathKind::linear, {1.2, 0.5, 1.2}, 0.5, 0);
+  line.tool_acceleration = 0.25;
+  const Vector3 from(1.2, -0.5, 1.2);
+  const JointMotion slow(motion({to(PathKind::joint, from, 1, 0), line}), robot);
+  // The law is that of the axis that moves farthest, axis 1: ds = dy/r with r = (x^2 + y^2)/x, u' = a/r. With r even along
+  // the way it would be v/a + d/v = 4 s; here u^2 = 2 a int dy/r^2 from the end on, and 2 int dy/(r u) over half the way is
+  // 4.128 s. The three equal controls at both ends (M10) add 3 h.
+  CHECK(slow.duration() == Approx(4.128 + 3 * 0.015).epsilon(1e-3));
+  pipeline::MotionStep a, b;
+  a.joints = std::vector<double>(6, 0.0);
+  b.joints = {1, 0, 0, 0, 0, 0.5};
+  b.speed = 0.5;
+  b.acceleration = 0.5;
+  // 1 rad at 0.5 rad/s with 0.5 rad/s2: 3 s.
+  CHECK(JointMotion(motion({a, b}), robot).duration() == Approx(3).epsilon(1e-9));
 }
 
 TEST_CASE("tooling: a stationary tool and its way back") {

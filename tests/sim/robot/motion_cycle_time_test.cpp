@@ -3,7 +3,6 @@
 // With a_i the largest acceleration of an axis, changes of speed go with A = 0.75 a_i on the mean (motion.h:
 // M2). A move of L from rest to rest at the speed c takes L/c + c/A, or 2 sqrt(L/A) where it never gets to c
 // (L < c^2/A).
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "sim/program/import.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/motion.h"
+#include "tests/catch.h"
 #include "tests/sim/robot/small_arm.h"
 
 namespace dresslife::sim {

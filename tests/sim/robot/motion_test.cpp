@@ -1,8 +1,9 @@
 #include "sim/robot/motion.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+
+#include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {
@@ -289,7 +290,7 @@ TEST_CASE("motion: a waypoint beyond a limit is reported where it stands") {
   CHECK_THROWS_WITH(
       JointMotion(motion_of({move_to({0, 0}), block}), robot_with({2, 2}, {4, 4})),
       "program.yaml:7:9: error: waypoint 'panel A: move 2' turns joint_2 to -601.606 deg (must be "
-      "within -572.958 .. 572.958 deg); move it inside the limits of test robot");
+      "within -572.958 .. 572.958 deg); turn it 28.65 deg more, inside the limits of test robot");
 }
 
 TEST_CASE("motion: a program has to begin with a move") {

@@ -1,6 +1,5 @@
 // The robots that come with dresslife: the reach in their names, their zero poses, and which arm each maker's
 // configuration words choose on each of them.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -8,6 +7,7 @@
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/settings/fields.h"
 #include "sim/robot/inverse_kinematics.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 void describe(Fields& f, Robot& robot);

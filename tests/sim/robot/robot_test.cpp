@@ -1,9 +1,10 @@
 #include "sim/robot/robot.h"
 
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
+
+#include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {
@@ -102,7 +103,7 @@ TEST_CASE("robot: angles beyond the limits are named") {
   CHECK_THROWS_WITH(
       check_joint_limits(robot, std::vector{pi / 2 + 0.01, 0.0}, "waypoint 'home'", where),
       "job.yaml:12:7: error: waypoint 'home' turns shoulder to 90.573 deg (must be within -90 .. "
-      "90 deg); move it inside the limits of arm");
+      "90 deg); turn it 0.573 deg less, inside the limits of arm");
   CHECK_THROWS_WITH(
       check_joint_limits(robot, std::vector{0.0}, "waypoint 'home'", where),
       "job.yaml:12:7: error: waypoint 'home' has 1 joint angles; arm has 2 axes: give one angle "

@@ -1,6 +1,5 @@
 // A robot written as URDF and read again stands where it stood, whatever lies on fixed joints in between.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <random>
 
@@ -8,6 +7,7 @@
 #include "pipeline/urdf/urdf.h"
 #include "pipeline/settings/fields.h"
 #include "sim/robot/robot.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 void describe(Fields& f, Robot& robot);
@@ -83,6 +83,26 @@ TEST_CASE("robot urdf: a shipped robot written as URDF reads back to the same fr
       CHECK(copy.joints[k].speed == Approx(robot.joints[k].speed).epsilon(rounding));
     }
   }
+}
+
+TEST_CASE("robot urdf: the frame of the programs is link `base`, however many fixed joints away and turned") {
+  std::mt19937 random(7);
+  pipeline::Robot robot, copy;
+  pipeline::read_fields(pipeline::catalogue_entry("robots", "abb_irb6640_185_280", {}, {}), robot);
+  std::string text = urdf_of(robot, random);
+  const std::string frame =
+      "<link name=\"stand\"/><joint name=\"bolts\" type=\"fixed\"><parent link=\"root\"/><child link=\"stand\"/>"
+      "<origin xyz=\"0 0 0.5\" rpy=\"0 0 1.5707963267948966\"/></joint>"
+      "<link name=\"base\"/><joint name=\"dowel\" type=\"fixed\"><parent link=\"stand\"/><child link=\"base\"/>"
+      "<origin xyz=\"0.2 0 0.1\" rpy=\"0 0 1.5707963267948966\"/></joint></robot>";
+  text.replace(text.rfind("</robot>"), std::string::npos, frame);
+  pipeline::UrdfRequest request;
+  request.urdf = "copy.urdf";
+  request.accelerations.assign(6, 1);
+  pipeline::read_fields(pipeline::robot_from_urdf(request, text), copy);
+  // 0.2 m along the stand's x, which is the root's y; half a turn in all.
+  CHECK((copy.program_base - Vector3(0, 0.2, 0.6)).norm() < rounding);
+  CHECK((copy.program_orientation - Vector3(0, 0, std::numbers::pi)).norm() < rounding);
 }
 
 TEST_CASE("robot urdf: a joint that follows another keeps the wrist level") {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 
 #include "sim/rod/rod.h"
 #include "sim/run/equilibrium.h"
+#include "tests/catch.h"
 #include "tests/sim/rod/smooth.h"
 
 namespace dresslife::sim::test {
@@ -18,6 +18,21 @@ inline const double pi = std::acos(-1.0);
 /// angle.
 inline Frame planar_frame(double x, double z, double angle) {
   return {{x, 0, z}, Quaternion(Eigen::AngleAxisd(pi / 2 - angle, Vector3::UnitY()))};
+}
+
+/// solve(), v += dv, x += h v, finish() without ODE: for closed forms and for relaxation. False as solve().
+inline bool advance_rod(const Rod& rod, RodSolver& solver, RodState& state, const ClampFrames& end, double h,
+                        std::span<const Load> loads = {}) {
+  if (!solver.solve(state, end, h, loads)) return false;
+  const std::span<const Twist6> change = solver.velocity_change();
+  for (int i = 0; i < rod.segments(); ++i) {
+    state.velocity[i] += change[i].linear();
+    state.angular_velocity[i] += change[i].angular();
+    state.position[i] += h * state.velocity[i];
+    state.orientation[i] = (rotation(h * state.angular_velocity[i]) * state.orientation[i]).normalized();
+  }
+  solver.finish(state);
+  return true;
 }
 
 /// Unit stiffness, unit length, thin, all but inextensible, no gravity.

@@ -1,9 +1,8 @@
 // Logarithm, exponential and the map from angular velocity to the link's rotation vector.
 #include "sim/rod/rotation.h"
 
-#include <catch2/catch.hpp>
-
 #include "sim/rod/link.h"
+#include "tests/catch.h"
 
 using namespace dresslife::sim;
 

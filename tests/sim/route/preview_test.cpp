@@ -1,10 +1,11 @@
 #include "sim/route/preview.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "pipeline/files/files.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
+#include "sim/run/checks.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {

@@ -2,7 +2,6 @@
 #include "sim/route/rehearsal.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "sim/route/exercise.h"
 #include "sim/route/proposal.h"
 #include "sim/run/simulate.h"
+#include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
@@ -88,7 +88,7 @@ TEST_CASE("bends of a rehearsal are told by moment and stretch, and their larges
 TEST_CASE("proposals that were rehearsed keep all limits in the job's own run") {
   pipeline::Job job = pipeline::read_job(
       std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
-      {"robot=abb_irb2600_12_165", "simulation.segments=20"});
+      {"robot=abb_irb2600_12_165", "dresspack=thesis_welding", "simulation.segments=20"});
   job.motion = exercise(job.robot);
   job.dresspacks.front().dresspack = pipeline::scaled(job.dresspacks.front().dresspack, 0.3);
   ProposalSettings settings;

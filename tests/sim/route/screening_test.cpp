@@ -1,7 +1,6 @@
 // What geometry alone says of a routing, against closed forms; and routings that are proposed by it.
 #include "sim/route/screening.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "sim/route/exercise.h"
 #include "sim/route/proposal.h"
 #include "sim/run/clamp_path.h"
+#include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {

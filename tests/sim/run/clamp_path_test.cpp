@@ -1,7 +1,7 @@
-#include "sim/run/clamp_path.h"
 #include "pipeline/job/job.h"
+#include "sim/run/clamp_path.h"
+#include "tests/catch.h"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <numbers>
 
@@ -153,7 +153,7 @@ TEST_CASE("clamp path: a bad cell is named by line and column") {
 
 TEST_CASE("clamp path: a file that is not there is named") {
   CHECK_THROWS_WITH(RecordedPath("no/such.csv"),
-                    "no/such.csv: error: clamp_poses cannot be read; check the file's name and rights");
+                    "no/such.csv: error: cannot be read (No such file or directory); check the path");
 }
 
 TEST_CASE("clamp path: a clamp's frame has z along the hose and x toward the link's z") {
@@ -229,7 +229,24 @@ TEST_CASE("clamp path: the pose of mounting is the first waypoint or what the ro
   CHECK_THROWS_WITH(
       RobotPath(job),
       "job.yaml:7:1: error: routing.mounting_pose_deg turns table to 1718.87 deg (must be within "
-      "-1145.92 .. 1145.92 deg); move it inside the limits of turntable");
+      "-1145.92 .. 1145.92 deg); turn it 573 deg less, inside the limits of turntable");
+}
+
+TEST_CASE("clamp path: external axes that the motion moves and the robot does not have are named") {
+  pipeline::Job job = turning_job();
+  CHECK(RobotPath(job).left_out().empty());
+  for (pipeline::MotionStep& step : job.motion.steps) step.external_axes = {7, 100};
+  CHECK(RobotPath(job).left_out().empty());  // they stand
+  job.motion.steps.back().external_axes = {7, 600};
+  const auto named = RobotPath(job).left_out();
+  REQUIRE(named.size() == 1);
+  CHECK(named[0].words.find("moves external axis 2 from 100 to 600 (mm or deg)") != std::string::npos);
+  pipeline::ExternalAxis still, track;
+  still.name = "turntable", track.name = "track";
+  still.lower = track.lower = -1, still.upper = track.upper = 1;
+  still.speed = track.speed = still.acceleration = track.acceleration = 1;
+  job.robot.external_axes = {still, track};
+  CHECK(RobotPath(job).left_out().empty());
 }
 
 TEST_CASE("clamp path: a clamp on no link is named") {

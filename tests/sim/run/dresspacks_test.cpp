@@ -1,6 +1,5 @@
 // Several dresspacks on one robot: alone they move as they would alone, and they touch each other.
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
@@ -8,6 +7,7 @@
 #include "sim/run/motion_file.h"
 #include "sim/run/mounting.h"
 #include "sim/run/routing.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/rod/rod_problems.h"
 

@@ -1,8 +1,8 @@
 #include "sim/run/motion_file.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/simple_job.h"
 

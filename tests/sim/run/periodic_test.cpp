@@ -1,10 +1,10 @@
 #include "sim/run/periodic.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <thread>
 
 #include "sim/run/simulate.h"
+#include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
@@ -79,7 +79,7 @@ TEST_CASE("periodic: a motion is repeated until two repeats begin alike, and the
   CHECK(static_cast<int>(r.times.size()) == simulation.description().samples);
   CHECK(r.times.front() == 0);
   CHECK_THAT(repeats_note(r.summary),
-             Catch::Matchers::Contains(
+             Catch::Contains(
                  fmt::format("note: the motion is periodic after {} repeats", r.summary.repeats)));
 }
 
@@ -92,8 +92,8 @@ TEST_CASE("periodic: what never becomes periodic is run as often as allowed, and
   CHECK_FALSE(r.summary.periodic);
   CHECK(r.summary.repeats == 2);
   CHECK_THAT(warnings_of(simulation, r.summary).front().line(),
-             Catch::Matchers::StartsWith("warning: after 2 repeats the motion still begins ") &&
-                 Catch::Matchers::Contains("simulation.periodic_tolerance_mm"));
+             Catch::StartsWith("warning: after 2 repeats the motion still begins ") &&
+                 Catch::Contains("simulation.periodic_tolerance_mm"));
 }
 
 TEST_CASE("periodic: one that only rests is led in, then found periodic at once") {
@@ -115,7 +115,7 @@ TEST_CASE("periodic: what the lead-in cannot do is told by the motion itself") {
   job.simulation.floor = false;
   const Simulation simulation(job);
   CHECK_THROWS_WITH(simulation.run({[](const Sample&) {}}),
-                    Catch::Matchers::Contains("drawn taut") && Catch::Matchers::Contains("wind up"));
+                    Catch::Contains("drawn taut") && Catch::Contains("wind up"));
 }
 
 TEST_CASE("periodic: the repeat that leads in leaves the result that exact repeats give") {

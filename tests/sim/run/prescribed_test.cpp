@@ -1,6 +1,5 @@
 #include "sim/run/prescribed.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +8,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/deformation_file.h"
 #include "sim/run/rig_deformation.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::sim {
@@ -247,7 +247,7 @@ TEST_CASE("deformation file: what is wrong is told by line and column") {
   CHECK(problem("t_s,elongation\n").find("deformation holds no row") != std::string::npos);
   CHECK(message_of([&] {
           read_deformation(job_of(cable_job("{deformation: none.csv}", "routing: {free_length_m: 1}\n")));
-        }).find("none.csv: error: deformation cannot be read; check the file's name and rights") !=
+        }).find("none.csv: error: cannot be read (No such file or directory); check the path") !=
         std::string::npos);
 
   const PrescribedDeformation one =

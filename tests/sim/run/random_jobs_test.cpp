@@ -1,7 +1,6 @@
 // Random but feasible jobs on the shipped robots: all end finite and calm, or stop with a message that a user
 // can act on. Six of them run with every test; two hundred with DRESSLIFE_RANDOM_JOBS=200.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -11,6 +10,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/simulate.h"
+#include "tests/catch.h"
 
 namespace dresslife::sim {
 namespace {

@@ -3,7 +3,6 @@
 #include "sim/run/routing.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/simulate.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife;

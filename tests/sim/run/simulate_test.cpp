@@ -1,9 +1,9 @@
 #include "sim/run/simulate.h"
 
-#include <catch2/catch.hpp>
 #include <fstream>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
@@ -162,11 +162,11 @@ TEST_CASE("simulate: a dresspack that is too short is refused with time, line an
   job.dresspacks[0].routing.base_clamp->position = {0.3, 0, 1};
   CHECK_THROWS_WITH(
       Simulation(job),
-      Catch::Matchers::StartsWith("job.yaml:8:3: error: dresspack is ") &&
-          Catch::Matchers::Contains(" mm too short at 1.") &&
-          Catch::Matchers::Contains("s, program step 3 'dwell 3' (routing.free_length_m is 1, the "
+      Catch::StartsWith("job.yaml:8:3: error: dresspack is ") &&
+          Catch::Contains(" mm too short at 1.") &&
+          Catch::Contains("s, program step 3 'dwell 3' (routing.free_length_m is 1, the "
                                     "clamps are 1.0") &&
-          Catch::Matchers::EndsWith(
+          Catch::EndsWith(
               "; give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)"));
 }
 
@@ -184,9 +184,9 @@ TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
   const Simulation simulation(job);
   int samples = 0;
   CHECK_THROWS_WITH(simulation.run({[&](const Sample&) { ++samples; }}),
-                    Catch::Matchers::Contains("job.yaml:8:3: error: dresspack is drawn taut at ") &&
-                        Catch::Matchers::Contains("program step 2 'wind up': ") &&
-                        Catch::Matchers::Contains("mm are missing"));
+                    Catch::Contains("job.yaml:8:3: error: dresspack is drawn taut at ") &&
+                        Catch::Contains("program step 2 'wind up': ") &&
+                        Catch::Contains("mm are missing"));
   CHECK(samples > 10);
 }
 
@@ -238,8 +238,8 @@ TEST_CASE("simulate: a clamp inside the robot is refused") {
   pipeline::Job job = simple_job();
   job.robot.links[0].capsules = {{{0.3, 0, 1}, {0.6, 0, 1}, 0.3}};
   CHECK_THROWS_WITH(Simulation(job),
-                    Catch::Matchers::StartsWith("job.yaml:8:3: error: dresspack runs ") &&
-                        Catch::Matchers::Contains(" mm deep through " + job.robot.links[0].name +
+                    Catch::StartsWith("job.yaml:8:3: error: dresspack runs ") &&
+                        Catch::Contains(" mm deep through " + job.robot.links[0].name +
                                                   " in the mounting pose, 0."));
 }
 

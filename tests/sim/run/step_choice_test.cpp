@@ -1,10 +1,10 @@
 #include "sim/run/step_choice.h"
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
 #include "sim/run/simulate.h"
+#include "tests/catch.h"
 #include "tests/sim/rod/rod_driven_cable.h"
 #include "tests/sim/simple_job.h"
 

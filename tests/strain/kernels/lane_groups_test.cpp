@@ -1,10 +1,10 @@
 #include "strain/kernels/lane_groups.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <numeric>
 
 #include "strain/kernels/sizes.h"
+#include "tests/catch.h"
 
 using namespace dresslife::strain;
 

@@ -1,8 +1,8 @@
 // A loose cable against what is known in closed form.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 
 using namespace dresslife::strain;

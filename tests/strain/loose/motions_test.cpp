@@ -1,12 +1,12 @@
 // Loose cables over motions: meshes, closed loops, clamps that let go, rings, and whatever a user may ask
 // for.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <random>
 
 #include "strain/loose/rings.h"
+#include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 
 using namespace dresslife::strain;

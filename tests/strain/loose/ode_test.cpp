@@ -5,11 +5,11 @@
 // segment's sag, l^2 kappa / 8 = 0.2 mm); the reduced model has bending and stretch to first order in the
 // distance from the axis over the bend's radius (2 %), and no torsion of the cables, which the first test
 // measures. Walls give alike in both.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "strain/loose/rings.h"
+#include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 #include "tests/strain/loose/ode_cables.h"
 

@@ -1,7 +1,8 @@
 #include "pipeline/advise/calibrate/emulator.h"
 
-#include <catch2/catch.hpp>
 #include <random>
+
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

@@ -1,10 +1,12 @@
 #include "pipeline/advise/calibrate/posterior.h"
 
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "pipeline/base/statistics.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -86,7 +88,7 @@ TEST_CASE("posterior: of run-outs alone the draws tell, Laplace does not") {
   double worst = 0;
   for (const double a : {2.0, 0.0, -2.0, -5.0}) {
     const double S = std::hypot(s, b), x = a / S;
-    const double ratio = std::exp(-x * x / 2 - log_normal_probability(x)) / std::sqrt(2 * std::numbers::pi);
+    const double ratio = std::exp(-x * x / 2 - log_normal_share(x)) / std::sqrt(2 * std::numbers::pi);
     const double mean = b / S * ratio, deviation = std::sqrt(1 - b * b / (S * S) * ratio * (ratio + x));
     const Emulator model = straight(10, VectorXd::Constant(1, b));
     const Posterior posterior =

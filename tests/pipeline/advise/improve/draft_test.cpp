@@ -1,5 +1,4 @@
 // Jobs without a routing, and dresspacks in another size.
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

@@ -1,5 +1,4 @@
 // What keys may be, and searches over jobs that nobody runs.
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "pipeline/advise/improve/freedom.h"
@@ -10,6 +9,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {

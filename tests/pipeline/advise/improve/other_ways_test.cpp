@@ -1,6 +1,5 @@
 // The same targets in other ways, and jobs with one thing off.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "pipeline/advise/improve/nudges.h"
@@ -9,6 +8,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
 
 namespace dresslife::pipeline {
 namespace {

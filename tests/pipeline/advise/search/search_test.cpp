@@ -1,11 +1,11 @@
 // Searches on functions whose least values are known.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "pipeline/advise/search/minimise.h"
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 using Eigen::VectorXd;

@@ -1,0 +1,135 @@
+#include "pipeline/advise/reprogram/patched_program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "pipeline/settings/document.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// Numbers that were written with six decimals of a millimetre or a degree [m, rad], and Fanuc's three [rad].
+constexpr double written = 1e-8, written_by_fanuc = 1e-5;
+/// Fanuc's speeds are whole numbers.
+constexpr double rounded_speed = 0.5;
+
+double largest(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return INFINITY;
+  double off = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
+  return off;
+}
+
+bool same_speed(const std::optional<double>& before, const std::optional<double>& after, double factor,
+                double unit) {
+  if (before.has_value() != after.has_value()) return false;
+  return !before || std::abs(*before * factor - *after) <=
+                        (factor == 1 ? 1e-9 * *before : rounded_speed * unit + 1e-6 * *before);
+}
+
+const MotionFrame* frame_of(const std::vector<MotionFrame>& list, const std::string& name) {
+  for (const MotionFrame& frame : list)
+    if (frame.name == name) return &frame;
+  return nullptr;
+}
+
+bool same_frame(const std::vector<MotionFrame>& a, const std::string& name, const std::vector<MotionFrame>& b,
+                const std::string& other) {
+  const MotionFrame *x = frame_of(a, name), *y = frame_of(b, other);
+  if (!x || !y) return !x == !y;
+  return x->position == y->position && x->quaternion == y->quaternion && x->stationary == y->stationary;
+}
+
+/// In what two steps differ besides a change of the first one's line; empty: in nothing.
+std::string difference(const Motion& before, const MotionStep& a, const Motion& after, const MotionStep& b,
+                       const sim::LineChange* change) {
+  constexpr double mm_per_s = 1e-3, deg_per_s = 0.0174532925199433;
+  const double factor = change && change->speed ? *change->speed : 1;
+  if (a.path != b.path || a.is_move() != b.is_move()) return "path";
+  if (a.dwell != b.dwell) return "dwell";
+  if (!a.is_move()) return "";
+  const std::vector<double>& joints =
+      change && !change->joints.empty() && !a.joints.empty() ? change->joints : a.joints;
+  if (largest(joints, b.joints) > (&joints == &a.joints ? 0 : written_by_fanuc)) return "joint angles";
+  if (largest(a.position, b.position) > written || largest(a.via_position, b.via_position) > written ||
+      largest(a.circle_joints, b.circle_joints) > 0)
+    return "position";
+  double aligned = a.quaternion.empty() ? 1 : 0;
+  for (std::size_t i = 0; i < std::min(a.quaternion.size(), b.quaternion.size()); ++i)
+    aligned += a.quaternion[i] * b.quaternion[i];
+  if (a.quaternion.size() != b.quaternion.size() || std::abs(std::abs(aligned) - 1) > written)
+    return "orientation";
+  const std::string configuration =
+      change && change->configuration && a.joints.empty() ? change->configuration->text() : a.configuration;
+  if (configuration != b.configuration) return "configuration";
+  if (a.external_axes != b.external_axes) return "external axes";
+  if (!same_frame(before.tools, a.tool, after.tools, b.tool)) return "tool";
+  if (!same_frame(before.work_objects, a.work_object, after.work_objects, b.work_object))
+    return "work object";
+  if (!same_speed(a.speed_percent, b.speed_percent, factor, 1) || !same_speed(a.speed, b.speed, factor, 0) ||
+      !same_speed(a.tool_speed, b.tool_speed, factor, mm_per_s) ||
+      !same_speed(a.turn_speed, b.turn_speed, factor, deg_per_s))
+    return "speed";
+  if (a.duration != b.duration || a.acceleration_percent != b.acceleration_percent ||
+      a.acceleration != b.acceleration || a.tool_acceleration != b.tool_acceleration)
+    return "time or acceleration";
+  if (a.zone != b.zone || a.tool_zone != b.tool_zone || a.stop_zone != b.stop_zone) return "zone";
+  return "";
+}
+
+}  // namespace
+
+std::string other_difference(const Motion& before, const Motion& after,
+                             const std::vector<sim::LineChange>& changes) {
+  std::size_t next = 0;
+  for (const MotionStep& step : before.steps) {
+    const auto change = std::find_if(changes.begin(), changes.end(), [&](const sim::LineChange& c) {
+      return c.where.file == step.where.file && c.where.line == step.where.line &&
+             c.where.column == step.where.column;
+    });
+    const sim::LineChange* own = change == changes.end() ? nullptr : &*change;
+    if (own && !own->point.empty() && step.is_move()) {
+      if (next >= after.steps.size() || largest(own->point, after.steps[next].joints) > written_by_fanuc)
+        return fmt::format("{}:{}: the point on the way", step.where.file, step.where.line);
+      ++next;
+    }
+    if (next >= after.steps.size()) return "it ends earlier";
+    const std::string what = difference(before, step, after, after.steps[next], own);
+    if (!what.empty()) return fmt::format("{}:{}: {}", step.where.file, step.where.line, what);
+    ++next;
+  }
+  return next == after.steps.size() ? "" : "it has more moves";
+}
+
+PatchedProgram patched(const Job& job, const ReadProgram& read, const ProgramWay& way) {
+  namespace fs = std::filesystem;
+  std::set<std::string> files;
+  for (const sim::LineChange& change : way.changes) files.insert(change.where.file);
+  std::map<std::string, std::string> instead;
+  PatchedProgram made;
+  std::error_code failure;
+  const fs::path folder =
+      fs::is_directory(job.motion.program, failure) ? job.motion.program : job.motion.program.parent_path();
+  for (const std::string& file : files) {
+    const fs::path below = fs::proximate(file, folder.empty() ? "." : folder, failure);
+    const sim::Rewritten changed =
+        sim::rewritten(read.language, file, read_text(file), read.program, way.changes,
+                       failure || below.empty() ? file : below.generic_string());
+    instead[file] = changed.text;
+    made.patch += changed.patch;
+  }
+  made.motion = sim::motion_of(sim::read_program(job.motion, instead), job.motion);
+  const std::string other = other_difference(read.motion, made.motion, way.changes);
+  if (!other.empty())
+    throw InputError(way.changes.front().where,
+                     fmt::format("cannot be changed by itself: another difference comes with it ({})", other),
+                     "change it by hand");
+  return made;
+}
+
+}  // namespace dresslife::pipeline

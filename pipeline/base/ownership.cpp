@@ -1,0 +1,290 @@
+#include "pipeline/base/ownership.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pipeline/base/digest.h"
+#include "pipeline/base/whole_file.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view notes_name = ".stage", notes_mark = "README";
+constexpr std::string_view words = "Written by dresslife; ", yours = "yours once it is changed ",
+                           ours = "made again once it is changed ";
+constexpr std::size_t digest_digits = 32;
+
+/// What our programs put into a folder of notes.
+constexpr std::array<std::string_view, 8> notes{notes_mark,    "study",      "failure",     "memory",
+                                                ".ninja_log",  ".ninja_deps", "build.ninja", ".lock"};
+constexpr std::array<std::string_view, 5> ends_of_notes{".receipt", ".log", ".launcher", ".likes", ".part"};
+
+/// How files of ours begin that have no line of comment, and those of older versions, which had none.
+struct Beginning {
+  std::string_view begins, contains = "";
+};
+constexpr std::array beginnings{
+    Beginning{"dresslife file\n"},                                     // HDF5 (pipeline/files/checksum.h)
+    Beginning{"recipe "},                                              // receipts
+    Beginning{"dresslife study "},                                     // what a run notes of its study
+    Beginning{"== dresslife-"},                                        // logs
+    Beginning{"ninja_required_version = 1.8\nbuilddir = .stage"},      // build.ninja
+    Beginning{"job,life_repeats,life_hours,worst_segment_from_tool,"},  // ranking.csv
+    Beginning{"trial,feasible,life_hours_p10,"},                       // improve.csv
+    Beginning{"cable,job,rig,status,cycles_p10,"},                     // rate.csv
+    Beginning{"lines,way,life_hours_p10,times_as_long,"},              // of reprogram
+    // Older versions:
+    Beginning{"trial,feasible,scatter_life_hours_p10,"},
+    Beginning{"# Proposed by dresslife route "},
+    Beginning{"#!/bin/sh\n# Written by dresslife submit;"},
+    Beginning{"<!DOCTYPE html>\n<html lang=\"en\">\n<!-- dresslife page made from "},
+    Beginning{"<!DOCTYPE html>\n<html lang=\"en\">", ": dresspack life</title>"},
+    Beginning{"<!DOCTYPE html>\n<html lang=\"en\">", ": improved</title>"},
+    Beginning{"| observation | what | observed | predicted, medians of the variants |"},
+    Beginning{"<svg ", "role=\"img\">\n<style>\nsvg { display: block;"},
+    Beginning{"<svg ", "role=\"img\">\n<title>Cross-section of "},
+    Beginning{"<svg ", ">\n<style>\nsvg { font: 12px sans-serif; background: #fff }"},
+    Beginning{"<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"job\""}};
+
+/// The digest in a mark and the text behind it.
+struct Marked {
+  bool is_yours_once_changed = false;
+  std::string_view digest, rest;
+};
+/// Nothing to be found: an empty digest.
+Marked marked(std::string_view text) {
+  const std::size_t at = text.substr(0, ownership_bytes).find(words);
+  if (at == std::string_view::npos) return {};
+  for (const std::string_view what : {yours, ours}) {
+    const std::string_view behind = text.substr(at + words.size());
+    if (!behind.starts_with(what)) continue;
+    const std::string_view digest = behind.substr(what.size(), digest_digits);
+    const std::size_t end = behind.find('\n');
+    const bool is_digest = digest.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+    if (digest.size() == digest_digits && is_digest)
+      return {what == yours, digest, end == std::string_view::npos ? "" : behind.substr(end + 1)};
+  }
+  return {};
+}
+
+/// PNG's own (CRC-32 of ISO 3309).
+std::uint32_t crc_of(std::string_view bytes) {
+  std::uint32_t crc = ~0u;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+  }
+  return ~crc;
+}
+
+std::string big_endian(std::uint32_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
+  return bytes;
+}
+
+/// A PNG begins with a signature of 8 bytes and a head of 25.
+constexpr std::size_t png_head = 33;
+constexpr std::string_view png_words{"tEXtSoftware\0dresslife", 22};
+
+/// Lines of comment go behind the first line of some kinds.
+std::size_t place_of_mark(std::string_view text, Mark mark) {
+  const bool behind_first_line = mark == Mark::script || mark == Mark::page || text.starts_with("<?xml");
+  return behind_first_line ? text.find('\n') + 1 : 0;
+}
+
+/// What a job's last attempt failed of begins with three digests (pipeline/study/build_graph.cpp).
+bool is_note_of_failure(const fs::path& file) {
+  const std::string begin = beginning_of(file, 3 * (digest_digits + 1));
+  return file.filename() == "failure" && begin.size() == 3 * (digest_digits + 1) && begin.back() == '\n' &&
+         begin.find_first_not_of("0123456789abcdef \n") == std::string::npos;
+}
+
+/// Marked, or of a version that made no marks: with a note of ours, or without anything.
+bool is_notes(const fs::path& folder) {
+  if (fs::symlink_status(folder).type() != fs::file_type::directory) return false;
+  if (begins_as_ours(beginning_of(folder / notes_mark, ownership_bytes))) return true;
+  bool any = false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    any = true;
+    if (begins_as_ours(beginning_of(entry.path(), ownership_bytes)) || is_note_of_failure(entry.path())) return true;
+  }
+  return !any;
+}
+
+/// Of a job's folder: what 80628f4 and before wrote had no mark, but the notes of its run beside it.
+bool is_old_job(const fs::path& file, std::string_view begin) {
+  return file.filename() == "job.yaml" && begin.starts_with("robot:\n") && is_notes(file.parent_path() / notes_name) &&
+         !fs::is_empty(file.parent_path() / notes_name);
+}
+
+using Inode = std::pair<dev_t, ino_t>;
+
+struct Policy {
+  std::mutex mutex;
+  std::multimap<Inode, fs::path> inputs;  ///< with the names under which they were read
+  bool replaces_files_of_others = false;
+};
+/// One for the program: what its user allows it holds wherever it writes.
+Policy& policy() {
+  static Policy one;
+  return one;
+}
+
+/// Nothing where no plain file is.
+std::optional<Inode> inode_of(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return Inode{status.st_dev, status.st_ino};
+}
+
+/// An input's inode may belong to another file once the input is gone: only an input that still has it counts.
+bool is_input(const fs::path& file) {
+  const std::optional<Inode> inode = inode_of(file);
+  if (!inode) return false;
+  const std::lock_guard lock(policy().mutex);
+  const auto [begin, end] = policy().inputs.equal_range(*inode);
+  return std::any_of(begin, end, [&](const auto& input) { return inode_of(input.second) == inode; });
+}
+
+void check_kind(const fs::path& file) {
+  std::error_code failure;
+  const fs::file_status status = fs::symlink_status(file, failure);
+  if (!fs::exists(status) || fs::is_regular_file(status)) return;
+  const char* what = fs::is_directory(status) ? "is a folder"
+                     : fs::is_symlink(status) ? "is a link to another file"
+                                              : "is a device or a pipe";
+  throw InputError({file.string()}, fmt::format("{} (a result only replaces a plain file)", what),
+                   "name a file of its own");
+}
+
+}  // namespace
+
+std::string with_mark(const std::string& text, Mark mark) {
+  if (mark == Mark::png) {
+    const std::string chunk(png_words);
+    return text.substr(0, png_head) + big_endian(static_cast<std::uint32_t>(chunk.size() - 4)) + chunk +
+           big_endian(crc_of(chunk)) + text.substr(std::min(png_head, text.size()));
+  }
+  const std::size_t at = place_of_mark(text, mark);
+  const std::string_view rest = std::string_view(text).substr(at);
+  const bool in_xml = mark == Mark::xml || mark == Mark::page;
+  return fmt::format("{}{}{}{}{}{}\n{}", text.substr(0, at), in_xml ? "<!-- " : "# ", words,
+                     mark == Mark::page ? ours : yours, xxh3(rest), in_xml ? " -->" : "", rest);
+}
+
+std::string_view without_mark(std::string_view text) {
+  const Marked found = marked(text);
+  return found.digest.empty() ? text : found.rest;
+}
+
+bool is_as_marked(std::string_view text) {
+  const Marked found = marked(text);
+  return !found.digest.empty() && xxh3(found.rest) == found.digest;
+}
+
+bool begins_as_ours(std::string_view text) {
+  const std::string_view begin = text.substr(0, ownership_bytes);
+  return !marked(begin).digest.empty() ||
+         (begin.size() >= png_head + 4 && begin.substr(png_head + 4).starts_with(png_words)) ||
+         std::any_of(beginnings.begin(), beginnings.end(), [&](const Beginning& known) {
+           return begin.starts_with(known.begins) && begin.find(known.contains) != std::string_view::npos;
+         });
+}
+
+bool lies_in_notes(const fs::path& file) {
+  for (fs::path at = file.parent_path(); at.has_filename(); at = at.parent_path())
+    if (at.filename() == notes_name) return is_notes(at);
+  return false;
+}
+
+bool is_ours(const fs::path& file) {
+  const FileState state = state_of(file);
+  if (!state.exists()) return false;
+  if (state.size == 0 || lies_in_notes(file)) return true;
+  const std::string begin = beginning_of(file, ownership_bytes);
+  if (!begins_as_ours(begin)) return is_old_job(file, begin);
+  return !marked(begin).is_yours_once_changed || is_as_marked(read_text(file));
+}
+
+void check_replaceable(const fs::path& file) {
+  check_kind(file);
+  if (is_input(file))
+    throw InputError({file.string()}, "is one of the files that are read", "name another place with -o");
+  if (!policy().replaces_files_of_others && state_of(file).exists() && !is_ours(file))
+    throw InputError({file.string()}, "is there already and was not written by dresslife, or was changed since",
+                     "move it away, name another place with -o, or replace it with --force");
+}
+
+void let_replace_files_of_others() { policy().replaces_files_of_others = true; }
+bool replaces_files_of_others() { return policy().replaces_files_of_others; }
+
+void note_input(const fs::path& file) {
+  const std::optional<Inode> inode = inode_of(file);
+  if (!inode) return;
+  const std::lock_guard lock(policy().mutex);
+  const auto [begin, end] = policy().inputs.equal_range(*inode);
+  fs::path name = fs::absolute(file);
+  if (std::none_of(begin, end, [&](const auto& input) { return input.second == name; }))
+    policy().inputs.emplace(*inode, std::move(name));
+}
+
+bool remove_ours(const fs::path& file) {
+  const FileState state = state_of(file);
+  std::error_code failure;
+  if (!state.exists()) return !fs::exists(fs::symlink_status(file, failure));
+  if ((state.size == 0 && !lies_in_notes(file)) || !is_ours(file)) return false;
+  if (fs::remove(file, failure); failure)
+    throw InputError({file.string()}, fmt::format("cannot be removed ({})", failure.message()), "remove it");
+  return true;
+}
+
+void remove_empty(const fs::path& folder) {
+  std::error_code failure;
+  if (fs::is_empty(folder, failure) && !failure) fs::remove(folder, failure);
+}
+
+void make_notes(const fs::path& folder) {
+  std::error_code failure;
+  const fs::file_status status = fs::symlink_status(folder, failure);
+  if (fs::exists(status) && !is_notes(folder))
+    throw InputError({folder.string()}, "is there already and was not made by dresslife",
+                     "move it away, or name another place with -o");
+  if (!fs::exists(status)) fs::create_directories(folder);
+  const fs::path mark = folder / notes_mark;
+  if (!state_of(mark).exists())
+    write_text_if_changed(mark, with_mark("What dresslife notes of the results beside this folder.\n", Mark::yaml),
+                          Sync::never);
+}
+
+void remove_notes(const fs::path& folder) {
+  std::error_code failure;
+  if (fs::symlink_status(folder, failure).type() != fs::file_type::directory || !is_notes(folder)) return;
+  std::vector<fs::path> files, folders{folder};
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const std::string name = path.filename().string(), end = path.extension().string();
+    const bool is_note = std::find(notes.begin(), notes.end(), name) != notes.end() ||
+                         std::find(ends_of_notes.begin(), ends_of_notes.end(), end) != ends_of_notes.end();
+    if (entry.is_symlink()) continue;
+    if (entry.is_directory())
+      folders.push_back(path);
+    else if (is_note)
+      files.push_back(path);
+  }
+  for (const fs::path& file : files) fs::remove(file, failure);
+  for (auto at = folders.rbegin(); at != folders.rend(); ++at) remove_empty(*at);
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,35 @@
+#include "pipeline/base/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dresslife::pipeline {
+
+double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
+
+double normal_share(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
+
+// Below -6 by the continued fraction of Mills' ratio, whose fourth term leaves 1e-5 of ln there.
+double log_normal_share(double z) {
+  if (z > -6) return std::log(normal_share(z));
+  const double mills = -z + 1 / (-z + 2 / (-z + 3 / (-z + 4 / -z)));
+  return -z * z / 2 - std::log(2 * std::numbers::pi) / 2 - std::log(mills);
+}
+
+double normal_quantile(double share) {
+  double low = -9, high = 9;  // Phi(-9) = 1e-19
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = (low + high) / 2;
+    (normal_share(middle) < share ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+double number_at(const std::vector<double>& sorted, double place) {
+  const auto below = static_cast<std::size_t>(std::max(0.0, place));
+  const double low = sorted[below], high = sorted[std::min(below + 1, sorted.size() - 1)];
+  return std::isinf(high) ? high : low + (place - static_cast<double>(below)) * (high - low);
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,17 @@
+// The words by which a user names the values of an enumeration.
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <string_view>
+
+namespace dresslife::pipeline {
+
+/// The word of a value, from all of them in the order of the values, which count from 0. Empty beyond the last:
+/// there the list of a choice (pipeline/settings/fields.h) ends.
+constexpr std::string_view word_at(std::initializer_list<std::string_view> words, auto value) {
+  const auto at = static_cast<std::size_t>(value);
+  return at < words.size() ? words.begin()[at] : std::string_view();
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,117 @@
+#include "pipeline/cable/excess.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "pipeline/base/readable.h"
+#include "pipeline/base/warning_words.h"
+#include "pipeline/cable/believable.h"
+#include "pipeline/cable/overlap.h"
+#include "pipeline/cable/room.h"
+#include "pipeline/cable/stiffness.h"
+
+namespace dresslife::pipeline {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Two digits, rounded up: what is needed.
+static std::string millimetres_above(double metres) { return percent_above(10 * metres); }
+
+double excess_at_force(const CableForce& cable, double force, double room) {
+  return cable.strain_at(force) + (room > 0 ? force * room * room / (4 * cable.bending_stiffness()) : 0);
+}
+
+double force_of_excess(const CableForce& cable, double excess, double room) {
+  if (excess <= 0) return 0;
+  double low = 0, high = cable.force(excess);  // without room
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = (low + high) / 2;
+    (excess_at_force(cable, middle, room) < excess ? low : high) = middle;
+  }
+  return high;
+}
+
+double room_of_excess(const CableForce& cable, double excess, double force) {
+  return std::sqrt(4 * cable.bending_stiffness() * std::max(0.0, excess - cable.strain_at(force)) / force);
+}
+
+std::vector<LooseRoom> loose_rooms(const Dresspack& dresspack) {
+  std::vector<CableSpot> spots;
+  std::vector<const Component*> of;
+  for (const Component& component : dresspack.components) {
+    if (is_wire(component) || !lies_loose(dresspack, component)) continue;
+    for (int number = 0; number < component.count; ++number) {
+      const double angle = component.phase + 2 * std::numbers::pi * number / component.count;
+      spots.push_back({{component.helix_radius * std::cos(angle), component.helix_radius * std::sin(angle)},
+                       component.radius,
+                       component.laying.play.has_value()});
+      of.push_back(&component);
+    }
+  }
+  const std::vector<CableRoom> rooms =
+      rooms_of(spots, inner_radius(dresspack).value_or(infinite), dresspack.core_diameter / 2);
+  std::vector<LooseRoom> loose;
+  for (std::size_t k = 0; k < spots.size(); ++k) {
+    const double room = of[k]->laying.play.value_or(winding_radius(spots[k], rooms[k]));
+    if (loose.empty() || loose.back().component != of[k])
+      loose.push_back({of[k], room});
+    else
+      loose.back().room = std::min(loose.back().room, room);
+  }
+  return loose;
+}
+
+std::vector<Warning> slack_warnings(const Dresspack& dresspack) {
+  std::vector<Warning> warnings;
+  for (const LooseRoom& loose : loose_rooms(dresspack)) {
+    const Component& component = *loose.component;
+    const CableForce cable(dresspack, component);
+    const double slack = component.laying.slack / 100, strength = cable.strength();
+    if (strength <= 0 || std::isinf(loose.room)) continue;
+    const double force = force_of_excess(cable, slack, loose.room);
+    if (force <= believable_share * strength) continue;
+    const double limit = believable_share * strength;
+    warnings.push_back(warning_of(
+        WarningKind::force, component.where.text(),
+        fmt::format("'{}' is compressed with {:.0f} % of its breaking force ({} of {} N, limit {:.0f} %) in the "
+                    "straight hose, whatever the routing",
+                    component.name, 100 * force / strength, readable(force), readable(strength),
+                    100 * believable_share),
+        fmt::format("it has {:.2g} mm of room to wind in and {:.3g} % ({:.3g} mm in a metre) of excess length",
+                    1e3 * loose.room, 100 * slack, 1e3 * slack),
+        fmt::format("slack_percent: {} or less; or {} mm of room around it",
+                    percent_below(excess_at_force(cable, limit, loose.room)),
+                    millimetres_above(room_of_excess(cable, slack, limit)))));
+  }
+  return warnings;
+}
+
+std::vector<Warning> construction_warnings(const Dresspack& dresspack, bool may_slide) {
+  std::vector<Warning> all = overlap_warnings(dresspack);
+  if (may_slide) all = joined(std::move(all), slack_warnings(dresspack));
+  return joined(std::move(all), stiffness_warnings(dresspack));
+}
+
+namespace {
+
+/// To two digits.
+std::string percent(double share, double (*rounded)(double)) {
+  if (!(share > 0)) return "0";
+  const double unit = std::pow(10.0, std::floor(std::log10(100 * share)) - 1);
+  return fmt::format("{:.2g}", rounded(100 * share / unit) * unit);
+}
+
+}  // namespace
+
+std::string percent_below(double share) {
+  return percent(share, [](double value) { return std::floor(value); });
+}
+std::string percent_above(double share) {
+  return percent(share, [](double value) { return std::ceil(value); });
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,46 @@
+// How much excess length fits into the room of a loose cable, and the force of what does not fit.
+//
+// A cable that is longer than its path by the share s is compressed by F / E A, and winds with the rest into a helix
+// of radius c, the radius of its room:  (k c)^2 / 2 = s - F / E A. Its bending energy per length is
+// E I (c k^2)^2 / 2 = 2 E I (s - F / E A)^2 / c^2, and F is the slope of that over s:
+//     s = F / E A + F c^2 / (4 E I)
+// (a pressed rod in a straight tube: Lubinski, Althouse and Logan 1962). Here F / E A is the strain of the cable's wires
+// at F (cable_force.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/base/warnings.h"
+#include "pipeline/cable/cable_force.h"
+
+namespace dresslife::pipeline {
+
+/// Largest excess that a compressive force [N] keeps. room: c [m]; 0: none.
+double excess_at_force(const CableForce& cable, double force, double room);
+/// Compressive force of a cable that is too long by a share [N], the inverse of excess_at_force().
+double force_of_excess(const CableForce& cable, double excess, double room);
+/// Room in which a cable keeps this excess at this force [m]; 0: it needs none.
+double room_of_excess(const CableForce& cable, double excess, double force);
+
+/// A component of the dresspack that lies loose, with the least room that one of its parts has.
+struct LooseRoom {
+  const Component* component;
+  double room;  ///< c [m]; infinite: nothing stops it
+};
+std::vector<LooseRoom> loose_rooms(const Dresspack& dresspack);
+
+/// Cables that are too long for their room even in the straight hose: no routing can cure that. Each warning names
+/// the cable, its force over its strength, its room, and the slack_percent that fits.
+std::vector<Warning> slack_warnings(const Dresspack& dresspack);
+
+/// What is wrong in the description of a dresspack, whatever its motion: parts that overlap, a stiffness that is not that
+/// of its parts, and, where its cables may slide, excess length without room.
+std::vector<Warning> construction_warnings(const Dresspack& dresspack, bool may_slide);
+
+/// "0.05", a percentage rounded down to two digits: what fits.
+std::string percent_below(double share);
+/// "0.06": rounded up, what is needed.
+std::string percent_above(double share);
+
+}  // namespace dresslife::pipeline

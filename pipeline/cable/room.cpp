@@ -1,0 +1,67 @@
+#include "pipeline/cable/room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double away(const CableSpot& cable) { return std::hypot(cable.place[0], cable.place[1]); }
+
+/// Distances from the axis between which a ring lies [m].
+struct Ring {
+  double inside, outside;
+};
+
+/// Puts cables into rings, innermost first.
+std::vector<Ring> rings_of(std::span<const CableSpot> cables, std::vector<CableRoom>& rooms) {
+  std::vector<std::size_t> order(cables.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return away(cables[a]) - cables[a].radius < away(cables[b]) - cables[b].radius;
+  });
+  std::vector<Ring> rings;
+  for (const std::size_t k : order) {
+    if (cables[k].own_play) continue;
+    const double inside = away(cables[k]) - cables[k].radius, outside = away(cables[k]) + cables[k].radius;
+    if (rings.empty() || inside >= rings.back().outside) rings.push_back({inside, outside});
+    rings.back().outside = std::max(rings.back().outside, outside);
+    rooms[k].ring = static_cast<int>(rings.size()) - 1;
+  }
+  return rings;
+}
+
+}  // namespace
+
+std::vector<CableRoom> rooms_of(std::span<const CableSpot> cables, double bore, double core) {
+  std::vector<CableRoom> rooms(cables.size(), {infinite, 0, infinite, no_ring});
+  const std::vector<Ring> rings = rings_of(cables, rooms);
+  for (std::size_t k = 0; k < cables.size(); ++k) {
+    CableRoom& room = rooms[k];
+    if (room.ring == no_ring) continue;
+    const auto number = static_cast<std::size_t>(room.ring);
+    const double wall = number + 1 < rings.size() ? rings[number + 1].inside : bore;
+    const double inside = number > 0 ? std::max(rings[number - 1].outside, core) : core;
+    room.farthest = std::max(wall - cables[k].radius, away(cables[k]));
+    room.nearest = inside > 0 ? std::min(inside + cables[k].radius, away(cables[k])) : 0;
+    for (std::size_t other = 0; other < cables.size(); ++other)
+      if (other != k && rooms[other].ring == room.ring) {
+        const double apart = std::hypot(cables[k].place[0] - cables[other].place[0],
+                                        cables[k].place[1] - cables[other].place[1]);
+        room.gap = std::min(room.gap, std::max(0.0, (apart - cables[k].radius - cables[other].radius) / 2));
+      }
+  }
+  for (CableRoom& room : rooms)  // alone in its ring a cable meets no other
+    if (room.gap == infinite) room.ring = no_ring;
+  return rooms;
+}
+
+double winding_radius(const CableSpot& cable, const CableRoom& room) {
+  return room.ring == no_ring ? room.farthest : away(cable);
+}
+
+}  // namespace dresslife::pipeline

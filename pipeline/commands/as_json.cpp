@@ -1,0 +1,59 @@
+#include "pipeline/commands/as_json.h"
+
+#include <array>
+#include <cmath>
+
+#include "pipeline/base/csv_rows.h"
+#include "pipeline/settings/document.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr std::array<std::string_view, 3> always_text{"job", "settings", "message"};
+
+Json json_of_cell(const std::string& text) {
+  const std::optional<double> number = number_in(text);
+  return number && std::isfinite(*number) ? Json(*number) : Json(text);
+}
+
+Json null() { return Json(std::nan("")); }
+
+}  // namespace
+
+Json json_of_csv(const std::string& csv) {
+  CsvReader reader(csv, "table", ",");
+  const CsvRow titles = reader.next();
+  std::vector<Json> rows;
+  for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
+    Json object{std::initializer_list<std::pair<std::string_view, Json>>{}};
+    for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k) {
+      const bool text = std::find(always_text.begin(), always_text.end(), titles[k].text) != always_text.end();
+      object.add(titles[k].text, row[k].text.empty() ? null() : text ? Json(row[k].text) : json_of_cell(row[k].text));
+    }
+    rows.push_back(object);
+  }
+  return rows;
+}
+
+Json json_of(const Node& document) {
+  switch (document.kind) {
+    case Node::Kind::null:
+      return null();
+    case Node::Kind::scalar:
+      if (document.quoted) return document.text;
+      if (document.text == "true" || document.text == "false") return document.text == "true";
+      return json_of_cell(document.text);
+    case Node::Kind::list: {
+      std::vector<Json> items;
+      for (const Node& item : document.items) items.push_back(json_of(item));
+      return items;
+    }
+    case Node::Kind::map:
+      break;
+  }
+  Json object{std::initializer_list<std::pair<std::string_view, Json>>{}};
+  for (const Entry& entry : document.entries) object.add(entry.key, json_of(entry.value));
+  return object;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,19 @@
+// What commands print, as JSON for other programs (--json).
+#pragma once
+
+#include <string>
+
+#include "pipeline/report/json.h"
+
+namespace dresslife::pipeline {
+
+struct Node;
+
+/// A list with an object for each row of a CSV text of ours, by the titles of its columns. Cells of numbers are numbers,
+/// empty cells null; "inf" is text, because JSON has no infinity. Names of jobs and digests are text always.
+Json json_of_csv(const std::string& csv);
+
+/// A YAML document: numbers, true and false as such, all else as text.
+Json json_of(const Node& document);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,45 @@
+#include "pipeline/commands/command.h"
+
+#include <memory>
+
+#include "pipeline/base/errors.h"
+#include "pipeline/commands/checking.h"
+#include "pipeline/commands/options.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+struct Options {
+  std::string job;
+  std::vector<std::string> sets;
+};
+
+int check(const Options& options) {
+  const std::filesystem::path job = named_file(options.job, "jobs");
+  const JobCheck check = check_of(job, options.sets);
+  for (const Warning& warning : check.warnings) print(shown(warning.line() + "\n"));
+  for (const std::string& note : check.notes) print(shown(note + "\n"));
+  if (!check.refusal.empty()) {
+    print(shown("The simulation refuses the job: " + check.refusal + "\n"));
+    return 1;
+  }
+  const std::size_t warnings = check.warnings.size();
+  print(shown(fmt::format("{}: {}\n", job.string(),
+                          warnings == 0   ? std::string("no warnings")
+                          : warnings == 1 ? std::string("1 warning")
+                                          : fmt::format("{} warnings", warnings))));
+  return 0;
+}
+
+}  // namespace
+
+Command check_command() {
+  const auto options = std::make_shared<Options>();
+  return {"check",
+          "check a job in seconds, before its run: units, joint limits, lengths over the whole program, slack and "
+          "clearance of the cables, slip",
+          {{"job", "", "JOB.yaml", &options->job, {.required = true}}, sets_option("override a key", options->sets)},
+          [options] { return check(*options); }};
+}
+
+}  // namespace dresslife::pipeline

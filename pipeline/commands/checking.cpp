@@ -1,0 +1,52 @@
+#include "pipeline/commands/checking.h"
+
+#include <fmt/format.h>
+
+#include "pipeline/base/warning_words.h"
+#include "pipeline/cable/excess.h"
+#include "pipeline/commands/options.h"
+#include "pipeline/commands/results.h"
+#include "pipeline/files/files.h"
+#include "pipeline/job/job.h"
+#include "pipeline/report/preview_page.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/study/stage_program.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// Bounds are no best estimates: lives of glued or freely sliding parts lie decades apart.
+void add_slip(const Job& job, std::vector<Warning>& warnings) {
+  for (const Slip slip : job.strain.slip)
+    if (!rubs(slip)) {
+      warnings.push_back(warning_of(
+          WarningKind::strain, "",
+          fmt::format("strain.slip is {} at one level or more: the life is a bound, not a best estimate", word(slip)),
+          "the job overrides the default", "strain.slip: friction, or leave the key out"));
+      return;
+    }
+}
+
+}  // namespace
+
+JobCheck check_of(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  const Job job = read_job(file, sets);
+  JobCheck check;
+  for (const MountedDresspack& mounted : job.dresspacks)
+    for (Warning warning : construction_warnings(mounted.dresspack, slides(job.strain.slip.front()))) {
+      if (!mounted.name.empty()) warning.where = mounted.name;
+      check.warnings.push_back(warning);
+    }
+  add_slip(job, check.warnings);
+  if (job.motion.is_prescribed()) return check;
+  const PassingFile told("preview.h5");
+  if (tell_preview(file, sets, {}, told.path()) != 0)
+    throw InputError({file.string()}, "its motion cannot be computed (see above)", "mend what is named there");
+  check.refusal = refusal_of(told.path());
+  const FileReader preview(told.path(), preview_format(), FileReader::Scope::attributes);
+  check.warnings = joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings")));
+  check.notes = length_words(told.path());
+  return check;
+}
+
+}  // namespace dresslife::pipeline

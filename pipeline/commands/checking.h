@@ -1,0 +1,21 @@
+// All quick checks of a job, in seconds: what its description says, and what geometry and statics say of its program.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/base/warnings.h"
+
+namespace dresslife::pipeline {
+
+struct JobCheck {
+  std::string refusal;             ///< why the simulation refuses the job; empty: it takes it
+  std::vector<Warning> warnings;   ///< a run gives those of slack and of the construction, too
+  std::vector<std::string> notes;  ///< which lengths suit, for each dresspack between two clamps
+};
+
+/// Errors: InputError for all that a reader of jobs refuses, at once.
+JobCheck check_of(const std::filesystem::path& job, const std::vector<std::string>& sets);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,409 @@
+#include "pipeline/life/first_failure.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+
+#include "pipeline/base/random.h"
+#include "pipeline/base/statistics.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t cause_count = uncertain_count + 1;  // the last: scatter of wires
+constexpr std::size_t of_wires = uncertain_count;
+
+// ---- samples ----------------------------------------------------------------------------------------------
+
+/// In the middles of equal shares of the normal distribution, rising.
+const std::vector<double>& normal_strata(std::size_t samples) {
+  thread_local std::vector<double> strata;
+  if (strata.size() != samples) {
+    strata.clear();
+    for (std::size_t s = 0; s < samples; ++s) strata.push_back(normal_quantile((double(s) + 0.5) / double(samples)));
+  }
+  return strata;
+}
+
+/// FNV-1a: fixed for ever.
+std::uint64_t seed_of(const std::string& name) {
+  std::uint64_t seed = 0xcbf29ce484222325;
+  for (const char letter : name) seed = (seed ^ static_cast<unsigned char>(letter)) * 0x100000001b3;
+  return seed;
+}
+
+/// (sample) standard normal, every stratum once, in an order that the name decides.
+std::vector<double> normals_of(const std::string& name, std::size_t samples) {
+  std::vector<double> values = normal_strata(samples);
+  std::uint64_t state = seed_of(name);
+  for (std::size_t k = samples; k > 1; --k, state += mix_step)
+    std::swap(values[k - 1], values[mixed(state) % k]);
+  return values;
+}
+
+/// What a dresspack of a job has for itself.
+std::string own_name(const LifeResponse& response, const std::string& job) {
+  return "job " + job + (response.dresspack.empty() ? "" : "/" + response.dresspack);
+}
+
+std::string stream_of(const LifeResponse& response, std::size_t parameter, const std::string& job) {
+  const UncertainParameter& of = uncertain_parameters()[parameter];
+  std::string shared;
+  switch (of.shared) {
+    case SharedBy::construction:
+      shared = "construction " + response.construction;
+      break;
+    case SharedBy::material:
+      shared = "material " + response.material;
+      break;
+    case SharedBy::everything:
+      shared = "everything";
+      break;
+    case SharedBy::installation:
+      shared = own_name(response, job);
+      break;
+  }
+  return std::string(of.name) + "/" + shared;
+}
+
+/// Lower triangle L with L L^T = covariance; a parameter that is known has a row of zeros. What jobs share
+/// comes before what each has for itself, so that nothing shared depends on a job's own numbers. order: (row)
+/// parameter.
+Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<std::size_t>& order) {
+  const auto n = static_cast<Eigen::Index>(order.size());
+  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
+  const auto of = [&](Eigen::Index a, Eigen::Index b) {
+    return covariance(static_cast<Eigen::Index>(order[std::size_t(a)]),
+                      static_cast<Eigen::Index>(order[std::size_t(b)]));
+  };
+  for (Eigen::Index column = 0; column < n; ++column) {
+    const double left = of(column, column) - factor.row(column).head(column).squaredNorm();
+    if (!(left > 1e-12)) continue;
+    factor(column, column) = std::sqrt(left);
+    for (Eigen::Index row = column + 1; row < n; ++row)
+      factor(row, column) =
+          (of(row, column) - factor.row(row).head(column).dot(factor.row(column).head(column))) /
+          factor(column, column);
+  }
+  return factor;
+}
+
+/// All that one mode's lives are computed from.
+struct Samples {
+  std::vector<ParameterPoint> z;
+  std::vector<double> u;
+};
+
+/// again: another, independent set of samples.
+Samples samples_of(const LifeResponse& response, const std::string& job, std::size_t count, bool again = false) {
+  const auto normals = [&](const std::string& name) { return normals_of(again ? name + " again" : name, count); };
+  std::vector<std::size_t> order(uncertain_count);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(), [](std::size_t p) {
+    return uncertain_parameters()[p].shared != SharedBy::installation;
+  });
+  const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
+  Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job))};
+  if (response.scatter_shared < 1) {  // modes of one dresspack have a part of their scatter in common
+    const std::vector<double> own = normals("scatter of wires/" + own_name(response, job) + "/" + response.mode);
+    const double common = std::sqrt(response.scatter_shared), alone = std::sqrt(1 - response.scatter_shared);
+    for (std::size_t s = 0; s < count; ++s) samples.u[s] = common * samples.u[s] + alone * own[s];
+  }
+  for (std::size_t s = 0; s < count; ++s)
+    for (std::size_t p = 0; p < uncertain_count; ++p)
+      samples.z[s][p] = response.knowledge.mean(static_cast<Eigen::Index>(p));
+  for (std::size_t column = 0; column < uncertain_count; ++column) {
+    if (factor.col(static_cast<Eigen::Index>(column)).isZero(0)) continue;
+    const std::vector<double> normal = normals(stream_of(response, order[column], job));
+    for (std::size_t row = column; row < uncertain_count; ++row) {
+      const double weight = factor(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
+      if (weight == 0) continue;
+      for (std::size_t s = 0; s < count; ++s) samples.z[s][order[row]] += weight * normal[s];
+    }
+  }
+  return samples;
+}
+
+std::vector<Samples> samples_of(const FailureModes& modes, const std::string& job, std::size_t count,
+                                bool again = false) {
+  std::vector<Samples> samples;
+  for (const LifeResponse& mode : modes) samples.push_back(samples_of(mode, job, count, again));
+  return samples;
+}
+
+std::vector<LifeSurface> surfaces_of(const FailureModes& modes) {
+  std::vector<LifeSurface> surfaces;
+  for (const LifeResponse& mode : modes) surfaces.emplace_back(mode);
+  return surfaces;
+}
+
+/// (sample) of the mode that fails first; first: counts those, (mode).
+std::vector<double> lives_of(const std::vector<LifeSurface>& surfaces, const std::vector<Samples>& samples,
+                             Inside inside, std::vector<double>* first = nullptr) {
+  std::vector<double> lives(samples.front().u.size(), infinity);
+  if (first) first->assign(surfaces.size(), 0);
+  for (std::size_t s = 0; s < lives.size(); ++s) {
+    std::size_t mode = 0;
+    for (std::size_t m = 0; m < surfaces.size(); ++m) {
+      const double life = surfaces[m].log10_life(samples[m].z[s], samples[m].u[s], inside);
+      if (life < lives[s]) lives[s] = life, mode = m;
+    }
+    if (first && std::isfinite(lives[s])) ++(*first)[mode];
+  }
+  return lives;
+}
+
+LifePercentiles percentiles_of(std::vector<double> lives) {
+  std::sort(lives.begin(), lives.end());
+  constexpr std::array<double, 3> shares{0.1, 0.5, 0.9};
+  LifePercentiles percentiles{};
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const double at = shares[i] * double(lives.size()) - 0.5;
+    const auto below = static_cast<std::size_t>(std::max(0.0, at));
+    const double low = lives[below], high = lives[std::min(below + 1, lives.size() - 1)];
+    percentiles[i] =
+        std::pow(10.0, std::isinf(high) ? high : low + (at - double(below)) * (high - low));
+  }
+  return percentiles;
+}
+
+// ---- shares of the uncertainty ----------------------------------------------------------------------------
+
+/// Whether a cause is uncertain and moves any mode.
+bool is_active(const FailureModes& modes, const std::vector<LifeSurface>& surfaces, std::size_t cause) {
+  if (cause == of_wires)
+    return std::any_of(modes.begin(), modes.end(), [](const LifeResponse& mode) {
+      return std::any_of(mode.planned.begin(), mode.planned.end(),
+                         [](const auto& lives) { return lives[0] != lives[2]; });
+    });
+  const auto at = static_cast<Eigen::Index>(cause);
+  if (!(modes.front().knowledge.covariance(at, at) > 0)) return false;
+  return std::any_of(surfaces.begin(), surfaces.end(),
+                     [&](const LifeSurface& surface) { return surface.depends_on(cause); });
+}
+
+/// Samples that have the causes in `kept` in common with `one` and are else distributed as they are given
+/// those: z' + C(rest, kept) C(kept, kept)^+ (z - z')(kept), z' of an independent set (Matheron).
+class Mixed {
+ public:
+  Mixed(const std::vector<Samples>& one, const std::vector<Samples>& other, const Eigen::MatrixXd& covariance)
+      : one_(one), other_(other), covariance_(covariance) {
+    Eigen::MatrixXd beside = covariance;
+    beside.diagonal().setZero();
+    independent_ = beside.isZero(0);
+  }
+
+  std::vector<Samples> keeping(const std::vector<std::size_t>& kept) const {
+    std::vector<Samples> mixed = other_;
+    std::vector<std::size_t> parameters;
+    for (const std::size_t cause : kept) {
+      if (cause != of_wires) parameters.push_back(cause);
+      for (std::size_t m = 0; m < mixed.size(); ++m)
+        for (std::size_t s = 0; s < mixed[m].u.size(); ++s)
+          cause == of_wires ? mixed[m].u[s] = one_[m].u[s] : mixed[m].z[s][cause] = one_[m].z[s][cause];
+    }
+    if (!independent_ && !parameters.empty()) move_rest(parameters, mixed);
+    return mixed;
+  }
+
+ private:
+  void move_rest(const std::vector<std::size_t>& kept, std::vector<Samples>& mixed) const {
+    const auto count = static_cast<Eigen::Index>(kept.size());
+    Eigen::MatrixXd inner(count, count), outer(Eigen::Index(uncertain_count), count);
+    for (Eigen::Index a = 0; a < count; ++a) {
+      const auto of = static_cast<Eigen::Index>(kept[std::size_t(a)]);
+      outer.col(a) = covariance_.col(of);
+      for (Eigen::Index b = 0; b < count; ++b)
+        inner(b, a) = covariance_(static_cast<Eigen::Index>(kept[std::size_t(b)]), of);
+    }
+    const Eigen::MatrixXd weights = outer * inner.completeOrthogonalDecomposition().pseudoInverse();
+    Eigen::VectorXd apart(count);
+    for (std::size_t m = 0; m < mixed.size(); ++m)
+      for (std::size_t s = 0; s < mixed[m].u.size(); ++s) {
+        for (Eigen::Index a = 0; a < count; ++a) {
+          const std::size_t p = kept[std::size_t(a)];
+          apart(a) = one_[m].z[s][p] - other_[m].z[s][p];
+        }
+        for (std::size_t p = 0; p < uncertain_count; ++p)
+          if (std::find(kept.begin(), kept.end(), p) == kept.end())
+            mixed[m].z[s][p] += weights.row(static_cast<Eigen::Index>(p)) * apart;
+      }
+  }
+
+  const std::vector<Samples>&one_, &other_;
+  const Eigen::MatrixXd& covariance_;
+  bool independent_ = true;
+};
+
+/// Lives without end count as `endless`: a variance must be finite.
+std::vector<double> capped(std::vector<double> lives) {
+  for (double& life : lives) life = std::min(life, LifeResponse::endless);
+  return lives;
+}
+
+double covariance_of(const std::vector<double>& a, const std::vector<double>& b) {
+  const double count = double(a.size());
+  const double mean = (std::accumulate(a.begin(), a.end(), 0.0) + std::accumulate(b.begin(), b.end(), 0.0)) / (2 * count);
+  double sum = 0;
+  for (std::size_t s = 0; s < a.size(); ++s) sum += (a[s] - mean) * (b[s] - mean);
+  return sum / count;
+}
+
+std::array<double, cause_count> shares_of(const FailureModes& modes, const std::vector<LifeSurface>& surfaces,
+                                          const std::string& job) {
+  std::vector<std::size_t> causes;
+  for (std::size_t cause = 0; cause < cause_count; ++cause)
+    if (is_active(modes, surfaces, cause)) causes.push_back(cause);
+  std::array<double, cause_count> share{};
+  if (causes.empty()) return share;
+  // Half a million lives take about a tenth of a second; 4000 samples leave 1 to 2 % of the variance to chance.
+  constexpr std::size_t lives_in_all = 500'000, most_samples = 4000, fewest_samples = 500;
+  const std::size_t sets = std::size_t{1} << causes.size();
+  const std::size_t count = std::clamp(lives_in_all / sets, fewest_samples, most_samples);
+  const std::vector<Samples> one = samples_of(modes, job, count), other = samples_of(modes, job, count, true);
+  const Mixed mixture(one, other, modes.front().knowledge.covariance);
+  const std::vector<double> lives = capped(lives_of(surfaces, one, Inside::as_is));
+  std::vector<double> explained(sets, 0.0);  // V(S), (set of causes as bits)
+  for (std::size_t set = 1; set < sets; ++set) {
+    std::vector<std::size_t> kept;
+    for (std::size_t c = 0; c < causes.size(); ++c)
+      if (set >> c & 1) kept.push_back(causes[c]);
+    const bool all = set + 1 == sets;
+    explained[set] =
+        covariance_of(lives, all ? lives : capped(lives_of(surfaces, mixture.keeping(kept), Inside::as_is)));
+  }
+  if (!(explained.back() > 0)) return share;
+  const double d = double(causes.size());
+  for (std::size_t set = 0; set < sets; ++set) {
+    const double size = double(__builtin_popcountll(set));
+    const double weight = std::exp(std::lgamma(size + 1) + std::lgamma(d - size) - std::lgamma(d + 1));
+    for (std::size_t c = 0; c < causes.size(); ++c)
+      if (!(set >> c & 1))
+        share[causes[c]] += weight * (explained[set | std::size_t{1} << c] - explained[set]) / explained.back();
+  }
+  return share;
+}
+
+// ---- the test that narrows most ---------------------------------------------------------------------------
+
+/// What is known once a test has told one parameter, as its median is today.
+ParameterKnowledge tested(const ParameterKnowledge& known, std::size_t parameter) {
+  const UncertainParameter& of = uncertain_parameters()[parameter];
+  const auto at = static_cast<Eigen::Index>(parameter);
+  const double error = of.test_deviation / of.deviation;  // of z
+  ParameterKnowledge after = known;
+  const Eigen::VectorXd column = known.covariance.col(at);
+  after.covariance -= column * column.transpose() / (known.covariance(at, at) + error * error);
+  return after;
+}
+
+double decades(const LifePercentiles& lives) {
+  const double most = LifeResponse::endless;
+  return std::min(std::log10(lives[2]), most) - std::min(std::log10(lives[0]), most);
+}
+
+void find_best_test(const FailureModes& modes, const std::vector<LifeSurface>& surfaces, const std::string& job,
+                    std::size_t count, FirstFailures& summary) {
+  constexpr double worth_while = 0.95;  // of the decades between 10 and 90 %
+  double narrowest = worth_while * decades(summary.percentiles);
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    if (!is_active(modes, surfaces, p)) continue;
+    FailureModes after = modes;
+    for (LifeResponse& mode : after) mode.knowledge = tested(mode.knowledge, p);
+    const LifePercentiles lives = percentiles_of(lives_of(surfaces, samples_of(after, job, count), Inside::as_is));
+    if (!(decades(lives) < narrowest)) continue;
+    narrowest = decades(lives);
+    summary.best_test = p;
+    summary.after_test = lives;
+  }
+}
+
+}  // namespace
+
+std::string modes_text(const FailureModes& modes) {
+  std::string text;
+  for (const LifeResponse& mode : modes) text += mode.text();
+  return text;
+}
+
+FailureModes modes_from_text(const std::string& text) {
+  FailureModes modes;
+  for (std::size_t begin = 0; begin < text.size() || modes.empty();) {
+    const std::size_t next = text.find("\nmode ", begin);
+    const std::size_t end = next == std::string::npos ? text.size() : next + 1;
+    modes.push_back(LifeResponse::from_text(text.substr(begin, end - begin)));
+    begin = end;
+  }
+  return modes;
+}
+
+std::vector<double> first_failures(const FailureModes& modes, const std::string& job, std::size_t samples,
+                                   Inside inside) {
+  return lives_of(surfaces_of(modes), samples_of(modes, job, samples), inside);
+}
+
+FirstFailures summary_of(const FailureModes& modes, const std::string& job, std::size_t count) {
+  const std::vector<LifeSurface> surfaces = surfaces_of(modes);
+  const std::vector<Samples> samples = samples_of(modes, job, count);
+  FirstFailures summary;
+  summary.log10_life = lives_of(surfaces, samples, Inside::as_is, &summary.first);
+  const double failed = std::accumulate(summary.first.begin(), summary.first.end(), 0.0);
+  for (double& share : summary.first) share = failed > 0 ? share / failed : 0;
+  summary.percentiles = percentiles_of(summary.log10_life);
+  summary.glued = percentiles_of(lives_of(surfaces, samples, Inside::glued));
+  summary.free = percentiles_of(lives_of(surfaces, samples, Inside::free));
+  summary.share = shares_of(modes, surfaces, job);
+  find_best_test(modes, surfaces, job, count, summary);
+  return summary;
+}
+
+double share_outliving(const std::vector<double>& one, const std::vector<double>& other) {
+  assert(one.size() == other.size() && !one.empty());
+  double count = 0;
+  for (std::size_t s = 0; s < one.size(); ++s) count += one[s] > other[s] ? 1 : one[s] == other[s] ? 0.5 : 0;
+  return count / double(one.size());
+}
+
+// Whole per cents by largest remainders.
+std::string share_words(const std::array<double, uncertain_count + 1>& share) {
+  std::vector<std::pair<std::string, double>> parts;
+  double other = 0, all = 0;
+  for (std::size_t p = 0; p < share.size(); ++p) {
+    all += share[p];
+    if (share[p] >= 0.01)
+      parts.emplace_back(p == of_wires ? "scatter of wires" : uncertain_parameters()[p].name, 100 * share[p]);
+    else
+      other += 100 * share[p];
+  }
+  if (all == 0) return "";
+  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  parts.emplace_back("other", other);
+  int missing = 100;
+  for (const auto& [name, percent] : parts) missing -= static_cast<int>(std::floor(percent));
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const auto left = [&](std::size_t k) { return parts[k].second - std::floor(parts[k].second); };
+    return left(a) > left(b);
+  });
+  std::vector<int> whole(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) whole[k] = static_cast<int>(std::floor(parts[k].second));
+  for (std::size_t k = 0; k < order.size() && missing > 0; ++k, --missing) ++whole[order[k]];
+  std::string words;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (whole[k] != 0) words += fmt::format("{}{} {} %", words.empty() ? "" : "; ", parts[k].first, whole[k]);
+  return words;
+}
+
+std::size_t largest_share(const std::array<double, uncertain_count + 1>& share) {
+  return static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
+}
+
+}  // namespace dresslife::pipeline

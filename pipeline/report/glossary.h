@@ -1,0 +1,24 @@
+// The words of tables, pages and warnings, and what they mean: one list, from which the glossary page, the end of every
+// HTML page and `dresslife manual glossary` are made.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace dresslife::pipeline {
+
+struct GlossaryEntry {
+  const char* word;
+  const char* meaning;
+};
+
+/// Sorted by word.
+std::span<const GlossaryEntry> glossary();
+
+/// As a Markdown list.
+std::string glossary_manual();
+
+/// The end of a page: a closed list, with the anchor #words.
+std::string glossary_html();
+
+}  // namespace dresslife::pipeline

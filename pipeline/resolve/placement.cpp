@@ -1,0 +1,257 @@
+#include "pipeline/resolve/placement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <numeric>
+
+#include "pipeline/settings/units.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double touching = 1e-9;  // of a radius
+constexpr int halvings = 60;
+
+/// Sum of the angles that parts ask for on a circle [rad]; infinite: two of them meet across it.
+double asked(const std::vector<double>& radii, double circle) {
+  double sum = 0;
+  for (std::size_t k = 0; k < radii.size(); ++k) {
+    const double share = (radii[k] + radii[(k + 1) % radii.size()]) / (2 * circle);
+    if (share > 1) return HUGE_VAL;
+    sum += 2 * std::asin(share);
+  }
+  return sum;
+}
+
+/// Thick and thin ones in turn, so that the weight is spread.
+std::vector<std::size_t> spread(const std::vector<double>& radii, std::vector<std::size_t> parts) {
+  std::stable_sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
+  if (radii[parts.front()] == radii[parts.back()]) return parts;
+  std::vector<std::size_t> order;
+  for (std::size_t front = 0, back = parts.size(); front < back;) {
+    order.push_back(parts[front++]);
+    if (front < back) order.push_back(parts[--back]);
+  }
+  return order;
+}
+
+/// Of a ring against the wall; nothing: they do not fit, or the ring would reach into the core. Two or more parts.
+std::optional<double> circle_of(const std::vector<double>& radii, double bore, double core) {
+  const double thickest = *std::max_element(radii.begin(), radii.end());
+  const double widest = bore - thickest;
+  if (widest <= 0 || asked(radii, widest) > 2 * pi * (1 + touching)) return std::nullopt;
+  double low = 0, high = widest;  // least circle
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2;
+    (asked(radii, middle) > 2 * pi ? low : high) = middle;
+  }
+  const double least = std::max(high, core + thickest);
+  if (least > widest * (1 + touching)) return std::nullopt;
+  low = std::min(least, widest), high = widest;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2;
+    const double gap = middle * (2 * pi - asked(radii, middle)) / static_cast<double>(radii.size());
+    (widest - middle > gap / 2 ? low : high) = middle;
+  }
+  return low;
+}
+
+std::vector<double> chosen(const std::vector<double>& radii, const std::vector<std::size_t>& parts) {
+  std::vector<double> of;
+  for (const std::size_t part : parts) of.push_back(radii[part]);
+  return of;
+}
+
+void place_on(double circle, const std::vector<double>& radii, const std::vector<std::size_t>& order,
+              std::vector<PlacedPart>& places) {
+  const std::vector<double> of = chosen(radii, order);
+  const double gap = std::max(0.0, 2 * pi - asked(of, circle)) / static_cast<double>(order.size());
+  double phase = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    places[order[k]] = {circle, phase};
+    phase += 2 * std::asin((of[k] + of[(k + 1) % of.size()]) / (2 * circle)) + gap;
+  }
+}
+
+/// Fills the bore with these parts: in one ring, around the thickest, or around further rings.
+bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, double bore, double core,
+          std::vector<PlacedPart>& places) {
+  if (parts.empty()) return true;
+  if (parts.size() == 1) {
+    const double radius = radii[parts[0]];
+    if (core == 0) {
+      places[parts[0]] = {};
+      return radius <= bore * (1 + touching);
+    }
+    places[parts[0]] = {(bore + core) / 2, 0};
+    return 2 * radius <= (bore - core) * (1 + touching);
+  }
+  std::stable_sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
+  // The thickest first in the middle, then more and more parts within the ring.
+  for (std::size_t inside = 0; inside < parts.size(); ++inside) {
+    const std::vector<std::size_t> within(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(inside)),
+        order = spread(radii, {parts.begin() + static_cast<std::ptrdiff_t>(inside), parts.end()});
+    if (order.size() < 2) break;
+    const std::vector<double> ring = chosen(radii, order);
+    const double thickest = *std::max_element(ring.begin(), ring.end());
+    if (inside == 0) {
+      if (const auto circle = circle_of(ring, bore, core)) return place_on(*circle, radii, order, places), true;
+      continue;
+    }
+    // The ring against the wall leaves the most room inside; then it goes to where its own parts have theirs.
+    if (asked(ring, bore - thickest) > 2 * pi * (1 + touching)) continue;
+    if (!fill(radii, within, bore - 2 * thickest, core, places)) continue;
+    double taken = core;
+    for (const std::size_t part : within) taken = std::max(taken, places[part].helix_radius + radii[part]);
+    if (const auto circle = circle_of(ring, bore, taken)) return place_on(*circle, radii, order, places), true;
+  }
+  return false;
+}
+
+double number_of(const Node& map, const char* key) {
+  const Node* value = map.find(key);
+  return value ? std::strtod(value->text.c_str(), nullptr) : 0;
+}
+
+/// [mm]; 0: not known.
+double bore_of(const Node& dresspack) {
+  if (dresspack.find("inner_diameter_mm")) return number_of(dresspack, "inner_diameter_mm");
+  const Node* profile = dresspack.find("hose_corrugation");
+  if (!profile || !profile->is_map()) return 0;
+  return number_of(dresspack, "diameter_mm") - 2 * number_of(*profile, "height_mm");
+}
+
+std::string millimetres(double metres) { return shortest_text(std::round(1e6 * metres) / 1e3); }
+
+struct AutoPart {
+  std::size_t component;
+  int number;  ///< of the component's parts, 0 first
+};
+
+/// Of the components that ask for it, in their order; problems of their keys are added.
+std::vector<AutoPart> auto_parts(const Node& components, const std::string& path, double& core, Problems& problems) {
+  std::vector<AutoPart> parts;
+  for (std::size_t i = 0; i < components.items.size(); ++i) {
+    const Node& component = components.items[i];
+    const std::string key = fmt::format("{}.components[{}]", path, i + 1);
+    if (!component.is_map()) continue;
+    const Node* place = component.find("place");
+    if (!place) {
+      if (number_of(component, "helix_radius_mm") == 0)
+        core = std::max(core, number_of(component, "radius_mm") / 1e3);
+      else
+        problems.add(component.where, "lies off the axis at a place of its own, beside parts with place: auto",
+                     "write place: auto for it, too, or give all places", key);
+      continue;
+    }
+    if (place->text != "auto")
+      problems.add(place->where, fmt::format("place is '{}' (must be auto)", place->text),
+                   "write auto, or helix_radius_mm and phase_deg instead of place", key);
+    for (const char* other : {"helix_radius_mm", "phase_deg", "lay_angle_deg"})
+      if (const Node* given = component.find(other))
+        problems.add(given->where, fmt::format("both place and {} are given", other), "keep one of the two", key);
+    if (!(number_of(component, "radius_mm") > 0))
+      problems.add(component.where, "has place: auto and no radius_mm", "give radius_mm, or a data_sheet", key);
+    const int count = component.find("count") ? static_cast<int>(number_of(component, "count")) : 1;
+    for (int number = 0; number < std::clamp(count, 1, 1000); ++number) parts.push_back({i, number});
+  }
+  return parts;
+}
+
+void set_place(Node& component, const PlacedPart& place) {
+  std::erase_if(component.entries, [](const Entry& entry) { return entry.key == "place"; });
+  component["helix_radius_mm"] = scalar(millimetres(place.helix_radius));
+  component["phase_deg"] = scalar(shortest_text(std::round(1e3 * place.phase * 180 / pi) / 1e3));
+  for (const char* key : {"helix_radius_mm", "phase_deg"}) component[key].where = component.where;
+}
+
+/// "a", "b", .. "z", "aa", ..
+std::string letter(int number) {
+  std::string text;
+  for (; number >= 0; number = number / 26 - 1) text.insert(text.begin(), static_cast<char>('a' + number % 26));
+  return text;
+}
+
+/// Whether they lie on one circle, evenly around it, in their order.
+bool even(const std::vector<PlacedPart>& places) {
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double off = std::remainder(places[k].phase - places[0].phase - 2 * pi * static_cast<double>(k) / static_cast<double>(places.size()), 2 * pi);
+    if (std::abs(places[k].helix_radius - places[0].helix_radius) > touching || std::abs(off) > 1e-6) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<PlacedPart>> pack_in_bore(const std::vector<double>& radii, double bore, double core) {
+  std::vector<PlacedPart> places(radii.size());
+  std::vector<std::size_t> parts(radii.size());
+  std::iota(parts.begin(), parts.end(), 0);
+  if (!fill(radii, parts, bore, core, places)) return std::nullopt;
+  return places;
+}
+
+void expand_places(Node& dresspack, const std::string& path, Problems& problems) {
+  Node* components = dresspack.is_map() ? dresspack.find("components") : nullptr;
+  if (!components || !components->is_list()) return;
+  const auto asks = [](const Node& component) { return component.is_map() && component.find("place"); };
+  const auto first = std::find_if(components->items.begin(), components->items.end(), asks);
+  if (first == components->items.end()) return;
+  const Where where = first->where;
+  Problems own;
+  double core = number_of(dresspack, "core_diameter_mm") / 2e3;
+  const double bore = bore_of(dresspack) / 2e3;
+  const std::vector<AutoPart> parts = auto_parts(*components, path, core, own);
+  if (!(bore > 0))
+    own.add(where, "place: auto is given, and the hose's bore is not (how much room there is is not known)",
+            "give inner_diameter_mm or hose_corrugation of the dresspack", path);
+  if (!problems.attempt(path + ".components", where, [&] { own.finish(); })) return;
+  std::vector<double> radii;
+  for (const AutoPart& part : parts) radii.push_back(number_of(components->items[part.component], "radius_mm") / 1e3);
+  const auto places = pack_in_bore(radii, bore, core);
+  if (!places) {
+    double enough = 2 * bore;
+    while (!pack_in_bore(radii, enough, core)) enough *= 2;
+    for (double low = bore; enough - low > 1e-5;) {
+      const double middle = (low + enough) / 2;
+      (pack_in_bore(radii, middle, core) ? enough : low) = middle;
+    }
+    problems.add(where,
+                 fmt::format("{} parts with place: auto do not fit into the bore of {:.4g} mm", parts.size(), 2e3 * bore),
+                 fmt::format("take fewer or thinner parts, or a hose with inner_diameter_mm: {:.4g} or more", 2e3 * enough),
+                 path + ".components");
+    return;
+  }
+  std::vector<Node> placed;
+  for (std::size_t i = 0; i < components->items.size(); ++i) {
+    std::vector<PlacedPart> own_places;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      if (parts[k].component == i) own_places.push_back((*places)[k]);
+    Node component = components->items[i];
+    if (own_places.empty()) {
+      placed.push_back(component);
+      continue;
+    }
+    if (own_places.size() == 1 || even(own_places)) {
+      set_place(component, own_places.front());
+      placed.push_back(component);
+      continue;
+    }
+    std::erase_if(component.entries, [](const Entry& entry) { return entry.key == "count"; });
+    const std::string name = component.find("name") ? component.find("name")->text : "part";
+    for (std::size_t k = 0; k < own_places.size(); ++k) {
+      Node single = component;
+      single["name"].text = name + " " + letter(static_cast<int>(k));
+      set_place(single, own_places[k]);
+      placed.push_back(single);
+    }
+  }
+  components->items = std::move(placed);
+}
+
+}  // namespace dresslife::pipeline

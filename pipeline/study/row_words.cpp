@@ -1,0 +1,139 @@
+#include "pipeline/study/row_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "pipeline/base/readable.h"
+#include "pipeline/job/uncertainty.h"
+#include "pipeline/study/row_warnings.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+/// Robots are replaced or overhauled after 20,000 to 40,000 h.
+constexpr double longest_robot_life_hours = 40000;
+
+const UncertainParameter* parameter_of(const std::string& name) {
+  for (const UncertainParameter& parameter : uncertain_parameters())
+    if (parameter.name == name) return &parameter;
+  return nullptr;
+}
+
+/// Warnings that say that the strains themselves are wrong.
+bool is_believable(const RankingRow& row) {
+  const std::vector<Warning> warnings = warnings_of(row);
+  return std::none_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.kind == WarningKind::force || warning.kind == WarningKind::strain;
+  });
+}
+
+bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && row.damage_per_repeat > 0; }
+
+std::string cause_words(const RankingRow& row) {
+  if (!(row.measure_next_share > 0)) return "";
+  const UncertainParameter* const cause = parameter_of(row.measure_next);
+  return fmt::format("{:.0f} % of the uncertainty is {}.", 100 * row.measure_next_share,
+                     cause ? cause->cause : "the scatter from wire to wire");
+}
+
+std::string test_words(const RankingRow& row) {
+  if (row.life_response.empty() || std::isinf(row.planned_hours[0])) return "";
+  const UncertainParameter* const test = parameter_of(row.best_test);
+  if (!test) return "No single test would narrow the range much.";
+  return fmt::format("{} would narrow the range from {} to about {}, if it confirms today's estimate.",
+                     test->test, range_text(row.planned_hours[0], row.planned_hours[2]),
+                     range_text(row.tested_p10, row.tested_p90));
+}
+
+std::string joined_words(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences)
+    if (!sentence.empty()) text += (text.empty() ? "" : " ") + sentence;
+  return text;
+}
+
+}  // namespace
+
+std::string range_text(double low_hours, double high_hours) {
+  if (std::isinf(low_hours)) return "no damage";
+  if (std::isinf(high_hours)) return hours_text(low_hours) + " .. no damage";
+  return fmt::format("{} .. {}", readable(low_hours), hours_text(high_hours));
+}
+
+std::string action_words(const RankingRow& row) {
+  if (!row.has_result()) return "";
+  const double hours = row.headline_hours();
+  if (!is_believable(row))
+    return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) ? "this result" : hours_text(hours),
+                       warning_kinds(row));
+  if (row.worst_segment_from_tool == 0) return "No wire was evaluated.";
+  if (std::isinf(hours))
+    return row.planned() ? "No replacement is foreseen: in more than 90 % of the samples no mode fails."
+                         : "No replacement is foreseen: no wire is damaged.";
+  if (hours > longest_robot_life_hours)
+    return fmt::format("The evaluated parts outlive the robot ({} h at most): {} ({}). What is not evaluated, such as wear, kinks "
+                       "and connectors, ends the dresspack earlier.",
+                       readable(longest_robot_life_hours), hours_text(hours), calendar_text(row.headline_months()));
+  return fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months()));
+}
+
+std::string uncertainty_words(const RankingRow& row) { return joined_words({cause_words(row), test_words(row)}); }
+
+std::string failure_words(const RankingRow& row) {
+  if (row.worst_component.empty()) return "No wire was evaluated.";
+  if (!is_damaged(row)) return "No wire is damaged.";
+  const std::string first = row.failing_mode.empty()
+                                ? ""
+                                : fmt::format("Fails first: {} ({:.0f} % of the samples).", row.failing_mode,
+                                              100 * row.failing_mode_share);
+  const std::string during = row.worst_step.empty() ? "" : " during '" + row.worst_step + "'";
+  return joined_words({first, fmt::format("The worst wire is {}, {:.2f} m from the tool, at {:.1f} s{}.",
+                                          row.worst_component, row.worst_position_from_tool, row.worst_time, during),
+                       joint_words(row)});
+}
+
+std::string joint_words(const RankingRow& row) {
+  if (!is_damaged(row) || row.worst_joint.empty()) return "";
+  const bool carried = row.worst_joint == "carrying";
+  if (row.worst_joint_share > 1)
+    return carried ? "The damage comes from the hose sagging and swinging; the axes work against it."
+                   : fmt::format("{} causes the damage; the other axes work against it.", row.worst_joint);
+  return fmt::format("{:.0f} % of the damage comes from {}.", 100 * row.worst_joint_share,
+                     carried ? "the hose sagging and swinging, not from one axis" : row.worst_joint);
+}
+
+std::string hose_words(const RankingRow& row) {
+  if (!row.hose) return "";
+  return std::isinf(row.hose->hours)
+             ? "Unvalidated, not in the hours above: the hose's wall is not damaged."
+             : fmt::format("Unvalidated, not in the hours above: the hose's wall lasts {}.", hose_life_words(row.hose->hours));
+}
+
+std::string order_words(const RankingRow& row) {
+  if (!row.outlives_next) return "";
+  const double of_100 = 100 * *row.outlives_next;
+  const bool clear = *row.outlives_next >= separated_share;
+  return fmt::format("Lives longer than the next job in {:.0f} of 100 samples{}.", of_100,
+                     clear ? "" : ": no clear difference");
+}
+
+std::vector<std::string> estimate_words(const std::vector<RankingRow>& rows) {
+  std::vector<std::pair<std::string, std::size_t>> all;
+  for (const RankingRow& row : rows) {
+    if (!row.done() || row.estimates.empty()) continue;
+    const auto same = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == row.estimates; });
+    if (same == all.end())
+      all.emplace_back(row.estimates, 1);
+    else
+      ++same->second;
+  }
+  std::vector<std::string> lines;
+  for (const auto& [estimates, jobs] : all)
+    lines.push_back(fmt::format("ESTIMATE, not in the dresspack{}: {}",
+                                jobs == rows.size() ? "" : fmt::format(" of {} of {} jobs", jobs, rows.size()), estimates));
+  return lines;
+}
+
+}  // namespace dresslife::pipeline

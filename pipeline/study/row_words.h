@@ -1,0 +1,37 @@
+// A row of the ranking in sentences, for the terminal and the pages: first what to do, then how sure that is,
+// then what fails and why.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/study/ranking.h"
+
+namespace dresslife::pipeline {
+
+/// "Plan a replacement after 1,300 h (3.72 months).", or why not to plan with these hours. Empty: no result.
+std::string action_words(const RankingRow& row);
+
+/// "71 % of the uncertainty is the friction inside the cables. One bending test of a cable (one hour) would
+/// narrow the range from .. to about ..". Empty: nothing is uncertain.
+std::string uncertainty_words(const RankingRow& row);
+
+/// "Fails first: wires of signal cable (100 % of the samples). The worst wire is .., at 144.3 s during .."
+std::string failure_words(const RankingRow& row);
+
+/// "96 % of the damage comes from joint_6", and what that means of "carrying". Empty: not known.
+std::string joint_words(const RankingRow& row);
+
+/// "Unvalidated, not in the hours above: the hose's wall lasts 3,400 h." Empty: it was not evaluated.
+std::string hose_words(const RankingRow& row);
+
+/// "Lives longer than the next job in 93 of 100 samples.", and what that means. Empty: not known.
+std::string order_words(const RankingRow& row);
+
+/// "ESTIMATE, not in the dresspack: ...", once for all rows that have the same, a line each.
+std::vector<std::string> estimate_words(const std::vector<RankingRow>& rows);
+
+/// "1,300 .. 94,200,000 h"
+std::string range_text(double low_hours, double high_hours);
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,36 @@
+#include "sim/program/exploration.h"
+
+#include <algorithm>
+
+namespace dresslife::sim {
+namespace {
+
+// Every reading takes other ways, so the first readings find nearly everything. Programs with some hundred branches need a
+// hundred readings; a reading of a large backup takes some hundredths of a second.
+constexpr int most_readings = 150;
+constexpr long most_work = ImportLimits::executed;  // of all readings together: a second or two
+constexpr int barren_in_a_row = 4;  // readings that met nothing new, before it is taken that there is nothing
+
+}  // namespace
+
+bool Exploration::next_reading() {
+  if (readings_ > 0) barren_ = news_ == news_before_ ? barren_ + 1 : 0;
+  news_before_ = news_;
+  guessing_ = false;
+  return ++readings_ <= most_readings && barren_ < barren_in_a_row && spent_ <= most_work;
+}
+
+int Exploration::choose(const std::string& place, int ways) {
+  guessing_ = true;
+  std::vector<int>& taken = taken_[place];
+  taken.resize(std::max(taken.size(), static_cast<std::size_t>(ways)));
+  const auto least = std::min_element(taken.begin(), taken.begin() + ways);
+  if ((*least)++ == 0) ++news_;
+  return static_cast<int>(least - taken.begin());
+}
+
+void Exploration::follow(const std::string& line) {
+  if (followed_.insert(line).second) ++news_;
+}
+
+}  // namespace dresslife::sim

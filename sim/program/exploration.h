@@ -1,0 +1,69 @@
+// The search for all that a program asks, so that one round of answers is enough.
+//
+// Where nobody knows which way a program takes, a reading asks, and goes on along one of the ways as if that were the answer.
+// The next reading takes the way that was taken least often, until several readings in a row meet nothing new. What such a
+// reading meets behind the first guess may never happen: its questions count, its mistakes do not.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sim/program/program.h"
+
+namespace dresslife::sim {
+
+class Exploration {
+ public:
+  /// Begins a reading. False: enough is known.
+  bool next_reading();
+  /// The way, 0 .. ways - 1, that was taken least often from this place so far.
+  int choose(const std::string& place, int ways);
+  /// Whether this reading has chosen a way.
+  bool guessing() const { return guessing_; }
+  /// A statement was run, or something was asked.
+  void meet(const void* statement) {
+    if (met_.insert(statement).second) ++news_;
+  }
+  void meet_question(const std::string& name) {
+    if (asked_.insert(name).second) ++news_;
+  }
+  /// How much was met for the first time.
+  long news() const { return news_; }
+  /// A branch that was left out because it moves nothing decides something that does: its ways are taken, too.
+  void follow(const std::string& line);
+  bool follows(const std::string& line) const { return followed_.contains(line); }
+  /// What is asked has a safe answer: later readings take it, to find what that asks for.
+  void suppose(const std::string& name) { supposed_.insert(name); }
+  bool supposes(const std::string& name) const { return readings_ > 1 && supposed_.contains(name); }
+  /// Of a reading that ends: statements and values that it ran.
+  void spend(long executed) { spent_ += executed; }
+
+ private:
+  std::map<std::string, std::vector<int>> taken_;  // place -> how often each way was taken
+  std::set<const void*> met_;
+  std::set<std::string> asked_, followed_, supposed_;
+  bool guessing_ = false;
+  long news_ = 0, news_before_ = 0, spent_ = 0;
+  int readings_ = 0, barren_ = 0;
+};
+
+/// Reads a program, and where it asks, again until all of its questions are known. read(exploration, program, problems) is one
+/// reading; what the first one makes is kept.
+template <class Read>
+void explore(const Read& read, Program& program, Problems& problems) {
+  Exploration exploration;
+  const Program before = program;
+  bool first = true;
+  while (exploration.next_reading() && (first || problems.asks())) {
+    Program made = before;
+    Problems found;
+    read(exploration, made, found);
+    problems.add_all(found);
+    if (first) program = std::move(made);
+    first = false;
+  }
+}
+
+}  // namespace dresslife::sim

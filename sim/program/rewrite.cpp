@@ -1,0 +1,617 @@
+#include "sim/program/rewrite.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "sim/program/encoding.h"
+#include "sim/program/fanuc_run.h"
+#include "sim/program/krl_frames.h"
+#include "sim/program/parser.h"
+#include "sim/program/rapid_dialect.h"
+#include "sim/program/tokens.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double millimetre = 1e-3;
+
+/// A file as lines without their ends, and what becomes of them.
+class Lines {
+ public:
+  Lines(const std::string& file, const std::string& bytes) : file_(file) {
+    for (std::size_t begin = 0; begin < bytes.size();) {
+      const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+      std::string line = bytes.substr(begin, end - begin);
+      if (!line.empty() && line.back() == '\r') line.pop_back(), crlf_ = true;
+      lines_.push_back({{std::move(line)}, false});
+      original_.push_back(lines_.back().now[0]);
+      ends_with_newline_ = end < bytes.size();
+      begin = end + 1;
+    }
+  }
+
+  int count() const { return static_cast<int>(lines_.size()); }
+  const std::string& at(int line) const { return original_.at(static_cast<std::size_t>(line) - 1); }
+  /// What the line has become, without what was put before and behind it.
+  std::string& now(int line) {
+    Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
+    l.changed = true;
+    return l.now.at(l.own);
+  }
+  void before(int line, std::string text) {
+    Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
+    l.now.insert(l.now.begin() + static_cast<long>(l.own), std::move(text));
+    ++l.own;
+    l.changed = true;
+  }
+  void behind(int line, std::string text) {
+    Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
+    l.now.push_back(std::move(text));
+    l.changed = true;
+  }
+
+  /// Numbers of a listing's statements anew, in lines first .. end - 1, as some were put between.
+  void renumber(int first, int end) {
+    int next = 0;
+    for (int line = first; line < end; ++line) {
+      Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
+      for (std::string& text : l.now) {
+        const std::size_t colon = text.find(':');
+        if (colon == std::string::npos || colon == 0 || text.find_first_not_of(" 0123456789") != colon ||
+            text.find_first_of("0123456789") > colon)
+          continue;
+        const std::string number = fmt::format("{:>{}}", ++next, colon);
+        if (text.compare(0, colon, number) == 0) continue;
+        text.replace(0, colon, number);
+        l.changed = true;
+      }
+    }
+  }
+
+  std::string text() const {
+    std::string made;
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      for (std::size_t k = 0; k < lines_[i].now.size(); ++k) {
+        const bool last = i + 1 == lines_.size() && k + 1 == lines_[i].now.size();
+        made += lines_[i].now[k] + (crlf_ ? "\r" : "") + (last && !ends_with_newline_ ? "" : "\n");
+      }
+    return made;
+  }
+
+  /// Hunks with three lines around each change.
+  std::string patch() const {
+    constexpr std::size_t around = 3;
+    std::string made = fmt::format("--- a/{0}\n+++ b/{0}\n", file_);
+    std::size_t added = 0;  // lines of the hunks before, more than there were
+    for (std::size_t i = 0; i < lines_.size();) {
+      if (!lines_[i].changed) {
+        ++i;
+        continue;
+      }
+      const std::size_t begin = i - std::min(i, around);
+      std::size_t end = i, quiet = 0;
+      for (; end < lines_.size() && quiet < 2 * around; ++end) quiet = lines_[end].changed ? 0 : quiet + 1;
+      end -= quiet - std::min(quiet, around);
+      std::string body;
+      std::size_t now = 0;
+      for (std::size_t k = begin; k < end; ++k) {
+        const Line& line = lines_[k];
+        if (!line.changed) {
+          body += row(' ', original_[k], k + 1 == lines_.size());
+          ++now;
+          continue;
+        }
+        const bool kept = line.now[line.own] == original_[k];
+        if (!kept) body += row('-', original_[k], k + 1 == lines_.size());
+        for (std::size_t n = 0; n < line.now.size(); ++n)
+          body += row(kept && n == line.own ? ' ' : '+', line.now[n],
+                      k + 1 == lines_.size() && n + 1 == line.now.size());
+        now += line.now.size();
+      }
+      made += fmt::format("@@ -{},{} +{},{} @@\n", begin + 1, end - begin, begin + 1 + added, now) + body;
+      added += now - (end - begin);
+      i = end;
+    }
+    return made;
+  }
+
+ private:
+  struct Line {
+    std::vector<std::string> now;
+    bool changed;
+    std::size_t own = 0;  // which of them the line itself is
+  };
+  std::string row(char mark, const std::string& line, bool last) const {
+    return mark + line + (crlf_ ? "\r" : "") + "\n" +
+           (last && !ends_with_newline_ ? "\\ No newline at end of file\n" : "");
+  }
+
+  std::string file_;
+  std::vector<Line> lines_;
+  std::vector<std::string> original_;
+  bool crlf_ = false, ends_with_newline_ = true;
+};
+
+[[noreturn]] void refuse(const LineChange& change, const std::string& what) {
+  throw pipeline::InputError(change.where, "cannot be changed by itself: " + what, "change it by hand");
+}
+
+std::string shortest(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+std::string in_degrees(const std::vector<double>& joints) {
+  std::string list;
+  for (const double angle : joints)
+    list += fmt::format("{}{}", list.empty() ? "" : ",", shortest(angle / degree, 6));
+  return list;
+}
+
+/// "500" -> "350"; absent: no number.
+std::optional<std::string> scaled(std::string_view number, double factor) {
+  double value = 0;
+  const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (failure != std::errc() || end != number.data() + number.size() || number.empty()) return {};
+  return shortest(value * factor, 6);
+}
+
+std::string indentation(const std::string& line) {
+  return line.substr(0, std::min(line.find_first_not_of(" \t"), line.size()));
+}
+
+/// What all writers share: the file, its words, and the instruction that a change is about.
+struct Writer {
+  Lines& lines;
+  const SourceFile& source;
+  const std::vector<Token>& tokens;
+  const Program& program;
+
+  const Instruction& instruction(const LineChange& change) const {
+    const Instruction* found = nullptr;
+    for (const Instruction& i : program.instructions) {
+      if (i.where.file != change.where.file || i.where.line != change.where.line ||
+          i.kind == Instruction::Kind::dwell)
+        continue;
+      if (found &&
+          (found->target.joints != i.target.joints ||
+           found->target.pose.position != i.target.pose.position) &&
+          (change.configuration || !change.joints.empty() || !change.point.empty()))
+        refuse(change, "it is run with several targets");
+      found = &i;
+    }
+    if (!found) refuse(change, "no move was read from it");
+    return *found;
+  }
+
+  /// Index of the first token of the instruction.
+  std::size_t begin(const LineChange& change) const {
+    for (std::size_t i = 0; i < tokens.size(); ++i)
+      if (tokens[i].line == change.where.line && tokens[i].column == change.where.column) return i;
+    refuse(change, "its words are not found");
+  }
+
+  std::string_view text(std::size_t first, std::size_t last) const {  // tokens first .. last
+    const char* from = tokens[first].text.data() - (tokens[first].kind == Token::Kind::text);
+    return {from, static_cast<std::size_t>(tokens[last].text.data() + tokens[last].text.size() - from) +
+                      (tokens[last].kind == Token::Kind::text)};
+  }
+
+  /// Replaces tokens first .. last, which stand on one line.
+  void replace(std::size_t first, std::size_t last, const std::string& with, const LineChange& change) {
+    if (tokens[first].line != tokens[last].line) refuse(change, "what would change stands on several lines");
+    const int line = tokens[first].line;
+    std::string& now = lines.now(line);
+    const std::string old(text(first, last));
+    // From the end: what was replaced on the line before stands behind it.
+    const std::size_t at = now.rfind(old, static_cast<std::size_t>(tokens[first].column) - 1);
+    if (at == std::string::npos || at != static_cast<std::size_t>(tokens[first].column) - 1)
+      refuse(change, "it holds other than plain characters");
+    now.replace(at, old.size(), with);
+  }
+};
+
+// ---- RAPID --------------------------------------------------------------------------------------------------------
+
+struct Argument {
+  std::size_t first, last;      // tokens
+  std::size_t expression_last;  // without the options behind it
+  bool option;                  // it is an option alone
+};
+
+/// The arguments of an instruction, up to its end (the token behind the last).
+std::vector<Argument> arguments_of(const std::vector<Token>& tokens, std::size_t name, std::size_t& end) {
+  std::vector<Argument> found;
+  int depth = 0;
+  std::size_t first = name + 1;
+  bool options = false;
+  const auto close = [&](std::size_t behind) {
+    if (behind > first) found.push_back({first, behind - 1, behind - 1, tokens[first].text == "\\"});
+    if (behind > first && options && !found.back().option)
+      for (std::size_t i = first, level = 0; i < behind; ++i) {
+        level += tokens[i].text == "[" || tokens[i].text == "(" || tokens[i].text == "{";
+        level -= tokens[i].text == "]" || tokens[i].text == ")" || tokens[i].text == "}";
+        if (level == 0 && tokens[i].text == "\\") {
+          found.back().expression_last = i - 1;
+          break;
+        }
+      }
+    first = behind + 1;
+    options = false;
+  };
+  std::size_t i = name + 1;
+  for (; i < tokens.size() && tokens[i].kind != Token::Kind::end; ++i) {
+    const std::string_view text = tokens[i].kind == Token::Kind::sign ? tokens[i].text : std::string_view();
+    if (text == "[" || text == "(" || text == "{") ++depth;
+    if (text == "]" || text == ")" || text == "}") --depth;
+    options |= depth == 0 && text == "\\";
+    if (depth == 0 && (text == "," || text == ";")) close(i);
+    if (depth == 0 && text == ";") break;
+  }
+  end = i;
+  return found;
+}
+
+std::string rapid_speed(const Writer& w, const Argument& speed, double factor, const LineChange& change) {
+  if (w.tokens[speed.first].kind == Token::Kind::word && speed.first == speed.expression_last)
+    return fmt::format("[{0}*{1}.v_tcp,{0}*{1}.v_ori,{1}.v_leax,{1}.v_reax]", shortest(factor, 3),
+                       w.tokens[speed.first].text);
+  std::vector<std::string> parts;
+  for (std::size_t i = speed.first + 1; i < speed.expression_last; ++i)
+    if (w.tokens[i].text != ",") parts.emplace_back(w.tokens[i].text);
+  if (w.tokens[speed.first].text != "[" || parts.size() != 4)
+    refuse(change, "its speed is neither a name nor four numbers");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto number = scaled(parts[i], factor);
+    if (!number) refuse(change, "its speed is neither a name nor four numbers");
+    parts[i] = *number;
+  }
+  return fmt::format("[{}]", fmt::join(parts, ","));
+}
+
+std::string rapid_external(const Target& target) {
+  std::vector<std::string> axes;
+  for (std::size_t i = 0; i < 6; ++i)
+    axes.push_back(i < target.external_axes.size() ? shortest(target.external_axes[i], 4) : "9E9");
+  return fmt::format("[{}]", fmt::join(axes, ","));
+}
+
+void change_rapid(Writer& w, const LineChange& change) {
+  const std::size_t name = w.begin(change);
+  const Signature* signature = rapid_move(lower_case(w.tokens[name].text));
+  if (!signature) refuse(change, "it is no move instruction");
+  std::size_t end = 0;
+  std::vector<Argument> given;
+  for (const Argument& argument : arguments_of(w.tokens, name, end))
+    if (!argument.option) given.push_back(argument);
+  if (w.tokens[end].kind == Token::Kind::end) refuse(change, "it has no end");
+  const int count = static_cast<int>(given.size());
+  const auto index = [&](int written) {
+    return written == -2 ? count - 1 : written == -3 ? count - 2 : written;
+  };
+  if (std::max(signature->target, signature->speed) >= count || index(signature->tool) >= count)
+    refuse(change, "it has other arguments than are read");
+  const Argument &target = given[static_cast<std::size_t>(signature->target)],
+                 &speed = given[static_cast<std::size_t>(signature->speed)],
+                 &tool = given[static_cast<std::size_t>(index(signature->tool))];
+  const Instruction& read = w.instruction(change);
+  const std::string target_text(w.text(target.first, target.expression_last));
+  const bool named =
+      target.first == target.expression_last && w.tokens[target.first].kind == Token::Kind::word;
+  const std::string old_speed(w.text(speed.first, speed.last)), old_tool(w.text(tool.first, tool.last));
+  // From the line's end to its begin, so that places stay what they were.
+  w.lines.now(w.tokens[end].line) += " ! " + change.reason;
+  if (change.speed) {
+    for (std::size_t i = speed.expression_last + 1; i < speed.last; ++i)
+      if (w.tokens[i].text == "\\") refuse(change, "its speed has an option (\\T or \\V)");
+    w.replace(speed.first, speed.expression_last, rapid_speed(w, speed, *change.speed, change), change);
+  }
+  if (change.configuration && read.target.joints.empty()) {
+    const auto& n = change.configuration->numbers;
+    const Frame& pose = read.target.pose;
+    const Vector3 p = pose.position / millimetre;
+    const Quaternion& q = pose.orientation;
+    w.replace(
+        target.first, target.expression_last,
+        named ? fmt::format("[{0}.trans,{0}.rot,[{1}],{0}.extax]", target_text, fmt::join(n, ","))
+              : fmt::format("[[{},{},{}],[{},{},{},{}],[{}],{}]", shortest(p.x(), 6), shortest(p.y(), 6),
+                            shortest(p.z(), 6), shortest(q.w(), 9), shortest(q.x(), 9), shortest(q.y(), 9),
+                            shortest(q.z(), 9), fmt::join(n, ","), rapid_external(read.target)),
+        change);
+  }
+  if (!change.joints.empty())
+    w.replace(target.first, target.expression_last,
+              fmt::format("[[{}],{}]", in_degrees(change.joints),
+                          named ? target_text + ".extax" : rapid_external(read.target)),
+              change);
+  if (change.point.empty()) return;
+  if (!read.target.external_axes.empty()) refuse(change, "external axes move with it");
+  w.lines.before(w.tokens[name].line,
+                 fmt::format("{}MoveAbsJ [[{}],[9E9,9E9,9E9,9E9,9E9,9E9]],{},z50,{}; ! {}",
+                             indentation(w.lines.at(w.tokens[name].line)), in_degrees(change.point),
+                             old_speed, old_tool, change.reason));
+}
+
+// ---- KRL ----------------------------------------------------------------------------------------------------------
+
+std::string krl_axes(const std::vector<double>& joints) {
+  std::string list;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    list += fmt::format("{}A{} {}", list.empty() ? "" : ",", i + 1, shortest(joints[i] / degree, 6));
+  return list;
+}
+
+void change_krl(Writer& w, const LineChange& change) {
+  const std::size_t name = w.begin(change);
+  const Instruction& read = w.instruction(change);
+  const bool joint_move = lower_case(w.tokens[name].text) == "ptp";
+  if (!joint_move) refuse(change, "only PTP is changed");
+  std::size_t last = name;  // of the target
+  int depth = 0;
+  for (std::size_t i = name + 1;
+       w.tokens[i].kind != Token::Kind::line_end && w.tokens[i].kind != Token::Kind::end; ++i) {
+    if (w.tokens[i].text == "{" || w.tokens[i].text == "[") ++depth;
+    if (w.tokens[i].text == "}" || w.tokens[i].text == "]") --depth;
+    if (depth == 0 && w.tokens[i].kind == Token::Kind::word && lower_case(w.tokens[i].text).starts_with("c_"))
+      break;
+    last = i;
+  }
+  if (last == name) refuse(change, "its target is not found");
+  const int line = w.tokens[name].line;
+  const std::string margin = indentation(w.lines.at(line)), comment = " ; " + change.reason;
+  w.lines.now(line) += comment;
+  std::string external;
+  for (std::size_t i = 0; i < read.target.external_axes.size(); ++i)
+    external += fmt::format(",E{} {}", i + 1, shortest(read.target.external_axes[i], 4));
+  if (change.configuration && read.target.joints.empty()) {
+    const auto n = krl::numbers_of(read.target.pose);
+    std::string frame;
+    constexpr const char* names[] = {"X", "Y", "Z", "A", "B", "C"};
+    for (std::size_t i = 0; i < 6; ++i)
+      frame += fmt::format("{}{} {}", i == 0 ? "" : ",", names[i], shortest(n[i], 6));
+    w.replace(name + 1, last,
+              fmt::format("{{{},S {},T {}{}}}", frame, change.configuration->numbers.at(0),
+                          change.configuration->numbers.at(1), external),
+              change);
+  }
+  if (!change.joints.empty())
+    w.replace(name + 1, last, fmt::format("{{{}{}}}", krl_axes(change.joints), external), change);
+  if (!change.point.empty())
+    w.lines.before(line, fmt::format("{}PTP {{{}}}{}", margin, krl_axes(change.point), comment));
+  if (!change.speed) return;
+  if (!read.speed.axis_percent) refuse(change, "its speed is not one percentage of all axes");
+  const auto basics = [&](double percent) {
+    return fmt::format("{}BAS(#VEL_PTP,{})", margin, shortest(percent, 4));
+  };
+  w.lines.before(line, basics(*read.speed.axis_percent * *change.speed) + comment);
+  w.lines.behind(line, basics(*read.speed.axis_percent) + " ; as before");
+}
+
+// ---- Fanuc --------------------------------------------------------------------------------------------------------
+
+/// The words behind "12:" of a listing's line.
+std::size_t behind_number(const std::string& line) {
+  const std::size_t colon = line.find(':');
+  return colon == std::string::npos ? line.size() : colon + 1;
+}
+
+/// P[3:name] within a line, from `from` on; npos: none. PR[3] is another.
+std::size_t find_position(const std::string& line, std::size_t from) {
+  for (std::size_t at = line.find("P[", from); at != std::string::npos; at = line.find("P[", at + 1))
+    if (at == 0 || !(std::isalnum(static_cast<unsigned char>(line[at - 1])) || line[at - 1] == '_'))
+      return at;
+  return std::string::npos;
+}
+
+int position_number(const std::string& line, std::size_t at) { return std::atoi(line.c_str() + at + 2); }
+
+/// First line of the positions.
+int positions_begin(const Lines& lines) {
+  for (int line = 1; line <= lines.count(); ++line)
+    if (lines.at(line).starts_with("/POS")) return line;
+  return lines.count() + 1;
+}
+
+/// CONFIG or the joint angles of P[number], under its own number or as a new one behind all others.
+void change_fanuc_position(Writer& w, const LineChange& change, int number) {
+  const int begin = positions_begin(w.lines);
+  int uses = 0, highest = 0, first = 0, last = 0;
+  for (int line = 1; line <= w.lines.count(); ++line) {
+    const std::string& text = w.lines.at(line);
+    for (std::size_t at = find_position(text, 0); at != std::string::npos; at = find_position(text, at + 1)) {
+      const int found = position_number(text, at);
+      if (line > begin) highest = std::max(highest, found);
+      if (line > begin && found == number) first = line;
+      if (line < begin && found == number) ++uses;
+    }
+    if (first > 0 && last == 0 && line >= first && text.find("};") != std::string::npos) last = line;
+  }
+  if (first == 0 || last == 0) refuse(change, fmt::format("P[{}] is not found", number));
+  const bool own = uses == 1;
+  std::vector<std::string> block;
+  int angle = 0;
+  for (int line = first; line <= last; ++line) {
+    std::string text = w.lines.at(line);
+    if (!own && line == first) text = fmt::format("P[{}]{{", highest + 1);
+    const std::size_t quote = text.find("CONFIG : '");
+    if (change.configuration && quote != std::string::npos) {
+      const std::size_t from = quote + 10, to = std::min(text.find('\'', from), text.size());
+      const auto& n = change.configuration->numbers;
+      text.replace(from, to - from,
+                   fmt::format("{} {} {}, {}, {}, {}", n.at(0) ? 'F' : 'N', n.at(1) ? 'U' : 'D',
+                               n.at(2) ? 'T' : 'B', n.at(3), n.at(4), n.at(5)));
+    }
+    for (std::size_t at = text.find("J", 0); !change.joints.empty() && at != std::string::npos;
+         at = text.find("J", at + 1)) {
+      const std::size_t equals = text.find('=', at);
+      if (equals == std::string::npos || at + 2 >= text.size() ||
+          !std::isdigit(static_cast<unsigned char>(text[at + 1])))
+        continue;
+      const auto axis = static_cast<std::size_t>(text[at + 1] - '1');
+      const std::size_t unit = text.find("deg", equals);
+      if (axis >= change.joints.size() || unit == std::string::npos) continue;
+      // J3 counts from the horizontal: it goes with axis 2.
+      const double degrees = (change.joints[axis] - (axis == 2 ? change.joints[1] : 0)) / degree;
+      text.replace(equals + 1, unit - equals - 1, fmt::format("{:>10.3f} ", degrees));
+      ++angle;
+    }
+    block.push_back(std::move(text));
+  }
+  if (!change.joints.empty() && angle != 6) refuse(change, fmt::format("P[{}] has not six angles", number));
+  if (own) {
+    for (int line = first; line <= last; ++line)
+      if (block[static_cast<std::size_t>(line - first)] != w.lines.at(line))
+        w.lines.now(line) = block[static_cast<std::size_t>(line - first)];
+    return;
+  }
+  for (std::string& text : block) w.lines.behind(last, std::move(text));
+  std::string& now = w.lines.now(change.where.line);
+  const std::size_t at = find_position(now, behind_number(now));
+  now.replace(at, now.find(']', at) + 1 - at, fmt::format("P[{}]", highest + 1));
+}
+
+void change_fanuc(Writer& w, const LineChange& change) {
+  const Instruction& read = w.instruction(change);
+  const int line = change.where.line;
+  const std::string old = w.lines.at(line);
+  if (!change.point.empty()) refuse(change, "points on the way are not written in listings");
+  if (change.configuration || !change.joints.empty()) {
+    const std::size_t at = find_position(old, behind_number(old));
+    if (at == std::string::npos || read.kind == Instruction::Kind::circular)
+      refuse(change, "its target is no P[n] on its line");
+    change_fanuc_position(w, change, position_number(old, at));
+  }
+  if (change.speed) {
+    std::string& now = w.lines.now(line);
+    const std::size_t behind = now.find(']', find_position(now, behind_number(now)));
+    const std::size_t unit = now.find_first_of("%", behind == std::string::npos ? 0 : behind);
+    std::size_t end = unit;
+    for (const char* word : {"mm/sec", "cm/min", "inch/min", "deg/sec"})
+      if (const std::size_t at = now.find(word, behind); at != std::string::npos) end = std::min(end, at);
+    std::size_t from = end;
+    while (from > behind + 1 && from != std::string::npos &&
+           (std::isdigit(static_cast<unsigned char>(now[from - 1])) || now[from - 1] == '.'))
+      --from;
+    if (end == std::string::npos || from == end)
+      refuse(change, "its speed is no number with %, mm/sec, cm/min, inch/min or deg/sec");
+    const double value = std::atof(now.substr(from, end - from).c_str());
+    now.replace(from, end - from, fmt::format("{:.0f}", std::max(1.0, std::round(value * *change.speed))));
+  }
+  constexpr std::size_t longest = 32;  // characters of a remark
+  w.lines.before(
+      line, fmt::format("{}  !{} ;", old.substr(0, behind_number(old)), change.reason.substr(0, longest)));
+}
+
+// ---- INFORM and URScript --------------------------------------------------------------------------------------------
+
+void change_inform(Writer& w, const LineChange& change) {
+  if (!change.speed || change.configuration || !change.joints.empty() || !change.point.empty())
+    refuse(change, "of a job only speeds are changed");
+  const Instruction& read = w.instruction(change);
+  const bool axes = read.kind == Instruction::Kind::joint;
+  std::string& now = w.lines.now(change.where.line);
+  const std::string tag = axes ? " VJ=" : " V=";
+  const std::size_t comment = std::min(now.find("//"), now.size());
+  const std::size_t at = now.find(tag);
+  if (at < comment) {
+    const std::size_t from = at + tag.size(), to = std::min(now.find_first_of(" \t", from), now.size());
+    const auto number = scaled(std::string_view(now).substr(from, to - from), *change.speed);
+    if (!number) refuse(change, "its speed is a variable");
+    now.replace(from, to - from, fmt::format("{:.2f}", std::atof(number->c_str())));
+  } else if (axes && read.speed.axis_percent) {  // of SPEED
+    const std::size_t behind = now.find_first_of(" \t", now.find_first_not_of(" \t", now.find("MOVJ") + 4));
+    now.insert(std::min(behind, now.size()),
+               fmt::format(" VJ={:.2f}", *read.speed.axis_percent * *change.speed));
+  } else {
+    refuse(change, "its speed stands elsewhere");
+  }
+  constexpr std::size_t longest = 32;  // characters of a comment
+  if (comment == w.lines.at(change.where.line).size()) now += "  //" + change.reason.substr(0, longest);
+}
+
+void change_script(Writer& w, const LineChange& change) {
+  if (!change.speed || change.configuration || !change.joints.empty() || !change.point.empty())
+    refuse(change, "of a script only speeds are changed");
+  const std::size_t name = w.begin(change);
+  const Instruction& read = w.instruction(change);
+  const auto speed = read.kind == Instruction::Kind::joint ? read.speed.axis : read.speed.tool;
+  if (!speed) refuse(change, "it has a time instead of a speed");
+  int depth = 0, position = 0;
+  std::size_t first = 0, last = 0, end = 0;  // of v
+  for (std::size_t i = name + 1; i < w.tokens.size() && w.tokens[i].kind != Token::Kind::end; ++i) {
+    const std::string_view text = w.tokens[i].text;
+    if (text == "(" || text == "[") ++depth;
+    if (text == ")" || text == "]") --depth;
+    if (depth == 1 && (text == "," || i == name + 1)) {
+      position += text == ",";
+      const bool option = w.tokens[i + 2].text == "=";
+      const bool is_v = option ? w.tokens[i + 1].text == "v"
+                               : position == (read.kind == Instruction::Kind::circular ? 3 : 2);
+      if (is_v) first = i + (option ? 3 : 1);
+    }
+    if (first > 0 && last == 0 && i >= first &&
+        (depth == 0 || (depth == 1 && i + 1 < w.tokens.size() && w.tokens[i + 1].text == ",")))
+      last = depth == 0 ? i - 1 : i;
+    if (depth == 0) {
+      end = i;
+      break;
+    }
+  }
+  if (end == 0) refuse(change, "its arguments are not found");
+  w.lines.now(w.tokens[end].line) += "  # " + change.reason;
+  const std::string value = shortest(*speed * *change.speed, 6);
+  if (first > 0 && last >= first) return w.replace(first, last, value, change);
+  w.replace(end, end, fmt::format(", v={})", value), change);
+}
+
+}  // namespace
+
+Rewritten rewritten(Language language, const std::string& file, const std::string& bytes,
+                    const Program& program, const std::vector<LineChange>& changes,
+                    const std::string& shown) {
+  if (decoded_text(bytes) != bytes)
+    throw pipeline::InputError({file}, "is written in another encoding than UTF-8", "save it as UTF-8 first");
+  Lines lines(shown, bytes);
+  const SourceFile source(file, bytes);
+  Problems problems;
+  const TokenRules rules = language == Language::krl        ? TokenRules{';', "$#", true, true}
+                           : language == Language::urscript ? TokenRules{'#', "$", true, true}
+                                                            : TokenRules{'!', "", false, false};
+  const std::vector<Token> tokens = tokens_of(source, rules, problems);
+  Writer writer{lines, source, tokens, program};
+  for (const LineChange& change : changes) {
+    if (change.where.file != file) continue;
+    switch (language) {
+      case Language::rapid:
+        change_rapid(writer, change);
+        break;
+      case Language::krl:
+        change_krl(writer, change);
+        break;
+      case Language::fanuc:
+        change_fanuc(writer, change);
+        break;
+      case Language::inform:
+        change_inform(writer, change);
+        break;
+      case Language::urscript:
+        change_script(writer, change);
+        break;
+      case Language::joint_columns:
+      case Language::ros_trajectory:
+        refuse(change, "recorded angles have no lines of their own");
+    }
+  }
+  if (language == Language::fanuc) lines.renumber(1, positions_begin(lines));
+  return {lines.text(), lines.patch()};
+}
+
+}  // namespace dresslife::sim

@@ -1,0 +1,108 @@
+#include "sim/route/bracket.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "sim/contact/mesh.h"
+#include "sim/route/screening.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double far_away = 1;  // [m], farther than any bracket: distances beyond it are not told apart
+
+struct PlacedMesh {
+  Mesh mesh;
+  Frame frame;
+};
+
+/// Shapes of a link or of the cell.
+struct Solid {
+  std::vector<pipeline::Capsule> capsules;
+  std::vector<pipeline::Box> boxes;
+  std::vector<PlacedMesh> meshes;
+
+  bool empty() const { return capsules.empty() && boxes.empty() && meshes.empty(); }
+  double distance(const Vector3& point, double most) const {
+    double nearest = most;
+    for (const pipeline::Capsule& capsule : capsules)
+      nearest = std::min(nearest, distance_to_axis(point, capsule.from, capsule.to) - capsule.radius);
+    for (const pipeline::Box& box : boxes) {
+      const Eigen::Quaterniond turn = pipeline::from_roll_pitch_yaw(box.orientation);
+      const Vector3 beyond = (turn.conjugate() * (point - box.position)).cwiseAbs() - box.sides / 2;
+      nearest = std::min(nearest, beyond.maxCoeff() > 0 ? beyond.cwiseMax(0).norm() : beyond.maxCoeff());
+    }
+    for (const PlacedMesh& placed : meshes) {
+      const Vector3 local = placed.frame.orientation.conjugate() * (point - placed.frame.position);
+      if (local.norm() - placed.mesh.radius() > nearest) continue;
+      const auto found = placed.mesh.near(local, local, std::max(nearest, 0.0));
+      if (!found.empty()) nearest = std::min(nearest, found.front().distance);
+    }
+    return nearest;
+  }
+};
+
+template <class Shapes>
+Solid solid_of(const Shapes& shapes) {
+  Solid solid{shapes.capsules, shapes.boxes, {}};
+  for (const pipeline::MeshFile& file : shapes.meshes) {
+    std::vector<Triangle> triangles = read_triangles(file.file);
+    for (Triangle& triangle : triangles)
+      for (auto& corner : triangle) corner *= file.scale;
+    if (!triangles.empty())
+      solid.meshes.push_back({Mesh(std::move(triangles)), {file.position, pipeline::from_roll_pitch_yaw(file.orientation)}});
+  }
+  return solid;
+}
+
+}  // namespace
+
+struct Surfaces::Parts {
+  std::vector<Solid> links;
+  Solid cell;
+};
+
+Surfaces::Surfaces(const pipeline::Setup& setup) : parts_(std::make_unique<Parts>()) {
+  for (const pipeline::Link& link : setup.robot.links) parts_->links.push_back(solid_of(link));
+  parts_->cell = solid_of(setup.cell);
+}
+
+Surfaces::~Surfaces() = default;
+
+double Surfaces::of_link(int link, const Vector3& point, double most) const {
+  return parts_->links[static_cast<std::size_t>(link)].distance(point, most);
+}
+double Surfaces::of_cell(const Vector3& point, double most) const { return parts_->cell.distance(point, most); }
+bool Surfaces::has_shapes(int link) const { return !parts_->links[static_cast<std::size_t>(link)].empty(); }
+
+double BracketFit::beyond(double most_length, double diameter) const {
+  return std::max((length - most_length) / diameter, -clearance / diameter);
+}
+
+BracketFit fit_of(const Carried& carried, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses) {
+  BracketFit fit;
+  fit.clearance = std::numeric_limits<double>::infinity();
+  if (surfaces.has_shapes(carried.link))
+    fit.length = std::max(0.0, surfaces.of_link(carried.link, carried.position, far_away) - carried.radius);
+  for (std::size_t m = 0; m < poses.size(); ++m) {
+    const std::vector<Frame>& links = poses[m];
+    const Frame& own = links[static_cast<std::size_t>(carried.link)];
+    const Vector3 point = own.position + own.orientation * carried.position;
+    const auto see = [&](double distance, int neighbour) {
+      if (distance - carried.radius >= std::min(fit.clearance, far_away - carried.radius)) return;
+      fit.clearance = distance - carried.radius;
+      fit.neighbour = neighbour;
+      fit.moment = m;
+    };
+    see(surfaces.of_cell(point, far_away), -1);
+    for (std::size_t link = 0; link < links.size(); ++link)
+      if (static_cast<int>(link) != carried.link)
+        see(surfaces.of_link(static_cast<int>(link), links[link].orientation.conjugate() * (point - links[link].position),
+                             far_away),
+            static_cast<int>(link));
+  }
+  return fit;
+}
+
+}  // namespace dresslife::sim

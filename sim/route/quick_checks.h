@@ -1,0 +1,20 @@
+// What is wrong with a job as far as geometry and statics say, in seconds: slack over the whole program, as a run finds
+// it; bend radius and twist at rest in poses of the program that differ most, which a run can only make worse; axes that
+// wind the dresspack up before the program begins.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/base/warnings.h"
+
+namespace dresslife::pipeline {
+struct Setup;
+}
+
+namespace dresslife::sim {
+
+/// Errors: InputError for a motion that the robot cannot run.
+std::vector<pipeline::Warning> quick_warnings(const pipeline::Setup& setup);
+
+}  // namespace dresslife::sim

@@ -1,0 +1,10 @@
+// The hot loops for every machine that a build is for (simd.h).
+#define DRESSLIFE_MACHINE portable
+#define DRESSLIFE_MACHINE_KERNELS portable_kernels
+#define DRESSLIFE_MACHINE_NAME "portable"
+
+#include "pipeline/base/simd.h"  // and what loops use from outside: it must be compiled for any machine
+
+DRESSLIFE_BEGIN_MACHINE
+#include "strain/kernels/body.h"
+DRESSLIFE_END_MACHINE

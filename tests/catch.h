@@ -1,0 +1,23 @@
+// Catch2 in either of its versions: Debian 12 has version 2, one header; Debian 13 has version 3, a library. Tests
+// include this header, and use what both versions have under the names of version 2.
+#pragma once
+
+#if __has_include(<catch2/catch_test_macros.hpp>)
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_session.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
+#include <catch2/generators/catch_generators_range.hpp>
+#include <catch2/matchers/catch_matchers.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+
+using Catch::Approx;
+
+namespace Catch {
+using Matchers::EndsWith;
+using Matchers::StartsWith;
+inline Matchers::StringContainsMatcher Contains(const std::string& text) { return Matchers::ContainsSubstring(text); }
+}  // namespace Catch
+#else
+#include <catch2/catch.hpp>
+#endif

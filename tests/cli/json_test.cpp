@@ -1,0 +1,30 @@
+// What --json prints is JSON that Python reads, with the numbers of the other outputs.
+#include "tests/catch.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife::tests;
+
+TEST_CASE("json: the ranking has ranking.csv's cells, a job its settings, a study the states of its jobs") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", "base: job.yaml\nvary:\n  dresspack.bending_stiffness_Nm2: [2, 3]\n");
+  scratch.write("compare.py", R"(import csv, json, sys
+rows = json.load(open("ranking.json"))
+table = list(csv.DictReader(open("runs/study/ranking.csv")))
+assert len(rows) == len(table) == 2
+for row, cells in zip(rows, table):
+    assert isinstance(row["life_hours"], float) and isinstance(row["job"], str)
+    for key, text in cells.items():
+        assert (row[key] is None) == (text == ""), key
+        assert not isinstance(row[key], float) or row[key] == float(text), key
+job = json.load(open("job.json"))
+assert job["routing"]["free_length_m"] == 0.9 and job["motion"]["clamp_poses"].endswith("poses.csv")
+assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} for row in sorted(rows, key=lambda r: r["job"])]
+)");
+  const std::string program = "'" DRESSLIFE_BIN_DIR "/dresslife'";
+  const Outcome outcome = run_shell(
+      scratch, "set -e; " + program + " run study.yaml --json --quiet >ranking.json; " + program +
+                   " show job.yaml --json >job.json; " + program + " status study.yaml --json >states.json; python3 compare.py");
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}

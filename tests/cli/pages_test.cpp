@@ -1,0 +1,245 @@
+// The pages of the project: every YAML example is read by the real reader, every command runs, and the README's
+// first job has the README's numbers.
+#include <fmt/format.h>
+
+#include "tests/catch.h"
+#include <map>
+#include <regex>
+#include <set>
+
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/document.h"
+#include "pipeline/study/study.h"
+#include "tests/cli/process.h"
+
+using namespace dresslife;
+using namespace dresslife::tests;
+
+namespace {
+
+const fs::path source = DRESSLIFE_SOURCE_DIR;
+
+/// Every page but the change log, whose commands are those of their time.
+std::vector<fs::path> pages() {
+  std::vector<fs::path> found{source / "README.md", source / "CONTRIBUTING.md"};
+  for (const char* folder : {"config", "sim", "strain", "fatigue", "pipeline"})
+    for (const auto& entry : fs::recursive_directory_iterator(source / folder))
+      if (entry.path().extension() == ".md") found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Coarse and quick: what a command does stays the same.
+const std::string quick =
+    " --quiet --set simulation.segments=10 --set simulation.time_step_ms=10 --set simulation.sample_rate_Hz=5 "
+    "--set strain.surface_fibres=0 --set strain.cable_elements_per_segment=1";
+
+/// Of a page's command, what the test runs instead: the user's own files are shipped ones, and what takes long is
+/// made quick. `not run`: it builds, or takes hours; then its program must be there.
+const std::map<std::string, std::string> instead{
+    {"scripts/run config/studies/two_robots.yaml", "dresslife run two_robots" + quick},
+    {"dresslife draw CABLE.yaml -o cable.svg", "dresslife draw control_cable -o cable.svg"},
+    {"dresslife rate CABLE.yaml", "dresslife rate control_cable"},
+    {"dresslife import BACKUP -o motion.yaml", "dresslife import CONFIG/programs/side_panel.mod -o motion.yaml"},
+    {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},
+    {"dresslife route ROBOT_OR_JOB",
+     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40" + quick},
+    {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
+    {"dresslife improve JOB_OR_STUDY", "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
+    {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram irb6640_spot_welding --lines 1" + quick},
+    {"dresslife-sim JOB.yaml -o motion.h5",
+     "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
+    {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
+    {"dresslife-fatigue strain.h5 -o life.h5", "not run"},  // its page comes before the one that makes strain.h5
+    {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
+    {"dresslife calibrate your_cable", "dresslife calibrate your_cable"},
+    {"dresslife calibrate published", "dresslife calibrate two_published.yaml"},
+    {"dresslife draw control_cable", "dresslife draw control_cable"},
+    {"dresslife rate control_cable", "dresslife rate control_cable"},
+    {"dresslife rate control_cable --set calibration=runs/calibrate_your_cable/calibration.yaml",
+     "dresslife rate control_cable --set calibration=runs/calibrate_your_cable/calibration.yaml"},
+    {"dresslife-sim config/rigs/torsion.yaml -o motion.h5 --set 'dresspack.cable={from: spot_welding}'",
+     "dresslife-sim CONFIG/rigs/torsion.yaml -o motion.h5 --set 'dresspack.cable={from: spot_welding}'"},
+    {"dresslife import PROGRAM -o motion.yaml --answers answers.yaml",
+     "dresslife import CONFIG/programs/pick_and_place.src -o answered.yaml --answers answers.yaml"},
+    {"dresslife rate sensor_cable", "dresslife rate sensor_cable"},
+    {"dresslife preview irb6640_spot_welding --set routing.free_length_m=1.6 -o short.html",
+     "dresslife preview irb6640_spot_welding --set routing.free_length_m=1.6 -o short.html"},
+    {"dresslife draw NAME -o FILE.svg", "dresslife draw handling -o handling.svg"},
+    {"dresslife show JOB.yaml", "dresslife show irb6640_spot_welding"},
+    {"dresslife import PROGRAM -o motion.yaml", "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
+    {"dresslife export runs/two_robots/hard --paraview hard.xdmf", "not run"},  // tests/cli/paraview_test
+    {"dresslife show FILE.h5", "dresslife show motion.h5"},
+    {"dresslife run two_robots --set calibration=...", "not run"},  // in full: an hour with what comes before it
+    {"dresslife submit STUDY", "not run"},                          // needs a cluster: tests/pipeline/study
+    {"dresslife run --launcher WORDS", "not run"},
+    {"dresslife clean STUDY", "not run"},  // tests/cli/study_test
+    {"dresslife route ROBOT", "not run"},  // as above
+    {"dresslife-sim --preview", "not run"},
+    {"dresslife COMMAND ...", "not run"},
+};
+
+/// "build/bin/dresslife run x   # words" and "$ dresslife run x" are "dresslife run x"; empty: no command of ours.
+std::string command_of(std::string line) {
+  line = std::regex_replace(line, std::regex("^\\s*(\\$ )?(build/bin/)?"), "");
+  line = std::regex_replace(line, std::regex("\\s+#.*$|\\s+$"), "");
+  static const std::regex ours("(dresslife(-sim|-strain|-fatigue|-import)?|scripts/[a-z]+)( .*)?");
+  return std::regex_match(line, ours) ? line : "";
+}
+
+struct Piece {
+  bool yaml = false;  ///< else a command
+  std::string text;
+  int line = 0;
+};
+
+/// Commands and YAML examples of a page, in their order: indented or fenced lines, and `words like this`.
+std::vector<Piece> pieces_of(const fs::path& page) {
+  std::istringstream lines(content(page));
+  std::vector<Piece> pieces;
+  static const std::regex quoted("`([^`]+)`");
+  int number = 0;
+  bool yaml = false, fenced = false;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.find("<!-- generated below this line") != std::string::npos) break;
+    if (line.starts_with("```")) {
+      yaml = line == "```yaml", fenced = !fenced;
+      if (yaml) pieces.push_back({true, "", number + 1});
+    } else if (yaml) {
+      pieces.back().text += line + "\n";
+    } else if (fenced || line.starts_with("    ")) {
+      if (const std::string command = command_of(line); !command.empty())
+        pieces.push_back({false, command, number});
+    } else {
+      for (std::sregex_iterator found(line.begin(), line.end(), quoted), end; found != end; ++found)
+        if (const std::string command = command_of((*found)[1]); !command.empty())
+          pieces.push_back({false, command, number});
+    }
+    if (line == "```") yaml = false;
+  }
+  return pieces;
+}
+
+/// A job, a study, or keys of one: those go into a small job.
+void read_example(const std::string& text, const fs::path& file) {
+  std::ofstream(file) << text;
+  pipeline::Node document = pipeline::read_yaml(file);
+  if (document.find("base")) {
+    for (const pipeline::StudyJob& job : pipeline::read_study(file).jobs) {
+      INFO(job.name << ": " << job.failure);
+      CHECK(job.failure.empty());
+    }
+    return;
+  }
+  if (!document.find("motion")) {
+    pipeline::Node job = pipeline::parse_yaml(
+        "motion: {rig: {kind: torsion, twist_deg_per_m: 180}}\ndresspack: {cable: control_cable}\n", file.string());
+    for (const pipeline::Entry& entry : document.entries)
+      (entry.key == "ratings" ? job["dresspack"] : job)[entry.key] = entry.value;
+    document = job;
+  }
+  CHECK_NOTHROW(pipeline::job_from(document));
+}
+
+std::string replaced_all(std::string text, const std::string& was, const std::string& is) {
+  for (std::size_t at = 0; (at = text.find(was, at)) != std::string::npos; at += is.size())
+    text.replace(at, was.size(), is);
+  return text;
+}
+
+/// The first two observations of those published.
+void write_two_published(const Scratch& scratch) {
+  const std::string all = content(source / "config/observations/published.yaml");
+  std::size_t end = 0;
+  for (int rows = 0; rows < 3; ++rows) end = all.find("\n  - name:", end + 1);
+  scratch.write("two_published.yaml", all.substr(0, end + 1));
+}
+
+/// Checks that the program of a command that is not run is there, with this command of its own.
+void check_program(const std::string& command) {
+  std::istringstream words(command);
+  std::string program, name;
+  words >> program >> name;
+  if (program.starts_with("scripts/")) {
+    CHECK(std::system(("bash -n '" + (source / program).string() + "'").c_str()) == 0);
+    return;
+  }
+  static std::set<std::string> known;
+  static const std::regex command_name("[a-z]+");
+  const std::string called = program + (std::regex_match(name, command_name) ? " " + name : "");
+  if (!known.insert(called).second) return;
+  Scratch scratch;
+  CHECK(run(scratch, program, called.substr(program.size()) + " --help").status == 0);
+}
+
+/// Runs a command of a page, or what stands for it.
+void try_command(const Scratch& scratch, const std::string& command) {
+  const auto known = instead.find(command);
+  const bool bare = command.find(' ') == command.rfind(' ') && command.find_first_of(".=/ ", command.find(' ') + 1) ==
+                                                                    std::string::npos;
+  if (known == instead.end() && (bare || command.starts_with("scripts/"))) return check_program(command);
+  INFO("a page's command that this test does not know: add it to `instead`");
+  REQUIRE(known != instead.end());
+  if (known->second == "not run") return check_program(command);
+  const std::string line = replaced_all(known->second, "CONFIG", "'" + (source / "config").string() + "'");
+  const std::size_t space = line.find(' ');
+  const Outcome outcome = run(scratch, line.substr(0, space), line.substr(space + 1));
+  INFO(line);
+  INFO(outcome.out);
+  INFO(outcome.err);
+  // A quick routing may pass a limit, of which `improve` says with 1 that nothing feasible was found.
+  CHECK((outcome.status == 0 || (outcome.status == 1 && command.find("improve") != std::string::npos &&
+                                 outcome.out.find("No feasible job was found") != std::string::npos)));
+}
+
+}  // namespace
+
+TEST_CASE("every YAML example of every page is read, and every command runs") {
+  std::set<std::string> done;
+  Scratch scratch;  // one for all pages: commands use files of those before them
+  write_two_published(scratch);
+  for (const fs::path& page : pages()) {
+    for (const Piece& piece : pieces_of(page)) {
+      INFO(fs::relative(page, source).string() << ":" << piece.line << ": " << piece.text);
+      if (piece.yaml) {
+        read_example(piece.text, scratch / "example.yaml");
+      } else if (done.insert(piece.text).second) {
+        try_command(scratch, piece.text);
+      }
+    }
+  }
+  CHECK(done.size() > 30);  // that pages are found at all
+}
+
+TEST_CASE("the README's first job, copied as it stands, has the numbers of the README's table") {
+  const std::string page = content(source / "README.md");
+  std::string first_job;
+  for (const Piece& piece : pieces_of(source / "README.md"))
+    if (piece.yaml && first_job.empty()) first_job = piece.text;
+  REQUIRE(first_job.find("motion: spot_robot_1") != std::string::npos);
+  Scratch scratch;
+  scratch.write("spot_robot_1.yaml", first_job);
+  const Outcome outcome = run(scratch, "dresslife", "run spot_robot_1.yaml");
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+
+  // The line of the table, without the rank that it has among others, and the job's own words.
+  const auto line_of = [](const std::string& text) {
+    std::smatch found;
+    const bool there = std::regex_search(text, found, std::regex("\\n *[0-9]+  spot_robot_1 +([0-9][^\\n]*)"));
+    return there ? std::regex_replace(found[1].str(), std::regex(" +"), " ") : std::string("no such line");
+  };
+  CHECK(line_of(page) == line_of(outcome.out));
+  CHECK(outcome.out.starts_with("The evaluated parts outlive the robot (40,000 h at most): "));
+  const std::size_t uncertainty = outcome.out.find(" % of the uncertainty is ");
+  REQUIRE(uncertainty != std::string::npos);
+  std::istringstream below(outcome.out.substr(outcome.out.rfind('\n', uncertainty) + 1));
+  std::vector<std::string> words{outcome.out.substr(0, outcome.out.find('\n')), "", ""};
+  std::getline(below, words[1]), std::getline(below, words[2]);
+  for (const std::string& line : words) {
+    INFO(line);
+    CHECK(page.find("\n    " + line + "\n") != std::string::npos);
+  }
+}

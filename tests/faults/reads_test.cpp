@@ -1,0 +1,144 @@
+// Whatever a disk says when it is read: a result is right, or its command fails with the disk's words.
+#include <iostream>
+#include <map>
+#include <random>
+
+#include "tests/catch.h"
+#include "tests/cli/process.h"
+#include "tests/faults/failing_calls.h"
+
+using namespace dresslife::tests;
+
+namespace {
+
+struct Stage {
+  std::string program, input, output;
+};
+const std::vector<Stage> stages{{"dresslife-sim", "job.yaml", "motion.h5"},
+                                {"dresslife-strain", "motion.h5", "strain.h5"},
+                                {"dresslife-fatigue", "strain.h5", "life.h5"}};
+
+struct Kind {
+  std::string call, mode, path;
+};
+/// Of a read every way in which it can go wrong without a word; of the others the error.
+const std::vector<Kind> kinds{{"read", "EIO", ".h5"},   {"read", "end", ".h5"},   {"read", "flip", ".h5"},
+                              {"read", "short", ".h5"}, {"read", "EIO", ".part"}, {"read", "end", ".part"},
+                              {"read", "flip", ".part"}, {"look", "EIO", "dresslife"}, {"open", "EIO", "dresslife-"},
+                              {"list", "EIO", "dresslife-"}, {"lock", "ENOTSUP", ""}};
+
+std::map<std::string, std::string> results(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    const bool own = name.find(".stage") != std::string::npos || name == ".lock" || name == "build.ninja" ||
+                     entry.path().filename() == "log";
+    if (entry.is_regular_file() && !own) files[name] = content(entry.path());
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("each read, look and lock that fails in a stage fails it in words, or does no harm") {
+  Scratch scratch;
+  write_small_job(scratch);
+  std::map<std::string, std::string> right;
+  for (const Stage& stage : stages) {
+    REQUIRE(run(scratch, stage.program, stage.input + " -o " + stage.output).status == 0);
+    right[stage.output] = content(scratch / stage.output);
+  }
+  fs::create_directories(scratch / "out");
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  std::cout << "failing reads with seed " << seed << '\n';
+  for (const Stage& stage : stages) {
+    int refused = 0, whole = 0;
+    for (const Kind& kind : kinds) {
+      const auto fail_at = [&](int at) {
+        fs::remove_all(scratch / "out");
+        fs::create_directories(scratch / "out");
+        return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path}, stage.program,
+                           stage.input + " -o out/" + stage.output + " --quiet");
+      };
+      REQUIRE(fail_at(0).status == 0);
+      for (const int at : some_of(calls_counted(scratch), rounds(4), random)) {
+        const Outcome outcome = fail_at(at);
+        INFO(stage.program << ' ' << kind.call << ' ' << kind.mode << ' ' << kind.path << ' ' << at << ": "
+                           << outcome.status << outcome.err);
+        if (outcome.status == 0) {
+          REQUIRE(content(scratch / "out" / stage.output) == right.at(stage.output));
+          ++whole;
+        } else {
+          REQUIRE(outcome.status == 1);
+          REQUIRE(is_one_error(outcome.err));
+          REQUIRE(outcome.err.find("not an HDF5 file") == std::string::npos);
+          REQUIRE_FALSE(fs::exists(scratch / "out" / stage.output));
+          ++refused;
+        }
+        REQUIRE_FALSE(holds_parts(scratch.folder()));
+      }
+    }
+    std::cout << stage.program << ": " << refused << " refused, " << whole << " whole, 0 false\n";
+  }
+}
+
+TEST_CASE("each read and look that fails in a command over results is told, and no state or page is false") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", "base: job.yaml\nvary: {dresspack.bending_stiffness_Nm2: [2, 3]}\n");
+  REQUIRE(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);
+  const auto right = results(scratch / "runs/study");
+  const std::string status = run(scratch, "dresslife", "status study.yaml").out;
+  fs::copy(scratch / "runs", scratch / "whole", fs::copy_options::recursive);
+  const unsigned seed = std::random_device{}();
+  std::mt19937 random(seed);
+  int refused = 0, whole = 0;
+  for (const std::string command : {"status study.yaml", "report study.yaml", "run study.yaml --quiet"})
+    for (const Kind& kind : {Kind{"read", "EIO", "runs/study"}, {"read", "end", ".h5"}, {"look", "EIO", "runs/study"},
+                             {"open", "EIO", "runs/study"}}) {
+      const auto fail_at = [&](int at) {
+        // A page that is not there has to be made from all files.
+        fs::remove(scratch / "runs/study/bending_stiffness_Nm2=2/page.html");
+        return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path}, "dresslife", command);
+      };
+      REQUIRE(fail_at(0).status == 0);
+      for (const int at : some_of(calls_counted(scratch), rounds(6), random)) {
+        const Outcome outcome = fail_at(at);
+        INFO(command << ' ' << kind.call << ' ' << kind.mode << ' ' << at << ": " << outcome.status << outcome.out
+                     << outcome.err);
+        REQUIRE((outcome.status == 0 || outcome.status == 1));
+        if (outcome.status == 0 && command.starts_with("status")) REQUIRE(outcome.out == status);
+        if (outcome.status == 1) REQUIRE(outcome.err.find("error: ") != std::string::npos);
+        for (const auto& [name, bytes] : results(scratch / "runs/study")) {
+          INFO(name);
+          if (outcome.status == 0 || name.ends_with("ranking.csv") || name.ends_with(".h5"))
+            REQUIRE(bytes == right.at(name));
+        }
+        ++(outcome.status == 0 ? whole : refused);
+        const Outcome again = run(scratch, "dresslife", "run study.yaml --quiet");
+        INFO(again.err);
+        REQUIRE(again.status == 0);
+        REQUIRE(results(scratch / "runs/study") == right);
+      }
+    }
+  std::cout << "failing reads of the runner with seed " << seed << ": " << refused << " refused, " << whole
+            << " whole, 0 false\n";
+}
+
+TEST_CASE("on a file system without locks everything goes on, with a note") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("study.yaml", "base: job.yaml\n");
+  for (const std::string error : {"ENOTSUP", "ENOLCK"}) {
+    const Fault without_locks{"lock", 1, error, "", "all"};
+    const Outcome sim = run_failing(scratch, without_locks, "dresslife-sim", "job.yaml -o motion.h5");
+    CHECK(sim.status == 0);
+    const Outcome study = run_failing(scratch, without_locks, "dresslife", "run study.yaml -o " + error);
+    INFO(study.err);
+    CHECK(study.status == 0);
+    CHECK(study.err.find("lies on a file system without locks: let no two runs write there at a time") !=
+          std::string::npos);
+    CHECK_FALSE(holds_parts(scratch.folder()));
+  }
+}

@@ -1,0 +1,53 @@
+#include "pipeline/base/csv_rows.h"
+
+#include <catch2/catch.hpp>
+
+using namespace dresslife::pipeline;
+
+namespace {
+
+/// Cells in brackets, rows by line number.
+std::string all_of(CsvReader reader) {
+  std::string text;
+  for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
+    text += std::to_string(reader.line()) + ":";
+    for (const CsvCell& cell : row) text += "[" + cell.text + "]";
+    text += " ";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("CSV: cells without blanks; comments, blank lines and rows of empty cells do not count") {
+  CHECK(all_of({"\xEF\xBB\xBF a , b\r\n# c\n\n ,,\n 1,\t2 \n  # d\n,3", "f"}) ==
+        "1:[a][b] 5:[1][2] 7:[][3] ");
+  CHECK(all_of({"", "f"}) == "");
+  CHECK(all_of({"\n\n", "f"}) == "");
+}
+
+TEST_CASE("CSV: a comma separates, else the tabs or semicolons of the first line") {
+  CHECK(all_of({"a;b\n1,5;2\n", "f"}) == "1:[a][b] 2:[1,5][2] ");
+  CHECK(all_of({"a\tb c\n\t2\n", "f"}) == "1:[a][b c] 2:[][2] ");
+  CHECK(all_of({"a;b,c\n1;2,3\n", "f"}) == "1:[a;b][c] 2:[1;2][3] ");
+  CHECK(all_of({"a;b\n1,2\n", "f", ","}) == "1:[a;b] 2:[1][2] ");
+}
+
+TEST_CASE("CSV: quotes hold separators and quotes, and a cell knows its place") {
+  CHECK(all_of({"\"a, b\" ,\"say \"\"x\"\"\"\n", "f"}) == "1:[a, b][say \"x\"] ");
+  CsvReader reader("a\n1,  22", "f.csv");
+  reader.next();
+  const CsvRow row = reader.next();
+  CHECK(reader.where(row[1]).line == 2);
+  CHECK(reader.where(row[1]).column == 5);
+  CHECK_THROWS_WITH(all_of({"a,\"b\nc\"", "f.csv"}),
+                    "f.csv:1:3: error: a quote that opens here is never closed in its line; close it");
+  CHECK_THROWS_WITH(all_of({"\"a\"b,c", "f.csv"}),
+                    "f.csv:1:4: error: text follows a closing quote; write a quote within quotes twice");
+}
+
+TEST_CASE("CSV: a number is one whole decimal number") {
+  CHECK(number_in("+1.5e3") == 1500);
+  CHECK(number_in("-2") == -2);
+  for (const char* none : {"", "1 2", "1,5", "0x1", "two"}) CHECK_FALSE(number_in(none));
+}

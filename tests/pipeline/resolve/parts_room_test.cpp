@@ -1,0 +1,74 @@
+// Parts outside the bore, the dresspack or in its core: refused with millimetres, whatever is known of the bore.
+#include "pipeline/job/parts_room.h"
+
+#include "pipeline/cable/overlap.h"
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
+#include "tests/catch.h"
+#include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/scratch.h"
+
+using namespace dresslife::pipeline;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// One cable of 11 mm at a distance from the axis, and keys of its dresspack.
+std::string pack(const std::string& keys, double helix_radius_mm, const std::string& parts = "") {
+  return "name: hose\nsource: made up\ndiameter_mm: 60\nbending_stiffness_Nm2: 20\n" + keys +
+         "components:\n" + parts +
+         fmt::format("  - {{name: cable, radius_mm: 5.5, helix_radius_mm: {}, components: [{{name: core, radius_mm: 2, "
+                     "helix_radius_mm: 0, components: [{{name: wire, count: 6, radius_mm: 0.2, helix_radius_mm: 1, "
+                     "lay_angle_deg: 5, material: copper}}]}}]}}\n",
+                     helix_radius_mm);
+}
+
+std::string refusal(const std::string& text) {
+  const Scratch scratch;
+  return message_of([&] { read_dresspack(scratch.write("hose.yaml", text)); });
+}
+
+}  // namespace
+
+TEST_CASE("parts room: a cable outside the bore is refused with how far, and the remedy cures it") {
+  const std::string words = refusal(pack("inner_diameter_mm: 52\n", 23.75));
+  CHECK_THAT(words, Contains("hose.yaml:7:5: error: 'cable' reaches 29.25 mm from the axis, 3.25 mm outside the hose's bore "
+                             "(radius 26 mm); give helix_radius_mm: 20.5 or less, or inner_diameter_mm: 58.5 or more"));
+  CHECK(refusal(pack("inner_diameter_mm: 52\n", 20.5)) == "");
+  CHECK(refusal(pack("inner_diameter_mm: 58.5\n", 23.75)) == "");
+  CHECK_THAT(refusal(pack("hose_corrugation: {pitch_mm: 5, height_mm: 4.5, wall_mm: 0.8}\n", 23.75)),
+             Contains("3.75 mm outside the hose's bore") && Contains("now by hose_corrugation"));
+  // As much as a caliper reads wrong, 2 % of 11 mm, is let through.
+  CHECK(refusal(pack("inner_diameter_mm: 52\n", 20.71)) == "");
+  CHECK_THAT(refusal(pack("inner_diameter_mm: 52\n", 20.73)), Contains("outside the hose's bore"));
+}
+
+TEST_CASE("parts room: a cable in the core, or outside of a dresspack without a hose, is refused with how far") {
+  CHECK_THAT(refusal(pack("inner_diameter_mm: 52\ncore_diameter_mm: 26\n", 17)),
+             Contains("'cable' begins 11.5 mm from the axis, 1.5 mm inside the core (core_diameter_mm is 26); give "
+                      "helix_radius_mm: 18.5 or more, or core_diameter_mm: 23 or less"));
+  CHECK(refusal(pack("inner_diameter_mm: 52\ncore_diameter_mm: 26\n", 18.5)) == "");
+  CHECK_THAT(refusal("name: c\nsource: s\ndiameter_mm: 10\ncomponents:\n  - {name: core, count: 3, radius_mm: 2, "
+                     "helix_radius_mm: 3.5, components: [{name: wire, count: 6, radius_mm: 0.2, helix_radius_mm: 1, "
+                     "lay_angle_deg: 5, material: copper}]}\n"),
+             Contains("'core' reaches 5.5 mm from the axis, 0.5 mm outside the dresspack (radius 5 mm)"));
+}
+
+TEST_CASE("parts room: the bore of a hose is asked for, and that of cables in something is an ESTIMATE that is marked") {
+  CHECK_THAT(refusal(pack("hose_material: hose_polyamide\n", 10)),
+             Contains("hose_material is given and the hose's bore is not") && Contains("inner_diameter_mm: 51 (ESTIMATE)"));
+  const Scratch scratch;
+  const auto warnings_at = [&](double helix_radius_mm) {
+    return overlap_warnings(read_dresspack(scratch.write("hose.yaml", pack("", helix_radius_mm))));
+  };
+  CHECK(warnings_at(20).empty());
+  const auto warnings = warnings_at(22);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].words, Contains("2 mm outside a bore of 25.5 mm radius, which is an ESTIMATE") &&
+                                    Contains("Likely cause: the bore is not given") &&
+                                    Contains("Remedy: give inner_diameter_mm as measured"));
+  // A cable by itself, in its jacket, is as wide as its dresspack.
+  const Dresspack alone = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/control_cable.yaml");
+  CHECK_FALSE(room_of_parts(alone).estimated);
+  CHECK(room_of_parts(alone).bore == alone.diameter / 2);
+}

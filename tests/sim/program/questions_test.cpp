@@ -1,0 +1,396 @@
+// What a program asks: all of it in one round, under names that are unique, in a file that can be filled in.
+#include <fstream>
+
+#include "sim/program/answers.h"
+#include "tests/catch.h"
+#include "tests/sim/program/reading.h"
+
+using namespace dresslife;
+using namespace dresslife::sim;
+using dresslife::tests::Reader;
+using dresslife::tests::Reading;
+
+namespace {
+
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+/// Every question of a reading, "kind name".
+std::set<std::string> questions(const Reading& reading) {
+  std::set<std::string> names;
+  for (const Problem& problem : reading.problems)
+    for (const Question& question : problem.questions)
+      names.insert((question.kind == Question::Kind::branch  ? "branch "
+                    : question.kind == Question::Kind::value ? "value "
+                                                             : "frame ") +
+                   question.name);
+  return names;
+}
+
+/// Answers to all questions; `pick` chooses among then and else, TRUE and FALSE, ON and OFF, 1 and 2, by the bits of a number.
+void answer(const Reading& reading, unsigned pick, Reader& reader) {
+  std::set<std::string> done;
+  for (const Problem& problem : reading.problems)
+    for (const Question& question : problem.questions) {
+      if (!done.insert(question.name).second) continue;
+      const bool first = pick & 1u;
+      pick = pick >> 1u | (pick & 1u) << 15u;
+      const std::string& form = question.form;
+      const auto has = [&](const char* words) { return form.find(words) != std::string::npos; };
+      if (question.kind == Question::Kind::branch)
+        reader.options.assume[question.name] = first ? Assumption::then_branch : Assumption::else_branch;
+      else if (question.kind == Question::Kind::tool)
+        reader.tools.push_back({question.name, {{0, 0, 0.1}, Quaternion::Identity()}, false});
+      else if (question.kind == Question::Kind::work_object)
+        reader.work_objects.push_back({question.name, {{1, 0, 0}, Quaternion::Identity()}, false});
+      else
+        reader.options.values[question.name] =
+            has("TRUE or FALSE") ? first ? "TRUE" : "FALSE"
+            : has("ON or OFF")   ? first ? "ON" : "OFF"
+            : has("[cf1")        ? "[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+            : has("[[a1")        ? "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+            : has("{X ..")       ? "{X 900,Y 0,Z 900,A 0,B 90,C 0}"
+            : has("{A1 ..")      ? "{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}"
+            : has("X .. Y ..")   ? "X 600 Y 0 Z 500 W 180 P 0 R 0"
+            : has("nothing")     ? "nothing"
+            : first              ? "1"
+                                 : "2";
+    }
+}
+
+/// Whether one round is enough, whatever is answered; else what is asked in the second one.
+std::string second_round(Language language, const Files& files) {
+  const Reading asked = Reader{language}(files);
+  if (questions(asked).empty()) return "nothing is asked at all";
+  for (unsigned pick = 0; pick < 1u << 10u; ++pick) {
+    Reader reader{language};
+    answer(asked, pick, reader);
+    const Reading again = reader(files);
+    for (const std::string& question : questions(again))
+      if (!questions(asked).contains(question)) return question;
+    if (!questions(again).empty()) return "the same again: " + *questions(again).begin();
+  }
+  return "";
+}
+
+const std::string axes = "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+
+/// A Fanuc listing of these statements, with four positions in user frame 0 and tool 0.
+std::string listing(const std::string& name, const std::vector<std::string>& statements) {
+  std::string text = "/PROG " + name + "\n/MN\n";
+  for (std::size_t i = 0; i < statements.size(); ++i) text += fmt::format("{}: {} ;\n", i + 1, statements[i]);
+  text += "/POS\n";
+  for (int p = 1; p <= 4; ++p)
+    text += fmt::format(
+        "P[{}]{{\n GP1:\n UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n X = {} mm, Y = 0 mm, Z = 500 mm,\n W = 180 deg, P = 0 "
+        "deg, R = 0 deg\n}};\n",
+        p, 600 + 10 * p);
+  return text + "/END\n";
+}
+
+}  // namespace
+
+TEST_CASE("questions: one round of answers is enough for RAPID, whatever the answers are") {
+  // Branches in branches, behind an exit, in a choice, in a routine; a count that a branch without moves sets; data, a tool and
+  // a work object that no file holds.
+  const std::string text =
+      "MODULE m\nCONST jointtarget j:=" + axes +
+      ";\nVAR num k;\nPROC main()\nIF di1=1 THEN\nk:=gi1;\nENDIF\nFOR i FROM 1 TO k DO\nMoveAbsJ j,v100,fine,tool0;\nENDFOR\n"
+      "IF di2=1 THEN\nIF di3=1 AND di4=0 THEN\nMoveJ home,v100,fine,gun;\nELSE\nMoveAbsJ j,v100,fine,tool0;\nEXIT;\nENDIF\n"
+      "ELSE\nsub;\nENDIF\nTEST style\nCASE 1:\nMoveL home,v100,fine,tool0\\WObj:=table;\nCASE 2:\nMoveJ "
+      "park,v100,fine,tool0;\nENDTEST\nENDPROC\nPROC sub()\nWHILE di5=0 DO\nMoveJ away,v100,z10,tool0;\nENDWHILE\nWaitTime "
+      "pause;\nENDPROC\nENDMODULE\n";
+  const Reading asked = Reader{Language::rapid}({{"m.mod", text}});
+  CHECK(questions(asked) == std::set<std::string>{"value di1", "value gi1", "value di2", "branch m.mod:12",
+                                                  "value home", "frame gun", "value style", "frame table",
+                                                  "value park", "branch m.mod:29", "value away",
+                                                  "value pause"});
+  CHECK(second_round(Language::rapid, {{"m.mod", text}}) == "");
+}
+
+TEST_CASE("questions: one round of answers is enough for a machine of states") {
+  // Each state asks for something else, and comes only when the one before has run.
+  const std::string states =
+      "MODULE m\nCONST jointtarget j:=" + axes +
+      ";\nVAR num state:=1;\nPROC main()\nWHILE TRUE DO\nTEST state\nCASE 1:\nIF di1=1 THEN\nMoveAbsJ "
+      "j,v100,fine,tool0;\nENDIF\nstate:=2;\nCASE 2:\nMoveJ first,v100,fine,tool0;\nstate:=3;\nCASE 3:\nMoveJ "
+      "second,v100,fine,tool0;\nstate:=1;\nENDTEST\nENDWHILE\nENDPROC\nENDMODULE\n";
+  CHECK(questions(Reader{Language::rapid}({{"m.mod", states}})) ==
+        std::set<std::string>{"value di1", "value first", "value second"});
+  CHECK(second_round(Language::rapid, {{"m.mod", states}}) == "");
+}
+
+TEST_CASE("questions: one round of answers is enough for KRL, whatever the answers are") {
+  const std::string text =
+      "DEF m()\nDECL INT n\nn=0\nIF $IN[1] THEN\nn=count\nENDIF\nFOR i=1 TO n\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 "
+      "0}\nENDFOR\nSWITCH style\nCASE 1\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[2]\nLIN xp1\nCASE 2\nsub()\nENDSWITCH\nWHILE "
+      "$IN[2]\nPTP xp2\nENDWHILE\nLIN {Z 500}\nEND\nDEF sub()\nREPEAT\nPTP xp3\nUNTIL $IN[3]\nPTP {A1 5}\nEND\n";
+  CHECK(second_round(Language::krl, {{"m.src", text}}) == "");
+}
+
+TEST_CASE("questions: one round of answers is enough for Fanuc, whatever the answers are") {
+  const std::string text =
+      listing("M", {"LBL[1]", "IF DI[1]=ON,JMP LBL[2]", "J P[1] 50% FINE", "IF DI[2]=ON THEN", "R[1]=GI[1]",
+                    "ENDIF", "FOR R[2]=1 TO R[1]", "L P[2] 100mm/sec FINE", "ENDFOR", "LBL[2]",
+                    "SELECT R[5]=1,CALL PART", "=2,JMP LBL[3]", "ELSE,JMP LBL[1]", "LBL[3]", "PR[1,3]=GI[2]",
+                    "L P[3] R[7]mm/sec FINE Offset,PR[1]", "J PR[3] 20% FINE"});
+  const std::string part =
+      listing("PART", {"CALL GRIP", "IF R[9]=1,JMP LBL[1]", "J P[1] 50% FINE", "LBL[1]", "J P[4] 20% FINE"});
+  CHECK(second_round(Language::fanuc, {{"m.ls", text}, {"part.ls", part}}) == "");
+}
+
+TEST_CASE("questions: a mistake behind a guess counts only where the program gets there") {
+  const std::string text = "MODULE m\nCONST jointtarget j:=" + axes +
+                           ";\nVAR num a{5};\nVAR num k:=0;\nPROC main()\nIF di1=1 THEN\na{k}:=1;\nMoveAbsJ "
+                           "j,v100,fine,tool0;\nENDIF\nMoveAbsJ j,v200,fine,tool0;\nENDPROC\nENDMODULE\n";
+  CHECK(questions(Reader{Language::rapid}({{"m.mod", text}})) == std::set<std::string>{"value di1"});
+  CHECK(Reader{Language::rapid}({{"m.mod", text}}).problems.size() == 1);
+  Reader no{Language::rapid}, yes{Language::rapid};
+  no.options.values["di1"] = "0";
+  yes.options.values["di1"] = "1";
+  CHECK(no({{"m.mod", text}}).problems.empty());
+  CHECK_THAT(yes({{"m.mod", text}}).problem(),
+             Catch::Contains("m.mod:7") && Catch::Contains("index 0 of a list of 5"));
+  // In a branch that moves nothing it is not met at all.
+  const std::string still =
+      "MODULE m\nCONST jointtarget j:=" + axes +
+      ";\nVAR num a{5};\nVAR num k:=0;\nPROC main()\nIF di1=1 THEN\na{k}:=1;\nENDIF\nMoveAbsJ "
+      "j,v200,fine,tool0;\nENDPROC\nENDMODULE\n";
+  CHECK(Reader{Language::rapid}({{"m.mod", still}}).problems.empty());
+}
+
+TEST_CASE("questions: all that one value hangs on is asked for together") {
+  const std::string text = "MODULE m\nCONST jointtarget j:=" + axes +
+                           ";\nVAR num n;\nPROC main()\nn:=gi1+2*gi2-gi3;\nWaitTime n;\nMoveAbsJ "
+                           "j,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+  CHECK(questions(Reader{Language::rapid}({{"m.mod", text}})) ==
+        std::set<std::string>{"value gi1", "value gi2", "value gi3"});
+}
+
+TEST_CASE("questions: an answer's form is that of what is asked for, not of what is computed from it") {
+  const auto form = [](const std::string& target) {
+    const Reading asked = Reader{Language::rapid}(
+        {{"m.mod",
+          "MODULE m\nCONST robtarget p:=[[10,20,30],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\nMoveL " +
+              target + ",v100,fine,tool0;\nENDPROC\nENDMODULE\n"}});
+    return asked.problems.empty() || asked.problems[0].questions.empty()
+               ? "nothing is asked"
+               : asked.problems[0].questions[0].form;
+  };
+  CHECK(form("Offs(p,0,0,10*GInput(gi1))") == "");
+  CHECK(form("home").starts_with("[[x, y, z], [q1"));
+}
+
+TEST_CASE("questions: names are unique by module and by routine") {
+  const Files krl = {{"m.src", "DEF m()\na()\nb()\nEND\n"},
+                     {"a.src", "DEF a()\nPTP xp1\nEND\n"},
+                     {"b.src", "DEF b()\nPTP xp1\nEND\n"}};
+  CHECK(questions(Reader{Language::krl}(krl)) == std::set<std::string>{"value a:xp1", "value b:xp1"});
+  Reader own{Language::krl};
+  own.options.values = {{"a:xp1", "{A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}"},
+                        {"b:xp1", "{A1 2,A2 0,A3 0,A4 0,A5 0,A6 0}"}};
+  const Reading read = own(krl);
+  REQUIRE(read.problem() == "no such problem");
+  CHECK(read.move(0).target.joints[0] * 2 == Approx(read.move(1).target.joints[0]));
+  Reader shared{Language::krl};
+  shared.options.values = {{"xp1", "{A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}"}};
+  CHECK(questions(shared(krl)) == std::set<std::string>{"value a:xp1", "value b:xp1"});
+  // Two routines' own variables of one name, and LOCAL data of two modules.
+  const Files rapid = {
+      {"a.mod",
+       "MODULE a\nLOCAL VAR num t;\nPROC main()\nVAR num n;\nTPReadNum n,\"\";\nTPReadNum t,\"\";\nWaitTime n+t;\nMoveAbsJ " +
+           axes + ",v100,fine,tool0;\nother;\nENDPROC\nENDMODULE\n"},
+      {"b.mod",
+       "MODULE b\nLOCAL VAR num t;\nPROC other()\nVAR num n;\nTPReadNum n,\"\";\nTPReadNum t,\"\";\nWaitTime n+t;\nENDPROC\nENDMODULE\n"}};
+  CHECK(questions(Reader{Language::rapid}(rapid)) ==
+        std::set<std::string>{"value main:n", "value other:n", "value a:t", "value b:t"});
+  Reader times{Language::rapid};
+  times.options.values = {{"main:n", "1"}, {"other:n", "20"}, {"a:t", "300"}, {"b:t", "4000"}};
+  const Reading waits = times(rapid);
+  REQUIRE(waits.problem() == "no such problem");
+  CHECK(waits.move(0).dwell == 301);
+  CHECK(waits.move(2).dwell == 4020);
+}
+
+TEST_CASE("questions: where the robot stands is asked for line by line") {
+  const std::string text =
+      "MODULE m\nVAR jointtarget j;\nPROC main()\nj:=CJointT();\nMoveAbsJ j,v100,fine,tool0;\nMoveJ "
+      "[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\nj:=CJointT();\nMoveAbsJ "
+      "j,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+  CHECK(questions(Reader{Language::rapid}({{"m.mod", text}})) ==
+        std::set<std::string>{"value m.mod:4:cjointt", "value m.mod:7:cjointt"});
+  Reader reader{Language::rapid};
+  reader.options.values = {{"m.mod:4:cjointt", "[[1,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"},
+                           {"m.mod:7:cjointt", "[[2,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"}};
+  const Reading read = reader({{"m.mod", text}});
+  REQUIRE(read.problem() == "no such problem");
+  CHECK(read.move(2).target.joints[0] == Approx(2 * read.move(0).target.joints[0]));
+}
+
+TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its name") {
+  const Files files = {{"m.ls", listing("M", {"R[30]=0", "LBL[1]", "J P[1] 50% FINE", "J P[2] 50% FINE",
+                                              "CALL NAILER", "R[30]=R[30]+1", "IF R[30]<4,JMP LBL[1]"})}};
+  CHECK(questions(Reader{Language::fanuc}(files)) == std::set<std::string>{"value CALL NAILER"});
+  // What the program itself has set is not what the user gives for the register.
+  Reader by_register{Language::fanuc};
+  by_register.options.values["R[30]"] = "3";
+  CHECK(questions(by_register(files)) == std::set<std::string>{"value CALL NAILER"});
+  const std::pair<const char*, std::size_t> effects[] = {{"nothing", 8}, {"R[30]=3", 2}};
+  for (const auto& [effect, moves] : effects) {
+    Reader reader{Language::fanuc};
+    reader.options.values["CALL NAILER"] = effect;
+    INFO(effect);
+    CHECK(reader(files).program.instructions.size() == moves);
+  }
+  // A register that the program did not set is what the called program may have left there: the user may give it.
+  const Files answer = {
+      {"m.ls", listing("M", {"CALL ASK", "FOR R[1]=1 TO R[5]", "J P[1] 50% FINE", "ENDFOR"})}};
+  Reader reader{Language::fanuc};
+  reader.options.values["R[5]"] = "3";
+  CHECK(reader(answer).program.instructions.size() == 3);
+}
+
+TEST_CASE("questions: Fanuc SkipJump goes to its label when the condition comes, Skip when it does not") {
+  for (const bool jumps : {true, false}) {
+    const Files files = {
+        {"m.ls",
+         listing("M", {"SKIP CONDITION RI[1]=ON",
+                       std::string("L P[1] 100mm/sec FINE ") + (jumps ? "SkipJump" : "Skip") + ",LBL[1]",
+                       "J P[2] 50% FINE", "ABORT", "LBL[1]", "L P[3] 100mm/sec FINE"})}};
+    const auto second_target = [&](const char* comes) {
+      Reader reader{Language::fanuc};
+      reader.options.values["RI[1]"] = comes;
+      const Reading read = reader(files);
+      REQUIRE(read.problem() == "no such problem");
+      return std::lround(read.move(1).target.pose.position.x() * 1e3);
+    };
+    CHECK(second_target("ON") == (jumps ? 630 : 620));
+    CHECK(second_target("OFF") == (jumps ? 620 : 630));
+    const Reading unanswered = Reader{Language::fanuc}(files);
+    if (jumps) CHECK(questions(unanswered) == std::set<std::string>{"value RI[1]"});
+    if (!jumps) CHECK(unanswered.program.instructions.size() == 2);  // with a warning
+  }
+}
+
+TEST_CASE("questions: a component of a Fanuc position register is asked for by what it was computed from") {
+  const Files files = {{"m.ls", listing("M", {"PR[1,3]=GI[6]*2", "L P[1] 100mm/sec FINE Offset,PR[1]"})}};
+  CHECK(questions(Reader{Language::fanuc}(files)) == std::set<std::string>{"value GI[6]", "value PR[1]"});
+  Reader reader{Language::fanuc};
+  reader.options.values = {{"GI[6]", "25"}, {"PR[1]", "X 1 Y 2 Z 999 W 0 P 0 R 0"}};
+  const Reading read = reader(files);
+  REQUIRE(read.problem() == "no such problem");
+  CHECK(read.move(0).target.pose.position.isApprox(Vector3(0.611, 0.002, 0.55), 1e-12));
+}
+
+TEST_CASE(
+    "questions: what a program writes to a given tool or work object counts as if a file had declared it") {
+  const std::string body =
+      "CONST robtarget p:=[[10,20,30],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\nMoveL "
+      "p,v100,fine,t\\WObj:=w;\nw.oframe.trans.x:=500;\nMoveL p,v100,fine,t\\WObj:=w;\nt.tframe.trans.z:=333;\nMoveL "
+      "p,v100,fine,t\\WObj:=w;\nw.uframe:=[[0,0,999],[1,0,0,0]];\nMoveL p,v100,fine,t\\WObj:=w;\nENDPROC\nENDMODULE\n";
+  const Reading declared = Reader{Language::rapid}(
+      {{"m.mod",
+        "MODULE m\nPERS tooldata t:=[TRUE,[[0,0,111],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nPERS wobjdata "
+        "w:=[FALSE,TRUE,\"\",[[1000,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n" +
+            body}});
+  const Reading given =
+      Reader{Language::rapid,
+             {},
+             {{"t", {{0, 0, 0.111}, Quaternion::Identity()}, false}},
+             {{"w", {{1, 0, 0}, Quaternion::Identity()}, false}}}({{"m.mod", "MODULE m\n" + body}});
+  REQUIRE(declared.problem() == "no such problem");
+  REQUIRE(given.problem() == "no such problem");
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto frame = [&](const Reading& r, bool tool) {
+      const Instruction& move = r.move(i);
+      return tool ? r.program.tools[move.tool].frame : r.program.work_objects[move.work_object].frame;
+    };
+    for (const bool tool : {true, false}) {
+      CHECK(frame(given, tool).position.isApprox(frame(declared, tool).position, 1e-12));
+      CHECK(frame(given, tool).orientation.isApprox(frame(declared, tool).orientation, 1e-12));
+    }
+  }
+  Reader krl{Language::krl};
+  krl.tools = {{"TOOL_DATA[1]", {{0, 0, 0.1}, Quaternion::Identity()}, false}};
+  krl.work_objects = {{"BASE_DATA[1]", {{1, 2, 3}, Quaternion::Identity()}, false}};
+  const Reading kuka = krl(
+      {{"k.src",
+        "DEF k()\n$VEL.CP=1\nBASE_DATA[1].X=5000\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[1]\nLIN {X 1,Y 2,Z 3,A "
+        "0,B 0,C 0}\nTOOL_DATA[1].Z=777\n$TOOL=TOOL_DATA[1]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n"}});
+  REQUIRE(kuka.problem() == "no such problem");
+  CHECK(kuka.program.work_objects.at(kuka.move(0).work_object)
+            .frame.position.isApprox(Vector3(5, 2, 3), 1e-12));
+  CHECK(kuka.program.tools.at(kuka.move(0).tool).frame.position.isApprox(Vector3(0, 0, 0.1), 1e-12));
+  CHECK(kuka.program.tools.at(kuka.move(1).tool).frame.position.isApprox(Vector3(0, 0, 0.777), 1e-12));
+}
+
+TEST_CASE("questions: a constant that an unknown instruction takes stays what it is") {
+  const std::string text =
+      "MODULE A\nCONST robtarget p:=[[10,20,30],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\nUnknown_1D "
+      "p;\nMoveJ p,v100,fine,tool0;\nENDPROC\nENDMODULE\n";
+  const Reading read = Reader{Language::rapid}({{"A.mod", text}});
+  REQUIRE(read.problem() == "no such problem");
+  CHECK(read.move(0).target.pose.position.x() == Approx(0.01));
+}
+
+TEST_CASE(
+    "questions: KUKA's speed along paths and its approximation are given by the names of the messages") {
+  const std::string text =
+      "DEF m()\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\nLIN {X 1500,Y 0,Z 1500,A 0,B 90,C 0} C_DIS\nLIN {X "
+      "1500,Y 300,Z 1500,A 0,B 90,C 0}\nEND\n";
+  CHECK(questions(Reader{Language::krl}({{"m.src", text}})) == std::set<std::string>{"value $vel.cp"});
+  Reader reader{Language::krl};
+  reader.options.values["$VEL.CP"] = "0.2";
+  const Reading stops = reader({{"m.src", text}});
+  REQUIRE(stops.problem() == "no such problem");
+  CHECK(stops.move(0).speed.tool == std::optional(0.2));
+  CHECK(stops.move(0).zone.distance == 0);
+  REQUIRE(stops.program.skipped.size() >= 1);
+  CHECK_THAT(stops.program.skipped[0].what, Catch::Contains("--value '$APO.CDIS=...'"));
+  reader.options.values["$APO.CDIS"] = "5";
+  CHECK(reader({{"m.src", text}}).move(0).zone.distance == Approx(0.005));
+}
+
+TEST_CASE("questions: the file of answers can be filled in and is read back as it was filled") {
+  const std::string text =
+      "MODULE m\nCONST jointtarget j:=" + axes +
+      ";\nPROC main()\nIF di1=1 THEN\t!  - {name: 'x', value: '1'}\nMoveAbsJ j,v100,fine,gun;\nENDIF\nWHILE "
+      "ui1 DO\nMoveJ home,v100,fine,tool0;\nENDWHILE\nENDPROC\nENDMODULE\n";
+  const Reading asked = Reader{Language::rapid}({{"m.mod", text}});
+  pipeline::Motion before;
+  before.values.push_back({"o'clock", "'12'"});
+  std::string file = answers_text(asked.problems, before);
+  INFO(file);
+  CHECK(question_count(asked.problems) == 4);
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "dresslife_answers_test.yaml";
+  const auto read_back = [&] {
+    std::ofstream(path) << file;
+    pipeline::Motion motion;
+    add_answers(path, motion);
+    std::filesystem::remove(path);
+    return motion;
+  };
+  const auto value_of = [](const pipeline::Motion& motion, const std::string& name) {
+    for (const auto& value : motion.values)
+      if (value.name == name) return value.value;
+    return std::string("none");
+  };
+  const pipeline::Motion empty = read_back();  // left empty: not given
+  CHECK(value_of(empty, "di1").empty());
+  CHECK(value_of(empty, "o'clock") == "'12'");
+  CHECK(empty.tools.empty());
+  const auto fill = [&](const std::string& key, const std::string& from, const std::string& to) {
+    const std::size_t at = file.find(from, file.find(key));
+    REQUIRE(at != std::string::npos);
+    file.replace(at, from.size(), to);
+  };
+  fill("{name: 'di1'", "''}", "'1'}");
+  fill("{name: 'home'", "''}", "'[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]'}");
+  fill("{line: 'm.mod:7'", "''}", "'then'}");
+  fill("{name: 'gun'", "[]", "[0, 0, 111]");
+  const pipeline::Motion filled = read_back();
+  CHECK(value_of(filled, "di1") == "1");
+  REQUIRE(filled.assume.size() == 1);
+  CHECK(filled.assume[0].line == "m.mod:7");
+  REQUIRE(filled.tools.size() == 1);
+  CHECK(filled.tools[0].position.z() == Approx(0.111));
+}

@@ -1,0 +1,63 @@
+#include "sim/route/bracket.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/sim/simple_job.h"
+
+namespace dresslife::sim {
+namespace {
+
+Frame at(double x, double y, double z) { return {{x, y, z}, Quaternion::Identity()}; }
+
+/// Two links: a lying capsule of 1 m and radius 0.1, and a cube of 0.2 m.
+pipeline::Job two_links() {
+  pipeline::Job job = simple_job();
+  job.robot.links[0].capsules = {{{0, 0, 0}, {1, 0, 0}, 0.1}};
+  job.robot.links[1].boxes = {{{0, 0, 0}, {0, 0, 0}, {0.2, 0.2, 0.2}}};
+  return job;
+}
+
+TEST_CASE("bracket: its length is from the link's surface to that of the dresspack") {
+  const pipeline::Job job = two_links();
+  const Surfaces surfaces(job);
+  const std::vector<std::vector<Frame>> poses{{at(0, 0, 0), at(5, 0, 0)}};
+  // 0.25 m above the axis: 0.15 m above the surface, less 0.02 m of hose.
+  BracketFit fit = fit_of({0, {0.5, 0, 0.25}, 0.02}, surfaces, poses);
+  CHECK(fit.length == Approx(0.13));
+  CHECK(std::isinf(fit.clearance));
+  CHECK(fit.beyond(0.15, 0.04) < 0);
+  CHECK(fit.beyond(0.1, 0.04) == Approx(0.03 / 0.04));
+  CHECK(fit_of({0, {0.5, 0, 0.12}, 0.02}, surfaces, poses).length == Approx(0).margin(1e-12));
+  CHECK(fit_of({0, {0.5, 0, 0.05}, 0.02}, surfaces, poses).length == 0);  // within its own link
+}
+
+TEST_CASE("bracket: clearance is the least over the motion, and names link and moment") {
+  const pipeline::Job job = two_links();
+  const Surfaces surfaces(job);
+  std::vector<std::vector<Frame>> poses;
+  for (const double height : {0.6, 0.4, 0.8}) poses.push_back({at(0, 0, 0), at(0.5, 0, height)});
+  const BracketFit fit = fit_of({0, {0.5, 0, 0.2}, 0.02}, surfaces, poses);
+  CHECK(fit.clearance == Approx(0.4 - 0.1 - 0.2 - 0.02));
+  CHECK(fit.neighbour == 1);
+  CHECK(fit.moment == 1);
+  poses.push_back({at(0, 0, 0), at(0.5, 0, 0.25)});
+  const BracketFit inside = fit_of({0, {0.5, 0, 0.2}, 0.02}, surfaces, poses);
+  CHECK(inside.clearance == Approx(-0.05 - 0.02));
+  CHECK(inside.beyond(1, 0.04) == Approx(0.07 / 0.04));
+}
+
+TEST_CASE("bracket: a link without shapes limits nothing, and the cell counts as a neighbour") {
+  pipeline::Job job = two_links();
+  job.robot.links[0].capsules.clear();
+  job.cell.boxes = {{{0, 0, 1}, {0, 0, 0}, {4, 4, 0.2}}};
+  const Surfaces surfaces(job);
+  CHECK_FALSE(surfaces.has_shapes(0));
+  const BracketFit fit = fit_of({0, {0, 0, 0.7}, 0.05}, surfaces, std::vector<std::vector<Frame>>{{at(0, 0, 0), at(9, 0, 0)}});
+  CHECK(fit.length == 0);
+  CHECK(fit.clearance == Approx(0.9 - 0.7 - 0.05));
+  CHECK(fit.neighbour == -1);
+}
+
+}  // namespace
+}  // namespace dresslife::sim

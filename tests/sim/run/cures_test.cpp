@@ -1,0 +1,122 @@
+// What a warning says would cure it does: each remedy is applied, and the warning is gone.
+#include "sim/run/cures.h"
+
+#include <numbers>
+
+#include "sim/run/simulate.h"
+#include "tests/catch.h"
+#include "tests/sim/simple_job.h"
+
+namespace dresslife::sim {
+namespace {
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+
+std::string words_of(const pipeline::Job& job, pipeline::WarningKind kind) {
+  const Simulation simulation(job);
+  const RunSummary summary = simulation.run({[](const Sample&) {}});
+  std::string words;
+  for (const pipeline::Warning& warning : warnings_of(simulation, summary))
+    if (warning.kind == kind) words += warning.words + "\n";
+  return words;
+}
+
+double value_of(const std::string& words, const std::string& key) {
+  const std::size_t remedy = words.find("Remedy: "), at = words.find(key + ": ", remedy);
+  INFO(words);
+  REQUIRE(remedy != std::string::npos);
+  REQUIRE(at != std::string::npos);
+  return std::stod(words.substr(at + key.size() + 2));
+}
+
+/// The tool clamp comes near to the base clamp and goes away.
+pipeline::Job swinging_job(double free_length) {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  job.simulation.floor = false;
+  job.robot.joints[0].axis = {0, 0, 1};
+  job.robot.joints[0].origin = {0.05, 0, 1};
+  job.motion.steps = {move_to(pi / 3), move_to(-pi / 3, "sweep"), move_to(pi / 3)};
+  job.dresspacks[0].routing.free_length = free_length;
+  return job;
+}
+
+TEST_CASE("cures: a length that is too short or too long is cured by the length that is named") {
+  for (const double length : {0.955, 1.7}) {
+    pipeline::Job job = swinging_job(length);
+    const std::string words = words_of(job, pipeline::WarningKind::slack);
+    job.dresspacks[0].routing.free_length = value_of(words, "routing.free_length_m");
+    CHECK(words_of(job, pipeline::WarningKind::slack) == "");
+  }
+}
+
+TEST_CASE("cures: a twist to one side is cured by a pre-twist, one to both sides by a longer hose") {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  job.dresspacks[0].dresspack.most_twist = 1.4;  // [rad/m]; the motion turns the hose of 1 m by 0 .. 1.8 rad, as the hose sags
+  std::string words = words_of(job, pipeline::WarningKind::twist);
+  CHECK_THAT(words, Catch::Contains("-hand), ") && Catch::Contains("m from the base clamp") && Catch::Contains("step 2 'turn'"));
+  job.dresspacks[0].routing.pre_twist = value_of(words, "routing.pre_twist_deg") * degree;
+  CHECK(words_of(job, pipeline::WarningKind::twist) == "");
+
+  job.dresspacks[0].dresspack.most_twist = 0.8;  // less than the 0.9 rad to either side
+  words = words_of(job, pipeline::WarningKind::twist);
+  job.dresspacks[0].routing.free_length = value_of(words, "routing.free_length_m");
+  CHECK(job.dresspacks[0].routing.free_length > 1);
+  CHECK(words_of(job, pipeline::WarningKind::twist) == "");
+}
+
+TEST_CASE("cures: a bend that is there at rest is cured by a length or by directions that are tried at rest") {
+  pipeline::Job job = swinging_job(1.3);
+  job.motion.acceleration_percent = 2;  // nearly at rest
+  job.robot.joints[0].acceleration = 0.5;
+  job.dresspacks[0].routing.tool_clamp->direction = {0, 1, 0};
+  job.dresspacks[0].dresspack.least_bend_radius = 0.22;  // at rest it has 0.196
+  const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
+  INFO(words);
+  CHECK_THAT(words, Catch::Contains("smallest bend radius: ") && Catch::Contains("already at rest") &&
+                        Catch::Contains("m from the base clamp") && Catch::Contains("(at rest "));
+  job.dresspacks[0].routing.free_length = value_of(words, "routing.free_length_m");
+  for (const char* clamp : {"base_clamp", "tool_clamp"}) {
+    const std::string key = std::string("routing.") + clamp + ".direction: [";
+    const std::size_t at = words.find(key);
+    if (at == std::string::npos) continue;
+    pipeline::Vector3d direction;
+    REQUIRE(std::sscanf(words.c_str() + at + key.size(), "%lf, %lf, %lf", &direction[0], &direction[1], &direction[2]) == 3);
+    auto& of = std::string(clamp) == "base_clamp" ? job.dresspacks[0].routing.base_clamp
+                                                  : job.dresspacks[0].routing.tool_clamp;
+    of->direction = direction;
+  }
+  CHECK(words_of(job, pipeline::WarningKind::bend_radius) == "");
+}
+
+TEST_CASE("cures: a limit that no length and no direction keeps says so, with the radius that the motion needs") {
+  pipeline::Job job = swinging_job(1.0);
+  job.dresspacks[0].dresspack.least_bend_radius = 30;  // of nearly straight hoses
+  const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
+  CHECK_THAT(words, Catch::Contains("no length and no direction of these two clamps keeps the limit"));
+  job.dresspacks[0].dresspack.least_bend_radius = value_of(words, "dresspack.least_bend_radius_mm") / 1000;
+  CHECK(words_of(job, pipeline::WarningKind::bend_radius) == "");
+}
+
+TEST_CASE("cures: ten diameters count where no bend radius is given, and the warning says which key would say so") {
+  pipeline::Job job = swinging_job(1.3);
+  job.dresspacks[0].routing.tool_clamp->direction = {0, 1, 0};
+  CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius),
+             Catch::Contains("dresspack.least_bend_radius_mm is not given, so that ten diameters count"));
+}
+
+TEST_CASE("cures: a hose that is drawn taut is cured by its length, one that its weight pulls by its limit") {
+  pipeline::Job job = swinging_job(0.952);
+  job.dresspacks[0].dresspack.most_tension = 20;
+  const std::string words = words_of(job, pipeline::WarningKind::tension);
+  CHECK_THAT(words, Catch::Contains("it is drawn taut"));
+  CHECK(value_of(words, "routing.free_length_m") > 0.96);
+  job.dresspacks[0].routing.free_length = 1.2;
+  job.dresspacks[0].dresspack.bending_stiffness = 0.02;  // it hangs: a stiffer one stands on its clamps
+  job.dresspacks[0].dresspack.most_tension = 1;
+  CHECK_THAT(words_of(job, pipeline::WarningKind::tension), Catch::Contains("its weight and the acceleration"));
+}
+
+}  // namespace
+}  // namespace dresslife::sim
