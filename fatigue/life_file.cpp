@@ -34,7 +34,7 @@ struct Context {
   SiteSet sites;
   std::size_t threads;
   TextColumn component;
-  std::vector<double> time, segment_length;
+  std::vector<double> time, segment_length, wires_at;
   std::vector<std::size_t> dresspack;  // (segment)
   std::vector<std::int32_t> step;
   std::vector<std::string> step_text;
@@ -54,6 +54,7 @@ struct Context {
         component(read_column(strain, "/site/component")),
         time(strain.read<double>("/time")),
         segment_length(strain.read<double>("/segment/length")),
+        wires_at(strain.read<double>("/segment/wires_at")),
         dresspack(pipeline::dresspack_of_segments(strain)),
         step(strain.read<std::int32_t>("/program/step")),
         step_text(strain.read<std::string>("/program/text")),
@@ -72,12 +73,11 @@ struct Context {
     return site == no_site ? 0 : dresspack[static_cast<std::size_t>(sites.segment(site))];
   }
 
-  /// Along its dresspack [m].
+  /// From where a segment's wires are evaluated to its dresspack's tool clamp, along it [m].
   double from_tool(std::size_t segment) const {
     const auto [first, end] = segments_of(dresspack[segment]);
-    return position_from_tool({segment_length.begin() + static_cast<std::ptrdiff_t>(first),
-                               segment_length.begin() + static_cast<std::ptrdiff_t>(end)},
-                              segment - first);
+    return std::accumulate(segment_length.begin() + static_cast<std::ptrdiff_t>(first),
+                           segment_length.begin() + static_cast<std::ptrdiff_t>(end), -wires_at[segment]);
   }
   double repeat_seconds() const { return time.empty() ? 0 : time.back() - time.front(); }
   const std::string* step_at(std::size_t sample) const {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <numeric>
 
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
@@ -204,10 +203,6 @@ std::string layer_of(const std::string& component, const std::vector<std::string
     begin = end + 1;
   }
   return layer;
-}
-
-double position_from_tool(const std::vector<double>& length, std::size_t segment) {
-  return std::accumulate(length.begin() + segment + 1, length.end(), length[segment] / 2);
 }
 
 std::vector<double> strain_between_reversals(const std::vector<Reversal>& reversals, std::size_t samples) {

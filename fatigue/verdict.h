@@ -85,9 +85,6 @@ PathInJob path_in_job(const pipeline::Job& job, const std::string& component);
 std::string layer_of(const std::string& component, const std::vector<std::string>& layer_names);
 std::vector<std::string> layer_names(const pipeline::Dresspack& dresspack);
 
-/// Distance along the dresspack from the tool clamp to the middle of a segment. length (segment) [m]
-double position_from_tool(const std::vector<double>& length, std::size_t segment);
-
 /// Strain at every sample from the reversals alone: straight between them. Precondition: reversals not empty.
 std::vector<double> strain_between_reversals(const std::vector<Reversal>& reversals, std::size_t samples);
 

@@ -33,6 +33,16 @@ std::array<double, 2> place_of(const Construction& construction, int part, doubl
   return {radius * std::cos(phase), radius * std::sin(phase)};
 }
 
+/// Share 1: at the end, 0: at the centre of the outermost segment.
+HoseNode between_end(const Deformation& end, const DeformationColumns& centre, std::size_t t, double share) {
+  const auto between = [&](double from, double to) { return from + share * (to - from); };
+  return {between(centre.curvature1[t], end.curvature1),
+          between(centre.curvature2[t], end.curvature2),
+          between(centre.twist[t], end.twist),
+          between(centre.elongation[t], end.elongation),
+          {}};
+}
+
 }  // namespace
 
 CablePaths::CablePaths(const Construction& construction, const std::vector<LayerSlip>& plan, const CablesInJob& job,
@@ -41,7 +51,8 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     : construction_(construction),
       lengths_(std::move(lengths)),
       stride_(padded(samples) + padding),
-      all_(samples) {
+      all_(samples),
+      known_ends_(job.known_ends) {
   const std::size_t segments = lengths_.size();
   std::vector<LooseCable> loose;
   std::vector<PathMember> held;
@@ -109,7 +120,7 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
                                         std::ranges::any_of(cables_, &Cable::rubs)});
     nodes_.resize(loose_->nodes());
     for (std::size_t k = 0; k < loosened_.size(); ++k) cables_[loosened_[k]].room = winding_radius(loose_->cable(k));
-    curvature_.emplace(segments, 2 * loosened_.size(), samples, scratch);
+    curvature_.emplace(segments + 2, 2 * loosened_.size(), samples, scratch);
   }
   if (!any()) return;
   hose_curvature_.assign(4 * samples, 0.0f);
@@ -148,8 +159,12 @@ void CablePaths::add_hose(const SpanBlock& block) {
   for (int clamp = 0; clamp < 2; ++clamp) {
     const DeformationColumns at = block.deformation.columns(clamp == 0 ? 0 : last);
     for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
-      hose_curvature_[(2 * clamp) * all_ + next_ + t] = static_cast<float>(at.curvature1[t]);
-      hose_curvature_[(2 * clamp + 1) * all_ + next_ + t] = static_cast<float>(at.curvature2[t]);
+      const bool known = known_ends_[clamp];
+      const Deformation* const end = known ? &block.ends[2 * t + clamp] : nullptr;
+      hose_curvature_[(2 * clamp) * all_ + next_ + t] =
+          static_cast<float>(known ? end->curvature1 : at.curvature1[t]);
+      hose_curvature_[(2 * clamp + 1) * all_ + next_ + t] =
+          static_cast<float>(known ? end->curvature2 : at.curvature2[t]);
     }
   }
   for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
@@ -241,7 +256,7 @@ void CablePaths::find_nodes(const SpanBlock& block, std::size_t t) {
   const std::size_t segments = lengths_.size(), elements = nodes_.size() - 1;
   const DeformationHistory& deformation = block.deformation;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    // between the centres of two segments, and on in a line beyond the last ones
+    // between the centres of two segments or a centre and a known end; else on in a line beyond the last ones
     const double along = static_cast<double>(i) / static_cast<double>(elements) * segments - 0.5;
     const auto low = segments < 2 ? 0
                                   : std::min(static_cast<std::size_t>(std::max(0.0, std::floor(along))),
@@ -253,6 +268,10 @@ void CablePaths::find_nodes(const SpanBlock& block, std::size_t t) {
     HoseNode& node = nodes_[i];
     node = {between(a.curvature1, b.curvature1), between(a.curvature2, b.curvature2),
             between(a.twist, b.twist), between(a.elongation, b.elongation), {}};
+    if (along < 0 && known_ends_[0])
+      node = between_end(block.ends[2 * t], a, t, -2 * along);
+    else if (along > static_cast<double>(segments - 1) && known_ends_[1])
+      node = between_end(block.ends[2 * t + 1], b, t, 2 * (along - static_cast<double>(segments - 1)));
     if (block.pull.empty()) continue;
     const double* pull_a = block.pull.data() + (t * segments + low) * 2;
     const double* pull_b = block.pull.data() + (t * segments + high) * 2;
@@ -351,6 +370,11 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
   double mean = 0;
   for (const double gain : state.gain) mean += gain / static_cast<double>(elements);
   cable.strain[sample] = (1 + mean) / free_length - 1;
+  for (std::size_t d = 0; d < 2; ++d) {
+    curvature_->at(segments, 2 * state_index + d, of_block) = static_cast<float>(state.curvature[d]);
+    curvature_->at(segments + 1, 2 * state_index + d, of_block) =
+        static_cast<float>(state.curvature[2 * elements + d]);
+  }
   for (std::size_t i = 0; i < segments; ++i) {
     const std::size_t first = i * elements / segments, end = std::max(first + 1, (i + 1) * elements / segments);
     for (std::size_t d = 0; d < 2; ++d) {  // trapezoids over its elements
@@ -470,7 +494,11 @@ void CablePaths::ask_for_forces() {
 
 const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t segment,
                                             const DeformationColumns& hose, std::size_t first,
-                                            std::size_t count) {
+                                            std::size_t count, bool at_wires) {
+  const std::size_t last = paths.lengths_.size() - 1;
+  const std::size_t bends_at = at_wires && paths.known_ends_[0] && segment == 0      ? last + 1
+                               : at_wires && paths.known_ends_[1] && segment == last ? last + 2
+                                                                                     : segment;
   motion_.samples = count;
   motion_.hose = hose;
   if (!paths.any()) return motion_;
@@ -494,7 +522,7 @@ const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t
     const auto bent = [&](std::size_t about) {
       std::vector<double>& to = rows_[3 * k + 1 + about];
       to.assign(stride, 0.0);
-      paths.curvature_->read(segment, 2 * loose + about, first, count, to.data());
+      paths.curvature_->read(bends_at, 2 * loose + about, first, count, to.data());
       return to.data();
     };
     motion_.loose[index] = {bent(0), bent(1), hose.twist, strain};

@@ -28,7 +28,13 @@ struct SpanBlock {
   /// Gravity less acceleration along d1 and d2 (sample, segment, 2) [m/s2]; empty: nothing pulls.
   std::span<const double> pull{};
   double step = 0.04;  ///< time between samples [s]
+  /// At base and tool end, where KnownEnds says so (sample, 2).
+  std::span<const Deformation> ends{};
 };
+
+/// Ends of a span, base and tool, at which the hose's own deformation is known (W39). Wires of the outermost segments are
+/// evaluated there and not at the segments' centres.
+using KnownEnds = std::array<bool, 2>;
 
 /// What cables do along the hose in the job itself.
 struct CablesInJob {
@@ -37,6 +43,7 @@ struct CablesInJob {
   /// The hose ends freely at its tool end: nothing holds its cables there but a tool_grip_N that is given.
   bool free_tool_end = false;
   std::size_t elements_per_segment = 0;  ///< of loose cables; 0: as many as their waves ask for
+  KnownEnds known_ends{};
 };
 
 class CablePaths {
@@ -60,12 +67,12 @@ class CablePaths {
   // ---- after finish()
   // --------------------------------------------------------------------------------------
 
-  /// One segment at `count` samples from `first` on. hose: its columns there. Good until the next call of
-  /// this keeper.
+  /// One segment at `count` samples from `first` on. hose: its columns there. Loose cables have their mean curvature of the
+  /// segment, or with at_wires that where its wires are evaluated. Good until the next call of this keeper.
   class Keeper {
    public:
     const SegmentMotion& of(const CablePaths& paths, std::size_t segment, const DeformationColumns& hose,
-                            std::size_t first, std::size_t count);
+                            std::size_t first, std::size_t count, bool at_wires = false);
 
    private:
     SegmentMotion motion_;
@@ -146,7 +153,9 @@ class CablePaths {
   std::optional<PathRates> rates_;
   std::vector<std::size_t> loosened_;  ///< of cables_, in the order of loose_
   std::optional<LooseCables> loose_;
-  std::optional<SegmentRows> curvature_;  ///< (segment, loose cable x 2, sample) of their own paths [1/m]
+  KnownEnds known_ends_;
+  std::optional<SegmentRows>
+      curvature_;  ///< (segment, base end, tool end; loose cable x 2; sample) of their paths [1/m]
   std::vector<HoseNode> nodes_;
   std::vector<double> hose_twist_;     ///< (sample) mean along it [rad/m]
   std::vector<float> hose_curvature_;  ///< (clamp, 2, sample) at the base and the tool end [1/m]

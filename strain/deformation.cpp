@@ -60,6 +60,8 @@ constexpr std::size_t fewest_for_curves = 7;
 constexpr std::array<std::array<double, 3>, 3> end_weights{{{135.0 / 112, -55.0 / 224, 9.0 / 224},
                                                             {27.0 / 112, 213.0 / 224, -43.0 / 224},
                                                             {-9.0 / 112, 153.0 / 224, 89.0 / 224}}};
+/// The same parabola at 0.
+constexpr std::array<double, 3> clamp_weights{54.0 / 28, -39.0 / 28, 13.0 / 28};
 
 }  // namespace
 
@@ -86,6 +88,24 @@ void DeformationGauge::measure(const ChainPose& pose, std::span<Deformation> out
   else
     rotation_vectors(out);
   elongations(out);
+}
+
+std::array<bool, 2> DeformationGauge::knows_ends() const {
+  const bool knows = !is_thesis(measure_) && equal_lengths_ && lengths_.size() >= fewest_for_curves;
+  return {knows, knows && !free_end_};
+}
+
+void DeformationGauge::move_to_ends(std::span<Deformation> out) const {
+  const std::size_t segments = lengths_.size();
+  const auto [base, tool] = knows_ends();
+  const auto at_end = [&](std::size_t first, std::size_t second, std::size_t third, std::size_t fourth) {
+    const auto turn = [&](std::size_t link) { return links_[link].rotation; };
+    return Vector3d((clamp_weights[0] / 1.5 * (turn(first) + turn(second)) + clamp_weights[1] * turn(third) +
+                     clamp_weights[2] * turn(fourth)) /
+                    lengths_.front());
+  };
+  if (base) set(out.front(), at_end(0, 1, 2, 3));
+  if (tool) set(out.back(), at_end(segments, segments - 1, segments - 2, segments - 3));
 }
 
 void DeformationGauge::measure_links(const ChainPose& pose) {

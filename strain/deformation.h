@@ -16,6 +16,10 @@
 // sampled from a smooth curve phi_i is the mean over the link: second order inside; 0.03 of the change of
 // curvature over one segment in the outermost ones.
 //
+// A hose bends most at its clamps, half a segment beyond the centre of its outermost segment. The same parabola gives
+// the rates there, with third order in l (W39):
+//     rate at the clamp = (54 (phi_0 + phi_1)/(3/2 l) - 39 phi_2/l + 13 phi_3/l) / 28.
+//
 // `thesis` (Backman 3.2): 1/r = 4 K/(A B C) of the circle through three successive centres (24), pointing to
 // the side of the neighbours in the segment's own frame; twist = the angle of q_{i-1}^* q_i about the tangent
 // over the length, mean of both sides (W4). End segments take the curvature of their neighbour. Error of
@@ -26,6 +30,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,6 +63,11 @@ class DeformationGauge {
 
   /// The deformation of every segment. Precondition: `pose` has as many segments, `out` too.
   void measure(const ChainPose& pose, std::span<Deformation> out);
+  /// Whether base and tool end have a deformation of their own (W39). A free end does not need one, and `thesis`, unequal
+  /// lengths and fewer than seven segments do not give one.
+  std::array<bool, 2> knows_ends() const;
+  /// Replaces the outermost segments' deformation, as measure() gave it last, by that at the ends which knows_ends() names.
+  void move_to_ends(std::span<Deformation> out) const;
 
  private:
   /// Per link: what ties a to b.

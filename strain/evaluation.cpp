@@ -29,6 +29,13 @@ std::vector<double> centres(const std::vector<double>& lengths, double start) {
   return arcs;
 }
 
+std::vector<double> places_of_wires(const std::vector<double>& lengths, std::vector<double> arcs,
+                                    KnownEnds known) {
+  if (known[0]) arcs.front() -= lengths.front() / 2;
+  if (known[1]) arcs.back() += lengths.back() / 2;
+  return arcs;
+}
+
 double total(const std::vector<double>& lengths) {
   return std::accumulate(lengths.begin(), lengths.end(), 0.0);
 }
@@ -84,6 +91,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       place_(place),
       lengths_(std::move(lengths)),
       arcs_(centres(lengths_, place.first_arc)),
+      places_(places_of_wires(lengths_, arcs_, place.known_ends)),
       samples_(samples),
       fibres_(strain::surface_fibres(settings.surface_fibres)),
       surface_fibres_(settings.surface_fibres),
@@ -97,7 +105,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
              lengths_, arcs_, samples}},
       cables_(construction, free_.means.plan(),
               {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end,
-               static_cast<std::size_t>(settings.cable_elements)},
+               static_cast<std::size_t>(settings.cable_elements), place.known_ends},
               lengths_, arcs_, samples, scratch) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
@@ -261,7 +269,7 @@ const DeformationColumns& Evaluation::columns_of(Site site, const ClampMeans& me
 BundleNesting Evaluation::part_nesting(int part, std::size_t segment, const ClampMeans& means,
                                        const SegmentMotion& motion, const std::vector<Fibre>& fibres,
                                        Worker& worker) const {
-  BundleNesting nesting = nesting_to(construction_, means.plan(), part, arcs_[segment], fibres);
+  BundleNesting nesting = nesting_to(construction_, means.plan(), part, places_[segment], fibres);
   means.attach(nesting, part, motion);
   if (HeldStrains* const held = held_of(means, worker)) held->attach(nesting, part);
   return nesting;
@@ -272,7 +280,7 @@ BundleNesting Evaluation::layer_nesting(const Bundle& bundle, std::size_t segmen
   BundleNesting nesting = part_nesting(bundle.part, segment, means, motion, fibres_, worker);
   nesting.nodes.reserve(waves_per_layer * bundle.wire_layers.size());
   for (const int layer : bundle.wire_layers) {
-    add_wire_layer(construction_, means.plan(), nesting, layer, bundle.part, arcs_[segment]);
+    add_wire_layer(construction_, means.plan(), nesting, layer, bundle.part, places_[segment]);
     WireNode* const nodes = &nesting.nodes[nesting.nodes.size() - waves_per_layer];
     for (int node = 0; node < waves_per_layer; ++node)
       if (nodes[node].slide.sliding == Sliding::clamp_to_clamp)
@@ -364,7 +372,7 @@ BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t 
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const Wire& wire = wires_[sites[k].wire];
     WireNode& node = nesting.nodes.emplace_back(
-        node_at(construction_, means.plan(), nesting, wire.layer, wire.number, part, arcs_[segment], 0));
+        node_at(construction_, means.plan(), nesting, wire.layer, wire.number, part, places_[segment], 0));
     if (node.slide.sliding != Sliding::clamp_to_clamp) continue;
     sliding[k] = means.at_angle(part, wire.layer,
                                 2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
@@ -481,7 +489,7 @@ std::vector<double> Evaluation::helix_of(int part, std::size_t segment) const {
   for (int inner = part; inner != dresspack_itself; inner = construction_.parts()[inner].parent) {
     const Part& in = construction_.parts()[inner];
     const Layer& layer = construction_.layers()[in.layer];
-    const double phase = construction_.phase(in.layer, in.number, in.parent, arcs_[segment]);
+    const double phase = construction_.phase(in.layer, in.number, in.parent, places_[segment]);
     std::ranges::copy(std::array{layer.helix_radius, layer.lay_angle, phase},
                       helix.begin() + 3 * (layer.level - 1));
   }
@@ -497,7 +505,7 @@ void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment,
   rows.component.push_back(wire.path);
   rows.material.push_back(layer.material);
   rows.helix.insert(rows.helix.end(), helix.begin(), helix.end());
-  const double phase = construction_.phase(wire.layer, wire.number, part, arcs_[segment]);
+  const double phase = construction_.phase(wire.layer, wire.number, part, places_[segment]);
   std::ranges::copy(std::array{layer.helix_radius, layer.lay_angle, phase},
                     rows.helix.end() - helix.size() + 3 * (layer.level - 1));
   const bool on_axis = scan_.on_axis || layer.is_hose;
@@ -622,8 +630,9 @@ std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const
 void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
                           const Sink& sink) {
   end_first_pass();
-  const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
-  for (Worker& worker : workers_) worker.held[0]->begin(arcs_[segment], motion);
+  const SegmentMotion& motion =
+      keeper_.of(cables_, segment, history.columns(row), 0, history.samples(), true);
+  for (Worker& worker : workers_) worker.held[0]->begin(places_[segment], motion);
   const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
     const bool same = bound->means.plan() == means_.plan();
@@ -727,11 +736,12 @@ std::vector<SiteRows> Evaluation::varied(const std::vector<Site>& sites, const s
                                          std::size_t segment, const DeformationHistory& history,
                                          std::size_t row) {
   end_first_pass();
-  const SegmentMotion& motion = keeper_.of(cables_, segment, history.columns(row), 0, history.samples());
+  const SegmentMotion& motion =
+      keeper_.of(cables_, segment, history.columns(row), 0, history.samples(), true);
   std::vector<const ClampMeans*> ways;
   for (const double factor : factors) ways.push_back(&means_rubbing(factor));
   for (Worker& worker : workers_)
-    for (const ClampMeans* const means : ways) held_of(*means, worker)->begin(arcs_[segment], motion);
+    for (const ClampMeans* const means : ways) held_of(*means, worker)->begin(places_[segment], motion);
   std::vector<SiteRows> all;
   for (const std::vector<TurningList>& of_way : turning_of(sites, segment, ways, motion)) {
     SiteRows& rows = all.emplace_back();

@@ -61,6 +61,7 @@ struct SpanPlace {
   std::size_t segments_in_all = 0;  ///< of its dresspack; 0: the span is all
   double first_arc = 0;             ///< of the span's base end, from the dresspack's base clamp [m]
   bool free_tool_end = false;       ///< no clamp holds it there
+  KnownEnds known_ends{};
   // Of the dresspacks before it in the file:
   std::size_t segments_before = 0, sites_before = 0;
   std::size_t dresspack = 0;
@@ -84,6 +85,8 @@ class Evaluation {
              const Scratch& scratch = {});
 
   std::size_t segments() const { return lengths_.size(); }
+  /// (segment) arc from the dresspack's base clamp at which its wires are evaluated [m].
+  const std::vector<double>& places() const { return places_; }
   std::size_t sites() const {
     return place_.segments_in_all * wires_.size() * scan_.fibre_count;
   }  ///< of the dresspack
@@ -270,6 +273,8 @@ class Evaluation {
   const Construction& construction_;
   SpanPlace place_;
   std::vector<double> lengths_, arcs_;
+  std::vector<double>
+      places_;  ///< (segment) arc at which its wires are evaluated: arcs_, or at a known end [m]
   std::size_t samples_;
   std::vector<Fibre> fibres_;
   int surface_fibres_;

@@ -38,7 +38,8 @@ constexpr double loose_pass_share = 0.5;  // the same where cables lie loose
 /// Some samples of all segments.
 struct MotionBlock {
   std::size_t first;                         ///< sample
-  std::span<const Deformation> deformation;  ///< (sample, segment)
+  std::span<const Deformation> deformation;  ///< (sample, segment) at its centre
+  std::span<const Deformation> at_wires;     ///< (sample, segment) where its wires are evaluated (W39)
   std::span<const double> pull;              ///< (sample, segment, 2), see SpanBlock; empty: not asked for
 };
 
@@ -65,6 +66,8 @@ class MotionReader {
     return {lengths_.begin() + span.first_segment, lengths_.begin() + span.first_segment + span.segments};
   }
 
+  KnownEnds known_ends(std::size_t span) const { return gauges_[span].knows_ends(); }
+
   /// Whether no clamp holds the tool end of span k.
   bool ends_freely(const pipeline::Job& job, std::size_t k) const {
     const auto dresspack = static_cast<std::size_t>(spans_[k].dresspack);
@@ -78,7 +81,7 @@ class MotionReader {
     const std::size_t segments = lengths_.size();
     const std::size_t clamps = file_.row_size("/clamp/position") / 3;
     std::vector<double> position, orientation, clamp_position, clamp_orientation;
-    std::vector<Deformation> deformation;
+    std::vector<Deformation> deformation, at_wires;
     std::vector<double> pull;
     for (std::size_t first = 0; first < samples_; first += block_samples) {
       const std::size_t count = std::min(block_samples, samples_ - first);
@@ -87,6 +90,7 @@ class MotionReader {
       file_.read_rows("/clamp/position", first, count, clamp_position);
       file_.read_rows("/clamp/orientation", first, count, clamp_orientation);
       deformation.resize(count * segments);
+      at_wires.resize(count * segments);
       for (std::size_t t = 0; t < count; ++t) {
         auto row = [&](const std::vector<double>& of, std::size_t size) {
           return std::span(of).subspan(t * size, size);
@@ -94,15 +98,20 @@ class MotionReader {
         for (std::size_t k = 0; k < spans_.size(); ++k) {
           const auto& [dresspack, begin, size, base, tool] = spans_[k];
           const std::size_t held = tool - base + 1;  // the first and the last count
+          const auto own = [&](std::vector<Deformation>& of) {
+            return std::span(of).subspan(t * segments + begin, size);
+          };
           gauges_[k].measure({row(position, 3 * segments).subspan(3 * begin, 3 * size),
                               row(orientation, 4 * segments).subspan(4 * begin, 4 * size),
                               row(clamp_position, 3 * clamps).subspan(3 * base, 3 * held),
                               row(clamp_orientation, 4 * clamps).subspan(4 * base, 4 * held)},
-                             std::span(deformation).subspan(t * segments + begin, size));
+                             own(deformation));
+          std::ranges::copy(own(deformation), own(at_wires).begin());
+          gauges_[k].move_to_ends(own(at_wires));
         }
       }
       if (with_pull) measure_pull(first, count, orientation, pull);
-      put({first, deformation, pull});
+      put({first, deformation, at_wires, pull});
     }
   }
 
@@ -330,6 +339,7 @@ struct Evaluations {
       }
       place.first_segment = spans[k].first_segment - place.segments_before;
       place.free_tool_end = reader.ends_freely(job, k);
+      place.known_ends = reader.known_ends(k);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
       pipeline::Strain settings = settings_of(job, d);
       if (as_told)
@@ -506,6 +516,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   strain.set_axis("level", all.levels);
   strain.set_axis("sample", samples);
   copy_program(motion, strain);
+  for (const auto& evaluation : evaluations) strain.append("/segment/wires_at", evaluation->places());
   SiteWriter sites(strain, "", evaluations), stick(strain, "/bound_stick", evaluations),
       free(strain, "/bound_free", evaluations);
 
@@ -524,17 +535,21 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const auto each_span = [&](const MotionBlock& block, const auto& use) {
     const std::size_t count = block.deformation.size() / segments;
     std::vector<double> pull;
+    std::vector<Deformation> ends;
     for (std::size_t k = 0; k < evaluations.size(); ++k) {
       const auto [begin, size] = std::pair(reader.spans()[k].first_segment, reader.spans()[k].segments);
       DeformationHistory of_span(size, count);
       pull.clear();
+      ends.clear();
       for (std::size_t t = 0; t < count; ++t) {
         for (std::size_t i = 0; i < size; ++i) of_span.set(i, t, block.deformation[t * segments + begin + i]);
+        for (const std::size_t i : {begin, begin + size - 1})
+          ends.push_back(block.at_wires[t * segments + i]);
         if (block.pull.empty()) continue;
         const auto own = block.pull.subspan((t * segments + begin) * 2, size * 2);
         pull.insert(pull.end(), own.begin(), own.end());
       }
-      const SpanBlock span_block{of_span, pull, reader.step()};
+      const SpanBlock span_block{of_span, pull, reader.step(), ends};
       std::vector<Evaluation*> together = variations.placed(k);
       together.insert(together.begin(), evaluations[k].get());
       pipeline::in_parallel(threads, [&](std::size_t part) {
@@ -551,7 +566,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
       Evaluation::add(own, of_span);
     });
-    keep(0, block.first, block.deformation);
+    keep(0, block.first, block.at_wires);
     progress((loose ? loose_pass_share : first_pass_share) * static_cast<double>(block.first) /
              static_cast<double>(samples));
   });
@@ -596,7 +611,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     if (segment == reader.spans()[span].first_segment + reader.spans()[span].segments) ++span;
     const std::size_t row = segment % per_pass;
     if (row == 0 && segment > 0)
-      reader.run(false, [&](const MotionBlock& block) { keep(segment, block.first, block.deformation); });
+      reader.run(false, [&](const MotionBlock& block) { keep(segment, block.first, block.at_wires); });
     const std::size_t in_span = segment - reader.spans()[span].first_segment;
     evaluations[span]->evaluate(in_span, history, row, sink);
     variations.evaluate(span, in_span, history, row,

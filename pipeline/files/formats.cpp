@@ -178,7 +178,7 @@ Format make_motion_format() {
 }
 
 Format make_strain_format() {
-  Format format{"dresslife-strain", 1, "dresslife-strain", "what every wire feels", {}, {}};
+  Format format{"dresslife-strain", 2, "dresslife-strain", "what every wire feels", {}, {}};
   add(format, {
     {"/time",                   f64,  "sample",             "s",    always, "time of each sample"},
     {"/program/step",           i32,  "sample",             "1",    always,
@@ -186,6 +186,8 @@ Format make_strain_format() {
     {"/program/text",           text, "line",               "1",    always, "the lines of the program"},
     {"/robot/joint_position",   f64,  "sample, joint",      "rad",  maybe, "joint angles, as in the motion file"},
     {"/segment/length",         f64,  "segment",            "m",    always, "rest length"},
+    {"/segment/wires_at",       f64,  "segment",            "m",    always,
+     "arc from the base clamp of its dresspack at which its wires are evaluated: its centre, or the clamp beside it"},
     {"/deformation/curvature",  f64,  "sample, segment, 2", "1/m",  always, "about d1 and d2 of the segment"},
     {"/deformation/twist",      f64,  "sample, segment",    "rad/m", always, "about the tangent"},
     {"/deformation/elongation", f64,  "sample, segment",    "1",    always, "relative change of length"},

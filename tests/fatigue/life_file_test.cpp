@@ -110,6 +110,7 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
     file.append("/robot/joint_position", std::span<const double>(f.joints));
   }
   file.append("/segment/length", std::span<const double>(lengths));
+  file.append("/segment/wires_at", std::vector<double>{0, 0.2, 0.45, 0.8});  // the first at its clamp
   file.append("/deformation/curvature", std::span<const double>(pairs));
   file.append("/deformation/twist", std::span<const double>(rows));
   file.append("/deformation/elongation", std::span<const double>(rows));

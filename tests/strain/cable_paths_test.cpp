@@ -214,6 +214,50 @@ TEST_CASE("a loose cable with next to no play has the strain of a held one") {
       CHECK(loose.strain(k, 3, t) == Approx(held.strain(k, 3, t)).margin(0.01 * largest));
 }
 
+TEST_CASE(
+    "at a known end a loose cable's curvature is that at the clamp, and converges with the pieces' square") {
+  constexpr std::size_t samples = 20;
+  Dresspack dresspack = thesis_hose();
+  dresspack.components[0].laying.slack = 1;
+  std::vector<Deformation> ends;
+  for (std::size_t t = 0; t < samples; ++t)
+    for (const double z : {0.0, 1.0}) ends.push_back(swing(z, static_cast<double>(t) / samples));
+  const Run run(dresspack, Slip::free, samples, samples);
+  std::vector<std::vector<double>> bent;  // (pieces; of every clamp, cable and sample)
+  double differs_from_mean = 0;
+  for (const std::size_t pieces : {2, 4, 8}) {
+    CablePaths paths(run.construction, plan_slip(run.construction, {Slip::free, Slip::free}, length),
+                     {.elements_per_segment = pieces, .known_ends = {true, true}}, run.lengths, run.arcs,
+                     samples);
+    paths.add({run.history, {}, 0.04, ends});
+    paths.finish();
+    bent.emplace_back();
+    CablePaths::Keeper keeper, mean_keeper;
+    for (const std::size_t segment : {std::size_t{0}, segments - 1, std::size_t{5}}) {
+      const DeformationColumns hose = run.history.columns(segment);
+      const auto& loose = keeper.of(paths, segment, hose, 0, samples, true).loose;
+      const auto& mean = mean_keeper.of(paths, segment, hose, 0, samples).loose;
+      for (std::size_t k = 0; k < paths.cables(); ++k)
+        for (std::size_t t = 0; t < samples; ++t) {
+          const double at = loose[k].curvature1[t], between = mean[k].curvature1[t];
+          if (segment == 5) CHECK(at == between);
+          if (segment == 5) continue;
+          bent.back().push_back(at);
+          if (pieces == 8) differs_from_mean += (at - between) * (at - between);
+        }
+    }
+  }
+  const auto difference = [&](std::size_t coarse) {
+    double sum = 0;
+    for (std::size_t i = 0; i < bent[coarse].size(); ++i) sum += std::pow(bent[coarse][i] - bent[2][i], 2);
+    return std::sqrt(sum);
+  };
+  CAPTURE(difference(0), difference(1), std::sqrt(differs_from_mean));
+  CHECK(difference(1) <
+        difference(0) / 2.5);  // of second order a quarter is left; the finest is not the end itself
+  CHECK(difference(1) < 0.1 * std::sqrt(differs_from_mean));
+}
+
 TEST_CASE("tension begins where slack no longer covers what turning asks less what play gives") {
   // s* = max over time and cables of (R e . net turning - c x turning of either sign) / L, for one plane bend
   // without twist both turnings are the same: (R - c) kappa.

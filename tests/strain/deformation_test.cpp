@@ -87,6 +87,17 @@ double worst_error(const Chain& chain, const Rate& rate, DeformationMeasure meas
   return worst;
 }
 
+Vector3d rate_of(const Deformation& of) { return {of.curvature1, of.curvature2, of.twist}; }
+
+/// The deformation where wires are evaluated: in the outermost segments at the ends that are known.
+std::vector<Deformation> at_wires(const Chain& chain, DeformationMeasure measure) {
+  DeformationGauge gauge(chain.lengths, measure, chain.free_end);
+  std::vector<Deformation> found(chain.lengths.size());
+  gauge.measure(chain.pose(), found);
+  gauge.move_to_ends(found);
+  return found;
+}
+
 /// A chain of the simulator's kind, turned at the links by `rotation`: rigid segments whose ends meet, a
 /// little further out where they bend (sim/rod/README.md, S17).
 Chain jointed_chain(double segment_length, const std::vector<Vector3d>& rotation) {
@@ -176,6 +187,15 @@ TEST_CASE("on a simulated chain the error falls with the third power, ends inclu
   CAPTURE(coarse, fine);
   CHECK(std::log2(coarse / fine) > 2.8);
   CHECK(fine < 1e-4);  // of 3 to 5 1/m
+
+  const auto error_at_ends = [&](int segments) {
+    const std::vector<Deformation> found = at_wires(chain(segments), DeformationMeasure::rotation_vector);
+    return std::max((rate_of(found.front()) - rate(0)).norm(), (rate_of(found.back()) - rate(1)).norm());
+  };
+  const double coarse_ends = error_at_ends(40), fine_ends = error_at_ends(80);
+  CAPTURE(coarse_ends, fine_ends);
+  CHECK(std::log2(coarse_ends / fine_ends) > 2.8);
+  CHECK(fine_ends < 1e-3);  // a centre would differ by half of l times a slope of 12 1/m2: 0.08
 }
 
 TEST_CASE("at a free end the error falls with the third power too") {
@@ -199,6 +219,24 @@ TEST_CASE("at a free end the error falls with the third power too") {
   CAPTURE(coarse, fine);
   CHECK(std::log2(coarse / fine) > 2.8);
   CHECK(fine < 1e-4);  // of up to 4 1/m
+}
+
+TEST_CASE("ends move to clamps only where a curve through the links is known") {
+  const Rate rate = [](double s) { return Vector3d(3 * std::exp(-s / 0.1), 1 - s, 2 * s); };
+  const auto moved = [&](Chain chain, DeformationMeasure measure) {
+    const std::vector<Deformation> centres = chain.measure(measure), ends = at_wires(chain, measure);
+    for (std::size_t i = 1; i + 1 < ends.size(); ++i) CHECK(rate_of(ends[i]) == rate_of(centres[i]));
+    return std::array{rate_of(ends.front()) != rate_of(centres.front()),
+                      rate_of(ends.back()) != rate_of(centres.back())};
+  };
+  Chain chain = chain_on_curve(1, 20, rate);
+  CHECK(moved(chain, DeformationMeasure::rotation_vector) == std::array{true, true});
+  CHECK(moved(chain, DeformationMeasure::thesis) == std::array{false, false});
+  CHECK(moved(chain_on_curve(1, 6, rate), DeformationMeasure::rotation_vector) == std::array{false, false});
+  chain.free_end = Vector3d(0, 0, 2);
+  CHECK(moved(chain, DeformationMeasure::rotation_vector) == std::array{true, false});
+  chain.lengths.front() *= 1.1;
+  CHECK(moved(chain, DeformationMeasure::rotation_vector) == std::array{false, false});
 }
 
 TEST_CASE("few or unequal segments are measured too") {

@@ -125,6 +125,47 @@ Strains evaluate(const std::filesystem::path& motion, pipeline::Job job) {
 
 }  // namespace
 
+TEST_CASE("wires beside a clamp have the strain at the clamp, where a hose bends most") {
+  const Scratch scratch;
+  constexpr double decay = 3 * l;  // a hose under tension bends so at its clamps, sqrt(E I / T)
+  const auto bend = [](double arc, std::size_t t) {
+    return 2 * std::exp(-arc / decay) * std::sin(0.3 * double(t));
+  };
+  // As the simulated chain bends: a link by the curvature there, over 5/12 and 13/12 of a segment at and next to a clamp.
+  // Each call is for the middle of a link's length, which at a clamp is half a segment.
+  write_motion(scratch / "motion", {10}, 0, [&](double arc, std::size_t t) {
+    const double from_end = std::min(arc, 10 * l - arc);
+    const bool at_clamp = from_end < l / 2, next = !at_clamp && from_end < 1.5 * l;
+    const double link = at_clamp ? (arc < l ? 0 : 10 * l) : arc;
+    return Eigen::Vector3d(0, (at_clamp ? 5. / 6 : next ? 13. / 12 : 1) * bend(link, t), 0);
+  });
+  const pipeline::Job job = job_with(straight_wires, {"strain.slip=stick", "strain.surface_fibres=0",
+                                                      "strain.gate=1e-6", "strain.probes=[]"});
+  const Strains found = evaluate(scratch / "motion", job);
+  const FileReader file(scratch / "motion.strain", pipeline::strain_format());
+  std::vector<double> places = file.read<double>("/segment/wires_at"), expected{0};
+  for (int i = 1; i < 9; ++i) expected.push_back((i + 0.5) * l);
+  expected.push_back(10 * l);
+  for (std::size_t i = 0; i < places.size(); ++i) CHECK(places[i] == Approx(expected[i]).margin(1e-12));
+
+  double lowest = 1, highest = -1;  // sin(0.3 t) reaches both of its peaks within 0.2 %
+  std::vector<double> range(10, 0.0);
+  for (std::size_t site = 0; site < found.segment.size(); ++site) {
+    const auto [low, high] =
+        std::minmax_element(found.strain.begin() + static_cast<std::ptrdiff_t>(found.offset[site]),
+                            found.strain.begin() + static_cast<std::ptrdiff_t>(found.offset[site + 1]));
+    range[found.segment[site]] = std::max<double>(range[found.segment[site]], *high - *low);
+  }
+  for (std::size_t t = 0; t < samples; ++t)
+    lowest = std::min(lowest, std::sin(0.3 * double(t))),
+    highest = std::max(highest, std::sin(0.3 * double(t)));
+  // Two of six wires lie 18 mm from the axis of the bend. A parabola through an exponential that decays within three
+  // segments is 1.1 % too low at the clamp. The centre of the first segment bends 15 % less than its clamp.
+  for (const std::size_t segment : {0, 1, 5})
+    CHECK(range[segment] ==
+          Approx(0.018 * 2 * std::exp(-expected[segment] / decay) * (highest - lowest)).epsilon(0.02));
+}
+
 TEST_CASE("straight wires slide from one clamp to the next and no further") {
   const Scratch scratch;
   // Bent near the base only, and twisted near the tool.
