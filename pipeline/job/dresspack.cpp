@@ -135,7 +135,7 @@ void describe(Fields& f, Dresspack& dresspack) {
            "Coulomb, hose against robot; between two dresspacks the smaller of theirs counts; of a dresspack with "
            "components that names none 0.3, an ESTIMATE");
   f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
-                 "that the maker allows in motion; tighter is warned of; without it ten diameters");
+                 "that the maker allows in motion; a smaller one is warned of; without it ten diameters, in a corrugated hose those of the parts in it");
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
                  "that the maker allows in motion; more is warned of; without it 180");
   f.maybe_number(

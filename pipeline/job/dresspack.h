@@ -102,7 +102,7 @@ struct Dresspack {
   double damping_time = 0;                         ///< Kelvin-Voigt tau of bending and twist [s]
   std::string damping_source;                      ///< where the damping was measured or why it is guessed
   double friction = 0;                             ///< Coulomb, hose against robot
-  std::optional<double> least_bend_radius;         ///< allowed in motion [m]; absent: ten diameters
+  std::optional<double> least_bend_radius;         ///< allowed in motion [m]; absent: pipeline/cable/bend_limit.h
   std::optional<double> most_twist;                ///< allowed in motion [rad/m]; absent: 180 deg/m
   std::optional<double> most_tension;              ///< of the hose, allowed in motion [N]; absent: no limit
   std::string hose_material;                       ///< of the hose's wall; empty: its strain is not evaluated

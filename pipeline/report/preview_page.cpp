@@ -7,6 +7,7 @@
 #include <charconv>
 #include <limits>
 
+#include "pipeline/cable/bend_limit.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/cross_section.h"
@@ -41,10 +42,6 @@ Setup setup_of(const FileReader& file) {
   return setup_from(parse_yaml(file.text_attribute("job"), file.where().file + " (attribute job)"));
 }
 
-double allowed_bend_radius(const Dresspack& dresspack) {
-  return dresspack.least_bend_radius.value_or(10 * dresspack.diameter);
-}
-
 std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
   const auto dresspacks = file.read<std::int32_t>("/span/dresspack");
   const auto names = file.read<std::string>("/span/name");
@@ -69,7 +66,7 @@ std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
       span.here[end] = working[4 * k + end];
       span.program[end] = working[4 * k + 2 + end];
     }
-    span.least_bend_radius = allowed_bend_radius(setup.dresspacks[dresspack].dresspack);
+    span.least_bend_radius = least_bend_radius(setup.dresspacks[dresspack].dresspack);
   }
   if (!file.has("/scan/span")) return spans;
   const auto of = file.read<std::int32_t>("/scan/span");

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "pipeline/cable/bend_limit.h"
 #include "pipeline/files/check_names.h"
 
 namespace dresslife::sim {
@@ -45,7 +46,7 @@ void Extreme::see(double candidate, bool larger, double when, int where) {
 }
 
 MotionLimits limits_of(const pipeline::Dresspack& dresspack) {
-  return {dresspack.least_bend_radius.value_or(least_bend_diameters * dresspack.diameter),
+  return {pipeline::least_bend_radius(dresspack),
           dresspack.most_twist.value_or(most_twist), dresspack.most_tension.value_or(unlimited)};
 }
 

@@ -20,12 +20,10 @@
 
 namespace dresslife::sim {
 
-/// Limits that are warned of, where the dresspack does not name its maker's. Bend radius: the usual rule for
-/// moved cables (Parker, for instance, prefers 10 diameters of its flex cables and allows 5). Twist: +-180
-/// degrees in a metre, for which cables for torsion are usually sold. Slack: below the first it has no length
-/// left to bend, above the second more hangs loose than the motion ever needs; both of the free length, both
-/// ESTIMATES.
-inline constexpr double least_bend_diameters = 10;
+/// Limits that are warned of, where the dresspack does not name its maker's. Bend radius:
+/// pipeline/cable/bend_limit.h. Twist: +-180 degrees in a metre, for which cables for torsion are usually sold.
+/// Slack: below the first it has no length left to bend, above the second more hangs loose than the motion ever
+/// needs; both of the free length, both ESTIMATES.
 inline constexpr double most_twist = EIGEN_PI;  // [rad/m]
 inline constexpr double least_slack_share = 0.02, most_slack_share = 1.0 / 3;
 

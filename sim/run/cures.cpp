@@ -155,9 +155,11 @@ Trial best_trial(const RestTrials& trials, double limit, bool may_turn) {
 }
 
 std::string limit_remark(const CheckedMotion& motion, const Check& broken) {
-  if (mounted_of(motion, broken).dresspack.least_bend_radius) return "";
-  return fmt::format("; {} is not given, so that ten diameters count: give the maker's",
-                     key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"));
+  const pipeline::Dresspack& dresspack = mounted_of(motion, broken).dresspack;
+  if (dresspack.least_bend_radius) return "";
+  return fmt::format("; {} is not given, so that ten diameters{} count: give the maker's",
+                     key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"),
+                     dresspack.hose_corrugation && !dresspack.components.empty() ? " of the parts in the hose" : "");
 }
 
 Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
