@@ -76,8 +76,9 @@ struct Context {
   /// From where a segment's wires are evaluated to its dresspack's tool clamp, along it [m].
   double from_tool(std::size_t segment) const {
     const auto [first, end] = segments_of(dresspack[segment]);
-    return std::accumulate(segment_length.begin() + static_cast<std::ptrdiff_t>(first),
-                           segment_length.begin() + static_cast<std::ptrdiff_t>(end), -wires_at[segment]);
+    const double length = std::accumulate(segment_length.begin() + static_cast<std::ptrdiff_t>(first),
+                                          segment_length.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+    return std::max(0.0, length - wires_at[segment]);  // rounding of the sum
   }
   double repeat_seconds() const { return time.empty() ? 0 : time.back() - time.front(); }
   const std::string* step_at(std::size_t sample) const {
