@@ -325,6 +325,7 @@ void write_first_place(const Context& c, const Conductors& conductors, const Fir
                        double p10_repeats) {
   const double p10 = hours(p10_repeats, c.repeat_seconds());
   c.life.attribute("life_months_p10", months(p10, c.job.fatigue.operating_hours_per_week));
+  if (!c.job.robot.joints.empty()) c.life.attribute("robot_life_hours", c.job.fatigue.robot_life_hours);
   const bool known = first.conductor < conductors.path.size();
   c.life.attribute("failing_conductor", known ? conductors.path[first.conductor] : "");
   c.life.attribute("failing_position_from_tool", known ? c.from_tool(first.segment) : 0.0);

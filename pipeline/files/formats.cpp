@@ -406,6 +406,7 @@ Format make_life_format() {
     {"measure_next", text, maybe, "the parameter that explains most; empty: the scatter of wires does"},
     {"measure_next_share", f64, maybe, "how much, 0 to 1"},
     {"life_months_p10", f64, maybe, "the first of them at the job's operating hours per week"},
+    {"robot_life_hours", f64, maybe, "fatigue.robot_life_hours of the job; absent: no robot moves"},
     {"failing_conductor", text, maybe,
      "where a share of wires breaks soonest by their medians: path of the conductor"},
     {"failing_position_from_tool", f64, maybe, "and its distance from the tool clamp along the dresspack, m"},

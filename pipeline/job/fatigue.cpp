@@ -19,6 +19,9 @@ void describe(Fields& f, Fatigue& fatigue) {
             "worst sites whose cycles are written");
   f.number("operating_hours_per_week", fatigue.operating_hours_per_week, Need::optional, between(0.1, 168),
            "turns hours of motion into months");
+  f.number("robot_life_hours", fatigue.robot_life_hours, Need::optional, between(1, 1e7),
+           "a longer life is shown as longer than the robot's in tables; the hours themselves stay in ranking.csv and in the "
+           "lines below the table. ESTIMATE: robots are overhauled or replaced after 20,000 to 40,000 h");
   f.number(
       "scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
       "standard deviation of log10 of a wire's life; ESTIMATE: lives of 20 equal wires spread over 0.75 of a "

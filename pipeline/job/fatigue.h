@@ -43,6 +43,7 @@ struct Fatigue {
   std::string material;         ///< of every wire (not of the hose) instead of its own; empty: its own
   int listed_sites = 20;        ///< worst sites whose cycles are written
   double operating_hours_per_week = 80;  ///< turns hours into months
+  double robot_life_hours = 40000;       ///< tables name no longer life [h]
   double scatter_log10 = 0.2;            ///< standard deviation of log10 of a wire's life
   double scatter_shared = 0.5;       ///< share of its variance that all wires of a dresspack have in common
   double failed_wires_percent = 10;  ///< a conductor fails when so many of its wires have

@@ -12,6 +12,7 @@ constexpr GlossaryEntry entries[] = {
     {"bore", "inside of a hose, where its cables and hoses lie (inner_diameter_mm)"},
     {"cable", "part of a dresspack with conductors in it, in a jacket of its own"},
     {"calendar", "a life in months, at the job's operating hours per week (fatigue.operating_hours_per_week)"},
+    {"over 40,000", "longer than the robot's own life (fatigue.robot_life_hours); tables show no longer life"},
     {"calibration", "what observed lives have taught of the uncertain parameters; a file that dresslife calibrate writes"},
     {"candidate", "a job that a search tries: one set of values of the keys that are free"},
     {"clamp", "holds the dresspack in place, direction and twist; the base clamp is nearer to the robot's base"},

@@ -140,7 +140,7 @@ std::string number_cell(double value, const std::string& words) {
 std::string certainty_cell(const RankingRow& row) {
   if (std::isnan(row.scatter_hours[0])) return "";
   std::string text = fmt::format("<br><span class=\"soft\">half failed {}<br>90 % failed {}",
-                                 printed_life(row.planned_hours[1]), printed_life(row.planned_hours[2]));
+                                 shown_life(row, row.planned_hours[1]), shown_life(row, row.planned_hours[2]));
   if (row.outlives_next) text += fmt::format("<span class=\"certainty\">{}</span>", escaped(order_words(row)));
   return text + "</span>";
 }
@@ -196,10 +196,10 @@ std::string ranking_rows(const std::vector<RankingRow>& rows, const std::vector<
         number_cell(static_cast<double>(i + 1), row.rank ? std::to_string(row.rank) : "-"),
         name + stale_note(row),
         number_cell(row.headline_hours(),
-                    "<b>" + printed_life(row.headline_hours()) + "</b>" + certainty_cell(row)),
-        number_cell(bounds.first, printed_life(bounds.first) + " .. " + printed_life(bounds.second)),
+                    "<b>" + shown_life(row, row.headline_hours()) + "</b>" + certainty_cell(row)),
+        number_cell(bounds.first, shown_range(row, bounds.first, bounds.second)),
         number_cell(row.first_wire_hours[0], first_break_cell(row)),
-        number_cell(row.headline_months(), calendar_text(row.headline_months())), fails_first + where + unvalidated, moved,
+        number_cell(row.headline_months(), shown_calendar(row)), fails_first + where + unvalidated, moved,
         sorted_by(count), warning_cell(row));
   }
   return text;

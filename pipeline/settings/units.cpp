@@ -40,6 +40,7 @@ constexpr std::array units{
     Unit{"MB", "MB", 1e6, 1e7},
     Unit{"percent", "%", 1, 1e6},
     Unit{"hours_per_week", "h/week", 1, 168},
+    Unit{"hours", "h", 1, 1e7},  // as hours everywhere: a thousand years
 };
 
 }  // namespace

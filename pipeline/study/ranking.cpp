@@ -70,6 +70,7 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
   }
   if (!plans) return;
   read("life_months_p10", row.planned_months);
+  read("robot_life_hours", row.robot_life_hours);
   for (std::size_t i = 0; i < ends.size(); ++i) read(fmt::format("scatter_life_hours_{}", ends[i]), row.scatter_hours[i]);
   if (file.has_attribute("life_response")) {
     row.life_response = file.text_attribute("life_response");
@@ -231,12 +232,12 @@ struct Column {
 
 std::string bounds_text(const RankingRow& row) {
   const bool planned = !std::isnan(row.glued_hours[0]);
-  return fmt::format("{} .. {}", life_text(planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick)),
-                     life_text(planned ? row.free_hours[0] : row.hours_of(row.life_repeats_all_free)));
+  return shown_range(row, planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick),
+                     planned ? row.free_hours[0] : row.hours_of(row.life_repeats_all_free));
 }
 
 std::string planned_text(const RankingRow& row, std::size_t share) {
-  return row.planned() ? life_text(row.planned_hours[share]) : "-";
+  return row.planned() ? shown_life(row, row.planned_hours[share]) : "-";
 }
 
 /// What stands below the table of one job, a paragraph each.
@@ -249,6 +250,7 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   if (!row.has_result()) return all;
   if (row.done())
     if (const std::string kinds = warning_kinds(row); !kinds.empty()) all.push_back("WARNING: " + kinds);
+  all.push_back(uncapped_words(row));
   all.push_back(uncertainty_words(row));
   all.push_back(failure_words(row));
   if (row.planned() && std::isfinite(row.first_wire_hours[0]))
@@ -450,8 +452,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     const std::array<std::string, 7> cells =
         row.has_result() ? std::array<std::string, 7>{row.rank ? std::to_string(row.rank) : "-",
                                                       one_line(row.job),
-                                                      (row.stale ? "stale " : "") + life_text(row.headline_hours()),
-                                                      calendar_text(row.headline_months()),
+                                                      (row.stale ? "stale " : "") + shown_life(row, row.headline_hours()),
+                                                      shown_calendar(row),
                                                       planned_text(row, 1),
                                                       planned_text(row, 2),
                                                       bounds_text(row)}

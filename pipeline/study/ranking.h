@@ -86,6 +86,8 @@ struct RankingRow {
   std::string best_test;  ///< the parameter whose test narrows planned_hours most; empty: none does
   double tested_p10 = unknown, tested_p90 = unknown;  ///< planned_hours after that test
   double planned_months = unknown;        ///< of the first of them, by the calendar
+  /// Tables show a longer life as longer than the robot's [h]; infinite: no robot moves.
+  double robot_life_hours = std::numeric_limits<double>::infinity();
   std::string failing_conductor;          ///< where that is likeliest; empty: unknown or nowhere
   double failing_position_from_tool = 0;  ///< [m]
   std::array<double, 3> conductor_hours{unknown, unknown, unknown};

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
@@ -11,9 +12,6 @@
 
 namespace dresslife::pipeline {
 namespace {
-
-/// Robots are replaced or overhauled after 20,000 to 40,000 h.
-constexpr double longest_robot_life_hours = 40000;
 
 const UncertainParameter* parameter_of(const std::string& name) {
   for (const UncertainParameter& parameter : uncertain_parameters())
@@ -27,6 +25,10 @@ bool is_believable(const RankingRow& row) {
   return std::none_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
     return warning.kind == WarningKind::force || warning.kind == WarningKind::strain;
   });
+}
+
+bool outlives_robot(const RankingRow& row, double hours) {
+  return std::isfinite(hours) && hours > row.robot_life_hours;
 }
 
 bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && row.damage_per_repeat > 0; }
@@ -62,6 +64,30 @@ std::string range_text(double low_hours, double high_hours) {
   return fmt::format("{} .. {}", readable(low_hours), hours_text(high_hours));
 }
 
+std::string shown_life(const RankingRow& row, double hours) {
+  return outlives_robot(row, hours) ? "over " + readable(row.robot_life_hours) : life_text(hours);
+}
+
+std::string shown_range(const RankingRow& row, double low_hours, double high_hours) {
+  return shown_life(row, low_hours) + " .. " + shown_life(row, high_hours);
+}
+
+std::string shown_calendar(const RankingRow& row) {
+  if (!outlives_robot(row, row.headline_hours())) return calendar_text(row.headline_months());
+  return "over " + calendar_text(row.headline_months() / row.headline_hours() * row.robot_life_hours);
+}
+
+std::string uncapped_words(const RankingRow& row) {
+  if (!row.planned() || !outlives_robot(row, row.planned_hours[2])) return "";
+  const auto& [tenth, half, most] = row.planned_hours;
+  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} ({}), half after {}, 90 % after {}", hours_text(tenth),
+                                 calendar_text(row.planned_months), hours_text(half), hours_text(most));
+  if (!std::isnan(row.glued_hours[0]))
+    text += fmt::format("; with everything in the cables glued .. free, 1 of 10 after {}",
+                        range_text(row.glued_hours[0], row.free_hours[0]));
+  return text + ".";
+}
+
 std::string action_words(const RankingRow& row) {
   if (!row.has_result()) return "";
   const double hours = row.headline_hours();
@@ -72,10 +98,10 @@ std::string action_words(const RankingRow& row) {
   if (std::isinf(hours))
     return row.planned() ? "No replacement is foreseen: in more than 90 % of the samples no mode fails."
                          : "No replacement is foreseen: no wire is damaged.";
-  if (hours > longest_robot_life_hours)
-    return fmt::format("The evaluated parts outlive the robot ({} h at most): {} ({}). What is not evaluated, such as wear, kinks "
-                       "and connectors, ends the dresspack earlier.",
-                       readable(longest_robot_life_hours), hours_text(hours), calendar_text(row.headline_months()));
+  if (outlives_robot(row, hours))
+    return fmt::format("The evaluated parts last longer than the robot ({} h). What is not evaluated, such as wear, kinks and "
+                       "connectors, ends the dresspack earlier.",
+                       readable(row.robot_life_hours));
   return fmt::format("Plan a replacement after {} ({}).", hours_text(hours), calendar_text(row.headline_months()));
 }
 

@@ -12,6 +12,15 @@ namespace dresslife::pipeline {
 /// "Plan a replacement after 1,300 h (3.72 months).", or why not to plan with these hours. Empty: no result.
 std::string action_words(const RankingRow& row);
 
+/// A life in a table: "1,300", or beyond the robot's own life (fatigue.robot_life_hours) "over 40,000".
+std::string shown_life(const RankingRow& row, double hours);
+/// "1,300 .. over 40,000"
+std::string shown_range(const RankingRow& row, double low_hours, double high_hours);
+/// The headline by the calendar: "7.2 months", or "over 9.6 years".
+std::string shown_calendar(const RankingRow& row);
+/// What shown_life() leaves out, in hours. Empty: nothing.
+std::string uncapped_words(const RankingRow& row);
+
 /// "71 % of the uncertainty is the friction inside the cables. One bending test of a cable (one hour) would
 /// narrow the range from .. to about ..". Empty: nothing is uncertain.
 std::string uncertainty_words(const RankingRow& row);

@@ -20,6 +20,7 @@ struct SampleLife {
   double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
   double planned_hours =
       0;  ///< until 10 % have a conductor without its share of wires at one place; 0: as of an older file
+  double robot_life_hours = 0;  ///< fatigue.robot_life_hours; 0: no robot moves
   std::string
       life_response{};  ///< LifeResponse::text(); empty: nothing is uncertain. Only with planned_hours
   bool wires = true;    ///< false: the dresspack holds none
@@ -198,6 +199,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
       writer.attribute(std::string("life_hours_") + percentile + "_all_free", factor * sample.planned_hours * 10);
     }
     writer.attribute("life_months_p10", sample.planned_hours / 80 * 7 * 12 / 365.25);
+    if (sample.robot_life_hours > 0) writer.attribute("robot_life_hours", sample.robot_life_hours);
     writer.attribute("failing_conductor", "signal cable 3/conductor 2");
     writer.attribute("failing_position_from_tool", 0.75);
   }

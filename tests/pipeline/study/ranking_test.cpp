@@ -406,6 +406,26 @@ TEST_CASE("ranking: of one job the first words say what to do; forces that canno
   CHECK(ranking_table(rows).starts_with("Do not plan with 1,300 h: forces (see the warnings).\n"));
 }
 
+TEST_CASE("ranking: a life beyond the robot's own is shown as such, with its hours below the table and in ranking.csv") {
+  const Scratch scratch;
+  SampleLife life = living(500);
+  life.robot_life_hours = 40000;
+  const auto shown = [&](double planned_hours) {
+    life.planned_hours = planned_hours;
+    return read_ranking({job_with(scratch, "one", life)});
+  };
+  const auto long_lived = shown(50000), last_within = shown(40000), short_lived = shown(1000);
+  const std::string table = ranking_table(long_lived, 200);
+  CHECK_THAT(table, Catch::StartsWith("The evaluated parts last longer than the robot (40,000 h)."));
+  CHECK_THAT(table, Catch::Contains("over 40,000  over 9.6 years      over 40,000      over 40,000           5,000 .. over 40,000"));
+  CHECK_THAT(table, Catch::Contains("1 of 10 such dresspacks has failed after 50,000 h (12 years), half after 75,000 h, 90 % after 125,000 h"));
+  CHECK_THAT(ranking_csv(long_lived), Catch::Contains("50000"));
+  CHECK_THAT(ranking_table(last_within, 200), Catch::StartsWith("Plan a replacement after 40,000 h"));
+  CHECK_THAT(ranking_table(short_lived, 200), !Catch::Contains("over 40,000") && !Catch::Contains("By the model"));
+  life.robot_life_hours = 0;
+  CHECK_THAT(ranking_table(shown(50000), 200), Catch::StartsWith("Plan a replacement after 50,000 h"));
+}
+
 TEST_CASE("ranking: a joint that costs more than the whole is told in words") {
   RankingRow row;
   row.worst_component = "cable 1/wire 1", row.damage_per_repeat = 1;
