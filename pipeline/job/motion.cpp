@@ -39,6 +39,8 @@ void describe(Fields& f, MotionStep& step) {
   f.maybe_number("duration_s", step.duration, above(0), "of the whole move, instead of a speed");
   f.maybe_number("acceleration_percent", step.acceleration_percent, between(1, 150),
                  "of this move, besides the program's");
+  f.maybe_number("jerk_percent", step.jerk_percent, between(10, 100),
+                 "of the rate at which the acceleration of this move builds up, as the second argument of RAPID's AccSet");
   f.maybe_number("acceleration_deg_per_s2", step.acceleration, above(0),
                  "highest of the axis that moves farthest, besides the axes' own");
   f.maybe_number("acceleration_mm_per_s2", step.tool_acceleration, above(0),
@@ -90,6 +92,11 @@ void describe(Fields& f, Motion& motion) {
            "speed of moves that name none");
   f.number("acceleration_percent", motion.acceleration_percent, Need::optional, between(1, 100),
            "of each axis' highest acceleration, for all moves");
+  f.number("ramp_percent", motion.ramp_percent, Need::optional, between(1, 50),
+           "of the duration of each change of speed in a joint move, in which the acceleration builds up, and again in which it "
+           "ends; 50: never constant. ESTIMATE, controllers do not publish it");
+  f.number("path_smoothing_ms", motion.path_smoothing, Need::optional, between(1, 200),
+           "of tool paths: the acceleration builds up within twice this time. ESTIMATE, likewise");
   f.number("zone_deg", motion.zone, Need::optional, at_least(0),
            "zone of moves that name none; 0: stop at each target");
   f.list("steps", motion.steps, Need::optional,

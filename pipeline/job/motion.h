@@ -46,6 +46,7 @@ struct MotionStep {
   std::optional<double> acceleration_percent;  ///< of each axis' largest acceleration, besides Motion's [%]
   std::optional<double> acceleration;          ///< largest of the fastest axis [rad/s2]
   std::optional<double> tool_acceleration;     ///< largest of the tool's origin along its path [m/s2]
+  std::optional<double> jerk_percent;          ///< of the rate at which the acceleration builds up [%]
   std::optional<double> zone;  ///< blending begins this far from the target, largest axis [rad]; 0 = stop
   std::optional<double> tool_zone;  ///< blending begins this far from the target, tool [m]; 0 = stop
   std::optional<double>
@@ -86,7 +87,9 @@ struct Motion {
   std::string name, source;
   double speed_percent = 100;  ///< default of the moves [%]
   double acceleration_percent = 100;
-  double zone = 0;  ///< default of the moves [rad]
+  double ramp_percent = 25;      ///< of a joint move's change of speed: the acceleration builds up [%]
+  double path_smoothing = 0.015; ///< of tool paths: the acceleration builds up within twice this time [s]
+  double zone = 0;               ///< default of the moves [rad]
   std::vector<MotionFrame> tools, work_objects;
   std::vector<MotionStep> steps;  ///< the first is a move: the robot starts there, at rest
   /// A robot program instead of steps (sim/program), or the folder of one; empty: none.

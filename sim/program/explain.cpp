@@ -73,6 +73,7 @@ std::string speed(const Instruction& instruction) {
   if (s.tool_acceleration) add(fmt::format("{} mm/s2", number(*s.tool_acceleration / millimetre)));
   if (instruction.acceleration_percent != 100)
     add(fmt::format("acceleration {} %", number(instruction.acceleration_percent)));
+  if (instruction.jerk_percent != 100) add(fmt::format("jerk {} %", number(instruction.jerk_percent)));
   return text;
 }
 

@@ -94,6 +94,7 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
   step.duration = instruction.speed.duration;
   if (step.duration) step.speed_percent = step.speed = step.tool_speed = step.turn_speed = std::nullopt;
   if (instruction.acceleration_percent != 100) step.acceleration_percent = instruction.acceleration_percent;
+  if (instruction.jerk_percent != 100) step.jerk_percent = instruction.jerk_percent;
   if (instruction.zone.percent > 0)
     step.stop_zone = instruction.zone.percent;
   else

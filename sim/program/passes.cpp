@@ -17,7 +17,7 @@ bool alike(const Instruction& a, const Instruction& b) {
     return std::tie(i.kind, i.target.joints, i.target.circle_joints, i.target.configuration, i.target.external_axes, i.tool,
                     i.work_object, i.speed.axis_percent, i.speed.axis, i.speed.tool, i.speed.orientation,
                     i.speed.duration, i.speed.axis_acceleration, i.speed.tool_acceleration,
-                    i.zone.distance, i.zone.percent, i.acceleration_percent, i.dwell);
+                    i.zone.distance, i.zone.percent, i.acceleration_percent, i.jerk_percent, i.dwell);
   };
   return settings(a) == settings(b) && same_pose(a.target.pose, b.target.pose) && same_pose(a.via, b.via);
 }

@@ -89,7 +89,7 @@ struct Instruction {
   int work_object = -1;  ///< index into Program::work_objects; -1: the world
   MoveSpeed speed;
   MoveZone zone;
-  double acceleration_percent = 100;
+  double acceleration_percent = 100, jerk_percent = 100;
   double dwell = 0;  ///< [s]
   pipeline::Where where;
   std::string routine;  ///< that holds the line

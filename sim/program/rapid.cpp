@@ -124,7 +124,10 @@ void Rapid::settings(const Statement& statement, Interpreter& run) {
                 "write it as a constant", fmt::format("a number in {} .. {}", low, high));
     return high;
   };
-  if (statement.name == "accset") acceleration_percent_ = std::max(20.0, needed(0, 0, 100));
+  if (statement.name == "accset") {
+    acceleration_percent_ = std::max(20.0, needed(0, 0, 100));
+    jerk_percent_ = std::max(10.0, needed(1, 0, 100));
+  }
   if (statement.name == "speedrefresh") {
     const double percent = needed(0, 0, 100);
     if (percent > 0)

@@ -73,7 +73,7 @@ class Rapid final : public Dialect {
   const Code& code_;
   const std::vector<NamedFrame>& tools_;
   const std::vector<NamedFrame>& work_objects_;
-  double acceleration_percent_ = 100;
+  double acceleration_percent_ = 100, jerk_percent_ = 100;
   double speed_factor_ = 1, speed_limit_ = INFINITY;  // of VelSet; [m/s]
   double override_ = 1;                               // of SpeedRefresh
   Frame displacement_;                                // of PDispSet and PDispOn

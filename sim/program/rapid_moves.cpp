@@ -302,6 +302,7 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   Instruction move;
   move.kind = signature.kind;
   move.acceleration_percent = acceleration_percent_;
+  move.jerk_percent = jerk_percent_;
   const std::size_t problems = run.problem_count();
   const bool unshifted = std::any_of(statement.arguments.begin(), statement.arguments.end(),
                                      [](const Expression& e) { return e.option == "noeoffs"; });

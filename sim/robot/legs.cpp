@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/tool_path.h"
@@ -404,6 +405,9 @@ class Layout {
     leg.cruise = axis_limit(leg.direction, speeds(step));
     leg.acceleration = axis_limit(leg.direction, accelerations_) *
                        std::min(1.0, step.acceleration_percent.value_or(100) / 100);
+    leg.jerk = step.jerk_percent.value_or(100) / 100;
+    if (chain_ == 0) std::tie(leg.ramp, leg.slowing) = ramp_of(motion_.ramp_percent / 100, leg.jerk);
+    leg.acceleration *= leg.slowing;
     if (step.acceleration) leg.acceleration = std::min(leg.acceleration, *step.acceleration);
     if (step.tool_acceleration && distance > 0)
       leg.acceleration = std::min(leg.acceleration, length * *step.tool_acceleration / distance);
@@ -570,6 +574,12 @@ class Layout {
 };
 
 }  // namespace
+
+std::pair<double, double> ramp_of(double ramp, double jerk) {
+  const double constant = jerk * (1 - ramp);  // over the ramp it is what the ramps leave between them, over one of them
+  if (constant >= ramp) return {ramp / (ramp + constant), jerk / (ramp + constant)};
+  return {0.5, 0.5 * std::sqrt(constant / ramp) / (1 - ramp)};
+}
 
 Legs legs_of(const pipeline::Motion& motion, const pipeline::Robot& robot, const VectorXd& accelerations) {
   return Layout(motion, robot, accelerations).run();

@@ -13,11 +13,15 @@
 //      joins both paths tangentially and stays in their triangle, so the tool deviates by less than d.
 //      Orientations follow three slerps in the same way. Where a joint move takes part, the curve is one in
 //      joint space.
+// (M11) A move with a share p of the jerk has ramps 1/p times as long: r' = r/(r + p (1 - r)) and
+//      A' = A p/(r + p (1 - r)) with the same acceleration. Where r' would exceed 1/2 the acceleration is never
+//      constant: r' = 1/2, and it reaches a sqrt(p (1 - r)/r) only. A tool path is smoothed 1/p times as long.
 // (M7) A leg's speed is the least that the axes, the tool's speed ds/dt and its turning dtheta/dt allow.
 #pragma once
 
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/job/motion.h"
@@ -31,6 +35,8 @@ struct Leg {
   double length = 0;                ///< of the largest axis [rad]
   double cruise = 0;                ///< c [rad/s]
   double acceleration = 0;          ///< A along the leg [rad/s2]
+  double ramp = 0.25;               ///< r of (M1); nothing changes in a dwell
+  double slowing = 1, jerk = 1;     ///< A'/A and p of (M11)
   double zone = 0;                  ///< at its end: blending begins at most this far before it [rad]
   double zone_behind = 0;           ///< and ends at most this far behind it [rad]
   double dwell = 0;                 ///< [s]
@@ -38,6 +44,9 @@ struct Leg {
   bool straight = false;  ///< the whole of a joint move
   int step = 0;
 };
+
+/// (M11) r' and A'/A of a move with a share `jerk` of the jerk, 0 < jerk <= 1, where others have ramps of r = `ramp`.
+std::pair<double, double> ramp_of(double ramp, double jerk);
 
 struct Legs {
   std::vector<Leg> legs;

@@ -15,22 +15,20 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double ramp = 0.25;            // r: share of a velocity change in which acceleration builds up
-constexpr double peak = 1 / (1 - ramp);  // largest sigma'
+// With ramps of the share r. Largest sigma': 1/(1 - r).
+double slope(double r, double u) { return std::min({u / r, 1.0, (1 - u) / r}) / (1 - r); }
 
-double slope(double u) { return peak * std::min({u / ramp, 1.0, (1 - u) / ramp}); }
-
-double rise(double u) {
-  if (u < ramp) return peak * u * u / (2 * ramp);
-  if (u > 1 - ramp) return 1 - rise(1 - u);
-  return peak * (u - ramp / 2);
+double rise(double r, double u) {
+  if (u < r) return u * u / (2 * r * (1 - r));
+  if (u > 1 - r) return 1 - rise(r, 1 - u);
+  return (u - r / 2) / (1 - r);
 }
 
 /// S(u), the integral of sigma from 0. Above the middle by the symmetry sigma(u) = 1 - sigma(1 - u).
-double integrated_rise(double u) {
-  if (u < ramp) return peak * u * u * u / (6 * ramp);
-  if (u > 1 - ramp) return u - 0.5 + integrated_rise(1 - u);
-  return peak * ((u - ramp) * u / 2 + ramp * ramp / 6);
+double integrated_rise(double r, double u) {
+  if (u < r) return u * u * u / (6 * r * (1 - r));
+  if (u > 1 - r) return u - 0.5 + integrated_rise(r, 1 - u);
+  return ((u - r) * u / 2 + r * r / 6) / (1 - r);
 }
 
 /// A_i (M2) of every axis [rad/s2].
@@ -38,7 +36,7 @@ VectorXd mean_accelerations(const pipeline::Motion& motion, const pipeline::Robo
   const std::vector<Axis> axes = axes_of(robot);
   VectorXd accelerations(static_cast<long>(axes.size()));
   for (long i = 0; i < accelerations.size(); ++i)
-    accelerations[i] = (1 - ramp) * axes[i].acceleration * motion.acceleration_percent / 100;
+    accelerations[i] = (1 - motion.ramp_percent / 100) * axes[i].acceleration * motion.acceleration_percent / 100;
   return accelerations;
 }
 
@@ -47,6 +45,7 @@ struct Corner {
   double limit = 0;                                    // w [rad/s]
   double in = 0, out = 0;                              // speeds v, v' [rad/s]
   double duration = 0;                                 // tau [s]
+  double ramp = 0;                                     // r
   double before() const { return in * duration / 2; }  // where the blend begins and ends, from the waypoint
   double after() const { return out * duration / 2; }
 };
@@ -71,9 +70,10 @@ class CornerSpeeds {
 
  private:
   Corner corner(size_t k, double limit) const {
-    Corner c{limit, std::min(limit, legs_[k].cruise), std::min(limit, legs_[k + 1].cruise), 0};
-    const VectorXd change = c.out * legs_[k + 1].direction - c.in * legs_[k].direction;
-    c.duration = change.cwiseAbs().cwiseQuotient(accelerations_).maxCoeff();
+    const Leg &leg = legs_[k], &next = legs_[k + 1], &softer = leg.ramp > next.ramp ? leg : next;
+    Corner c{limit, std::min(limit, leg.cruise), std::min(limit, next.cruise), 0, softer.ramp};
+    const VectorXd change = c.out * next.direction - c.in * leg.direction;
+    c.duration = change.cwiseAbs().cwiseQuotient(accelerations_).maxCoeff() / softer.slowing;
     return c;
   }
 
@@ -144,9 +144,9 @@ class Pieces {
   double time = 0;
 
   void add(const VectorXd& position, const VectorXd& before, const VectorXd& after, double duration, int step,
-           int step_after) {
+           int step_after, double ramp) {
     if (duration <= 0) return;
-    pieces.push_back({time, duration, position, before, after - before, step, step_after});
+    pieces.push_back({time, duration, position, before, after - before, step, step_after, ramp});
     time += duration;
   }
 
@@ -166,14 +166,14 @@ class Pieces {
     const double along = std::max(0.0, length - up - down);
     const auto at = [&](double s) { return VectorXd(leg.from + (entry.after() + s) * leg.direction); };
     const auto speed = [&](double v) { return VectorXd(v * leg.direction); };
-    add(at(0), speed(v0), speed(top), (top - v0) / leg.acceleration, leg.step, leg.step);
-    add(at(up), speed(top), speed(top), along / top, leg.step, leg.step);
-    add(at(up + along), speed(top), speed(v1), (top - v1) / leg.acceleration, leg.step, leg.step);
+    add(at(0), speed(v0), speed(top), (top - v0) / leg.acceleration, leg.step, leg.step, leg.ramp);
+    add(at(up), speed(top), speed(top), along / top, leg.step, leg.step, leg.ramp);
+    add(at(up + along), speed(top), speed(v1), (top - v1) / leg.acceleration, leg.step, leg.step, leg.ramp);
   }
 
   void add_blend(const Leg& leg, const Leg& next, const Corner& corner) {
     add(next.from - corner.before() * leg.direction, corner.in * leg.direction, corner.out * next.direction,
-        corner.duration, leg.step, next.step);
+        corner.duration, leg.step, next.step, corner.ramp);
   }
 };
 
@@ -188,7 +188,7 @@ void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, Piece
     const Leg& leg = legs[k];
     if (leg.dwell > 0) {
       const VectorXd rest = VectorXd::Zero(leg.from.size());
-      laid.add(leg.from, rest, rest, leg.dwell, leg.step, leg.step);
+      laid.add(leg.from, rest, rest, leg.dwell, leg.step, leg.step, leg.ramp);
       continue;
     }
     laid.add_leg(leg, corners.at_end(k - 1), corners.at_end(k));
@@ -220,7 +220,7 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
     if (begin->path == 0)
       add_legs(legs, accelerations, laid);
     else
-      laid.append(path_pieces(legs, accelerations, limits, laid.time));
+      laid.append(path_pieces(legs, accelerations, limits, motion.path_smoothing, laid.time));
     begin = end;
   }
   duration_ = laid.time;
@@ -253,21 +253,21 @@ VectorXd JointMotion::position(double time) const {
   if (piece.jerk.size() > 0)
     return piece.position + t * (piece.velocity_before + t / 2 * (piece.acceleration + t / 3 * piece.jerk));
   return piece.position +
-         piece.duration * (u * piece.velocity_before + integrated_rise(u) * piece.velocity_change);
+         piece.duration * (u * piece.velocity_before + integrated_rise(piece.ramp, u) * piece.velocity_change);
 }
 
 VectorXd JointMotion::velocity(double time) const {
   const MotionPiece& piece = piece_at(time);
   const double u = fraction(piece, time), t = u * piece.duration;
   if (piece.jerk.size() > 0) return piece.velocity_before + t * (piece.acceleration + t / 2 * piece.jerk);
-  return piece.velocity_before + rise(u) * piece.velocity_change;
+  return piece.velocity_before + rise(piece.ramp, u) * piece.velocity_change;
 }
 
 VectorXd JointMotion::acceleration(double time) const {
   const MotionPiece& piece = piece_at(time);
   const double u = fraction(piece, time);
   if (piece.jerk.size() > 0) return piece.acceleration + u * piece.duration * piece.jerk;
-  return slope(u) / piece.duration * piece.velocity_change;
+  return slope(piece.ramp, u) / piece.duration * piece.velocity_change;
 }
 
 int JointMotion::step(double time) const {

@@ -3,8 +3,8 @@
 // A program is a chain of straight legs in joint space. Leg k has direction D_k (1 for its largest axis, so
 // its length L_k and speed are those of that axis) and everything that happens is a change of velocity:
 // (M1) q'(t) = V0 + (V1 - V0) sigma(u),   q(t) = q0 + tau (V0 u + (V1 - V0) S(u)),   u = (t - t0)/tau,
-// with sigma rising from 0 to 1 with a trapezoidal acceleration: ramps of the fraction r = 1/4 of tau at both
-// ends, so that acceleration is continuous and jerk bounded. The largest acceleration is
+// with sigma rising from 0 to 1 with a trapezoidal acceleration: ramps of the fraction r of tau at both ends
+// (motion.ramp_percent), so that acceleration is continuous and jerk bounded. The largest acceleration is
 // |V1 - V0| / (tau (1 - r)), so
 // (M2) tau = max_i |V1_i - V0_i| / A_i,   A_i = (1 - r) a_i.
 // Since S(1) = 1/2, a change between speeds v0 and v1 along a leg takes (v0 + v1) tau/2: all closed forms of
@@ -23,7 +23,7 @@
 //
 // A chain of moves without a stop that holds a tool path is laid out as a whole (legs.h: M6, M7;
 // path_motion.h). Assumption: axis limits only, as a controller without a dynamic model. The ramp fraction is
-// an estimate. (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic
+// an estimate; a program can lower the jerk of its moves (M11, legs.h). (Trapezoidal law and blends: L. Biagiotti, C. Melchiorri, Trajectory Planning for Automatic
 // Machines and Robots, 2008, chapters 3 and 5; the unified form is derived above.)
 #pragma once
 
@@ -45,6 +45,7 @@ struct MotionPiece {
   Eigen::VectorXd velocity_change;         ///< V1 - V0 (joint) [rad/s]
   int step = 0;                            ///< program line
   int step_after = 0;                      ///< program line of the second half: a blend belongs to two moves
+  double ramp = 0.25;                      ///< r
   Eigen::VectorXd acceleration{}, jerk{};  ///< of a cubic: at its begin, throughout (joint) [rad/s2, rad/s3]
 };
 

@@ -9,7 +9,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double control_step = 0.015;    // h [s]
 constexpr double curvature_share = 0.7;   // of A_i, on the curvature of a path
 constexpr int rounds = 30;                // of lowering the speed where a limit is exceeded
 constexpr double least_lowering = 0.995;  // of a squared speed, so that the rounds get on
@@ -153,59 +152,62 @@ class Profile {
 };
 
 struct Controls {
+  double step;  // h [s]
   std::vector<VectorXd> points;
   std::vector<std::size_t> legs;  // that they lie on
 };
 
-Controls controls_of(const Profile& profile) {
-  Controls made;
+Controls controls_of(const Profile& profile, double step) {
+  Controls made{step, {}, {}};
   const auto add = [&](double time, int times) {
     for (int i = 0; i < times; ++i) {
       made.points.push_back(profile.at(time));
       made.legs.push_back(profile.leg_at(time));
     }
   };
-  const int last = std::max(1, static_cast<int>(std::ceil(profile.duration() / control_step)));
+  const int last = std::max(1, static_cast<int>(std::ceil(profile.duration() / step)));
   add(0, 3);
-  for (int j = 1; j < last; ++j) add(j * control_step, 1);
+  for (int j = 1; j < last; ++j) add(j * step, 1);
   add(profile.duration(), 3);
   return made;
 }
 
 /// How far control j exceeds what an axis can do: squared speeds, as a share of the allowed ones.
 double excess(const Controls& c, std::size_t j, const AxisLimits& limits) {
-  const double speed = quotient(c.points[j + 1] - c.points[j], limits.speed) / control_step;
+  const double speed = quotient(c.points[j + 1] - c.points[j], limits.speed) / c.step;
   double worst = speed * speed;
   if (j > 0)
     worst =
         std::max(worst, quotient(c.points[j + 1] - 2 * c.points[j] + c.points[j - 1], limits.acceleration) /
-                            (control_step * control_step));
+                            (c.step * c.step));
   return worst;
 }
 
 }  // namespace
 
 std::vector<MotionPiece> path_pieces(std::span<const Leg> legs, const VectorXd& planned,
-                                     const AxisLimits& limits, double start) {
+                                     const AxisLimits& limits, double smoothing, double start) {
   assert(!legs.empty());
+  const double least_jerk = std::ranges::min_element(legs, {}, &Leg::jerk)->jerk;
+  const double step = smoothing / least_jerk;
   Profile profile(legs, planned);
-  Controls controls;
+  Controls controls{};
   double worst = 0;
   for (int round = 0; round < rounds; ++round) {
     profile.lay_out();
-    controls = controls_of(profile);
+    controls = controls_of(profile, step);
     worst = 0;
     for (std::size_t j = 0; j + 1 < controls.points.size(); ++j) {
       const double over = excess(controls, j, limits);
       worst = std::max(worst, over);
-      const double time = (static_cast<double>(j) - 2) * control_step;  // of control j
+      const double time = (static_cast<double>(j) - 2) * step;  // of control j
       if (over > 1)
-        profile.lower(std::max(0.0, time - control_step), std::min(profile.duration(), time + control_step),
+        profile.lower(std::max(0.0, time - step), std::min(profile.duration(), time + step),
                       std::min(least_lowering, 1 / over));
     }
     if (worst <= 1) break;
   }
-  const double h = control_step * std::sqrt(std::max(1.0, worst));  // (M10)
+  const double h = step * std::sqrt(std::max(1.0, worst));  // (M10)
   std::vector<MotionPiece> pieces;
   for (std::size_t j = 0; j + 3 < controls.points.size(); ++j) {
     const VectorXd &p0 = controls.points[j], &p1 = controls.points[j + 1], &p2 = controls.points[j + 2],

@@ -8,10 +8,10 @@
 //      straight.
 // (M9) u = ds/dt: with q'' = q_ss u^2 + q_s u', u <= c_k, |q_ss,i| u^2 <= 0.7 A_i, and what is left of A_i
 //      changes the speed, forward from the stop at the begin and backward from the one at the end.
-// (M10) The controls P_j = q(s(j h)), h = 15 ms, make a uniform cubic B-spline in time: q_i' is a mean of
+// (M10) The controls P_j = q(s(j h)), h = motion.path_smoothing_ms, make a uniform cubic B-spline in time: q_i' is a mean of
 //      (P_j+1 - P_j)/h, q_i'' one of (P_j+1 - 2 P_j + P_j-1)/h^2, so no axis is faster than its controls.
 //      Ends of three equal controls make it begin and end at rest, without a jump of acceleration. It leaves
-//      the curve by (h u)^2/6 of its curvature: 6 um for 0.4 m/s on a radius of 1 m. Acceleration rises
+//      the curve by (h u)^2/6 of its curvature: 6 um for 0.4 m/s on a radius of 1 m and 15 ms. Acceleration rises
 //      within 2 h.
 //
 // Where the controls exceed a limit, u is lowered there and (M9), (M10) done again; at last h is stretched,
@@ -32,8 +32,8 @@ struct AxisLimits {
 };
 
 /// A chain of legs without a stop inside, in time from `start` [s] on. planned: A of (M9), at most the axes'
-/// accelerations. Precondition: each leg begins where the one before ends, none is a dwell.
+/// accelerations. smoothing: h of (M10) [s]; the least jerk of the legs makes it longer (M11). Precondition: each leg begins where the one before ends, none is a dwell.
 std::vector<MotionPiece> path_pieces(std::span<const Leg> legs, const Eigen::VectorXd& planned,
-                                     const AxisLimits& limits, double start);
+                                     const AxisLimits& limits, double smoothing, double start);
 
 }  // namespace dresslife::sim

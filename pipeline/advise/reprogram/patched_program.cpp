@@ -75,7 +75,7 @@ std::string difference(const Motion& before, const MotionStep& a, const Motion& 
       !same_speed(a.tool_speed, b.tool_speed, factor, mm_per_s) ||
       !same_speed(a.turn_speed, b.turn_speed, factor, deg_per_s))
     return "speed";
-  if (a.duration != b.duration || a.acceleration_percent != b.acceleration_percent ||
+  if (a.duration != b.duration || a.acceleration_percent != b.acceleration_percent || a.jerk_percent != b.jerk_percent ||
       a.acceleration != b.acceleration || a.tool_acceleration != b.tool_acceleration)
     return "time or acceleration";
   if (a.zone != b.zone || a.tool_zone != b.tool_zone || a.stop_zone != b.stop_zone) return "zone";

@@ -210,11 +210,12 @@ TEST_CASE("rapid: loops and recursion without end are stopped") {
 
 TEST_CASE("rapid: settings, displacement, unknown instructions") {
   const Reading r =
-      run("AccSet 40,100;\nVelSet 50,600;\nPDispSet [[0,0,100],[1,0,0,0]];\nMoveL "
+      run("AccSet 40,55;\nVelSet 50,600;\nPDispSet [[0,0,100],[1,0,0,0]];\nMoveL "
           "p1,v2000,fine,tool0;\nPDispOff;\nConfL\\Off;\nMoveL p1,v100,fine,tool0;\n"
           "SetDO do1,1;\nGripperClose 3;");
   REQUIRE(r.program.instructions.size() == 2);
   CHECK(r.move(0).acceleration_percent == 40);
+  CHECK(r.move(0).jerk_percent == 55);
   CHECK(r.move(0).speed.tool.value() == Approx(0.6).epsilon(rounding));
   CHECK(r.move(0).target.pose.position.z() == Approx(0.4).epsilon(rounding));
   CHECK(r.move(1).speed.tool.value() == Approx(0.05).epsilon(rounding));

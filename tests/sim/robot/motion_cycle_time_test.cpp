@@ -188,4 +188,20 @@ TEST_CASE("cycle time: a path speeds up once and slows down once") {
   CHECK(changes <= 3);
 }
 
+TEST_CASE("cycle time: a path is smoothed longer by its key and by the second argument of AccSet") {
+  const std::string moves = "MoveJ Offs(p0,0,-300,0),vmax,fine,tool0;\n" + line(0, 300, 0, "v800", "fine");
+  const auto sharpest = [](const JointMotion& motion) {  // of any axis, over its largest acceleration [1/s]
+    double most = 0;
+    for (const MotionPiece& piece : motion.pieces())
+      for (long i = 0; i < piece.jerk.size(); ++i)
+        most = std::max(most, std::abs(piece.jerk[i]) / arm().joints[i].acceleration);
+    return most;
+  };
+  const JointMotion plain = run(moves), soft = run("AccSet 100,25;\n" + moves), softest = run("AccSet 100,5;\n" + moves);
+  // Four and ten times as slowly, less what the axes' limits change.
+  CHECK(sharpest(soft) < sharpest(plain) / 3);
+  CHECK(sharpest(softest) < sharpest(plain) / 8);  // 10 % is the least that counts
+  CHECK(soft.duration() > plain.duration());
+}
+
 }  // namespace dresslife::sim

@@ -68,6 +68,7 @@ pipeline::Motion random_program(unsigned seed, int joints, int moves, double zon
     motion.steps.push_back(move_to(place, uniform(random) < 0.2 ? 0 : zone * uniform(random)));
     if (uniform(random) < 0.3) motion.steps.back().speed_percent = 10 + 90 * uniform(random);
     if (uniform(random) < 0.1) motion.steps.push_back(dwell(0.2));
+    if (uniform(random) < 0.2) motion.steps.back().jerk_percent = 10 + 90 * uniform(random);
   }
   return motion;
 }
@@ -100,6 +101,35 @@ TEST_CASE("motion: acceleration rises and falls in a quarter of each speed chang
   CHECK(motion.acceleration(rise / 4)[0] == Approx(4).epsilon(rounding));
   CHECK(motion.acceleration(rise * 7 / 8)[0] == Approx(2).epsilon(rounding));
   CHECK(motion.acceleration(rise)[0] == Approx(0).margin(rounding));
+}
+
+TEST_CASE("motion: a share of the jerk builds the acceleration up as much slower, up to a triangle") {
+  // As above: a change of 2 rad/s with 4 rad/s2, whose ramps last a quarter of 2/3 s.
+  const double jerk = 4 / (0.25 * 2 / 3.0);
+  for (const double share : {1.0, 0.5, 1 / 3.0, 0.2, 0.1}) {
+    CAPTURE(share);
+    pipeline::Motion program = motion_of({move_to({0}), move_to({9})});
+    program.steps[1].jerk_percent = 100 * share;
+    const JointMotion motion(program, robot_with({2}, {4}));
+    // From rest to 2 rad/s: with the full acceleration 2/4 s and one ramp more, else a triangle of that jerk.
+    const double ramp = share > 0.33 ? 4 / (share * jerk) : std::sqrt(2 / (share * jerk));
+    const double highest = share * jerk * ramp, rise = 2 / highest + ramp;
+    CHECK(motion.duration() == Approx(9 / 2.0 + rise).epsilon(1e-9));
+    CHECK(motion.acceleration(ramp / 2)[0] == Approx(highest / 2).epsilon(1e-9));
+    CHECK(motion.acceleration(ramp)[0] == Approx(highest).epsilon(1e-9));
+    CHECK(motion.velocity(rise)[0] == Approx(2).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("motion: the ramps are the program's share of each change of speed") {
+  for (const double percent : {2.0, 25.0, 50.0}) {
+    pipeline::Motion program = motion_of({move_to({0}), move_to({3})});
+    program.ramp_percent = percent;
+    const JointMotion motion(program, robot_with({2}, {4}));
+    const double rise = 2 / ((1 - percent / 100) * 4);
+    CHECK(motion.duration() == Approx(3 / 2.0 + rise).epsilon(rounding));
+    CHECK(motion.acceleration(rise * percent / 200)[0] == Approx(2).epsilon(rounding));
+  }
 }
 
 TEST_CASE("motion: position is the integral of velocity, velocity that of acceleration") {
