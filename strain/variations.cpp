@@ -57,6 +57,7 @@ pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain paramet
     case Uncertain::slope:
     case Uncertain::scatter:
     case Uncertain::model:
+    case Uncertain::motion:
       break;  // moves nothing of where cables lie
   }
   return factors;

@@ -42,6 +42,8 @@ void describe(Fields& f, Fatigue& fatigue) {
            "of scatter_log10; likewise");
   f.number("model_factor", fatigue.model_factor, Need::optional, between(1e-4, 1e4),
            "of the wires' lives, for what no stage knows; likewise");
+  f.number("motion_factor", fatigue.motion_factor, Need::optional, between(1e-4, 1e4),
+           "of the wires' lives, for how the hose swings; likewise");
 }
 
 }  // namespace dresslife::pipeline

@@ -53,11 +53,13 @@ struct Fatigue {
   double slope_change = 0;     ///< of b
   double scatter_factor = 1;   ///< of scatter_log10
   double model_factor = 1;     ///< of lives
+  double motion_factor = 1;    ///< likewise
 };
 
 /// Whether a wire's material is another than its own (uncertainty.h, changed()).
 constexpr bool is_changed(const Fatigue& fatigue) {
-  return fatigue.strength_factor != 1 || fatigue.slope_change != 0 || fatigue.model_factor != 1;
+  return fatigue.strength_factor != 1 || fatigue.slope_change != 0 || fatigue.model_factor != 1 ||
+         fatigue.motion_factor != 1;
 }
 
 void describe(Fields& f, Fatigue& fatigue);

@@ -55,7 +55,14 @@ Material material_of(const Job& job, const std::string& name) {
 }
 
 ParameterKnowledge knowledge_of(const Job& job) {
-  return job.calibration ? knowledge_of(*job.calibration) : prior_of(job.uncertainty);
+  ParameterKnowledge knowledge = job.calibration ? knowledge_of(*job.calibration) : prior_of(job.uncertainty);
+  if (job.robot.joints.empty()) {  // no controller's ramps, no swing
+    const auto motion = static_cast<Eigen::Index>(index_of(Uncertain::motion));
+    knowledge.mean[motion] = 0;
+    knowledge.covariance.row(motion).setZero();
+    knowledge.covariance.col(motion).setZero();
+  }
+  return knowledge;
 }
 
 const Material& hose_material_of(const Job& job, const Dresspack& dresspack) {

@@ -23,8 +23,8 @@ namespace dresslife::pipeline {
 class Fields;
 
 /// In the order of uncertain_parameters().
-enum class Uncertain { friction_inside, friction_hose, slack, play, grip, strength, slope, scatter, model };
-constexpr std::size_t uncertain_count = 9;
+enum class Uncertain { friction_inside, friction_hose, slack, play, grip, strength, slope, scatter, model, motion };
+constexpr std::size_t uncertain_count = 10;
 
 /// What has the same value of it.
 enum class SharedBy {
@@ -80,9 +80,9 @@ struct ParameterKnowledge {
 /// Independent, mean 0, of the spreads that the job gives.
 ParameterKnowledge prior_of(const Uncertainty& uncertainty);
 
-/// A wire's material as fatigue.strength_factor, slope_change and model_factor make it: strains and stresses
+/// A wire's material as fatigue.strength_factor, slope_change, model_factor and motion_factor make it: strains and stresses
 /// of the strain-life curve times the first; b moved by the second about reversals_of_slope, where its stress
-/// stays; lives times the third. K' and n' follow, so that (8) and the cyclic curve stay compatible as they
+/// stays; lives times the other two. K' and n' follow, so that (8) and the cyclic curve stay compatible as they
 /// were.
 Material changed(Material material, const Fatigue& fatigue);
 constexpr double reversals_of_slope = 2e5;  ///< in the middle of what wires are tested at

@@ -146,8 +146,9 @@ double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
                    [&](std::size_t k) { return worst(alone_[p][k], strength, slope); }) -
            here;
   }
-  const UncertainParameter& model = uncertain_parameters()[index_of(Uncertain::model)];
-  return sum + std::log10(model.value(far[index_of(Uncertain::model)]));
+  for (const Uncertain of_lives : {Uncertain::model, Uncertain::motion})
+    sum += std::log10(uncertain_parameters()[index_of(of_lives)].value(far[index_of(of_lives)]));
+  return sum;
 }
 
 double LifeSurface::log10_life(const ParameterPoint& z, double u, Inside inside) const {
@@ -175,7 +176,7 @@ bool LifeSurface::depends_on(std::size_t parameter) const {
       if (W[k] != W[k - k % slopes]) return true;
     return false;
   }
-  return parameter == index_of(Uncertain::model) ||
+  return parameter == index_of(Uncertain::model) || parameter == index_of(Uncertain::motion) ||
          std::any_of(response_.planned.begin(), response_.planned.end(),
                      [&](const auto& lives) { return lives != response_.planned.front(); });
 }

@@ -48,6 +48,8 @@ bool acts(const Job& job, Uncertain parameter) {
     case Uncertain::scatter:
     case Uncertain::model:
       return true;
+    case Uncertain::motion:
+      return !job.robot.joints.empty();
   }
   return true;
 }

@@ -54,6 +54,7 @@ TEST_CASE("uncertain parameters: z and the key's value lead to each other, and 0
   CHECK(keys.size() == uncertain_count);
   CHECK(uncertain_parameters()[index_of(Uncertain::slope)].name == "slope");
   CHECK(uncertain_parameters()[index_of(Uncertain::model)].name == "model");
+  CHECK(uncertain_parameters()[index_of(Uncertain::motion)].name == "motion");
 }
 
 TEST_CASE("uncertain parameters: each one's key is a key of every job, at two deviations either way") {
@@ -66,6 +67,7 @@ TEST_CASE("uncertain parameters: each one's key is a key of every job, at two de
     const Job job = read_job(file, sets_at(z));
     CHECK(job.strain.factors.friction == Approx(uncertain_parameters()[0].value(sign)));
     CHECK(job.fatigue.model_factor == Approx(uncertain_parameters()[index_of(Uncertain::model)].value(sign)));
+    CHECK(job.fatigue.motion_factor == Approx(uncertain_parameters()[index_of(Uncertain::motion)].value(sign)));
   }
   CHECK(sets_at(std::array<double, uncertain_count>{}).empty());
 }
