@@ -48,7 +48,7 @@ void place(dGeomID geom, const Frame& frame) {
 }
 
 Frame along(const Vector3& from, const Vector3& to) {
-  return {(from + to) / 2, Quaternion::FromTwoVectors(Vector3::UnitZ(), to - from)};
+  return {(from + to) / 2, turn_between(Vector3::UnitZ(), to - from)};
 }
 
 // Beyond any hose; ODE ends the whole program when it meets numbers near overflow.

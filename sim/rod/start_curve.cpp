@@ -83,7 +83,7 @@ std::vector<Vector3> evenly(const std::vector<Vector3>& points, int parts) {
 
 // The smallest turn of q that lets its tangent point along t.
 Quaternion transported(const Quaternion& q, const Vector3& t) {
-  return (Quaternion::FromTwoVectors(tangent(q), t) * q).normalized();
+  return (turn_between(tangent(q), t) * q).normalized();
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ double way_of(const Thread& thread, const Frames& frames) {
 }
 
 Quaternion transported(const Quaternion& q, const Vector3& t) {
-  return Quaternion::FromTwoVectors(tangent(q), t) * q;
+  return turn_between(tangent(q), t) * q;
 }
 
 /// Turn about the tangent [rad], up to whole turns, by transport from frame to chord to frame.

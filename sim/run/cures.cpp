@@ -109,7 +109,7 @@ class RestTrials {
     Vector3 mean = Vector3::Zero();
     for (const ClampFrames& clamps : poses_)
       mean += clamps.end(end).orientation.conjugate() * (clamps.tool.position - clamps.base.position).normalized();
-    return mean.norm() < 0.1 ? Quaternion::Identity() : Quaternion::FromTwoVectors(Vector3::UnitZ(), mean);
+    return mean.norm() < 0.1 ? Quaternion::Identity() : turn_between(Vector3::UnitZ(), mean);
   }
 
   int span_;

@@ -18,7 +18,7 @@ TEST_CASE("a hose on a slope slides alike in every direction of the slope") {
     WorldSettings settings;
     settings.floor = true;
     settings.friction = friction;
-    const Frame base{{0, 0, p.diameter / 2}, Quaternion::FromTwoVectors(Vector3::UnitZ(), down)};
+    const Frame base{{0, 0, p.diameter / 2}, turn_between(Vector3::UnitZ(), down)};
     World world(rod, settings, rod.straight(base));
     const double slide = g * (std::sin(slope) - friction * std::cos(slope)), h = settings.time_step;
     for (int k = 1; k <= 100; ++k) {

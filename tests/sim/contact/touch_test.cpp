@@ -13,7 +13,7 @@ TEST_CASE("a hose dragged over the floor rubs by weight times friction times way
   p.tool_end = End::free;
   const Rod rod(p);
   // Along x, half a diameter above the floor, so that it lies there.
-  const Frame base{{0, 0, 0.03}, Quaternion::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitX())};
+  const Frame base{{0, 0, 0.03}, turn_between(Vector3::UnitZ(), Vector3::UnitX())};
   WorldSettings settings;
   settings.floor = true, settings.friction = 0.4;
   World world(rod, settings, rod.straight(base));
