@@ -43,7 +43,7 @@ void describe(Fields& f, Fatigue& fatigue) {
   f.number("model_factor", fatigue.model_factor, Need::optional, between(1e-4, 1e4),
            "of the wires' lives, for what no stage knows; likewise");
   f.number("motion_factor", fatigue.motion_factor, Need::optional, between(1e-4, 1e4),
-           "of the wires' lives, for how the hose swings; likewise");
+           "of the wires' lives, for how the hose swings and where its cables come to rest; likewise");
 }
 
 }  // namespace dresslife::pipeline
