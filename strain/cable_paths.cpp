@@ -428,6 +428,7 @@ void CablePaths::slide(Cable& cable) {
           }
           if (attempt > 0 && changed < settled * cable.axial_stiffness) break;
           line.attempt(unslid, limits);
+          if (cable.loose) break;  // its limits do not depend on its tension
         }
         line.keep();
       }
