@@ -201,6 +201,8 @@ constexpr int ingredients(int fibres) { return first_bending + fibres; }
 struct MixedLanes {
   alignas(64) float shape[waves_per_layer - 1][lanes];
   alignas(64) float slip[lanes];               ///< how far each wire has slid against its parent [strain]
+  alignas(64) float least_slip[lanes];         ///< between these it is at the end of the motion, wherever it was at
+  alignas(64) float most_slip[lanes];          ///< the first of the samples that settle() has seen
   std::vector<std::array<float, lanes>> rest;  ///< of shear and of the fibres' bending, (1 + fibres)
   std::vector<std::array<float, lanes>> fibre_scale;  ///< FibreShape::scale, (fibres)
   float cap = 0, cap_per_mean = 0;                    ///< cap infinite: glued, 0: free
@@ -255,9 +257,11 @@ struct Kernels {
   void (*deviation_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
                           std::size_t count, float* out, std::size_t stride);
   /// Puts the strains of sixteen wires together, fibre by fibre, to out[(fibre * count + t) * lanes + lane].
-  /// waves: of one layer's ingredients.
-  void (*mix)(MixedLanes&, const float* waves, std::size_t stride, std::size_t count, int fibres, float* out);
-  /// How far wires slide meanwhile, and nothing else. waves: of their layer's mean strain and deviation.
+  /// waves: of one layer's ingredients. images: wires at the opposite angles, whose strains go to images_out; null: none.
+  void (*mix)(MixedLanes&, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count, int fibres,
+              float* out, float* images_out);
+  /// From the last samples of the motion to the first: narrows least_slip .. most_slip by these samples. waves: of
+  /// their layer's mean strain and deviation.
   void (*settle)(const MixedRun*, std::size_t runs, std::size_t stride, std::size_t count);
   /// Path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
   void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,
