@@ -406,7 +406,8 @@ struct RowsOfDresspack {
 /// (`slopes`), along that parent:
 ///     radial' = -theta' X,   X' = theta' radial,   y' = R X',   y'' = -R theta'^2 X,   w = V'/V = y y'/V^2,
 ///     a' = -R sigma y' / V^2,   a'' = -R sigma (y'' - 2 y' w) / V^2;   (N / V)' = (N' - N w) / V,
-/// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0.
+/// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0. Of what friction holds the
+/// slope is left out: its part has no slopes (single_suffices()).
 template <Sliding how, bool slopes, class Source>
 void part_from(const Source& of, const BundlePointers& nesting, std::size_t first, std::size_t count,
                float* rows, std::size_t stride) {
@@ -428,6 +429,7 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
                            static_cast<float>(rest.bend2), static_cast<float>(rest.twist)};
   const float R = helix.radius;
   const auto share = static_cast<float>(step.slide.radial_share);
+  const double* const held = step.slide.held;
   for (std::size_t t = 0; t < count; t += float_pack_size) {
     const ParentAt p(helix, of, t);
     const FloatPack X = p.bend1 * sine - p.bend2 * cosine, radial = p.bend1 * cosine + p.bend2 * sine;
@@ -440,6 +442,7 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
     if constexpr (how != Sliding::glued) {
       strain = share * (how == Sliding::over_pitch ? p.mean_over_pitch(helix)
                                                    : in_single(step.slide.clamp_strain + first + t));
+      if (held) strain += in_single(held + first + t);
       m = (strain - q) * (root * root);
       along = (1.0f + strain) * root;
     }

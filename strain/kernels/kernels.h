@@ -117,9 +117,9 @@ enum PartRow {
 inline namespace DRESSLIFE_MACHINE {
 
 /// Whether waves in a part need its parent in single precision only. nodes: in the part, which `last` leads
-/// to.
+/// to. order: of the part's own series.
 inline bool single_suffices(const NestingLevel& last, const WireNode* nodes, int node_count, int order) {
-  bool suffice = order == 0 && !is_thesis(last.place.kinematics) && last.slide.held == nullptr &&
+  bool suffice = order == 0 && !is_thesis(last.place.kinematics) &&
                  last.slide.sliding != Sliding::along_ancestor &&
                  (last.slide.sliding != Sliding::glued || last.slide.radial_share == 1);
   for (int n = 0; n < node_count; ++n) suffice &= nodes[n].slide.sliding != Sliding::along_ancestor;
