@@ -157,10 +157,12 @@ void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wa
   const std::size_t layers = nesting.node_count / waves_per_layer;
   const int kinds = mixed ? ingredients(settings_.fibre_count) : settings_.fibre_count;
   waves_.resize(layers * kinds * waves_per_layer * block_samples);
+  BundlePointers of = nesting;
+  of.with_shear = settings_.with_shear;
   for (std::size_t first = 0; first < samples; first += block_samples) {
     const std::size_t count = std::min(block_samples, samples - first);
     const auto fill = mixed ? kernels().ingredient_waves : kernels().layer_waves;
-    fill(nesting, columns, first, count, waves_.data(), block_samples);
+    fill(of, columns, first, count, waves_.data(), block_samples);
     if (mixed)
       scan_mixed(count, wanted);
     else

@@ -792,7 +792,7 @@ void ingredients_of_layer(const FiveNodes& layer, const PartState& part, std::si
     };
     put(mean_strain, [&](int n) { return sliding[n]; });
     put(deviation, [&](int n) { return FloatPack(factor_of_wall * node[n].strain - sliding[n]); });
-    put(shear, [&](int n) { return FloatPack(by_twist[n] * node[n].twist); });
+    if (nesting.with_shear) put(shear, [&](int n) { return FloatPack(by_twist[n] * node[n].twist); });
     for (int f = 0; f < nesting.fibre_count; ++f)
       put(first_bending + f, [&](int n) {
         const FibreNumbers& fibre = fibres.at[f][n];

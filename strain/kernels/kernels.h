@@ -94,6 +94,7 @@ struct BundlePointers {
   std::size_t parent_stride = 0;
   double rest_curvature = 0;              ///< of the undeformed dresspack, about d2 [1/m]
   const SlidingLayer* sliding = nullptr;  ///< (layer), or null
+  bool with_shear = true;  ///< ingredient_waves() fills the waves of shear
 };
 
 /// What goes on inside a part needs of it, in single precision, one row of samples each: its state, that

@@ -469,7 +469,8 @@ void rank_packs(const Strains& strains, const PackOf* packs, std::size_t count) 
 
 template <class Shape, class Source>
 void rank_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
-  for_packs<2, Shape, Source>(
+  constexpr int most = float_pack_size == 16 ? 4 : 2;
+  for_packs<most, Shape, Source>(
       runs, run_count, [&](const auto& strains, const PackOf* packs) { rank_packs(strains, packs, count); });
   for (const LaneRun* run = runs; run != runs + run_count; ++run)
     run->state->sample += static_cast<std::int32_t>(count);
