@@ -406,8 +406,8 @@ struct RowsOfDresspack {
 /// (`slopes`), along that parent:
 ///     radial' = -theta' X,   X' = theta' radial,   y' = R X',   y'' = -R theta'^2 X,   w = V'/V = y y'/V^2,
 ///     a' = -R sigma y' / V^2,   a'' = -R sigma (y'' - 2 y' w) / V^2;   (N / V)' = (N' - N w) / V,
-/// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0. Of what friction holds the
-/// slope is left out: its part has no slopes (single_suffices()).
+/// what slides times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0. Slopes: precondition
+/// slopes_in_single().
 template <Sliding how, bool slopes, class Source>
 void part_from(const Source& of, const BundlePointers& nesting, std::size_t first, std::size_t count,
                float* rows, std::size_t stride) {
@@ -430,6 +430,7 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
   const float R = helix.radius;
   const auto share = static_cast<float>(step.slide.radial_share);
   const double* const held = step.slide.held;
+  const bool gives = step.slide.radial_share != 1;
   for (std::size_t t = 0; t < count; t += float_pack_size) {
     const ParentAt p(helix, of, t);
     const FloatPack X = p.bend1 * sine - p.bend2 * cosine, radial = p.bend1 * cosine + p.bend2 * sine;
@@ -439,7 +440,13 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
     const FloatPack root = inverse_root(1.0f + q);
     const FloatPack e = q * inverse(1.0f + (1.0f + q) * root);
     FloatPack strain = e, m = -e * root, along = FloatPack{} + 1.0f;  // along: bend1's factor
-    if constexpr (how != Sliding::glued) {
+    if constexpr (how == Sliding::glued) {
+      if (gives) {
+        strain = share * e;
+        m = (strain - q) * (root * root);
+        along = (1.0f + strain) * root;
+      }
+    } else {
       strain = share * (how == Sliding::over_pitch ? p.mean_over_pitch(helix)
                                                    : in_single(step.slide.clamp_strain + first + t));
       if (held) strain += in_single(held + first + t);

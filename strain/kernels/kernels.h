@@ -120,11 +120,15 @@ inline namespace DRESSLIFE_MACHINE {
 /// Whether waves in a part need its parent in single precision only. nodes: in the part, which `last` leads
 /// to. order: of the part's own series.
 inline bool single_suffices(const NestingLevel& last, const WireNode* nodes, int node_count, int order) {
-  bool suffice = order == 0 && !is_thesis(last.place.kinematics) &&
-                 last.slide.sliding != Sliding::along_ancestor &&
-                 (last.slide.sliding != Sliding::glued || last.slide.radial_share == 1);
+  bool suffice =
+      order == 0 && !is_thesis(last.place.kinematics) && last.slide.sliding != Sliding::along_ancestor;
   for (int n = 0; n < node_count; ++n) suffice &= nodes[n].slide.sliding != Sliding::along_ancestor;
   return suffice;
+}
+
+/// Whether its own slopes follow in single precision, too: its strain does not change along it.
+inline bool slopes_in_single(const NestingLevel& last) {
+  return last.slide.held == nullptr && (last.slide.sliding != Sliding::glued || last.slide.radial_share == 1);
 }
 
 }  // namespace DRESSLIFE_MACHINE
