@@ -243,7 +243,8 @@ bool Evaluation::rubs_inside() const {
 
 void Evaluation::add_held(const ClampMeans& means) {
   for (Worker& worker : workers_)
-    worker.held.push_back(std::make_unique<HeldStrains>(construction_, means, worker.deviations));
+    worker.held.push_back(
+        std::make_unique<HeldStrains>(construction_, means, worker.deviations, order_for(fibres_)));
 }
 
 bool Evaluation::holds_down_to(int part, const ClampMeans& means) const {
