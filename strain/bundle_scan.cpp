@@ -139,8 +139,8 @@ void BundleScan::scan_mixed(std::size_t count, Wanted wanted) {
     const std::size_t together = g + 1 < groups_.size() && groups_[g + 1].mirrors ? 2 : 1;
     const std::span<Group> here(groups_.data() + g, together);
     const float* of_layer = waves_.data() + here[0].layer * kinds * waves_per_layer * block_samples;
-    kernels().mix(here[0].mixed, together == 2 ? &here[1].mixed : nullptr, of_layer, block_samples, count, fibres,
-                  strains_.data(), strains_.data() + of_group);
+    kernels().mix(here[0].mixed, together == 2 ? &here[1].mixed : nullptr, of_layer, block_samples, count,
+                  fibres, strains_.data(), strains_.data() + of_group);
     runs_.clear();
     for (std::size_t k = 0; k < together; ++k)
       for (int f = 0; f < fibres; ++f)
@@ -177,13 +177,16 @@ void BundleScan::settle(const std::vector<LayerSlip>& plan, const BundlePointers
   waves_.resize(nesting.node_count / waves_per_layer * of_layer);
   std::vector<MixedRun> open;
   for (Group& group : groups_)
-    if (plan[layers_[group.layer]].friction) open.push_back({&group.mixed, waves_.data() + group.layer * of_layer});
+    if (plan[layers_[group.layer]].friction)
+      open.push_back({&group.mixed, waves_.data() + group.layer * of_layer});
   const std::vector<MixedRun> all = open;
   for (std::size_t end = samples; end > 0 && !open.empty();) {
     const std::size_t first = (end - 1) / block_samples * block_samples, count = end - first;
     kernels().deviation_waves(nesting, columns, first, count, waves_.data(), block_samples);
     kernels().settle(open.data(), open.size(), block_samples, count);
-    std::erase_if(open, [](const MixedRun& run) { return std::ranges::equal(run.state->least_slip, run.state->most_slip); });
+    std::erase_if(open, [](const MixedRun& run) {
+      return std::ranges::equal(run.state->least_slip, run.state->most_slip);
+    });
     end = first;
   }
   for (const MixedRun& run : all)  // the motion begins without slip

@@ -119,7 +119,9 @@ class CablePaths {
   /// Loose cables lie in at least so many segments: a hose of fewer is cut as if it had them.
   std::size_t node_segments() const { return std::max<std::size_t>(lengths_.size(), 8); }
   /// Of `along` and `pressing`: all segments of a sample are written and slide together.
-  std::size_t along_at(std::size_t segment, std::size_t sample) const { return sample * lengths_.size() + segment; }
+  std::size_t along_at(std::size_t segment, std::size_t sample) const {
+    return sample * lengths_.size() + segment;
+  }
   void add_hose(const SpanBlock& block);
   void add_held(const SpanBlock& block);
   static void add_loose(std::span<CablePaths* const> all, const SpanBlock& block);

@@ -1110,8 +1110,8 @@ void mix_plain(MixedLanes* const* states, int lane, const float* waves, std::siz
   for (int k = 0; k < side; ++k) store(sliders[k].slip, states[k]->slip + lane);
 }
 
-void mix(MixedLanes& state, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count, int fibres,
-         float* out, float* images_out) {
+void mix(MixedLanes& state, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count,
+         int fibres, float* out, float* images_out) {
   static_assert(mean_strain == 0);
   const bool plain = fibres == 1 && state.scales && !state.with_shear && !state.on_axis;
   MixedLanes* const states[] = {&state, images};
@@ -1137,7 +1137,8 @@ void settle_packs(const MixedRun* runs, int lane, std::size_t stride, std::size_
   for (int k = 0; k < together; ++k) {
     around[k] = Around(runs[k].state->shape, lane);
     sliders[k] = Sliders(*runs[k].state, lane);
-    range[k] = {load<FloatPack>(runs[k].state->least_slip + lane), load<FloatPack>(runs[k].state->most_slip + lane)};
+    range[k] = {load<FloatPack>(runs[k].state->least_slip + lane),
+                load<FloatPack>(runs[k].state->most_slip + lane)};
   }
   for (std::size_t t = count; t-- > 0;)
     for (int k = 0; k < together; ++k) {

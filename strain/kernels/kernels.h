@@ -94,7 +94,7 @@ struct BundlePointers {
   std::size_t parent_stride = 0;
   double rest_curvature = 0;              ///< of the undeformed dresspack, about d2 [1/m]
   const SlidingLayer* sliding = nullptr;  ///< (layer), or null
-  bool with_shear = true;  ///< ingredient_waves() fills the waves of shear
+  bool with_shear = true;                 ///< ingredient_waves() fills the waves of shear
 };
 
 /// What goes on inside a part needs of it, in single precision, one row of samples each: its state, that
@@ -205,10 +205,10 @@ constexpr int ingredients(int fibres) { return first_bending + fibres; }
 /// Sixteen wires whose strain is put together wire by wire (W17, W18), between two blocks of samples.
 struct MixedLanes {
   alignas(64) float shape[waves_per_layer - 1][lanes];
-  alignas(64) float slip[lanes];               ///< how far each wire has slid against its parent [strain]
-  alignas(64) float least_slip[lanes];         ///< between these it is at the end of the motion, wherever it was at
-  alignas(64) float most_slip[lanes];          ///< the first of the samples that settle() has seen
-  std::vector<std::array<float, lanes>> rest;  ///< of shear and of the fibres' bending, (1 + fibres)
+  alignas(64) float slip[lanes];        ///< how far each wire has slid against its parent [strain]
+  alignas(64) float least_slip[lanes];  ///< between these it is at the end of the motion, wherever it was at
+  alignas(64) float most_slip[lanes];   ///< the first of the samples that settle() has seen
+  std::vector<std::array<float, lanes>> rest;         ///< of shear and of the fibres' bending, (1 + fibres)
   std::vector<std::array<float, lanes>> fibre_scale;  ///< FibreShape::scale, (fibres)
   float cap = 0, cap_per_mean = 0;                    ///< cap infinite: glued, 0: free
   float elastic = 0;               ///< share of the deviation that is held whatever the cap (W30)
@@ -263,8 +263,8 @@ struct Kernels {
                           std::size_t count, float* out, std::size_t stride);
   /// Puts the strains of sixteen wires together, fibre by fibre, to out[(fibre * count + t) * lanes + lane].
   /// waves: of one layer's ingredients. images: wires at the opposite angles, whose strains go to images_out; null: none.
-  void (*mix)(MixedLanes&, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count, int fibres,
-              float* out, float* images_out);
+  void (*mix)(MixedLanes&, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count,
+              int fibres, float* out, float* images_out);
   /// From the last samples of the motion to the first: narrows least_slip .. most_slip by these samples. waves: of
   /// their layer's mean strain and deviation.
   void (*settle)(const MixedRun*, std::size_t runs, std::size_t stride, std::size_t count);
